@@ -29,10 +29,11 @@ def script(main):
     def with_exit_code(arguments=None):
         try:
             main(arguments)
-        except (NotAResult, OSError) as error:
-            print(f"{name}: {error}", file=sys.stderr)
-            return 2
         except Exception as error:
+            # Those of HDF5 name neither a file nor a number of the system's.
+            if isinstance(error, NotAResult) or isinstance(error, OSError) and error.errno is not None:
+                print(f"{name}: {error}", file=sys.stderr)
+                return 2
             place = traceback.extract_tb(error.__traceback__)[-1]
             what = f"{type(error).__name__}: {error}".splitlines()[0]
             where = f"{Path(place.filename).name}, line {place.lineno}"

@@ -31,27 +31,39 @@ namespace sprag::hdf5
     return names;
   }
 
-  std::string text_attribute(const Handle &dataset, const std::string &name)
+  std::vector<std::string> attributes_of(const Handle &dataset)
+  {
+    std::vector<std::string> names;
+    const auto add = [](hid_t, const char *const name, const H5A_info_t *, void *const list) -> herr_t
+    {
+      static_cast<std::vector<std::string> *>(list)->emplace_back(name);
+      return 0;
+    };
+    H5Aiterate2(dataset.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names);
+    return names;
+  }
+
+  std::optional<std::string> text_attribute(const Handle &dataset, const std::string &name)
   {
     if (H5Aexists(dataset.id(), name.c_str()) <= 0)
-      return {};
+      return std::nullopt;
     const Handle attribute(H5Aopen(dataset.id(), name.c_str(), H5P_DEFAULT), H5Aclose);
     const Handle type(H5Aget_type(attribute.id()), H5Tclose);
     const Handle space(H5Aget_space(attribute.id()), H5Sclose);
     if (H5Tget_class(type.id()) != H5T_STRING || H5Sget_simple_extent_npoints(space.id()) != 1)
-      return {};
+      return std::nullopt;
     if (H5Tis_variable_str(type.id()) > 0)
     {
       char *text = nullptr;
       if (H5Aread(attribute.id(), type.id(), &text) < 0 || text == nullptr)
-        return {};
+        return std::nullopt;
       const std::string result = text;
       H5free_memory(text);
       return result;
     }
     std::string text(H5Tget_size(type.id()), '\0');
     if (H5Aread(attribute.id(), type.id(), text.data()) < 0)
-      return {};
+      return std::nullopt;
     return text.substr(0, text.find('\0'));
   }
 } // namespace sprag::hdf5

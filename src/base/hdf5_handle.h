@@ -4,6 +4,7 @@
 #include "base/errors.h"
 
 #include <hdf5.h>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,6 +75,9 @@ namespace sprag::hdf5
   /// Returns the names in a group, or at the root of a file, in alphabetical order; none where they cannot be read.
   std::vector<std::string> names_in(const Handle &group);
 
+  /// Returns the names of the attributes of a dataset in alphabetical order.
+  std::vector<std::string> attributes_of(const Handle &dataset);
+
   /// Returns the text of an attribute; none where there is no such text.
-  std::string text_attribute(const Handle &dataset, const std::string &name);
+  std::optional<std::string> text_attribute(const Handle &dataset, const std::string &name);
 } // namespace sprag::hdf5

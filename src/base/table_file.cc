@@ -310,9 +310,14 @@ namespace sprag
       column.values.resize(*rows);
       if (*rows > 0 && H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, column.values.data()) < 0)
         throw InputError(what + "cannot be read");
-      column.unit = hdf5::text_attribute(dataset, "unit");
-      if (column.unit.empty())
-        column.unit = hdf5::text_attribute(dataset, "units");
+      for (const auto &attribute : hdf5::attributes_of(dataset))
+        if (lower(attribute) == "unit" || lower(attribute) == "units")
+        {
+          const auto unit = hdf5::text_attribute(dataset, attribute);
+          if (!unit)
+            throw InputError(what + "its attribute '" + attribute + "' must be a text");
+          column.unit = column.unit.empty() ? *unit : column.unit;
+        }
     }
 
     std::pair<std::vector<NamedColumn>, Chosen> read_open_hdf5(const std::string &path, const Choose &choose)
@@ -521,6 +526,21 @@ namespace sprag
         table.columns.push_back(index ? std::move(columns[*index]) : NamedColumn{});
       return table;
     }
+
+    /// The last word of a name without unit where the numbers would change if it was theirs, as in "x_m" or "Weg in m".
+    std::string unit_in_name(const std::string &unit, const NamedColumn &column)
+    {
+      const auto before = column.unit.empty() ? column.name.find_last_of(" _") : std::string::npos;
+      try
+      {
+        const auto word = before == std::string::npos ? "" : column.name.substr(before + 1);
+        return word.empty() || unit_factor(word, unit) == 1. ? "" : word;
+      }
+      catch (const InputError &)
+      {
+        return {}; // a word of another kind
+      }
+    }
   } // namespace
 
   NamedColumns read_columns(const std::string &file, const std::vector<ColumnNames> &wanted)
@@ -553,6 +573,9 @@ namespace sprag
 
   double factor_to(const std::string &unit, const NamedColumn &column)
   {
+    if (const auto likely = unit_in_name(unit, column); !likely.empty())
+      throw InputError("column '" + column.name + "': '" + likely + "' may be its unit: must be in brackets, as '[" + likely +
+                       "]', or not there");
     try
     {
       return column.unit.empty() ? 1. : unit_factor(column.unit, unit);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sprag
 {
@@ -16,8 +17,8 @@ namespace sprag
     std::string reason;
     try
     {
-      if (!scene.mesh.file.empty() && needs_mesh(scene))
-        throw NoEstimate{ "a mesh from a file has no coarser one to compare with. Run a finer mesh beside it." };
+      if (!scene.mesh.file.empty() && needs_mesh(scene) && scene.analysis.dimension == 3)
+        throw NoEstimate{ "a mesh from a file is compared with none in three dimensions. Run a finer mesh beside it." };
       return estimate();
     }
     catch (const NoEstimate &none)
@@ -30,7 +31,7 @@ namespace sprag
     }
     catch (const InputError &error)
     {
-      reason = "the coarser mesh cannot serve: " + std::string(error.what()) + '.';
+      reason = "the mesh to compare with cannot serve: " + std::string(error.what()) + '.';
     }
     std::vector<ErrorEstimate> result;
     for (const auto &quantity : quantities)
@@ -56,6 +57,16 @@ namespace sprag
     return scene;
   }
 
+  Scene with_compared_mesh(Scene scene)
+  {
+    if (scene.mesh.file.empty())
+      return with_coarser_mesh(std::move(scene));
+    ++scene.mesh.halvings;
+    scene.mesh.face_size /= coarser;
+    scene.cylinder.face_size /= coarser;
+    return scene;
+  }
+
   double order_of_forces(const Scene &scene)
   {
     return scene.mesh.degree == 1 ? 1.6 : 2.;
@@ -68,9 +79,13 @@ namespace sprag
 
   ErrorPart mesh_part(const Scene &scene, const double change, const double order)
   {
-    return { "mesh", share_of_finer(coarser, order) * change,
-             scene.mesh.degree == 1 ? "Try Mesh/Degree = 2 or a smaller Mesh/Face size."
-                                    : "Try a Mesh/Face size 0.7 times as large." };
+    // The error of the coarser of two is that of the finer and their difference.
+    const bool is_file  = !scene.mesh.file.empty();
+    const double share  = share_of_finer(coarser, order) + (is_file ? 1. : 0.);
+    const auto &smaller = is_file ? "Give elements of Mesh/File sides" : "Try a Mesh/Face size";
+    return { "mesh", share * change,
+             scene.mesh.degree == 1 ? std::string("Try Mesh/Degree = 2") + (is_file ? "." : " or a smaller Mesh/Face size.")
+                                    : std::string(smaller) + " 0.7 times as large." };
   }
 
   ErrorPart penalty_part(const Scene &scene, const double change)

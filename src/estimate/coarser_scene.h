@@ -15,7 +15,7 @@ namespace sprag
   // Scenes whose results tell the error of another's, and the parts of that error.
 
   constexpr double softer  = 3.; ///< penalty of a run over that of its probe
-  constexpr double coarser = 2.; ///< face size of a probe over that of its run
+  constexpr double coarser = 2.; ///< face size of a probe over that of its run; of a mesh from a file it is the inverse
 
   /// Says why no error can be estimated, the end of a sentence.
   struct NoEstimate
@@ -24,7 +24,7 @@ namespace sprag
   };
 
   /// Returns what `estimate` finds, or of all these quantities the reason why it finds none: a NoEstimate, a failure of a probe
-  /// or a coarser mesh that is refused. A mesh from a file has no coarser one.
+  /// or another mesh that is refused. A mesh from a file in three dimensions is compared with none.
   std::vector<ErrorEstimate> estimates_or_reason(const Scene &scene, const std::vector<std::string> &quantities,
                                                  const std::function<std::vector<ErrorEstimate>()> &estimate);
 
@@ -34,6 +34,10 @@ namespace sprag
   /// Returns the scene on a built-in mesh with larger faces of lever and cylinder, and fewer elements across.
   Scene with_coarser_mesh(Scene scene);
 
+  /// Returns the scene on the mesh that tells the error of its own: the coarser one, or with a mesh from a file that of elements
+  /// cut in four, as there is no coarser.
+  Scene with_compared_mesh(Scene scene);
+
   /// Returns the order in which forces and frequencies converge with the face size: 2, and 1.6 with displacements of degree 1, as
   /// measured.
   double order_of_forces(const Scene &scene);
@@ -42,7 +46,7 @@ namespace sprag
   /// contact less closely, as measured.
   double order_of_pressure(const Scene &scene);
 
-  /// Returns the part of the mesh, from the change on with_coarser_mesh() and the order of convergence.
+  /// Returns the part of the mesh, from the change on with_compared_mesh() and the order of convergence.
   ErrorPart mesh_part(const Scene &scene, double change, double order);
 
   /// Returns the part of the penalty, from the change with the softer one. Only runs without inertia can do without a penalty.

@@ -140,10 +140,10 @@ namespace sprag
       return rows_at(chosen, rows);
     }
 
-    void set_coarse(const std::vector<Row> &rows, Probes &probes)
+    void set_other(const std::vector<Row> &rows, Probes &probes)
     {
-      probes.coarse         = rows_at(times_of(probes.run), rows);
-      probes.coarse_passage = rows_at(times_of(probes.passage), rows);
+      probes.other         = rows_at(times_of(probes.run), rows);
+      probes.other_passage = rows_at(times_of(probes.passage), rows);
     }
 
     void set_soft(const std::vector<Row> &rows, Probes &probes)
@@ -188,16 +188,16 @@ namespace sprag
     const double start = rows.front()[Column::x];
     const auto chosen  = choose_rows(rows, samples_of_stroke, times, result);
     Mesh mesh;
-    const Scene coarse = with_coarser_mesh(with_penalties(scene, levers.penalties(), 1.));
-    make_mesh(coarse, mesh);
-    StaticLever<2> on_coarse(mesh, coarse);
-    StressComparison stress(on_coarse, stresses);
-    set_coarse(repeated(on_coarse, chosen, start, settings,
-                        [&](const State &state, const Row &row, const Evaluation &) { stress.look_at(state, row); }),
-               result);
+    const Scene other = with_compared_mesh(with_penalties(scene, levers.penalties(), 1.));
+    make_mesh(other, mesh);
+    StaticLever<2> on_other(mesh, other);
+    StressComparison stress(on_other, stresses);
+    set_other(repeated(on_other, chosen, start, settings,
+                       [&](const State &state, const Row &row, const Evaluation &) { stress.look_at(state, row); }),
+              result);
     result.stress = stress.changes();
     result.pressure_with_stress =
-        result.stress ? relative_change("largest_pressure", rows_at(times, result.run), rows_at(times, result.coarse)) : 0.;
+        result.stress ? relative_change("largest_pressure", rows_at(times, result.run), rows_at(times, result.other)) : 0.;
     set_soft(with_softer_penalty(scene, levers, chosen, start, settings), result);
     return result;
   }
@@ -211,11 +211,11 @@ namespace sprag
     set_soft(with_softer_penalty(scene, lever, chosen, start, settings), result);
     body.release_factors(); // before there are others
     Mesh mesh;
-    const Scene coarse = with_coarser_mesh(with_penalties(scene, lever.penalties(), 1.));
-    make_mesh(coarse, mesh);
-    const SolidBody coarse_body(coarse, mesh);
-    StaticLever<3> on_coarse(coarse_body, coarse);
-    set_coarse(repeated(on_coarse, chosen, start, settings), result);
+    const Scene other = with_compared_mesh(with_penalties(scene, lever.penalties(), 1.));
+    make_mesh(other, mesh);
+    const SolidBody other_body(other, mesh);
+    StaticLever<3> on_other(other_body, other);
+    set_other(repeated(on_other, chosen, start, settings), result);
     return result;
   }
 
@@ -244,7 +244,7 @@ namespace sprag
       const double order   = is_narrow ? 1. : order_of_forces(scene);
       const auto change    = [&](const std::vector<Row> &other)
       { return other.empty() ? 0. : change_of_peak(estimate.quantity, probes.passage, other); };
-      auto part  = mesh_part(scene, change(probes.coarse_passage), order);
+      auto part  = mesh_part(scene, change(probes.other_passage), order);
       part.value = part.value + penalty_part(scene, change(probes.soft_passage)).value - total_error(estimate);
       part.name  = "reversal";
       if (part.value > 0.)
@@ -255,7 +255,7 @@ namespace sprag
     {
       const auto change  = [&](const std::vector<Row> &other) { return relative_change(quantity, probes.run, other); };
       const double order = quantity == "largest_pressure" ? order_of_pressure(scene) : order_of_forces(scene);
-      ErrorEstimate result{ quantity, relative_to, { mesh_part(scene, change(probes.coarse), order) }, {} };
+      ErrorEstimate result{ quantity, relative_to, { mesh_part(scene, change(probes.other), order) }, {} };
       if (!probes.soft.empty())
         result.parts.push_back(penalty_part(scene, change(probes.soft)));
       if (!probes.soft.empty() && augments(scene))
@@ -338,7 +338,8 @@ namespace sprag
       return { estimate.quantity,
                "",
                {},
-               "No estimate: the contact is only " + rounded_text(faces) + " faces wide. Try a smaller Mesh/Face size." };
+               "No estimate: the contact is only " + rounded_text(faces) +
+                   " faces wide. Try a smaller Mesh/Face size, or smaller faces in Mesh/File." };
     }
   } // namespace
 

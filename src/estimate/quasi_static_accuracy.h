@@ -62,13 +62,13 @@ namespace sprag
   struct Probes
   {
     std::vector<Row> run;
-    std::vector<Row> coarse;  ///< on a mesh of twice the Mesh/Face size with the same penalty, in space of twice the width too
-    std::vector<Row> soft;    ///< on the run's mesh with a third of the penalty; empty where the run augments and has the
-                              ///< automatic tangential one
-    std::vector<Row> passage; ///< passage_rows() of the run
-    std::vector<Row> coarse_passage;       ///< the same rows on the coarser mesh
-    std::vector<Row> soft_passage;         ///< and with the softer penalty
-    std::optional<StressChanges> stress{}; ///< on the coarser mesh
+    std::vector<Row> other;         ///< on the mesh of with_compared_mesh() with the same penalty
+    std::vector<Row> soft;          ///< on the run's mesh with a third of the penalty; empty where the run augments and has the
+                                    ///< automatic tangential one
+    std::vector<Row> passage;       ///< passage_rows() of the run
+    std::vector<Row> other_passage; ///< the same rows on the other mesh
+    std::vector<Row> soft_passage;  ///< and with the softer penalty
+    std::optional<StressChanges> stress{}; ///< on the other mesh
     double pressure_with_stress = 0.;      ///< change of the pressure there in the states whose stress is known
   };
 
@@ -76,7 +76,7 @@ namespace sprag
   Probes plane_probes(const Scene &scene, StaticLever<2> &levers, const std::vector<Row> &rows,
                       const QuasiStaticSettings &settings, const std::vector<StressSample> &stresses);
 
-  /// The same of a lever in three dimensions, without stresses. The first rank makes the coarser one alone, when the body's own
+  /// The same of a lever in three dimensions, without stresses. The first rank makes the other one alone, when the body's own
   /// factors are given back.
   Probes solid_probes(const Scene &scene, SolidBody &body, StaticLever<3> &lever, const std::vector<Row> &rows,
                       const QuasiStaticSettings &settings);

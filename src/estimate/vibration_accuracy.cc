@@ -37,23 +37,23 @@ namespace sprag
           result.elsewhere.push_back(std::move(slide));
       }
     }
-    Scene coarse = with_coarser_mesh(with_penalties(scene, penalties, 1.));
+    Scene other = with_compared_mesh(with_penalties(scene, penalties, 1.));
     if (scene.analysis.model == ModelType::condensed && scene.condensed.modes > 1)
     {
-      coarse.condensed.modes = scene.condensed.modes / 2;
-      const auto dynamics    = maker.make_with_modes(scene, coarse.condensed.modes);
-      result.other_modes     = judge(dynamics.model(), held_drive(scene), scene.stability.modes);
+      other.condensed.modes = scene.condensed.modes / 2;
+      const auto dynamics   = maker.make_with_modes(scene, other.condensed.modes);
+      result.other_modes    = judge(dynamics.model(), held_drive(scene), scene.stability.modes);
     }
     else if (scene.analysis.model == ModelType::condensed)
     {
-      coarse.condensed.modes = several_modes;
-      Scene more             = scene;
-      more.condensed.modes   = several_modes;
+      other.condensed.modes = several_modes;
+      Scene more            = scene;
+      more.condensed.modes  = several_modes;
       DynamicsMaker of_more;
       result.other_modes = judge(more, of_more);
     }
-    DynamicsMaker of_coarse;
-    result.coarse = judge(coarse, of_coarse);
+    DynamicsMaker of_other;
+    result.other_mesh = judge(other, of_other);
     return result;
   }
 
@@ -63,7 +63,7 @@ namespace sprag
     const auto difference = [&](const SlideStability &a, const SlideStability &b)
     { return std::abs((value(a) - value(b)) / value(found)); };
     const auto &on_mesh = probes.other_modes ? *probes.other_modes : found;
-    ErrorPart mesh      = mesh_part(scene, difference(probes.coarse, on_mesh), order_of_forces(scene));
+    ErrorPart mesh      = mesh_part(scene, difference(probes.other_mesh, on_mesh), order_of_forces(scene));
     double least = value(found), most = value(found);
     for (const auto &slide : probes.elsewhere)
     {
@@ -87,8 +87,8 @@ namespace sprag
       if (!(found.frequency() > 0.))
         throw NoEstimate{ "the mode that grows most does not oscillate." };
       const auto probes = probe_slide(scene, dynamics.penalties, maker);
-      if (!(probes.coarse.frequency() > 0.) || !(probes.soft.frequency() > 0.))
-        throw NoEstimate{ "on a coarser mesh or with a softer penalty the mode that grows most does not oscillate." };
+      if (!(probes.other.frequency() > 0.) || !(probes.soft.frequency() > 0.))
+        throw NoEstimate{ "on another mesh or with a softer penalty the mode that grows most does not oscillate." };
       const auto parts = [&](const auto &value) { return parts_of_slide(scene, found, probes, value); };
       return std::vector<ErrorEstimate>{
         { "growth_rate",

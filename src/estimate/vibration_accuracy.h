@@ -18,7 +18,7 @@ namespace sprag
     SlideStability soft;                       ///< with a third of the penalty
     std::optional<SlideStability> other_modes; ///< of a condensed lever with several, half of them
     std::vector<SlideStability> elsewhere;     ///< a quarter, half and three quarters of a face from its place, same mesh
-    SlideStability coarse;                     ///< on a mesh of twice the Mesh/Face size, with as many modes as `other_modes`
+    SlideStability other_mesh;                 ///< on the mesh of with_compared_mesh(), with as many modes as `other_modes`
   };
 
   /// Judges the slide of a meshed scene, see held_scene(), by these models. The run's own mesh stays in the maker.

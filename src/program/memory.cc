@@ -125,10 +125,10 @@ namespace sprag
       if (rows <= most_rows)
         return;
       if (scene.analysis.type == AnalysisType::isolation)
-        throw InputError("Isolation/Duration and " + step_parameter(scene) + " make " + rounded_text(rows) +
+        throw InputError(scene.name + ".prm: Isolation/Duration and " + step_parameter(scene) + " make " + rounded_text(rows) +
                          " rows, of which a run may have " + rounded_text(most_rows) +
                          ". Try longer steps or a shorter duration");
-      throw InputError("The drive and " + step_parameter(scene) + " make " + rounded_text(rows) +
+      throw InputError(scene.name + ".prm: the drive and " + step_parameter(scene) + " make " + rounded_text(rows) +
                        " rows or more, of which a run may have " + rounded_text(most_rows) +
                        ". Try longer steps, fewer cycles or a faster drive");
     }
@@ -320,9 +320,9 @@ namespace sprag
     const std::string has = ": the run needs about " + gigabytes(needed) + " of memory, and " + gigabytes(available.bytes) +
                             " are " + available.reason + ". ";
     if (rows > needed / 2.)
-      throw InputError("Drive/Cycles and " + step_parameter(scene) + " make " + rounded_text(expected_rows(scene)) + " rows" +
-                       has + "Try fewer cycles or longer steps");
-    throw InputError("Mesh/Face size = " + mm(scene.mesh.face_size) + has +
+      throw InputError(scene.name + ".prm: Drive/Cycles and " + step_parameter(scene) + " make " +
+                       rounded_text(expected_rows(scene)) + " rows" + has + "Try fewer cycles or longer steps");
+    throw InputError(scene.name + ".prm: Mesh/Face size = " + mm(scene.mesh.face_size) + has +
                      (processes > 1 ? "Try a larger one, or fewer processes (--jobs)" : "Try a larger one"));
   }
 } // namespace sprag

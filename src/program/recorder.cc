@@ -142,8 +142,7 @@ namespace sprag
     add_pair(rows, summary);
     append(summary, stress);
     append(warnings, row_warnings(scene, rows));
-    if (in_time)
-      append(warnings, transient_warnings(scene, rows));
+    append(warnings, in_time ? transient_warnings(scene, rows) : deviation_warnings(summary));
     if (checkpoint != nullptr)
       meta.push_back({ "steps_taken_over", static_cast<double>(taken_over) });
     const auto end = writer.finish(status, { summary, meta, {}, accuracy }, warnings);

@@ -50,7 +50,7 @@ namespace sprag
 
     JudgedValue length(const std::string &parameter, const double value)
     {
-      return { parameter, value, 0.5, 1e5, "mm", "plates of metal for levers have a millimetre or more", { "m", "inch" } };
+      return { parameter, value, 0.5, 1e5, "mm", "parts of such devices measure a millimetre to some metres", { "m", "inch" } };
     }
 
     /// Its lever of the dimensions given would be lighter than balsa or, with as much again in a hub, ten times as heavy as
@@ -92,6 +92,9 @@ namespace sprag
                density("Leaf spring", scene.spring.leaf.density),
                density("Friction layer", scene.layer.density),
                density("Cylinder", scene.cylinder.density),
+               length("Geometry/Cylinder radius", scene.geometry.cylinder_radius),
+               length("Geometry/Pivot distance", scene.geometry.pivot_distance),
+               length("Leaf spring/Length", scene.spring.leaf.length),
                length("Lever/Length", scene.lever.length),
                length("Lever/Depth", scene.lever.depth),
                length("Lever/Width", scene.lever.width),

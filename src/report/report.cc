@@ -6,6 +6,7 @@
 #include "base/least_squares.h"
 #include "base/text.h"
 #include "report/peak_report.h"
+#include "report/percent.h"
 #include "results/row_statistics.h"
 #include "scene/mirrored_pair.h"
 #include "scene/pair_closed_form.h"
@@ -236,6 +237,25 @@ namespace sprag
         stream << std::get<std::string>(entry.value);
       stream << '\n';
     }
+  }
+
+  Warnings deviation_warnings(const std::vector<Entry> &summary)
+  {
+    static const std::string start = "deviation_"; // "deviation_P_forward"
+    double largest                 = 0.2;
+    std::string worst;
+    for (const auto &entry : summary)
+      if (entry.name.rfind(start + "P_", 0) == 0 || entry.name.rfind(start + "Q_", 0) == 0)
+        if (const double deviation = std::get<double>(entry.value); deviation > largest)
+        {
+          largest = deviation;
+          worst   = entry.name.substr(start.size(), 1) + " moving " + entry.name.substr(start.size() + 2);
+        }
+    if (worst.empty())
+      return {};
+    return { { "far_from_closed_form", worst + " is " + percent(largest) + " of its peak off the closed form.",
+               "Flexure, layer or contact moves P and Q that far, or a value, unit or mesh is another than was meant.",
+               "Check dimensions, Young's moduli and Mesh/File. A device that is meant to be so soft needs no change." } };
   }
 
   void check_deviation(const Scene &scene, const std::vector<Entry> &summary)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "results/result_file.h"
+#include "results/warning.h"
 
 #include <iosfwd>
 #include <vector>
@@ -30,6 +31,9 @@ namespace sprag
 
   /// Prints the entries as a table for people.
   void print_summary(std::ostream &stream, const std::vector<Entry> &summary);
+
+  /// Warns where P or Q of a summary is more than 20 % off the closed form.
+  Warnings deviation_warnings(const std::vector<Entry> &summary);
 
   /// Throws AnalysisError where a run that ended is too far from the closed form, by more than Analysis/Maximum deviation.
   void check_deviation(const Scene &scene, const std::vector<Entry> &summary);

@@ -26,6 +26,7 @@ namespace sprag
     double faces_in_contact = 0.;  ///< least number of faces across the contact, see face_grading(), >= 0
     unsigned int degree     = 2;   ///< 1 or 2
     std::string file;              ///< user's .geo or .msh; empty: the built-in lever
+    unsigned int halvings = 0;     ///< of the sides of the file's elements; no parameter, but of a mesh to compare with
 
     // In three dimensions.
     unsigned int elements_across = 10;  ///< over the width, > 0

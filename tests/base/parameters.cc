@@ -361,6 +361,12 @@ TEST(Csv, ColumnsThatAreNotClearAreRefused)
   EXPECT_EQ(said("speed [mm], mu\n1, 2\n"),
             "column 'speed': must be in mm/s: 'mm' has the dimension m, mm/s has the dimension m.s-1");
   EXPECT_EQ(said("1, 2\n" + std::string("\0", 1)), "mu.csv: is not a text in UTF-8");
+  for (const std::string name : { "speed_km/h", "speed_m/s", "speed in m/s" }) // a slash leaves the unit behind it
+    EXPECT_NE(said(name + ", mu\n1, 2\n"), "") << name;
+  EXPECT_EQ(said("speed_kn, mu\n1, 2\n"), "") << "a kilonewton is no speed";
+  EXPECT_EQ(said("speed_knot, mu\n1, 2\n"),
+            "column 'speed_knot': 'knot' may be its unit: must be in brackets, as '[knot]', or not there");
+  EXPECT_EQ(said("speed_mean, mu_k\n1, 2\n"), "");
 }
 
 // What is left of a first row that was taken for a header is a table without its friction at rest.

@@ -199,6 +199,16 @@ class BadMesh(ProgramTest):
         done = sprag(self.geometry(STRIP + LEVER + HUB + FACE), *changes, "--output", self.output, "--quiet")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
 
+    def test_curves_with_a_name_of_their_own_may_overlap(self):
+        names = 'Physical Curve("measured") = {line[1], area[2]};\n'
+        done = sprag(self.geometry(STRIP + LEVER + HUB + FACE + names), "--validate")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_elements_without_a_group(self):
+        more = "other[] = Extrude {0, 5, 0} { Curve{area[0]}; Layers{2}; Recombine; };\n"
+        scene = self.geometry(STRIP + more + LEVER + HUB + FACE)
+        self.refused(scene, says=["own.geo: ", "elements are in no physical surface"], mistakes=1)
+
     def test_without_friction_face(self):
         says = ["own.geo", "no physical curve 'friction face'"]
         self.refused(self.geometry(STRIP + LEVER + HUB), says=says, mistakes=1, older=True)

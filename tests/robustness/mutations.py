@@ -24,7 +24,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from runs import SOURCE, SPRAG, sprag  # noqa: E402
-from strip import MESH_22, MESH_41, SCRIPT  # noqa: E402
+from strip import MESH_22, MESH_41, SCRIPT, SOLID  # noqa: E402
 
 SEED = 1
 PATIENCE = 40  # s
@@ -139,7 +139,8 @@ def change_objects(path, chance):
             return f"unit of {name}"
         if act == 1 and np.size(values) and np.asarray(values).dtype.kind == "f" and np.ndim(values):
             place = chance.randrange(np.size(values))
-            values.flat[place] = chance.choice((np.nan, np.inf, -np.inf, 1e308, -1e308, 1e-308, 0.0))
+            with np.errstate(over="ignore"):
+                values.flat[place] = chance.choice((np.nan, np.inf, -np.inf, 1e308, -1e308, 1e-308, 0.0))
             file[name][...] = values
             return f"a value of {name}"
         del parent[own]
@@ -186,11 +187,14 @@ class Case:
         self.command = [SPRAG, *map(str, words)] + [word for setting in settings for word in ("--set", setting)]
 
     def mesh(self):
-        name, text = self.chance.choice((("own.msh", MESH_22), ("own.msh", MESH_41), ("own.geo", SCRIPT)))
+        name, text = self.chance.choice((("own.msh", MESH_22), ("own.msh", MESH_41), ("own.geo", SCRIPT), ("own.geo", SOLID)))
         (self.folder / name).write_text(text)
         self.damage(self.folder / name)
         (self.folder / "scene.prm").write_text(scene(f"Mesh/File={name}"))
-        self.ask(self.folder / "scene.prm", "--output", self.folder / "out", settings=COARSE)
+        if text is SOLID:
+            self.ask(self.folder / "scene.prm", "--validate", settings=[*COARSE, "Analysis/Dimension=3"])
+        else:
+            self.ask(self.folder / "scene.prm", "--output", self.folder / "out", settings=COARSE)
 
     def table(self):
         parameter, text, rest = self.chance.choice(list(TABLES.values()))
@@ -248,7 +252,8 @@ class Case:
         origin = self.chance.choice(("closed", "fields"))
         shutil.copytree(ORIGINALS / origin, self.folder / "out")
         names = [path for path in sorted((self.folder / "out").iterdir()) if path.suffix in (".h5", ".xdmf")]
-        self.damage(self.chance.choice([self.folder / "out" / "result.h5", *names]), (*BYTE_CHANGES, *[change_objects] * 5))
+        path = self.chance.choice([self.folder / "out" / "result.h5", *names])
+        self.damage(path, (*BYTE_CHANGES, *[change_objects] * 5) if path.suffix == ".h5" else TEXT_CHANGES)
         self.named = str(self.folder / "out")
         tool = self.chance.choice(("plot.py", "export.py", "export.py", "fields.py"))
         output = {"plot.py": "pictures", "export.py": "tables", "fields.py": "fields.png"}[tool]

@@ -27,6 +27,8 @@ ACTS = {
     "prints into a file": 'Printf("x") > "MARK";\n' + SCRIPT,
     "saves": SCRIPT + 'Mesh 2;\nSave "MARK.msh";\n',
     "adds to a file": 'Printf("x") >> "MARK";\n' + SCRIPT,
+    "makes a folder": 'CreateDir "MARK";\n' + SCRIPT,
+    "starts a solver": 'OnelabRun("x", "touch MARK");\n' + SCRIPT,
 }
 CLOSED_FORM = "subsection Analysis\n  set Model = closed form\nend\n"
 
@@ -90,6 +92,11 @@ class Meshes(StrangerTest):
         for text, says in (("Exit;", "gmsh ends on it"), (CALL, "--trust-scripts"), ('Merge "/etc/hostname";', "--trust-scripts")):
             self.write("own.geo", text)
             self.refused(self.validate("own.geo"), "own.geo", says)
+
+    def test_scripts_without_an_end_are_ended(self):
+        self.write("own.geo", "For i In {1:1e9}\n  Sleep 0.01;\nEndFor\n")
+        done = self.validate("own.geo", env={**os.environ, "SPRAG_SCRIPT_SECONDS": "1"}, timeout=60)
+        self.refused(done, "own.geo", "does not come to an end", "--trust-scripts")
 
     def test_a_mesh_is_no_script(self):
         self.write("own.msh", CALL + SCRIPT)
@@ -254,6 +261,21 @@ class Inputs(StrangerTest):
                     file["time"] = times
                     make(file)
                 self.refused(self.run_scene(), "own.h5", "dataset 'x'")
+
+    def test_units_of_datasets_count_or_are_refused(self):
+        times = np.linspace(0, 1, 21)
+        self.scene(CLOSED_FORM + "subsection Drive\n  set Profile = table\n  set Table = own.h5\nend\n")
+        for attribute, unit, says in (("UNIT", "m", ""), ("Units", b"m", ""), ("unit", 5.0, "must be a text"), ("Unit", "N", "must be in mm")):
+            with self.subTest(attribute=attribute, unit=unit):
+                with h5py.File(self.folder / "own.h5", "w") as file:
+                    file["time"], file["x"] = times, 0.02 * times
+                    file["x"].attrs[attribute] = unit
+                if says:
+                    self.refused(self.run_scene("--validate"), "own.h5", "'x'", says)
+                else:
+                    self.assertEqual(self.run_scene("--quiet", "--overwrite").returncode, 0)
+                    with h5py.File(self.output / "result.h5") as file:
+                        self.assertAlmostEqual(file["table/x"][-1], 20.0)
 
     def test_without_an_end(self):
         os.mkfifo(self.folder / "scene.prm")

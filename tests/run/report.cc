@@ -81,6 +81,22 @@ TEST(Report, StickAfterTheTurnsOfATableIsNoDeviation)
 }
 
 // Without friction the tangential force is that of the lever's tilt and points one way on both strokes.
+TEST(Report, WarnsFarFromTheClosedForm)
+{
+  const auto found = [](const double P, const double Q)
+  {
+    const auto warnings = deviation_warnings({ { "deviation_theta_forward", 1. },
+                                               { "deviation_P_forward", P },
+                                               { "deviation_Q_backward", Q },
+                                               { "status", "completed" } });
+    return warnings.empty() ? std::string() : warnings.front().found;
+  };
+  EXPECT_EQ(found(0.19, 0.19), "");
+  EXPECT_EQ(found(NAN, 0.), "") << "strokes too short to tell";
+  EXPECT_EQ(found(0.3, 0.21), "P moving forward is 30 % of its peak off the closed form.");
+  EXPECT_EQ(found(0.3, 0.41), "Q moving backward is 41 % of its peak off the closed form.");
+}
+
 TEST(Report, PeaksWithoutFriction)
 {
   const Scene scene = moved_by(Drive(DriveProfile::triangle, 0., 65., 112., 1.));

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""A strip of 52 x 4 quadrilaterals, clamped at its left edge: a lever as small as one can be, as gmsh's script and meshes."""
+"""A strip of 52 x 4 quadrilaterals, clamped at its left edge: a lever as small as one can be, as gmsh's script and meshes, and with
+four layers in three dimensions."""
 
 SCRIPT = """
 Point(1) = {0, 45.6, 0};
@@ -9,6 +10,16 @@ Physical Surface("lever") = {area[1]};
 Physical Curve("hub") = {Abs(area[3])};
 Physical Curve("friction face") = {line[1]};
 """
+SOLID = (
+    SCRIPT.split("Physical")[0]
+    + """
+solid[] = Extrude {0, 0, 40} { Surface{area[1]}; Layers{4}; Recombine; };
+Translate {0, 0, -20} { Volume{solid[1]}; }
+Physical Volume("lever") = {solid[1]};
+Physical Surface("friction face") = {solid[2]};
+Physical Surface("hub") = {solid[5]};
+"""
+)
 NAMES = '$PhysicalNames\n3\n2 1 "lever"\n1 2 "friction face"\n1 3 "hub"\n$EndPhysicalNames\n'
 NODES = [(210 * x / 52, 45.6 + 5 * y) for y in range(5) for x in range(53)]
 CELLS = [(at + 1, at + 2, at + 55, at + 54) for y in range(4) for at in range(53 * y, 53 * y + 52)]

@@ -37,8 +37,12 @@ namespace sprag
     constexpr double mesh_patience  = 20.;
     constexpr std::size_t mesh_room = std::size_t(1) << 30;
 
-    /// Share of the free memory that a stranger's script may take, so that other programs keep theirs.
-    constexpr double share_of_scripts = 0.8;
+    /// Share of the free memory and time [s] that a stranger's script may take: other programs keep theirs, and loops end.
+    constexpr double share_of_scripts    = 0.8;
+    constexpr double patience_of_scripts = 300.;
+
+    /// Names a shorter time for tests [s].
+    constexpr char patience_variable[] = "SPRAG_SCRIPT_SECONDS";
 
     /// What the process that runs gmsh hands back.
     struct Answer
@@ -85,8 +89,26 @@ namespace sprag
       }
     };
 
-    /// Physical tags by meaning. Reports everything that is missing or unknown at once. Of a mesh in three dimensions it takes
-    /// groups without a meaning away: those of the surface that was extruded lie inside.
+    /// Returns how many elements of a dimension are in no physical group, of which gmsh writes none.
+    std::size_t number_without_group(const int dim)
+    {
+      std::size_t result = 0;
+      gmsh::vectorpair entities;
+      gmsh::model::getEntities(entities, dim);
+      for (const auto &[entity_dim, entity] : entities)
+      {
+        std::vector<int> groups, types;
+        std::vector<std::vector<std::size_t>> elements, nodes;
+        gmsh::model::getPhysicalGroupsForEntity(entity_dim, entity, groups);
+        gmsh::model::mesh::getElements(types, elements, nodes, entity_dim, entity);
+        for (const auto &of_type : elements)
+          result += groups.empty() ? of_type.size() : 0;
+      }
+      return result;
+    }
+
+    /// Physical tags by meaning. Reports everything that is missing or unknown at once. It takes groups without a meaning away:
+    /// they may share elements with others or lie inside.
     Answer read_groups(const std::string &file, const MeshGroups &groups, const int dim)
     {
       const std::string part = dim == 2 ? "surface" : "volume";
@@ -112,7 +134,7 @@ namespace sprag
         }
         else if (group_dim == dim)
           mistakes.push_back(file + ": unknown physical " + part + " '" + name + "': " + part + "s are " + groups.part_names);
-        else if (dim == 3)
+        else
           gmsh::model::removePhysicalGroups({ { group_dim, tag } });
         if (group_dim == dim)
           parts.insert(name);
@@ -125,6 +147,9 @@ namespace sprag
                              "' have elements in common; each belongs to one of them");
       for (const auto &line : groups.missing(parts, sides))
         mistakes.push_back(file + ": " + line);
+      if (const auto lost = number_without_group(dim); lost > 0 && mistakes.empty())
+        mistakes.push_back(file + ": " + std::to_string(lost) + " elements are in no physical " + part +
+                           " and would be left out: give them a group, or delete what is no part of the lever");
       if (!mistakes.empty())
         throw InputError(mistakes);
       return ids;
@@ -432,12 +457,19 @@ namespace sprag
       refuse_inverted_cells(file, triangulation);
     }
 
+    double script_patience()
+    {
+      const char *const given = std::getenv(patience_variable);
+      return given == nullptr ? patience_of_scripts : std::atof(given);
+    }
+
     /// Of a process of its own that opens the file and does something with the model.
     Answer answer_of_gmsh(const std::string &file, const MeshConstants &constants, const std::function<Answer()> &work)
     {
       if (const auto reason = reason_unreadable(file, largest_mesh); !reason.empty())
         throw InputError(file + ": " + reason);
-      const bool is_mesh    = !is_script(file); // a script may take its time
+      const bool is_mesh    = !is_script(file);
+      const bool is_trusted = !is_mesh && (is_own(file) || scripts_are_trusted);
       const auto bytes      = std::filesystem::file_size(file);
       const auto in_process = [&]
       {
@@ -459,10 +491,14 @@ namespace sprag
         packed(answer);
         return packed.bytes();
       };
-      const auto found = in_child_process(in_process, is_mesh ? mesh_patience + 1e-6 * static_cast<double>(bytes) : 0.);
+      const double patience = is_mesh ? mesh_patience + 1e-6 * static_cast<double>(bytes) : is_trusted ? 0. : script_patience();
+      const auto found      = in_child_process(in_process, patience);
       if (!found.failure.empty() || found.text.empty())
-        throw InputError(file + ": gmsh " + (found.failure.empty() ? "ends" : found.failure) +
-                         " on it: the file is damaged, or meshing it needs too much memory");
+        throw InputError(file + ": gmsh " + (found.failure.empty() ? "ends" : found.failure) + " on it: the file is damaged, " +
+                         (is_mesh ? "or meshing it" : "loops for ever or") + " needs too much memory" +
+                         (is_mesh || is_trusted
+                              ? ""
+                              : "; it may take " + rounded_text(patience) + " s, and with --trust-scripts as long as it likes"));
       Answer answer;
       Archive(found.text)(answer);
       if (!answer.mistakes.empty())

@@ -15,6 +15,7 @@
 #include "scene/scene.h"
 
 #include <deal.II/base/bounding_box.h>
+#include <deal.II/grid/grid_generator.h>
 
 #include <algorithm>
 #include <cmath>
@@ -90,6 +91,20 @@ namespace sprag
       return sides;
     }
 
+    constexpr unsigned int most_halved = 100000; ///< elements of a halved mesh, which take about 2 GB with degree 2
+
+    /// Cuts each element in four, and has the result as if it had been read.
+    void halve_elements(const std::string &file, Triangulation<2> &triangulation)
+    {
+      if (4 * triangulation.n_active_cells() > most_halved)
+        throw AnalysisError(file + " would have more than " + std::to_string(most_halved) + " elements with sides half as long");
+      Triangulation<2> halved;
+      halved.copy_triangulation(triangulation);
+      halved.refine_global(1);
+      triangulation.clear();
+      GridGenerator::flatten_triangulation(halved, triangulation);
+    }
+
     /// The face must lie where the scene's geometry has it, or the cylinder would miss it.
     std::vector<std::string> mistakes_of_face(const Scene &scene, const Triangulation<2> &triangulation)
     {
@@ -142,6 +157,8 @@ namespace sprag
       if (scene.analysis.dimension == 3)
         if (const auto too_short = cylinder_too_short(scene, planes_across(scene)); !too_short.empty())
           mistakes.push_back(scene.mesh.file + ": Cylinder/Length = " + rounded_text(scene.cylinder.length) + " " + too_short);
+      for (unsigned int i = 0; i < scene.mesh.halvings; ++i)
+        halve_elements(scene.mesh.file, triangulation);
     }
     else if (scene.lever.outline == LeverOutline::bar)
       read_gmsh(mesh_script("lever.geo"), bar_constants(scene), groups, triangulation);
