@@ -87,7 +87,7 @@ namespace sprag
       if (!(found.frequency() > 0.))
         throw NoEstimate{ "the mode that grows most does not oscillate." };
       const auto probes = probe_slide(scene, dynamics.penalties, maker);
-      if (!(probes.other.frequency() > 0.) || !(probes.soft.frequency() > 0.))
+      if (!(probes.other_mesh.frequency() > 0.) || !(probes.soft.frequency() > 0.))
         throw NoEstimate{ "on another mesh or with a softer penalty the mode that grows most does not oscillate." };
       const auto parts = [&](const auto &value) { return parts_of_slide(scene, found, probes, value); };
       return std::vector<ErrorEstimate>{
