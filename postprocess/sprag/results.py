@@ -128,6 +128,12 @@ class Result:
     def units(self):
         return {name: getattr(column, "unit", "1") for name, column in self.table.items()}
 
+    @property
+    def headlines(self):
+        """{entry: Number} of the summary that say most, in the order in which the run tells them: those that `!` marks on its page, and
+        those that the scene asks for by name."""
+        return {name: value for name, value in self.summary.items() if isinstance(value, float) and np.isfinite(value) and "headline" in value.more}
+
     def has(self, column):
         """Whether a column is there and holds at least one number."""
         return column in self.table and bool(np.isfinite(self.table[column]).any())
