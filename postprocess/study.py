@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
+from sprag.parameters import slug
 from style import COLOURS, LINES, MARKERS, MILLIMETRE, TWO_COLUMNS, WIDE, legend_on_top, panel_letter, parameter_label, plt, scale_of
 
 MOST_PANELS = 6
@@ -35,10 +36,6 @@ class Varied:
 
     def said(self, text):
         return f"{parameter_label(self.name)} {text}" if self.is_number or text == "auto" else text
-
-
-def slug(name):
-    return "".join(c.lower() if c.isalnum() else "_" for c in name)
 
 
 def varied_parameters(result):
