@@ -7,6 +7,7 @@ from style import COLOURS, MARKERS, MILLIMETRE, TWO_COLUMNS, legend_on_top, look
 
 WAYS = {1: ("forward", "-"), -1: ("backward", (0, (3, 1.2)))}
 COUNT = 5  # positions of the cylinder of which the pressure is shown
+TURN = 0.005  # travel behind a reversal in which the worst state is taken, over the largest x
 
 
 def contact(result):
@@ -42,7 +43,7 @@ def contact(result):
 
 def chosen_states(result, count=COUNT):
     """[(row of the face's steps, way, number of the position)] of states in contact, spread over x, the same x each way."""
-    face, ways, slides = result.friction_face, ways_of_states(result), sliding(result)
+    face, ways = result.friction_face, ways_of_states(result)
     pressed = np.flatnonzero(result.table["P"][rows_of_states(result)] > 0)
     if len(pressed) == 0:
         return []
@@ -51,10 +52,12 @@ def chosen_states(result, count=COUNT):
     found = []
     for way in WAYS:
         rows = first_stroke_of(pressed, ways, way)
-        rows = rows[slides[rows] == way] if (slides[rows] == way).any() else rows
         for number, x in enumerate(wanted):
-            if len(rows) and (best := rows[np.abs(face.x[rows] - x).argmin()]) is not None and abs(face.x[best] - x) <= near:
-                found.append((int(best), way, number))
+            away = np.abs(face.x[rows] - x)
+            if len(rows) and away.min() <= near:
+                # Behind the reversal at the largest x the contact sticks, and is pressed most once it slides.
+                reach = max(away.min(), TURN * x if x == wanted[-1] else 0)
+                found.append((int(max(rows[away <= reach], key=lambda row: face.pressure[row].max())), way, number))
     return [state for state in found if (face.pressure[state[0]] > 0).any()]
 
 
@@ -77,14 +80,6 @@ def rows_of_states(result):
 def ways_of_states(result):
     """1 forward, -1 backward; a turning point belongs to the stroke that led to it."""
     return result.ways[rows_of_states(result)]
-
-
-def sliding(result):
-    """1 or -1 where the whole contact slides that way, 0 where it sticks in part, as behind a reversal; 0 where nothing tells."""
-    if not all(result.has(name) for name in ("normal_resultant", "friction_resultant", "mu")):
-        return np.zeros(len(result.friction_face.time), dtype=int)
-    normal, friction, mu = (result.table[name][rows_of_states(result)] for name in ("normal_resultant", "friction_resultant", "mu"))
-    return np.where(np.abs(friction) >= 0.97 * mu * normal, np.sign(friction), 0).astype(int)
 
 
 def first_stroke_of(rows, ways, way):

@@ -3,8 +3,8 @@
 
 import numpy as np
 
+from sprag.parameters import slug
 from style import COLOURS, LINES, MARKERS, MILLIMETRE, ONE_COLUMN, TWO_COLUMNS, legend_on_top, panel_letter, parameter_label, plt
-from study import slug
 
 
 def design_pictures(result):

@@ -4,9 +4,8 @@
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from headlines import HEADLINES, headlines
 from map import boundary_lines, read_map
-from several import told_apart
+from several import headlines_in_common, told_apart
 from sprag.results import NotAResult
 from style import MILLIMETRE, TWO_COLUMNS, WIDE, in_maths, is_signal, label, panel_letter, parameter_label, plt
 from vibration import scale_eigenvalues
@@ -137,10 +136,9 @@ def boundaries(results):
 
 
 def numbers_in_common(results):
-    """Names of headlines that all have, in the order of the first result's type, and those of them that differ."""
-    found = [headlines(result) for result in results]
-    names = [name for name in HEADLINES.get(results[0].type, ()) if all(name in numbers for numbers in found)]
-    differing = [name for name in names if len({round(numbers[name], 6) and float(f"{numbers[name]:.6g}") for numbers in found}) > 1]
+    """Names of headlines that all have, and those of them that differ."""
+    names = headlines_in_common(results)
+    differing = [name for name in names if len({float(f"{round(result.summary[name], 6):.6g}") for result in results}) > 1]
     return names[:MOST_PANELS], differing[:MOST_PANELS]
 
 

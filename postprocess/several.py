@@ -78,6 +78,11 @@ def told_apart(results):
     return Several(name, label, others, values, names, [{"color": scale.to_rgba(value)} for value in values], numerical, scale)
 
 
+def headlines_in_common(results):
+    """Names of headlines that all results have."""
+    return [name for name in results[0].headlines if all(name in result.headlines for result in results)]
+
+
 def said(parameter):
     """A value with its unit; "default" where a result does not know the parameter."""
     if parameter is None:

@@ -4,7 +4,7 @@
 import numpy as np
 
 from apparatus import Geometry
-from study import slug
+from sprag.parameters import slug
 
 FILLS = {"cylinder": "#ececec", "lever": "#d7e3ee", "layer": "#c98f4a", "hub": "#c3ccd6"}
 HUB = 10.0  # depth of the hub beyond the pivot [mm]

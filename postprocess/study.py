@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
-from headlines import HEADLINES
+from sprag.parameters import slug
 from style import COLOURS, LINES, MARKERS, MILLIMETRE, TWO_COLUMNS, WIDE, legend_on_top, panel_letter, parameter_label, plt, scale_of
 
 MOST_PANELS = 6
@@ -36,10 +36,6 @@ class Varied:
 
     def said(self, text):
         return f"{parameter_label(self.name)} {text}" if self.is_number or text == "auto" else text
-
-
-def slug(name):
-    return "".join(c.lower() if c.isalnum() else "_" for c in name)
 
 
 def varied_parameters(result):
@@ -118,8 +114,8 @@ def panels_for(count):
 
 
 def quantities_of(result):
-    wanted = HEADLINES.get(result.parameter("Study", "Type"), ())[:MOST_PANELS]
-    return [name for name in wanted if result.has(name)]
+    names = result.groups.get("headlines", {}).get("name", ())
+    return [name for name in names if result.has(name)][:MOST_PANELS]
 
 
 def curves(result):

@@ -163,10 +163,13 @@ def scale_eigenvalues(axes, rates, frequencies):
     use_log_scale(axes, frequencies)
     lowest = np.abs(rates[np.argsort(frequencies)[:3]]).max(initial=1)
     linear = 2 * rounded(max(lowest, rates.max(initial=0)))
+    axes.margins(x=0.06)
     if (farthest := np.abs(rates).max(initial=0)) > linear:
         axes.set_xscale("symlog", linthresh=linear, linscale=2)
         decades = 10.0 ** np.arange(np.floor(np.log10(linear)) + 1, np.log10(farthest) + 0.3)
-        ticks = [*-decades[decades >= 3 * linear][::-1], -linear, -linear / 2, 0, linear / 2, linear]
+        decades = decades[decades >= 3 * linear]
+        is_crowded = len(decades) > 0 and decades[0] < 10 * linear
+        ticks = [*-decades[::-1], *([] if is_crowded else [-linear]), -linear / 2, 0, linear / 2, linear]
         low, high = axes.get_xlim()
         axes.set_xticks([tick for tick in ticks if low <= tick <= high])
         axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}".replace("-", "\N{MINUS SIGN}")))

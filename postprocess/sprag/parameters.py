@@ -5,12 +5,19 @@ import re
 from typing import NamedTuple, Optional
 
 
+# A comment: what the parameter means, its unit in brackets, and the values that it takes; some tell these in their own words.
+COMMENT = re.compile(r"(.*?)(?: \[[^\[\]]*\])?[:;] ((?:auto or )?an? (?:number|integer)\b.*|numbers .*|one of .*)\.")
+
+
 class Parameter(NamedTuple):
-    """The text of a value as used, its unit, "1" where it has none, and its default's text where it was set apart from it."""
+    """The text of a value as used, its unit, "1" where it has none, its default's text where it was set apart from it, what it means,
+    and the range of values: "a number > 0", "one of a | b"; empty where the meaning tells it."""
 
     text: str
     unit: str
     default: Optional[str] = None
+    meaning: str = ""
+    range: str = ""
 
     @property
     def number(self):
@@ -21,6 +28,11 @@ class Parameter(NamedTuple):
             return None
 
 
+def slug(name):
+    """The attribute or entry of a name: "Lever/Young modulus" is lever_young_modulus."""
+    return "".join(c.lower() if c.isalnum() else "_" for c in name)
+
+
 def value_of_text(text):
     """The value that a line gives: without comment and blanks around it, with \\xHH as the byte it stands for."""
     return re.sub(r"\\x([0-9a-fA-F]{2})", lambda escape: chr(int(escape[1], 16)), text.split("#")[0].strip())
@@ -28,7 +40,8 @@ def value_of_text(text):
 
 def parse(listing):
     """{"Section/Name": Parameter}. The unit stands in brackets at the end of the comment above."""
-    found, section, comment = {}, [], ""
+    found: dict[str, Parameter] = {}
+    section, comment = [], ""
     for line in (line.strip() for line in listing.replace("\\\n", " ").splitlines()):
         if line.startswith("subsection "):
             section.append(line[len("subsection ") :].strip())
@@ -36,11 +49,13 @@ def parse(listing):
             section = section[:-1]
         elif line.startswith("set "):
             name, _, value = line[len("set ") :].partition("=")
-            unit = re.findall(r"\[([^\[\]]+)\](?=[:;])", comment)
+            units = re.findall(r"\[([^\[\]]+)\](?=[:;])", comment)
             text, default = value_of_text(value), re.search(r"#\s*default:(.*)$", value)
             apart = default and different(text, default[1].strip())
-            unit = unit[-1] if unit and unit[-1] != "-" else "1"
-            found["/".join((*section, name.strip()))] = Parameter(text, unit, default[1].strip() if apart else None)
+            unit = units[-1] if units and units[-1] != "-" else "1"
+            told = COMMENT.fullmatch(comment)
+            meaning, rule = (told[1], told[2]) if told else (comment, "")
+            found["/".join((*section, name.strip()))] = Parameter(text, unit, default[1].strip() if default and apart else None, meaning, rule)
         comment = f"{comment} {line[1:].strip()}".strip() if line.startswith("#") else ""
     return found
 
@@ -60,7 +75,7 @@ def set_apart(parameters):
 
 def scene_of(parameters):
     """A scene that holds those parameters alone, as the program reads it."""
-    sections = {}
+    sections: dict[str, list] = {}
     for name, parameter in parameters.items():
         *section, own = name.split("/")
         sections.setdefault("/".join(section), []).append(f"  set {own} = {parameter.text}")
@@ -76,3 +91,27 @@ def differing(listings):
 def value_of(parameter):
     """1e3 and 1000 are the same."""
     return parameter and (parameter.number if parameter.number is not None else parameter.text)
+
+
+def schema(parameters):
+    """The JSON schema of {section: {name: value}}, a dictionary."""
+    sections: dict[str, dict] = {}
+    for full, parameter in parameters.items():
+        section, _, name = full.partition("/")
+        unit = f" [{parameter.unit}]" if parameter.unit != "1" else ""
+        sections.setdefault(section, {})[name] = {"description": parameter.meaning + unit, **rule_of(parameter.range)}
+    closed = {name: {"type": "object", "properties": each, "additionalProperties": False} for name, each in sections.items()}
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "type": "object", "properties": closed, "additionalProperties": False}
+
+
+def rule_of(text):
+    """That of a range of values."""
+    if text.startswith("one of "):
+        return {"enum": [int(word) if word.isdigit() else word for word in text[len("one of ") :].split(" | ")]}
+    kind = re.match(r"(auto or )?an? (number|integer)", text)
+    if not kind:
+        return {"type": ["string", "number"]}
+    words = {">": "exclusiveMinimum", ">=": "minimum", "<": "exclusiveMaximum", "<=": "maximum"}
+    limits = {words[sign]: float(number) for sign, number in re.findall(r"([<>]=?) ([-+\d.e]+)", text)}
+    number = {"type": kind[2], **limits}
+    return {"anyOf": [{"const": "auto"}, number]} if kind[1] else number

@@ -8,7 +8,7 @@ import tempfile
 import weakref
 from pathlib import Path
 
-from .parameters import parse
+from .parameters import parse, schema, scene_of, set_apart, slug
 from .results import read_result
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -29,17 +29,23 @@ class Failed(RunFailed):
 def program():
     """The path of the program: from the environment variable SPRAG, built or installed with this package, or on the PATH."""
     beside = (ROOT / "build" / "sprag", ROOT.parent.parent / "bin" / "sprag")
-    found = [path for path in beside if path.exists()]
-    return Path(os.environ.get("SPRAG") or (found[0] if found else shutil.which("sprag") or beside[0]))
+    found = next((str(path) for path in beside if path.exists()), None) or shutil.which("sprag")
+    return Path(os.environ.get("SPRAG") or found or beside[0])
 
 
 def run_scene(sprag, scene, output, changes, jobs=None):
     """Runs a scene with changes {"Section/Name": value} into a folder, replacing what is there. Throws Refused or Failed."""
-    command = [sprag, scene, "--output", output, "--quiet", "--overwrite"]
-    for parameter, value in changes.items():
-        command += ["--set", f"{parameter}={value}"]
-    if jobs is not None:
-        command += ["--jobs", str(jobs)]
+    count = [] if jobs is None else ["--jobs", str(jobs)]
+    output_of([sprag, scene, "--output", output, "--quiet", "--overwrite", *settings(changes), *count])
+
+
+def settings(changes):
+    return [word for parameter, value in changes.items() for word in ("--set", f"{parameter}={value}")]
+
+
+def output_of(command):
+    """What the program says of a scene, the second word of the command. Throws Refused or Failed."""
+    sprag, scene, *_ = command
     try:
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, check=False)
     except OSError as error:
@@ -47,15 +53,65 @@ def run_scene(sprag, scene, output, changes, jobs=None):
     if done.returncode != 0:
         kind = Refused if done.returncode == 2 else Failed
         raise kind(f"{Path(scene).name}: sprag ended with {done.returncode}\n{done.stdout.strip()}")
+    return done.stdout
+
+
+class Section:
+    """A section of a Scene: its attributes are the Parameters; what they are set to is a change of the scene."""
+
+    def __init__(self, scene, name):
+        names = {slug(full.partition("/")[2]): full for full in scene.parameters if full.startswith(name + "/")}
+        self.__dict__.update(_scene=scene, _names=names)
+
+    def __dir__(self):
+        return self._names
+
+    def __getattr__(self, name):
+        return self._scene.parameters[self._full(name)]
+
+    def __setattr__(self, name, value):
+        self._scene.changes[self._full(name)] = value
+
+    def _full(self, name):
+        if name not in self._names:
+            raise AttributeError(f"no {name}; there are {', '.join(self._names)}")
+        return self._names[name]
+
+
+class Scene:
+    """A parameter file and changes {"Section/Name": value}: scene.lever.depth is a Parameter with text, number, unit, range and meaning,
+    scene.lever.depth = 12 sets it. What reads parameters, as run() does, throws Refused where they do not go together."""
+
+    def __init__(self, path, changes=None):
+        self.path, self.changes = path, dict(changes or {})
+        self._read = None
+        self.__dict__.update({slug(name): Section(self, name) for name in {full.partition("/")[0]: None for full in self.parameters}})
+
+    @property
+    def parameters(self):
+        """{"Section/Name": Parameter} of all, as used."""
+        if self._read is None or self._read[0] != self.changes:
+            self._read = dict(self.changes), parse(output_of([program(), self.path, *settings(self.changes), "--print-parameters"]))
+        return self._read[1]
+
+    def schema(self):
+        """The JSON schema of all parameters, a dictionary."""
+        return schema(self.parameters)
+
+    def __str__(self):
+        """The scene as a parameter file: what is set apart from defaults."""
+        return scene_of(set_apart(self.parameters))
 
 
 def run(scene, changes=None, output=None, jobs=None):
     """The Result of a scene.
 
-    scene: path of a parameter file. changes: {"Section/Name": value}, in the units of the parameter file. output: folder of the
+    scene: a Scene, or the path of a parameter file. changes: {"Section/Name": value}, in the units of the parameter file. output: folder of the
     result, replaced if it is there; without one it is temporary and goes with the Result. jobs: processes of a study or map.
     Throws Refused or Failed with the program's message.
     """
+    if isinstance(scene, Scene):
+        scene, changes = scene.path, {**scene.changes, **(changes or {})}
     folder = Path(output or tempfile.mkdtemp(prefix="sprag-run-"))
     try:
         run_scene(program(), scene, folder, changes or {}, jobs)
@@ -71,8 +127,8 @@ def run(scene, changes=None, output=None, jobs=None):
 
 def sweep(scene, values, changes=None, output=None, jobs=None):
     """The Result of a study (Type = study) of a scene over all combinations of values {"Section/Name": sequence}; else as run()."""
-    text = Path(scene).read_text(encoding="utf-8")
-    kind = (changes or {}).get("Analysis/Type") or parse(text).get("Analysis/Type")
+    base = scene if isinstance(scene, Scene) else Scene(scene, changes)
+    kind = (changes or {}).get("Analysis/Type") or base.parameters["Analysis/Type"].text
     vary = "; ".join(f"{name} = {', '.join(map(str, numbers))}" for name, numbers in values.items())
-    study = {"Analysis/Type": "study", "Study/Type": getattr(kind, "text", kind) or "quasi-static", "Study/Vary": vary}
+    study = {"Analysis/Type": "study", "Study/Type": kind, "Study/Vary": vary}
     return run(scene, {**(changes or {}), **study}, output, jobs)

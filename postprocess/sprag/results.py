@@ -37,9 +37,17 @@ class Column(np.ndarray):
 class Number(float):
     """A number with the attributes unit, "1" where it has none, and description; more of the file in the dictionary more."""
 
+    unit: str
+    description: str
+    more: dict
+
 
 class Text(str):
     """A text with the same attributes; a warning's more has its "effect" and "remedy"."""
+
+    unit: str
+    description: str
+    more: dict
 
 
 def described(value, attributes):
@@ -89,13 +97,13 @@ class Rows:
 class Face:
     """The friction face at the steps that were written."""
 
-    xi: np.ndarray  # of the points [mm]
+    xi: Column  # of the points [mm]
     weight: np.ndarray  # area of each [mm^2]
     time: np.ndarray  # of the steps [s]
     x: np.ndarray  # of the cylinder at these steps [mm]
     pressure: Rows  # [MPa]
     traction: Rows  # of friction [MPa]
-    zeta: Optional[np.ndarray] = None  # across the width, in three dimensions
+    zeta: Optional[Column] = None  # across the width, in three dimensions
 
     def rows_of(self, times):
         """The rows of a table at these times in which the steps stand."""
@@ -127,6 +135,12 @@ class Result:
     @property
     def units(self):
         return {name: getattr(column, "unit", "1") for name, column in self.table.items()}
+
+    @property
+    def headlines(self):
+        """{entry: Number} of the summary that say most, in the order in which the run tells them: those that `!` marks on its page, and
+        those that the scene asks for by name."""
+        return {name: value for name, value in self.summary.items() if isinstance(value, Number) and np.isfinite(value) and "headline" in value.more}
 
     def has(self, column):
         """Whether a column is there and holds at least one number."""

@@ -87,6 +87,8 @@ namespace sprag
       end.meta.push_back({ "chosen_settings", options.chosen });
     sprag::append(end.meta, process_entries(timer));
     describe_facts(end.meta);
+    const auto answer = answer_lines(scene.analysis.type, end.summary);
+    end.groups.push_back(answer);
     file->finish(end.summary, end.meta, warnings, end.groups, accuracy_entries(end.accuracy));
     if (options.verbose)
     {
@@ -94,7 +96,7 @@ namespace sprag
       print_accuracy(std::cout, end.accuracy);
     }
     else if (!options.quiet)
-      print_brief(std::cout, scene.analysis.type, end.summary, end.accuracy, PhaseTimer::cpu_seconds());
+      print_brief(std::cout, answer, end.accuracy, PhaseTimer::cpu_seconds());
     return end;
   }
 } // namespace sprag

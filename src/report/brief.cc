@@ -104,34 +104,42 @@ namespace sprag
       return boost::replace_all_copy(boost::replace_all_copy(row.text, "#%", share), "#", with_unit(value, row.unit));
     }
 
-    /// Prints each label once, with all its entries behind it.
-    void print_entries(std::ostream &stream, const AnalysisType type, const std::vector<Entry> &summary)
-    {
-      std::vector<std::pair<std::string, std::string>> lines;
-      int left_out        = 0;
-      const Entry *before = nullptr;
-      for (const auto &entry : summary)
-      {
-        const auto row  = summary_row(type, entry.name);
-        const auto text = row && !row->label.empty() ? text_of(*row, entry, before) : "";
-        before          = &entry;
-        if (text.empty())
-          continue;
-        left_out = std::max(left_out, row->number - most_numbered);
-        if (row->number > most_numbered)
-          continue;
-        const auto line = std::find_if(lines.begin(), lines.end(), [&](const auto &one) { return one.first == row->label; });
-        if (line == lines.end())
-          lines.emplace_back(row->label, text);
-        else
-          line->second += text.front() == '+' ? ' ' + text.substr(1) : ", " + text;
-      }
-      for (const auto &[label, text] : lines)
-        brief_line(stream, label, text);
-      if (left_out > 0)
-        brief_line(stream, "", "and " + std::to_string(left_out) + " more in /summary");
-    }
+  } // namespace
 
+  Group answer_lines(const AnalysisType type, const std::vector<Entry> &summary)
+  {
+    std::vector<std::string> labels, texts;
+    int left_out        = 0;
+    const Entry *before = nullptr;
+    for (const auto &entry : summary)
+    {
+      const auto row  = summary_row(type, entry.name);
+      const auto text = row && !row->label.empty() ? text_of(*row, entry, before) : "";
+      before          = &entry;
+      if (text.empty())
+        continue;
+      left_out = std::max(left_out, row->number - most_numbered);
+      if (row->number > most_numbered)
+        continue;
+      const auto line = std::find(labels.begin(), labels.end(), row->label);
+      if (line == labels.end())
+      {
+        labels.push_back(row->label);
+        texts.push_back(text);
+      }
+      else
+        texts[line - labels.begin()] += text.front() == '+' ? ' ' + text.substr(1) : ", " + text;
+    }
+    if (left_out > 0)
+    {
+      labels.emplace_back();
+      texts.push_back("and " + std::to_string(left_out) + " more in /summary");
+    }
+    return { "answer", {}, { { "line", "labels of the lines that a run prints", labels }, { "text", "what they say", texts } } };
+  }
+
+  namespace
+  {
     void print_errors(std::ostream &stream, const std::vector<ErrorEstimate> &errors)
     {
       std::string estimated;
@@ -153,10 +161,11 @@ namespace sprag
     }
   } // namespace
 
-  void print_brief(std::ostream &stream, const AnalysisType type, const std::vector<Entry> &summary,
-                   const std::vector<ErrorEstimate> &errors, const double cpu_seconds)
+  void print_brief(std::ostream &stream, const Group &answer, const std::vector<ErrorEstimate> &errors, const double cpu_seconds)
   {
-    print_entries(stream, type, summary);
+    const auto &labels = answer.texts.front().values, &texts = answer.texts.back().values;
+    for (std::size_t line = 0; line < labels.size(); ++line)
+      brief_line(stream, labels[line], texts[line]);
     print_errors(stream, errors);
     brief_line(stream, "cost", formatted("%.2g", cpu_seconds) + " s of CPU time");
   }

@@ -23,8 +23,10 @@ namespace sprag
   /// Warns where the error that a run tells of a quantity is larger than the target that the scene gives.
   Warnings target_warnings(const AccuracySettings &asked, const std::vector<ErrorEstimate> &estimates);
 
-  /// Prints what a reader wants to know first: the entries of a summary that have a line in the tables of the pages, see
-  /// SummaryRow, the estimated errors and the cost. Entries that are unknown (NaN) leave no trace. All else is in /summary.
-  void print_brief(std::ostream &stream, AnalysisType type, const std::vector<Entry> &summary,
-                   const std::vector<ErrorEstimate> &errors, double cpu_seconds);
+  /// Returns the group /answer: the lines of a summary's entries that have one in the tables of the pages, see SummaryRow, each
+  /// label once with all its entries behind it. Entries that are unknown (NaN) leave no trace. All else is in /summary.
+  Group answer_lines(AnalysisType type, const std::vector<Entry> &summary);
+
+  /// Prints what a reader wants to know first: those lines, the estimated errors and the cost.
+  void print_brief(std::ostream &stream, const Group &answer, const std::vector<ErrorEstimate> &errors, double cpu_seconds);
 } // namespace sprag

@@ -13,11 +13,16 @@ namespace sprag
     void describe(const std::string &kind, const std::string &type, std::vector<Entry> &entries)
     {
       for (auto &entry : entries)
-        if (const auto row = page_row(kind, type, entry.name))
+      {
+        const auto row = page_row(kind, type, entry.name);
+        if (kind == "entry" && (!row || !entry.description.empty() || row->printed.rfind('!', 0) == 0))
+          entry.attributes.emplace_back("headline", "yes");
+        if (row)
         {
           entry.unit        = entry.unit.empty() ? row->unit : entry.unit;
           entry.description = row->meaning + (entry.description.empty() ? "" : "; " + entry.description);
         }
+      }
     }
   } // namespace
 

@@ -156,7 +156,9 @@ namespace sprag::hdf5
 
   Handle create_group(const Handle &location, const std::string &name)
   {
-    return Handle(checked("group " + name, H5Gcreate2(location.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)),
+    const Handle order(checked("group " + name, H5Pcreate(H5P_GROUP_CREATE)), H5Pclose);
+    checked("group " + name, H5Pset_link_creation_order(order.id(), H5P_CRT_ORDER_TRACKED));
+    return Handle(checked("group " + name, H5Gcreate2(location.id(), name.c_str(), H5P_DEFAULT, order.id(), H5P_DEFAULT)),
                   H5Gclose);
   }
 

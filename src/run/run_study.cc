@@ -491,7 +491,11 @@ namespace sprag
           values.push_back(column.values[row]);
         writer.append(values);
       }
-      std::vector<Group> groups = { { "runs", {}, table.texts } };
+      const auto main_columns   = main_entries(scene.study.type, finished_rows(points, records));
+      std::vector<Group> groups = {
+        { "runs", {}, table.texts },
+        { "headlines", {}, { { "name", "columns of the table that say most", main_columns } } },
+      };
       if (!trade.measured.empty())
       {
         groups.push_back(trade_group(scene.study, points, records, trade));

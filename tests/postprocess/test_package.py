@@ -4,6 +4,8 @@
 import gc
 import importlib.util
 import os
+import shutil
+import subprocess
 import sys
 import unittest
 from pathlib import Path
@@ -30,6 +32,32 @@ class PackageTest(FolderTest):
         self.assertAlmostEqual(Q[1] / x[1] / result.summary["slope_forward"], 1, delta=0.02)
         self.assertEqual(type(Q * x), np.ndarray)
         self.assertEqual(Q[3:5].unit, "N")
+
+    def test_a_scene(self):
+        scene = sprag.Scene(SCENES / "closed-form-a.prm")
+        depth, law = scene.lever.depth, scene.analysis.type
+        self.assertEqual((depth.number, depth.unit, depth.range), (20, "mm", "a number > 0"))
+        self.assertIn("without the friction layer", depth.meaning)
+        scene.drive.stroke = 40
+        self.assertEqual(scene.drive.stroke.number, 40)
+        self.assertIn("set Stroke = 40", str(scene))
+        self.assertEqual(sprag.run(scene).table["x"].max(), 40)
+        self.assertEqual(sprag.sweep(scene, {"Friction/Factor": [0.9, 1]}).parameter("Drive", "Stroke"), "40")
+        with self.assertRaisesRegex(AttributeError, "no strok; there are .*stroke"):
+            scene.drive.strok = 40
+        sections = scene.schema()["properties"]
+        self.assertEqual(sections["Lever"]["properties"]["Depth"]["exclusiveMinimum"], 0)
+        self.assertEqual(sections["Analysis"]["properties"]["Type"]["enum"], law.range.removeprefix("one of ").split(" | "))
+        self.assertEqual(sections["Analysis"]["properties"]["Dimension"]["enum"], ["auto", 2, 3])
+        scene.lever.depth = -1
+        with self.assertRaisesRegex(sprag.Refused, "Lever/Depth = -1: must be a number > 0"):
+            sprag.run(scene)
+
+    @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
+    def test_types(self):
+        cache = ("--cache-dir", self.folder / "cache")
+        done = subprocess.run(["mypy", "--check-untyped-defs", "--ignore-missing-imports", *cache, sprag.__path__[0]], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_a_temporary_folder_goes_with_its_result(self):
         result = sprag.run(SCENES / "closed-form-a.prm")

@@ -59,6 +59,7 @@ def fill_run(file, x):
 def finish(file, **summary):
     for name, value in summary.items():
         put(file.require_group("summary"), name, value, "N/mm")
+        file["summary"][name].attrs["headline"] = "yes"
     file.require_group("summary")
     file.require_group("meta")
     file.close()

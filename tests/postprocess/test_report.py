@@ -57,6 +57,7 @@ class ReportTest(PictureTest):
             put(file.require_group("warnings"), "hostile", warning, "")
             file["warnings/hostile"].attrs["remedy"] = f"remedy {warning}"
         put(file.require_group("summary"), "status", "completed", "")
+        file["answer/line"], file["answer/text"] = ["largest P", "work"], ["forward 14.62 N, backward 25.42 N", "661.3 N mm"]
         put(file.require_group("meta"), "version", "0.1.0 (abc)", "")
         finish(file, peak_P_forward=14.624, peak_P_backward=25.417, loop_area=661.28)
         return self.folder / name
@@ -71,7 +72,7 @@ class ReportTest(PictureTest):
 
     def test_of_one_run(self):
         page, words = self.report(self.result("a"))
-        for said in ("reaches 14.62 N/mm forward", "25.42", "\N{PLUS-MINUS SIGN} 1.2 %", "Completed, no warnings.", "0.1.0 (abc)", "Lever/Depth 12 mm 20"):
+        for said in ("largest P forward 14.62 N, backward", "peak_P_backward", "25.42", "\N{PLUS-MINUS SIGN} 1.2 %", "Completed, no warnings.", "0.1.0 (abc)", "Lever/Depth 12 mm 20"):
             self.assertIn(said, words)
         self.assertNotIn("Lever/Width", words)
         scene = next(data for data in page.words if "subsection" in data)

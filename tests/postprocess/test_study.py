@@ -49,6 +49,7 @@ def make_study(folder, reference=True, many=0):
         if reference:
             put(table, "error_P", error)
             put(table, "pareto_P", (error < 0.05).astype(float))
+        file["headlines/name"] = ["peak_P_forward", "loop_area"]
         runs = file.create_group("runs")
         put(runs, "mesh_face_size", [row[0] for row in rows], "")
         put(runs, "mesh_degree", [row[1] for row in rows], "")
