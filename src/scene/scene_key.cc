@@ -95,6 +95,8 @@ namespace sprag
     key += "drive";
     add_number(scene.drive.minimum(), key);
     add_number(scene.drive.maximum(), key);
+    key += "\nhalvings";
+    add_number(scene.mesh.halvings, key);
     key += "\nfaces";
     if (const auto grading = face_grading(scene))
       for (const double number : { grading->begin, grading->end, grading->longest, grading->shortest })
