@@ -48,6 +48,7 @@ TEST(Jamming, RigidMarginIsThatOfTheClosedForm)
 TEST(Jamming, StiffBeamJamsWhereTheRigidLeverLocks)
 {
   Scene scene               = with_coulomb(model_a(), 0.73);
+  scene.analysis.model      = ModelType::beam;
   scene.lever.young_modulus = 7e8;
   scene.contact.stiffness   = 1e7;
   const auto margin         = jamming_margin(scene, true);
