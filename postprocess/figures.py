@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 import plot
 from apparatus import device_of
@@ -193,6 +194,12 @@ FIGURES = {
 }
 
 
+def shrink(path):
+    """Packs a PNG as small as it goes without loss: these are kept for good."""
+    with Image.open(path) as image:
+        image.convert("RGB").save(path, optimize=True, dpi=image.info["dpi"])
+
+
 def read_arguments(arguments):
     parser = parser_of(__doc__)
     add_program(parser)
@@ -212,7 +219,10 @@ def main(arguments=None):
         with tempfile.TemporaryDirectory(prefix="sprag-figures-") as folder:
             runner = Runner(options.sprag.resolve(), Path(folder))
             for name in options.only:
-                plot.save_all({name: FIGURES[name](runner)}, options.output or PICTURES, options.format or ("png",))
+                target, endings = options.output or PICTURES, options.format or ("png",)
+                plot.save_all({name: FIGURES[name](runner)}, target, endings)
+                if "png" in endings:
+                    shrink(target / f"{name}.png")
     except (RunFailed, NotAResult, OSError) as error:
         print(f"figures.py: {error}", file=sys.stderr)
         return 1

@@ -173,21 +173,29 @@ TEST(SummaryTable, FindsTheRowWhoseStarStandsForLeast)
   EXPECT_EQ(entries[0].description, "");
   EXPECT_EQ(entries[1].unit + entries[1].description, "mmvalue at which the verdict changes along the parameter; own");
   EXPECT_EQ(entries[2].unit + entries[2].description, "sown");
+
+  // Headlines are what `!` marks and what an analysis describes itself.
+  entries = { { "growth_rate", 1. }, { "x", 65. }, { "critical_x_1", 3., "mm", "own" }, { "critical_x_spacing", 1. } };
+  describe_summary(AnalysisType::stability, entries);
+  std::string headlines;
+  for (const auto &entry : entries)
+    headlines += entry.attributes.empty() ? '0' : '1';
+  EXPECT_EQ(headlines, "1010");
 }
 
 TEST(SummaryTable, PrintsEntriesOfALineTogetherAndNothingThatDoesNotApply)
 {
   const double unknown = std::nan("");
   std::ostringstream printed;
-  print_brief(printed, AnalysisType::transient,
-              { { "peak_Q_forward", 18. },
-                { "peak_Q_support_forward", 18. },
-                { "peak_Q_backward", -23.456 },
-                { "peak_Q_support_backward", -20. },
-                { "reversal_1_frequency", unknown },
-                { "reversal_1_overshoot_P", 0.24 },
-                { "reversal_13_x", 65. },
-                { "creep", 1. } },
+  print_brief(printed,
+              answer_lines(AnalysisType::transient, { { "peak_Q_forward", 18. },
+                                                      { "peak_Q_support_forward", 18. },
+                                                      { "peak_Q_backward", -23.456 },
+                                                      { "peak_Q_support_backward", -20. },
+                                                      { "reversal_1_frequency", unknown },
+                                                      { "reversal_1_overshoot_P", 0.24 },
+                                                      { "reversal_13_x", 65. },
+                                                      { "creep", 1. } }),
               { { "P", "its peak", { { "step", 0.02, "Try less." } }, {} }, { "Q", "", {}, "No estimate." } }, 0.5);
   EXPECT_EQ(printed.str(), "  largest Q             forward 18 N, backward -23.46 N\n"
                            "  on the ground         backward -20 N\n"
