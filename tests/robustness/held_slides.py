@@ -245,7 +245,7 @@ class Stroke(RunTest):
     def test_is_looked_at_both_ways(self):
         printed = self.run_with(*self.STROKE)
         found = self.numbers("summary")
-        self.assertRegex(printed, r"looked at +x = 3.25 mm to 65 mm, number of slides \d+\n")
+        self.assertRegex(printed, r"looked at +x = 3.25 mm to 65 mm, \d+ judged\n")
         self.assertRegex(printed, r"forward +growth at most [\d.]+ 1/s, unstable from x = ")
         for way in ("forward", "backward"):
             places, growth = self.dense(*self.STROKE, f"Stability/Direction={way}")
@@ -261,7 +261,7 @@ class Stroke(RunTest):
         # The verdict says that it looked at one place.
         printed = self.run_with(*self.STROKE, "Stability/Position=65", "Stability/Direction=backward")
         self.assertRegex(printed, r"verdict +stable")
-        self.assertRegex(printed, r"looked at +x = 65 mm, number of slides 1\n")
+        self.assertRegex(printed, r"looked at +x = 65 mm, 1 judged\n")
         self.assertNotRegex(printed, "forward +growth|unstable from")
 
     def test_critical_depth_is_that_of_the_worst_slide(self):
