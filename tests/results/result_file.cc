@@ -125,7 +125,7 @@ TEST_F(ResultFileTest, EachWarningIsADatasetOfItsName)
   file.finish({}, {}, { { "second", "It is 2.", "Q is off.", "Halve it." }, { "first", "x", "y", "z" } });
   EXPECT_EQ(h5py("print(list(f[\"warnings\"]), f[\"warnings/second\"].asstr()[()], "
                  "*(f[\"warnings/second\"].attrs[n] for n in (\"effect\", \"remedy\")))"),
-            "['first', 'second'] It is 2. Q is off. Halve it.\n");
+            "['second', 'first'] It is 2. Q is off. Halve it.\n");
 }
 
 TEST_F(ResultFileTest, WithoutWarningsTheirGroupIsEmpty)
