@@ -21,31 +21,38 @@
 #include <limits>
 #include <memory>
 
-/// An equilibrium on the way from no friction to the scene's.
-struct BranchPoint
-{
-  double share;   ///< of the friction
-  double overlap; ///< [mm]
-};
-
-/// Returns the share of friction from the last of these points to a fold, at which the branch turns back: there the share's
-/// slope over the overlap, a straight line near the fold, falls to 0. Infinite where it does not fall.
-inline double distance_to_fold(const std::vector<BranchPoint> &branch)
-{
-  constexpr double none = std::numeric_limits<double>::infinity();
-  if (branch.size() < 3)
-    return none;
-  const auto p      = branch.end() - 3;
-  const auto slope  = [&](const unsigned int i) { return (p[i + 1].share - p[i].share) / (p[i + 1].overlap - p[i].overlap); };
-  const double bend = (slope(0) - slope(1)) / (0.5 * (p[2].overlap - p[0].overlap));
-  const double slope_at_end = slope(1) - 0.5 * bend * (p[2].overlap - p[1].overlap);
-  if (!(bend > 0.))
-    return none;
-  return slope_at_end > 0. ? 0.5 * slope_at_end * slope_at_end / bend : 0.;
-}
-
 namespace sprag
 {
+  /// An equilibrium on the way from no friction to the scene's.
+  struct BranchPoint
+  {
+    double share;   ///< of the friction
+    double overlap; ///< [mm]
+  };
+
+  /// The share of the friction up to which such a branch was followed, and whether it jams there.
+  struct BranchEnd
+  {
+    double share;
+    bool jams;
+  };
+
+  /// Returns the share of friction from the last of these points to a fold, at which the branch turns back: there the share's
+  /// slope over the overlap, a straight line near the fold, falls to 0. Infinite where it does not fall.
+  inline double distance_to_fold(const std::vector<BranchPoint> &branch)
+  {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    if (branch.size() < 3)
+      return none;
+    const auto p      = branch.end() - 3;
+    const auto slope  = [&](const unsigned int i) { return (p[i + 1].share - p[i].share) / (p[i + 1].overlap - p[i].overlap); };
+    const double bend = (slope(0) - slope(1)) / (0.5 * (p[2].overlap - p[0].overlap));
+    const double slope_at_end = slope(1) - 0.5 * bend * (p[2].overlap - p[1].overlap);
+    if (!(bend > 0.))
+      return none;
+    return slope_at_end > 0. ? 0.5 * slope_at_end * slope_at_end / bend : 0.;
+  }
+
   /// A linear structure, a lever or a mirrored pair of them, in unilateral frictional contact, in time. The forces, speed and
   /// slip that a slide is described by are those of the first lever; sliding at one speed, both have the same. Structure: see
   /// ModalStructure. Contact: see PointContact, MirroredContact.
@@ -160,7 +167,10 @@ namespace sprag
       auto slide              = slide_at(drive, friction, slides.speed_ratio(drive, nearby));
       if (!slide || !(slide->uniqueness > 0.))
       {
-        if (!grow_friction(drive))
+        const auto end = grow_friction(drive);
+        if (end.share < 1. && !slide && !end.jams)
+          throw no_equilibrium(drive, end.share);
+        if (end.share < 1.)
           return slide;
         const auto grown   = slides.last_equilibrium();
         const double ratio = slides.speed_ratio(drive, nearby);
@@ -444,9 +454,9 @@ namespace sprag
     }
 
     /// Follows the equilibrium from no friction to the scene's, in steps that are halved where Newton's method fails or has left
-    /// the branch. Returns whether it gets there; false where the branch ends at a fold, or with a layer pressed too far. Throws
-    /// AnalysisError where it ends elsewhere: that is the method's failure and no property of the lever.
-    bool grow_friction(const DrivePoint &drive)
+    /// the branch. It jams where the branch ends at a fold, or with a layer pressed too far. Where it ends elsewhere another
+    /// branch crosses it, or the method fails.
+    BranchEnd grow_friction(const DrivePoint &drive)
     {
       constexpr double smallest_step = 1e-4, near_fold = 1e-2; // shares of the friction
       slides.solve(drive, 1., ContactFriction::none);
@@ -464,7 +474,7 @@ namespace sprag
         if (slides.solve_with_share(drive, next) != nullptr && is_unique(next))
         {
           if (indentation() > frame.largest_indentation)
-            return false;
+            return { branch.back().share, true };
           branch.push_back({ next, found.overlap() });
           step *= 1.5;
         }
@@ -474,10 +484,7 @@ namespace sprag
           step *= 0.5;
         }
       }
-      const double reached = branch.back().share;
-      if (reached < 1. && distance_to_fold(branch) > near_fold)
-        throw no_equilibrium(drive, reached);
-      return reached == 1.;
+      return { branch.back().share, !(distance_to_fold(branch) > near_fold) };
     }
 
     std::optional<Motion> sliding(const DrivePoint &drive, const double ratio)
