@@ -125,7 +125,7 @@ namespace sprag
       HeldWork work;
       if (scene.analysis.type != AnalysisType::stability)
         return work;
-      constexpr double values_of_damping = 10., limits_of_stick = 2., between = 8.; // of a critical value
+      constexpr double values_of_damping = 7., limits_of_stick = 2.;
       const double verdict = least_slides(scene);
       work.slides          = verdict;
       if (scene.stability.ranges == "none" && scene.stability.damping)
@@ -134,7 +134,7 @@ namespace sprag
         work.slides += 6.;
       for (const auto &range : critical_searches(scene).value_or(std::vector<ParameterRange>()))
       {
-        const double values = range.points + between;
+        const double values = range.points + expected_values_between;
         work.slides += values * (range.name == "Stability/Position" ? 1. : verdict);
         if (is_meshed(scene.analysis.model) && changes_mesh(scene, range))
           work.meshes += values;

@@ -55,21 +55,18 @@ namespace sprag
       return is_reduced(scene.analysis.model) ? 1e-8 : 1e-3;
     }
 
-    /// Values that a search is expected to try beside its points; the bar waits for the end where it takes more.
-    constexpr unsigned int expected_between = 12;
-
     std::vector<CriticalSearch> all_critical(const Scene &scene, DynamicsMaker &maker, const bool quiet)
     {
       const auto ranges = critical_searches(scene).value_or(std::vector<ParameterRange>());
       double expected   = 0.;
       for (const auto &range : ranges)
-        expected += range.points + expected_between;
+        expected += range.points + expected_values_between;
       Progress progress(std::cerr, progress_style(quiet || is_reduced(scene.analysis.model)), std::max(1., expected));
       double begun = 0.;
       std::vector<CriticalSearch> result;
       for (const auto &range : ranges)
       {
-        const double own = range.points + expected_between;
+        const double own = range.points + expected_values_between; // where it takes more the bar waits for the end
         double done      = 0.;
         const auto tried = [&] { progress.update(begun + std::min(++done, own - 0.5), {}); };
         // Meshes that serve for one value alone are not worth a place in the cache.
@@ -247,11 +244,11 @@ namespace sprag
           tell_motion(modes_of_structures(*dynamics.solid, number_of_levers(held)), modes);
         result.groups = { mode_group(modes, dynamics.model()) };
         if (found.slide)
+        {
           write_fields(scene, dynamics, pose_of_slide(scene, dynamics.model(), *found.slide), modes, options);
-        if (found.slide)
           append(warnings, slide_warnings(scene, found.slide->drive, found.slide->forces.P, found.slide->indentation));
-        if (found.slide)
           append(warnings, beam_warnings(scene, found.frequency(), found.growth_rate()));
+        }
         const auto accuracy =
             estimates_errors(options) ? accuracy_of(held, found, dynamics.meshed, maker) : std::vector<ErrorEstimate>();
         const bool is_decided = !is_unstable(found.kind) || accuracy.empty() || !(total_error(accuracy.front()) > 1.);

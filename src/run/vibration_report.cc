@@ -431,14 +431,16 @@ namespace sprag
     for (const auto &search : searches)
     {
       const std::string name = "critical_" + identifier_of(search.range.name);
+      const auto own_unit    = unit_of_parameter(search.range.name);
+      const auto unit        = own_unit.empty() ? "1" : own_unit;
       for (std::size_t i = 0; i < search.changes.size(); ++i)
       {
         const auto &critical = search.changes[i];
-        result.push_back({ name + "_" + std::to_string(i + 1), critical.value, "",
+        result.push_back({ name + "_" + std::to_string(i + 1), critical.value, unit,
                            search.range.name + ": from " + kind_name(critical.below) + " to " + kind_name(critical.above) +
                                of_motion(critical) });
       }
-      append<Entry>(result, { { name + "_spacing", search.spacing },
+      append<Entry>(result, { { name + "_spacing", search.spacing, unit },
                               { name + "_values", static_cast<double>(search.range.points + search.more_values) } });
     }
     return result;

@@ -6,6 +6,7 @@
 #include "results/result_file.h"
 
 #include <iosfwd>
+#include <limits>
 #include <vector>
 
 namespace sprag
@@ -45,7 +46,7 @@ namespace sprag
 
   // Entries of /summary.
   /// `is_decided`: the slide does not grow by less than the error of that.
-  std::vector<Entry> slide_entries(const SlideStability &found, bool is_decided = true);
+  std::vector<Entry> slide_entries(const SlideStability &found, bool is_decided);
 
   /// The range of Contact/Damping about that of the scene over which the kind of a slide stays the same.
   struct DampingRange

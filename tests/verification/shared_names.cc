@@ -170,7 +170,7 @@ namespace
     SlideStability found;
     found.slide = made.model().hold({ 0., 46., 112., 0. }, ContactFriction::sliding);
     Values values;
-    add(slide_entries(found), values);
+    add(slide_entries(found, true), values);
     return values;
   }
 

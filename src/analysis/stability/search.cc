@@ -30,7 +30,8 @@ namespace sprag
     using Window = std::array<Tried, 3>;
     using Height = std::function<double(const Tried &)>;
 
-    /// Whether a height's peak near the window's middle may be above 0: it may rise once more what it has fallen to a side.
+    /// Returns whether a height's peak near the window's middle may be above 0. It may rise once more what it has fallen to a
+    /// side.
     bool may_pass_zero(const std::array<double, 3> &height)
     {
       const double low = std::min(height[0], height[2]);
@@ -62,8 +63,8 @@ namespace sprag
           result.first = found->kind();
       }
 
-      /// Where a growth rate peaks among stable slides, or the largest has a dip among unstable ones, an island of the other kind
-      /// may lie between the points.
+      /// Looks for islands of the other kind between the points. One may lie where a growth rate peaks among stable slides, or
+      /// where the largest has a dip among unstable ones.
       void look_for_islands(const unsigned int steps)
       {
         const std::vector<Tried> points = all;

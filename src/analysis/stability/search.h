@@ -57,6 +57,9 @@ namespace sprag
     unsigned int more_values = 0;     ///< tried between them, where a growth rate peaks
   };
 
+  /// Values that a search is expected to try beside the points of its range.
+  constexpr unsigned int expected_values_between = 8;
+
   /// Returns the distance of the range's points; 0 of a single one.
   inline double spacing_of(const ParameterRange &range)
   {

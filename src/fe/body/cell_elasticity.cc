@@ -33,7 +33,8 @@ namespace sprag
     }
   } // namespace
 
-  /// By Gram and Schmidt: the first coordinates have no part in the constant, as they are counted from the centre.
+  /// Makes the functions orthogonal after Gram and Schmidt. The first coordinates have no part in the constant, as they are
+  /// counted from the centre.
   template <int dim>
   void DilatationSpace<dim>::reinit(const FEValues<dim> &values, const unsigned int degree)
   {

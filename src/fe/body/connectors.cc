@@ -183,7 +183,7 @@ namespace sprag
                                "', which sensors press on, must be made of rectangles along xi and zeta");
           collector.add(cell, f);
         }
-    // What a pad lacks would be missing in its mean.
+    // A pad that lacks a part would have a wrong mean.
     if (std::abs(collector.pad.measure - range.measure()) > 1e-6 * range.measure())
       throw InputError((type == ConnectorType::sensor ? "the force sensor at " : "the linear guide at ") + text_of(range) +
                        " does not lie wholly on the " + (dim == 2 ? "curve '" : "surface '") + name + "'");

@@ -236,7 +236,7 @@ namespace sprag
     return result;
   }
 
-  /// What tractions' rates take off the forces that follow displacements and velocities at once.
+  /// Adds what the rates of tractions take off the forces that follow displacements and velocities at once.
   void InverseProblem::add_delayed(const Vector<double> &rates, Vector<double> &sum) const
   {
     if (n_delays() == 0)

@@ -89,7 +89,7 @@ namespace sprag
       return result;
     }
 
-    /// Of a lever, see MirroredStructure.
+    /// Returns a displacement of one lever, see MirroredStructure.
     double moved_by(const dealii::Vector<double> &coordinates, const unsigned int index, const unsigned int dof) const
     {
       const auto n  = static_cast<unsigned int>(coordinates.size() / structures.size());
