@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/all_cores.h"
-#include "base/guard.h"
 #include "base/hdf5_handle.h"
-#include "base/interrupt.h"
-#include "base/neighbour.h"
+#include "base/system/guard.h"
+#include "base/system/interrupt.h"
+#include "base/system/neighbour.h"
+#include "base/system/open_mpi.h"
 #include "program/cost.h"
 #include "program/memory.h"
 #include "program/outcome.h"

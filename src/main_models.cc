@@ -2,10 +2,11 @@
 #include "analysis/team/team.h"
 #include "base/error_text.h"
 #include "base/fingerprint.h"
-#include "base/guard.h"
 #include "base/hdf5_handle.h"
-#include "base/interrupt.h"
 #include "base/messages.h"
+#include "base/system/guard.h"
+#include "base/system/interrupt.h"
+#include "base/system/open_mpi.h"
 #include "fe/fields/help_first_rank.h"
 #include "fe/mesh/geometry_script.h"
 #include "fe/solid/first_rank.h"
@@ -98,17 +99,6 @@ namespace sprag
     {
       return needs_mesh(scene) || is_judged_by_mesh(scene) || scene.spring.type == SpringType::leaf ||
              works_in_parallel(scene.analysis.type);
-    }
-
-    /// Settings for one process, kept where they are given: no daemon beside the program, no folder for
-    /// its sessions, no network and no devices looked for.
-    void set_up_mpi_for_one()
-    {
-      for (const auto &[name, value] :
-           { std::pair{ "OMPI_MCA_ess_singleton_isolated", "1" }, std::pair{ "OMPI_MCA_pml", "ob1" },
-             std::pair{ "OMPI_MCA_btl", "self" }, std::pair{ "OMPI_MCA_orte_create_session_dirs", "0" },
-             std::pair{ "HWLOC_SYNTHETIC", "core:1 pu:1" } })
-        ::setenv(name, value, 0);
     }
 
     Rank rank_in_mpi()

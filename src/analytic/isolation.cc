@@ -3,7 +3,7 @@
 
 #include "base/archive.h"
 #include "base/errors.h"
-#include "base/interrupt.h"
+#include "base/system/interrupt.h"
 #include "base/text.h"
 #include "scene/scene.h"
 

@@ -2,7 +2,7 @@
 #include "base/fingerprint.h"
 
 #include "base/errors.h"
-#include "base/file_content.h"
+#include "base/system/file_content.h"
 #include "base/text.h"
 
 #include <cstring>

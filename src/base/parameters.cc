@@ -3,7 +3,7 @@
 
 #include "base/errors.h"
 #include "base/escaped.h"
-#include "base/file_content.h"
+#include "base/system/file_content.h"
 #include "base/text.h"
 #include "base/units.h"
 

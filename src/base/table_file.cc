@@ -2,11 +2,11 @@
 #include "base/table_file.h"
 
 #include "base/archive.h"
-#include "base/child_process.h"
-#include "base/confinement.h"
 #include "base/errors.h"
-#include "base/file_content.h"
 #include "base/hdf5_handle.h"
+#include "base/system/child_process.h"
+#include "base/system/confinement.h"
+#include "base/system/file_content.h"
 #include "base/text.h"
 #include "base/units.h"
 

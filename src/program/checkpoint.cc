@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "program/checkpoint.h"
 
-#include "base/child_process.h"
 #include "base/errors.h"
 #include "base/fingerprint.h"
-#include "base/interrupt.h"
+#include "base/system/interrupt.h"
 #include "program/run_files.h"
 #include "results/earlier_result.h"
 #include "scene/read.h"
@@ -54,11 +53,6 @@ namespace sprag
   {
   }
 
-  RowJournal::~RowJournal()
-  {
-    ::close(file);
-  }
-
   std::optional<std::string> RowJournal::take_up(const std::size_t size)
   {
     std::ifstream input(path, std::ios::binary);
@@ -69,8 +63,8 @@ namespace sprag
     auto result = content_of(blocks);
     if (!result)
       return {};
-    file = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-    if (file < 0 || ::ftruncate(file, static_cast<off_t>(size)) != 0)
+    file = OpenFile(path, O_WRONLY | O_APPEND);
+    if (!file.is_open() || !file.truncate(size))
       return {};
     written = size;
     return result;
@@ -78,14 +72,14 @@ namespace sprag
 
   void RowJournal::write_block()
   {
-    if (file < 0)
-      file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
+    if (!file.is_open())
+      file = OpenFile(path, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND);
     const std::string sum = checksum(pending.bytes());
     std::size_t length    = pending.bytes().size() + sum.size();
     Archive head;
     head(length);
     for (const auto *const part : { &head.bytes(), &pending.bytes(), &sum })
-      if (file < 0 || !write_all(file, *part))
+      if (!file.is_open() || !file.write(*part))
         return fail();
     written += head.bytes().size() + length;
     pending.clear();
@@ -94,14 +88,14 @@ namespace sprag
   void RowJournal::write()
   {
     write_block();
-    if (::fdatasync(file) != 0)
+    if (!file.synchronise())
       fail();
   }
 
   void RowJournal::fail()
   {
     const int reason = errno;
-    static_cast<void>(!::ftruncate(file, static_cast<off_t>(written)));
+    file.truncate(written);
     throw AnalysisError(path + " cannot be written: " + std::strerror(reason));
   }
 
@@ -153,9 +147,8 @@ namespace sprag
     /// Replaces the file in one instant, or not at all.
     void replace(const std::string &path, const std::string &next_path, const std::string &bytes)
     {
-      const int file     = ::open(next_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-      const bool written = file >= 0 && write_all(file, bytes) && ::fsync(file) == 0;
-      ::close(file);
+      const OpenFile file(next_path, O_WRONLY | O_CREAT | O_TRUNC);
+      const bool written = file.is_open() && file.write(bytes) && file.synchronise();
       if (!written || ::rename(next_path.c_str(), path.c_str()) != 0)
         throw AnalysisError(path + " cannot be written: " + std::strerror(errno));
     }

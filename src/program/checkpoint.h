@@ -4,6 +4,7 @@
 #include "base/archive.h"
 #include "base/errors.h"
 #include "base/progress_keeper.h"
+#include "base/system/open_file.h"
 #include "program/run_options.h"
 
 #include <chrono>
@@ -21,8 +22,6 @@ namespace sprag
   public:
     /// Nothing is read or written yet.
     explicit RowJournal(std::string path);
-    ~RowJournal();
-    RowJournal &operator=(RowJournal &&) = delete;
 
     /// Begins with the first `size` bytes of the file, drops what follows and returns the records in them; none where they are
     /// not as they were written.
@@ -50,7 +49,7 @@ namespace sprag
     static constexpr std::size_t block_size = 1024 * 1024; ///< what a processor's cache holds
 
     const std::string path;
-    int file            = -1;
+    OpenFile file;
     std::size_t written = 0;
     Archive pending; ///< the next block
 

@@ -3,9 +3,9 @@
 
 #include "analytic/isolation.h"
 #include "analytic/step_clock.h"
-#include "base/available_memory.h"
 #include "base/errors.h"
 #include "base/krylov_size.h"
+#include "base/system/available_memory.h"
 #include "base/text.h"
 #include "program/recorder.h"
 #include "scene/across.h"
@@ -18,8 +18,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <linux/magic.h>
-#include <sys/vfs.h>
 
 namespace sprag
 {
@@ -215,10 +213,7 @@ namespace sprag
       folder = std::filesystem::absolute(folder, none);
       while (!std::filesystem::exists(folder, none) && folder.has_relative_path())
         folder = folder.parent_path();
-      struct statfs of_system = {};
-      if (::statfs(folder.c_str(), &of_system) != 0 || of_system.f_type == TMPFS_MAGIC)
-        return 0.;
-      return static_cast<double>(of_system.f_bavail) * static_cast<double>(of_system.f_bsize);
+      return bytes_free_on_disk(folder.string());
     }
 
     std::string gigabytes(const double bytes)

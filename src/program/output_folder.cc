@@ -2,6 +2,7 @@
 #include "program/output_folder.h"
 
 #include "base/errors.h"
+#include "base/system/open_file.h"
 #include "program/run_files.h"
 #include "program/run_log.h"
 #include "results/earlier_fields.h"
@@ -9,7 +10,6 @@
 #include "scene/read.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <fcntl.h>
 #include <filesystem>
@@ -17,9 +17,6 @@
 #include <iterator>
 #include <set>
 #include <sstream>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <thread>
 #include <unistd.h>
 #include <utility>
 
@@ -30,21 +27,12 @@ namespace sprag
     namespace fs = std::filesystem;
 
     /// A run that was killed has its folder until the last of its processes is gone.
-    constexpr std::chrono::milliseconds lock_patience(3000), lock_pause(50);
-
-    bool same_folder(const int one, const int other)
-    {
-      struct stat first = {}, second = {};
-      return one >= 0 && ::fstat(one, &first) == 0 && ::fstat(other, &second) == 0 && first.st_dev == second.st_dev &&
-             first.st_ino == second.st_ino;
-    }
+    constexpr std::chrono::milliseconds lock_patience(3000);
 
     /// " (process 123)" of whoever has the lock, as far as the system tells.
-    std::string holder_of(const int folder)
+    std::string holder_of(const OpenFile &folder)
     {
-      struct stat status = {};
-      ::fstat(folder, &status);
-      const std::string inode = ":" + std::to_string(status.st_ino) + " ";
+      const std::string inode = ":" + std::to_string(folder.status().st_ino) + " ";
       std::ifstream locks("/proc/locks");
       for (std::string line; std::getline(locks, line);)
       {
@@ -60,27 +48,14 @@ namespace sprag
     /// Returns whether this process has not had the folder before.
     bool lock(const std::string &folder)
     {
-      static int held  = -1; // until the process ends
-      const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-      if (opened < 0 || same_folder(held, opened))
-      {
-        ::close(opened);
+      static OpenFile held; // until the process ends
+      OpenFile opened(folder, O_RDONLY | O_DIRECTORY);
+      if (!opened.is_open() || held.is_same_as(opened))
         return false;
-      }
-      const auto end = std::chrono::steady_clock::now() + lock_patience;
-      while (::flock(opened, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      {
-        if (std::chrono::steady_clock::now() > end)
-        {
-          const std::string holder = holder_of(opened);
-          ::close(opened);
-          throw InputError("--output = " + folder + ": another run writes there" + holder +
-                           ". Wait for its end or choose another folder");
-        }
-        std::this_thread::sleep_for(lock_pause);
-      }
-      ::close(held);
-      held = opened;
+      if (!opened.lock(lock_patience))
+        throw InputError("--output = " + folder + ": another run writes there" + holder_of(opened) +
+                         ". Wait for its end or choose another folder");
+      held = std::move(opened);
       return true;
     }
 

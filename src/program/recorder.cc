@@ -2,7 +2,7 @@
 #include "program/recorder.h"
 
 #include "base/append.h"
-#include "base/interrupt.h"
+#include "base/system/interrupt.h"
 #include "base/text.h"
 #include "report/transient_report.h"
 #include "report/warnings.h"

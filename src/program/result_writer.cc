@@ -2,8 +2,8 @@
 #include "program/result_writer.h"
 
 #include "base/append.h"
-#include "base/interrupt.h"
-#include "base/peak_memory.h"
+#include "base/system/interrupt.h"
+#include "base/system/peak_memory.h"
 #include "base/version.h"
 #include "program/in_memory.h"
 #include "report/brief.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/closed_form.h"
 #include "analytic/ideal_contact.h"
-#include "base/interrupt.h"
+#include "base/system/interrupt.h"
 #include "program/recorder.h"
 #include "program/run_by_formulas.h"
 #include "program/steps_in_time.h"

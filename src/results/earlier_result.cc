@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "results/earlier_result.h"
 
-#include "base/child_process.h"
-#include "base/confinement.h"
+#include "base/system/child_process.h"
+#include "base/system/confinement.h"
 #include "base/version.h"
 #include "results/entries.h"
 

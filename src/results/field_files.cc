@@ -2,8 +2,8 @@
 #include "results/field_files.h"
 
 #include "base/errors.h"
+#include "base/system/disk_reserve.h"
 #include "base/text.h"
-#include "results/disk_reserve.h"
 #include "results/hdf5.h"
 
 #include <filesystem>

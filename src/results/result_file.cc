@@ -2,7 +2,7 @@
 #include "results/result_file.h"
 
 #include "base/errors.h"
-#include "results/disk_reserve.h"
+#include "base/system/disk_reserve.h"
 #include "results/earlier_result.h"
 #include "results/entries.h"
 #include "results/hdf5.h"

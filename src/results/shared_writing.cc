@@ -3,6 +3,7 @@
 
 #include "base/errors.h"
 #include "base/messages.h"
+#include "base/system/open_file.h"
 #include "results/hdf5.h"
 
 #include <deal.II/base/mpi.h>
@@ -13,7 +14,6 @@
 #include <fcntl.h>
 #include <iostream>
 #include <optional>
-#include <unistd.h>
 
 namespace sprag
 {
@@ -68,12 +68,9 @@ namespace sprag
     /// Throws in all processes where one of them cannot write the file: in the midst of it the others would wait for ever.
     void require_access(const std::string &path, const MPI_Comm ranks)
     {
-      const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
       std::string problem;
-      if (file < 0)
+      if (!OpenFile(path, O_RDWR).is_open())
         problem = "cannot write " + path + ": " + std::strerror(errno);
-      else
-        ::close(file);
       const auto problems = gather(ranks, problem);
       for (std::size_t rank = 0; rank < problems.size(); ++rank)
         if (!problems[rank].empty())

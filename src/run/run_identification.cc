@@ -2,7 +2,7 @@
 #include "analysis/identification/identification.h"
 #include "base/append.h"
 #include "base/errors.h"
-#include "base/interrupt.h"
+#include "base/system/interrupt.h"
 #include "base/text.h"
 #include "base/unknown.h"
 #include "program/result_writer.h"

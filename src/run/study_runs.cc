@@ -3,8 +3,8 @@
 
 #include "base/error_text.h"
 #include "base/errors.h"
-#include "base/peak_memory.h"
 #include "base/progress.h"
+#include "base/system/peak_memory.h"
 #include "estimate/choice.h"
 #include "estimate/expected_cost.h"
 #include "program/memory.h"

@@ -2,7 +2,7 @@
 #include "scene/check_parts.h"
 
 #include "base/append.h"
-#include "base/file_content.h"
+#include "base/system/file_content.h"
 #include "base/text.h"
 #include "scene/analysis_use.h"
 #include "scene/closed_form.h"

@@ -4,7 +4,7 @@
 #include "analytic/harmonic_balance.h"
 #include "analytic/isolation.h"
 #include "base/errors.h"
-#include "base/interrupt.h"
+#include "base/system/interrupt.h"
 #include "base/text.h"
 #include "scene/closed_form.h"
 #include "scene/contact_width.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/team/journal.h"
 
-#include "base/child_process.h"
 #include "base/errors.h"
 #include "base/fingerprint.h"
 #include "base/text.h"
@@ -14,20 +13,17 @@
 #include <fcntl.h>
 #include <fstream>
 #include <optional>
-#include <sys/file.h>
-#include <thread>
 #include <unistd.h>
 
 namespace sprag
 {
   namespace
   {
-    constexpr unsigned int lock_attempts = 50;
-    constexpr std::chrono::milliseconds lock_pause(100);
+    constexpr std::chrono::milliseconds lock_patience(5000);
 
-    void write(const int file, const std::string &path, const std::string &text)
+    void write(const OpenFile &file, const std::string &path, const std::string &text)
     {
-      if (!write_all(file, text))
+      if (!file.write(text))
         throw AnalysisError(path + " cannot be written: " + std::strerror(errno));
     }
 
@@ -64,15 +60,10 @@ namespace sprag
   JournalPen::JournalPen(const std::string &journal, const std::string &first_line)
       : path(journal)
       , header(first_line)
-      , file(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC))
+      , file(path, O_WRONLY | O_APPEND)
   {
-    if (file < 0)
+    if (!file.is_open())
       throw AnalysisError(path + " cannot be written: " + std::strerror(errno));
-  }
-
-  JournalPen::~JournalPen()
-  {
-    ::close(file);
   }
 
   void JournalPen::append(const std::vector<std::string> &lines)
@@ -85,37 +76,14 @@ namespace sprag
 
   Journal::Journal(const std::string &file_path, const std::string &what, const std::string &scene)
       : path(file_path)
-      , file(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666))
+      , file(path, O_RDWR | O_CREAT | O_APPEND)
       , header(journal_header(what, scene))
   {
-    if (file < 0)
+    if (!file.is_open())
       throw InputError(path + " cannot be written: " + std::strerror(errno));
-    try
-    {
-      lock();
-      read();
-    }
-    catch (...)
-    {
-      ::close(file);
-      throw;
-    }
-  }
-
-  Journal::~Journal()
-  {
-    ::close(file);
-  }
-
-  void Journal::lock()
-  {
-    // Disks without locks are as good as others.
-    for (unsigned int attempt = 0; ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; ++attempt)
-    {
-      if (attempt == lock_attempts)
-        throw InputError(path + " is in use by another run. Choose another --output, or end that run.");
-      std::this_thread::sleep_for(lock_pause);
-    }
+    if (!file.lock(lock_patience))
+      throw InputError(path + " is in use by another run. Choose another --output, or end that run.");
+    read();
   }
 
   void Journal::read()
@@ -125,7 +93,7 @@ namespace sprag
     other_scene       = !lines.empty() && !usable;
     if (!usable)
     {
-      if (::ftruncate(file, 0) != 0)
+      if (!file.truncate(0))
         throw InputError(path + " cannot be written: " + std::strerror(errno));
       return write(file, path, header);
     }

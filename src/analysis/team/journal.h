@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/system/open_file.h"
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,9 +15,6 @@ namespace sprag
   public:
     /// Opens the journal at `path`; `header` is its first line. Throws AnalysisError if it cannot be written.
     JournalPen(const std::string &path, const std::string &header);
-    ~JournalPen();
-
-    JournalPen &operator=(JournalPen &&) = delete;
 
     /// Hands lines, which hold no line break, to the operating system. Throws AnalysisError if they cannot be written.
     void append(const std::vector<std::string> &lines);
@@ -23,7 +22,7 @@ namespace sprag
   private:
     const std::string path;
     const std::string header;
-    const int file;
+    const OpenFile file;
   };
 
   /// A file of finished pieces of a long analysis, so that one that was killed goes on where it was: a line a piece, with a
@@ -35,9 +34,6 @@ namespace sprag
     /// pieces depend on: lines of another scene, or of another build of the program, are dropped, and so is any line that is
     /// not as it was written. Throws InputError if the file cannot be written or another run keeps it open for more than 5 s.
     Journal(const std::string &path, const std::string &what, const std::string &scene);
-    ~Journal();
-
-    Journal &operator=(Journal &&) = delete;
 
     /// Lines found in the file, without checksums.
     const std::vector<std::string> &lines() const
@@ -68,13 +64,12 @@ namespace sprag
 
   private:
     const std::string path;
-    int file;
+    const OpenFile file;
     std::string header;
     std::vector<std::string> found;
     bool other_scene    = false;
     std::size_t damaged = 0;
 
-    void lock();
     void read();
   };
 

@@ -2,8 +2,8 @@
 #include "analysis/team/team.h"
 
 #include "base/errors.h"
-#include "base/interrupt.h"
 #include "base/messages.h"
+#include "base/system/interrupt.h"
 #include "scene/scene.h"
 #include "scene/scene_key.h"
 

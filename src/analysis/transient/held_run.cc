@@ -2,7 +2,7 @@
 #include "analysis/transient/held_run.h"
 
 #include "base/errors.h"
-#include "base/interrupt.h"
+#include "base/system/interrupt.h"
 #include "base/text.h"
 
 #include <algorithm>

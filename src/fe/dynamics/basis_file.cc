@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/basis_file.h"
 
-#include "base/child_process.h"
-#include "base/confinement.h"
 #include "base/errors.h"
 #include "base/fingerprint.h"
+#include "base/system/child_process.h"
+#include "base/system/confinement.h"
+#include "base/system/open_file.h"
 #include "results/hdf5.h"
 
 #include <chrono>
@@ -14,7 +15,6 @@
 #include <filesystem>
 #include <functional>
 #include <regex>
-#include <sys/file.h>
 #include <unistd.h>
 
 namespace sprag
@@ -64,37 +64,6 @@ namespace sprag
       static const std::regex name(R"(basis-[0-9a-f]{16}\.h5\.[0-9]+)");
       return name;
     }
-
-    /// A file kept locked as long as this lives, for other machines of a shared folder too.
-    class Lock
-    {
-    public:
-      explicit Lock(const std::string &path, const int flags = 0)
-          : file(::open(path.c_str(), O_RDWR | O_CLOEXEC | flags, 0666))
-          , is_held(file >= 0 && ::flock(file, LOCK_EX | LOCK_NB) == 0)
-      {
-      }
-      Lock &operator=(Lock &&) = delete;
-      ~Lock()
-      {
-        if (file >= 0)
-          ::close(file);
-      }
-
-      bool is_open() const
-      {
-        return file >= 0;
-      }
-
-      bool held() const
-      {
-        return is_held;
-      }
-
-    private:
-      const int file;
-      const bool is_held;
-    };
 
     std::optional<std::vector<double>> read_array(const hid_t file, const std::string &name)
     {
@@ -248,8 +217,9 @@ namespace sprag
     {
       const auto written = entry->last_write_time(ignored);
       const bool old     = !ignored && std::filesystem::file_time_type::clock::now() - written > young;
-      if (old && is_called(temporary_name(), *entry) && Lock(entry->path().string()).held())
-        std::filesystem::remove(entry->path(), ignored);
+      if (old && is_called(temporary_name(), *entry))
+        if (const OpenFile file(entry->path().string(), O_RDWR); file.is_open() && file.lock())
+          std::filesystem::remove(entry->path(), ignored);
     }
   }
 
@@ -262,9 +232,10 @@ namespace sprag
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     std::filesystem::remove(temporary, error); // what is there is no process's any more, or a link
-    const Lock lock(temporary, O_CREAT | O_EXCL);
-    if (!lock.is_open())
+    const OpenFile writer(temporary, O_RDWR | O_CREAT | O_EXCL);
+    if (!writer.is_open())
       return temporary + " cannot be made";
+    writer.lock(); // until it is closed nobody takes the file for abandoned
     try
     {
       auto file = hdf5::create_file(temporary);

@@ -2,11 +2,11 @@
 #include "fe/mesh/geometry_script.h"
 
 #include "base/archive.h"
-#include "base/available_memory.h"
-#include "base/child_process.h"
-#include "base/confinement.h"
 #include "base/errors.h"
-#include "base/file_content.h"
+#include "base/system/available_memory.h"
+#include "base/system/child_process.h"
+#include "base/system/confinement.h"
+#include "base/system/file_content.h"
 #include "base/text.h"
 
 #include <deal.II/base/utilities.h>

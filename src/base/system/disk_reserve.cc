@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "results/disk_reserve.h"
+#include "base/system/disk_reserve.h"
 
 #include "base/errors.h"
 
@@ -8,9 +8,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 #include <unistd.h>
-#include <utility>
 
 namespace sprag
 {
@@ -24,41 +22,29 @@ namespace sprag
       throw AnalysisError("cannot write " + path + ": " + std::strerror(reason));
     }
 
-    std::size_t size_of_file(const int descriptor)
+    std::size_t size_of(const OpenFile &file)
     {
-      struct stat status = {};
-      fstat(descriptor, &status);
-      return static_cast<std::size_t>(status.st_size);
+      return static_cast<std::size_t>(file.status().st_size);
     }
   } // namespace
 
   DiskReserve::DiskReserve(const std::string &file_path)
       : path(file_path)
-      , descriptor(open(file_path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666))
+      , file(file_path, O_WRONLY | O_CREAT)
   {
-    if (descriptor < 0)
+    if (!file.is_open())
       fail(path, errno);
-  }
-
-  DiskReserve::DiskReserve(DiskReserve &&other) noexcept
-      : path(std::move(other.path))
-      , descriptor(std::exchange(other.descriptor, -1))
-      , reserved(other.reserved)
-  {
   }
 
   DiskReserve::~DiskReserve()
   {
-    if (descriptor < 0)
-      return;
-    if (reserved > size_of_file(descriptor))
-      static_cast<void>(!ftruncate(descriptor, static_cast<off_t>(size_of_file(descriptor))));
-    close(descriptor);
+    if (reserved > size_of(file))
+      file.truncate(size_of(file));
   }
 
   void DiskReserve::cover(const std::size_t bytes)
   {
-    const std::size_t needed = size_of_file(descriptor) + bytes + margin;
+    const std::size_t needed = size_of(file) + bytes + margin;
     if (needed <= reserved)
       return;
     reserve(needed + margin);
@@ -74,9 +60,7 @@ namespace sprag
 
   void DiskReserve::require_in_place() const
   {
-    struct stat own = {}, found = {};
-    ::fstat(descriptor, &own);
-    if (::stat(path.c_str(), &found) != 0 || own.st_ino != found.st_ino || own.st_dev != found.st_dev)
+    if (!file.is_same_as(OpenFile(path, O_PATH)))
       throw AnalysisError(path + " was removed or replaced while the run wrote it: its results are lost");
   }
 
@@ -85,7 +69,7 @@ namespace sprag
     rlimit limit = {};
     if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && end > limit.rlim_cur)
       fail(path, EFBIG);
-    if (fallocate(descriptor, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(end)) != 0)
+    if (fallocate(file.number(), FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(end)) != 0)
       if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG)
         fail(path, errno);
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/system/open_file.h"
+
 #include <cstddef>
 #include <string>
 
@@ -14,7 +16,7 @@ namespace sprag
     /// Creates the file where there is none. Throws AnalysisError with the system's reason.
     explicit DiskReserve(const std::string &path);
 
-    DiskReserve(DiskReserve &&other) noexcept;
+    DiskReserve(DiskReserve &&other)       = default;
     DiskReserve &operator=(DiskReserve &&) = delete;
 
     /// Gives back what the file did not use.
@@ -34,7 +36,7 @@ namespace sprag
     void reserve(std::size_t end) const;
 
     std::string path;
-    int descriptor;
+    OpenFile file;
     std::size_t reserved = 0; ///< from the start of the file
   };
 

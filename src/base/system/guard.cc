@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/guard.h"
+#include "base/system/guard.h"
 
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <ctime>
 #include <initializer_list>
 #include <sys/prctl.h>
@@ -99,13 +98,5 @@ namespace sprag
       else
         ending.go_on();
     return WorkEnd{ WIFEXITED(status) ? WEXITSTATUS(status) : 0, WIFSIGNALED(status) ? WTERMSIG(status) : 0, ending.wishes > 0 };
-  }
-
-  bool under_mpi()
-  {
-    for (const char *name : { "OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK" })
-      if (std::getenv(name) != nullptr)
-        return true;
-    return false;
   }
 } // namespace sprag

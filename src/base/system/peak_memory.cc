@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/peak_memory.h"
+#include "base/system/peak_memory.h"
 
 #include <fstream>
 #include <string>

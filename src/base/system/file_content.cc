@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/file_content.h"
+#include "base/system/file_content.h"
 
 #include "base/errors.h"
+#include "base/system/open_file.h"
 
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace sprag
@@ -15,28 +15,15 @@ namespace sprag
   {
     constexpr char byte_order_mark[] = "\xef\xbb\xbf";
 
-    /// A file that is open for reading while this lives. What it throws does not name the file.
-    class OpenFile
+    /// A file of limited size that is open for reading. What it throws does not name the file.
+    class LimitedFile
     {
     public:
-      OpenFile(const std::string &path, const std::size_t largest_size)
+      LimitedFile(const std::string &path, const std::size_t largest_size)
           : largest(largest_size)
-          , file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) // or a pipe would wait for its writer
+          , file(path, O_RDONLY | O_NONBLOCK) // or a pipe would wait for its writer
       {
-        try
-        {
-          check();
-        }
-        catch (...)
-        {
-          ::close(file);
-          throw;
-        }
-      }
-      OpenFile &operator=(OpenFile &&) = delete;
-      ~OpenFile()
-      {
-        ::close(file);
+        check();
       }
 
       std::string content() const
@@ -45,7 +32,7 @@ namespace sprag
         for (;;)
         {
           char bytes[65536];
-          const auto count = ::read(file, bytes, sizeof bytes);
+          const auto count = ::read(file.number(), bytes, sizeof bytes);
           if (count < 0 && errno != EINTR)
             throw InputError(std::string("cannot be read: ") + std::strerror(errno));
           if (count == 0)
@@ -57,13 +44,13 @@ namespace sprag
 
     private:
       const std::size_t largest;
-      const int file;
+      const OpenFile file;
 
       void check() const
       {
-        struct stat status = {};
-        if (file < 0 || ::fstat(file, &status) != 0)
+        if (!file.is_open())
           throw InputError(errno == ENOENT ? "cannot be read" : std::string("cannot be read: ") + std::strerror(errno));
+        const auto status = file.status();
         if (S_ISDIR(status.st_mode))
           throw InputError("is a folder: must be a file");
         if (!S_ISREG(status.st_mode))
@@ -84,7 +71,7 @@ namespace sprag
   {
     try
     {
-      OpenFile(file, largest);
+      LimitedFile(file, largest);
       return {};
     }
     catch (const InputError &error)
@@ -97,7 +84,7 @@ namespace sprag
   {
     try
     {
-      std::string text = OpenFile(file, largest).content();
+      std::string text = LimitedFile(file, largest).content();
       if (text.rfind(byte_order_mark, 0) == 0)
         text.erase(0, std::strlen(byte_order_mark));
       return text;

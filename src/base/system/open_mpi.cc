@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/all_cores.h"
+#include "base/system/open_mpi.h"
 
-#include "base/guard.h"
 #include "base/progress.h"
 
 #include <csignal>
@@ -13,6 +12,7 @@
 #include <string>
 #include <sys/prctl.h>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace sprag
@@ -54,7 +54,6 @@ namespace sprag
         for (const char *name : { "OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM" })
           ::setenv(name, "1", 0);
     }
-
   } // namespace
 
   unsigned int available_cores()
@@ -62,6 +61,22 @@ namespace sprag
     cpu_set_t cores;
     CPU_ZERO(&cores);
     return ::sched_getaffinity(0, sizeof cores, &cores) == 0 ? static_cast<unsigned int>(CPU_COUNT(&cores)) : 1;
+  }
+
+  bool under_mpi()
+  {
+    for (const char *name : { "OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK" })
+      if (std::getenv(name) != nullptr)
+        return true;
+    return false;
+  }
+
+  void set_up_mpi_for_one()
+  {
+    for (const auto &[name, value] : { std::pair{ "OMPI_MCA_ess_singleton_isolated", "1" }, std::pair{ "OMPI_MCA_pml", "ob1" },
+                                       std::pair{ "OMPI_MCA_btl", "self" }, std::pair{ "OMPI_MCA_orte_create_session_dirs", "0" },
+                                       std::pair{ "HWLOC_SYNTHETIC", "core:1 pu:1" } })
+      ::setenv(name, value, 0);
   }
 
   bool works_on_all_cores(const unsigned int processes)

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/child_process.h"
+#include "base/system/child_process.h"
 
 #include "base/errors.h"
-#include "base/interrupt.h"
+#include "base/system/interrupt.h"
+#include "base/system/open_file.h"
 
 #include <cerrno>
 #include <chrono>
@@ -71,18 +72,6 @@ namespace sprag
       return WEXITSTATUS(status) == 0 ? "" : "fails";
     }
   } // namespace
-
-  bool write_all(const int file, const std::string &text)
-  {
-    for (std::size_t done = 0; done < text.size();)
-    {
-      const auto written = ::write(file, text.data() + done, text.size() - done);
-      if (written < 0 && errno != EINTR)
-        return false;
-      done += written > 0 ? static_cast<std::size_t>(written) : 0;
-    }
-    return true;
-  }
 
   ChildAnswer in_child_process(const std::function<std::string()> &work, const double seconds)
   {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/confinement.h"
+#include "base/system/confinement.h"
 
 #include <array>
 #include <cerrno>

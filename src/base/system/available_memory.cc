@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/available_memory.h"
+#include "base/system/available_memory.h"
 
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <linux/magic.h>
 #include <optional>
 #include <sstream>
 #include <sys/resource.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 namespace sprag
@@ -105,5 +107,13 @@ namespace sprag
     if (const double bytes = left_of_address_space(); bytes < least.bytes)
       least = { bytes, "left by the limit of the process (ulimit -v)" };
     return least;
+  }
+
+  double bytes_free_on_disk(const std::string &folder)
+  {
+    struct statfs of_system = {};
+    if (::statfs(folder.c_str(), &of_system) != 0 || of_system.f_type == TMPFS_MAGIC)
+      return 0.;
+    return static_cast<double>(of_system.f_bavail) * static_cast<double>(of_system.f_bsize);
   }
 } // namespace sprag

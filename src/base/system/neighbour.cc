@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/neighbour.h"
+#include "base/system/neighbour.h"
 
 #include "base/errors.h"
 

@@ -25,7 +25,4 @@ namespace sprag
   /// SIGKILL another `patience` later. The child ends with its parent. Where no process can be made the work is not looked after:
   /// none.
   std::optional<WorkEnd> look_after(int last_signal, double patience);
-
-  /// Returns whether mpirun has started the process.
-  bool under_mpi();
 } // namespace sprag

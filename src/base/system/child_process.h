@@ -7,9 +7,6 @@
 
 namespace sprag
 {
-  /// Writes a text to an open file or pipe; returns false, with the reason in errno, where that fails.
-  bool write_all(int file, const std::string &text);
-
   /// The result of work done in a process of its own.
   struct ChildAnswer
   {

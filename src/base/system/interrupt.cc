@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/interrupt.h"
+#include "base/system/interrupt.h"
 
 #include "base/errors.h"
 

@@ -15,4 +15,7 @@ namespace sprag
   /// Returns the least of what is free on the machine, what the limits of the process's control groups (version 1 or 2) leave,
   /// and what its own limit of address space leaves. `root` stands before /proc and /sys.
   AvailableMemory available_memory(const std::string &root = "");
+
+  /// Returns the bytes that are free on the disk of a folder; 0 where its file system lives in memory, or does not tell.
+  double bytes_free_on_disk(const std::string &folder);
 } // namespace sprag
