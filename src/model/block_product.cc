@@ -4,8 +4,10 @@
 #include "base/lanes.h"
 
 // Fused operations would round otherwise than processors without them, and than sums elsewhere.
-#pragma GCC push_options
-#pragma GCC optimize("O3", "fp-contract=off")
+#if defined(__GNUC__) && !defined(__clang__)
+#  pragma GCC push_options
+#  pragma GCC optimize("O3", "fp-contract=off")
+#endif
 
 namespace sprag
 {
@@ -23,4 +25,6 @@ namespace sprag
   }
 } // namespace sprag
 
-#pragma GCC pop_options
+#if defined(__GNUC__) && !defined(__clang__)
+#  pragma GCC pop_options
+#endif

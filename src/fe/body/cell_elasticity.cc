@@ -108,24 +108,28 @@ namespace sprag
   CellElasticity<dim>::CellElasticity(const Mapping<dim> &mapping, const FiniteElement<dim> &fe,
                                       const BodyProperties &body_properties)
       : properties(body_properties)
-      , values(mapping, fe, QGauss<dim>(properties.degree + 1), update_gradients | update_quadrature_points | update_JxW_values)
-      , displacement_gradients(values.n_quadrature_points)
+      , values(std::make_unique<FEValues<dim>>(mapping, fe, QGauss<dim>(properties.degree + 1),
+                                               update_gradients | update_quadrature_points | update_JxW_values))
+      , displacement_gradients(values->n_quadrature_points)
   {
   }
 
   template <int dim>
+  CellElasticity<dim>::~CellElasticity() = default;
+
+  template <int dim>
   void CellElasticity<dim>::reinit(const Cell &cell, const Vector<double> &displacement)
   {
-    values.reinit(cell);
+    values->reinit(cell);
     const auto material = cell->material_id();
     constants           = plane_constants(properties.constants.at(material), properties.plane_of(material));
     width               = properties.width_of(material);
-    const auto &fe      = values.get_fe();
-    for (const unsigned int q : values.quadrature_point_indices())
+    const auto &fe      = values->get_fe();
+    for (const unsigned int q : values->quadrature_point_indices())
     {
       auto &gradient = displacement_gradients[q] = Tensor<2, dim>();
       for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
-        gradient[fe.system_to_component_index(i).first] += displacement[i] * values.shape_grad(i, q);
+        gradient[fe.system_to_component_index(i).first] += displacement[i] * values->shape_grad(i, q);
     }
     projects = is_nearly_incompressible(properties, material);
     if (projects)
@@ -135,20 +139,20 @@ namespace sprag
   template <int dim>
   void CellElasticity<dim>::project()
   {
-    const auto &fe       = values.get_fe();
+    const auto &fe       = values->get_fe();
     const unsigned int n = fe.n_dofs_per_cell();
-    space.reinit(values, properties.degree - 1);
+    space.reinit(*values, properties.degree - 1);
     projected.assign(space.size(), 0.);
     changes.reinit(space.size(), n);
-    for (const unsigned int q : values.quadrature_point_indices())
+    for (const unsigned int q : values->quadrature_point_indices())
     {
       const auto at_point = sprag::dilatation<dim>(properties.material, displacement_gradients[q]);
       for (unsigned int a = 0; a < space.size(); ++a)
       {
-        const double weight = space.value(a, q) * values.JxW(q);
+        const double weight = space.value(a, q) * values->JxW(q);
         projected[a] += weight * at_point.value;
         for (unsigned int i = 0; i < n; ++i)
-          changes(a, i) += weight * (at_point.derivative[fe.system_to_component_index(i).first] * values.shape_grad(i, q));
+          changes(a, i) += weight * (at_point.derivative[fe.system_to_component_index(i).first] * values->shape_grad(i, q));
       }
     }
   }
@@ -168,16 +172,16 @@ namespace sprag
   template <int dim>
   void CellElasticity<dim>::assemble(FullMatrix<double> &stiffness, Vector<double> &forces) const
   {
-    const auto &fe       = values.get_fe();
+    const auto &fe       = values->get_fe();
     const unsigned int n = fe.n_dofs_per_cell();
     std::vector<Tensor<1, dim>> gradients(n);
     stiffness = 0.;
     forces    = 0.;
-    for (const unsigned int q : values.quadrature_point_indices())
+    for (const unsigned int q : values->quadrature_point_indices())
     {
       for (unsigned int i = 0; i < n; ++i)
-        gradients[i] = values.shape_grad(i, q);
-      const double volume = values.JxW(q) * width;
+        gradients[i] = values->shape_grad(i, q);
+      const double volume = values->JxW(q) * width;
       const auto at_point = stress_at(q);
       for (unsigned int j = 0; j < n; ++j)
       {
@@ -205,13 +209,13 @@ namespace sprag
   template <int dim>
   void CellElasticity<dim>::find_forces(Vector<double> &forces) const
   {
-    const auto &fe = values.get_fe();
+    const auto &fe = values->get_fe();
     forces         = 0.;
-    for (const unsigned int q : values.quadrature_point_indices())
+    for (const unsigned int q : values->quadrature_point_indices())
     {
-      const auto piola = values.JxW(q) * width * stress_at(q).piola;
+      const auto piola = values->JxW(q) * width * stress_at(q).piola;
       for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
-        forces[i] += piola[fe.system_to_component_index(i).first] * values.shape_grad(i, q);
+        forces[i] += piola[fe.system_to_component_index(i).first] * values->shape_grad(i, q);
     }
   }
 
@@ -220,8 +224,8 @@ namespace sprag
   {
     const Lame at_points{ projects ? 0. : constants.lambda, constants.mu };
     double sum = 0.;
-    for (const unsigned int q : values.quadrature_point_indices())
-      sum += energy_density<dim>(properties.material, at_points, displacement_gradients[q]) * values.JxW(q) * width;
+    for (const unsigned int q : values->quadrature_point_indices())
+      sum += energy_density<dim>(properties.material, at_points, displacement_gradients[q]) * values->JxW(q) * width;
     if (projects)
       for (const double theta : projected)
         sum += 0.5 * constants.lambda * theta * theta * width;

@@ -9,6 +9,7 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <memory>
 #include <vector>
 
 namespace sprag
@@ -74,6 +75,7 @@ namespace sprag
 
     /// Keeps references to all that it is given.
     CellElasticity(const dealii::Mapping<dim> &mapping, const dealii::FiniteElement<dim> &fe, const BodyProperties &properties);
+    ~CellElasticity();
 
     /// Enters a cell, not of the hub, with the displacements of its degrees of freedom.
     void reinit(const Cell &cell, const dealii::Vector<double> &displacement);
@@ -99,7 +101,8 @@ namespace sprag
     Stress<dim> stress_at(unsigned int q) const;
 
     const BodyProperties &properties;
-    dealii::FEValues<dim> values;
+    /// It is large to instantiate, so only the source sees it whole.
+    std::unique_ptr<dealii::FEValues<dim>> values;
     Lame constants = {};
     double width   = 0.;
     bool projects  = false;

@@ -131,17 +131,18 @@ namespace sprag
 
   namespace
   {
-    FaceResponse response_of(const FrictionFace<2> &of_body, SurfaceCompliance &face)
+    /// The compliances may be made after this.
+    FaceResponse response_of(const FrictionFace<2> &of_body, std::array<SurfaceCompliance, 2> *const faces, const unsigned int i)
     {
       return { 2 * static_cast<unsigned int>(of_body.nodes.size()),
-               [&face](const PortSelection &some) { return face.whole_tiles(some); },
-               [&face](const PortSelection &tiles) { return std::make_shared<const FullMatrix<double>>(face.among(tiles)); } };
+               [=](const PortSelection &some) { return (*faces)[i].whole_tiles(some); },
+               [=](const PortSelection &tiles) { return std::make_shared<const FullMatrix<double>>((*faces)[i].among(tiles)); } };
     }
   } // namespace
 
   StaticStructure::StaticStructure(const ElasticBody<2> &body_, const PortLayout &ports_, const PortSprings &springs_)
       : PortWindow(ports_, springs_,
-                   { response_of(body_.friction_face(), faces[0]), response_of(body_.cylinder_face(), faces[1]) })
+                   { response_of(body_.friction_face(), &faces, 0), response_of(body_.cylinder_face(), &faces, 1) })
       , body(body_)
       , ports(ports_)
       , surface(surface_dofs(body))
