@@ -105,7 +105,7 @@ namespace sprag
       const auto free         = structure->free_ports(accepted, near);
       const OfLevers turned   = turns_of(frame.ports, begin.position);
       dealii::Vector<double> rate;
-      const auto evaluate = [&](const dealii::Vector<double> &z, const Wanted wanted = Wanted::with_tangent) -> const PortForces &
+      const auto evaluate = [&](const dealii::Vector<double> &z, const Wanted wanted = Wanted::with_tangent) -> PortEvaluation
       {
         if (rates)
         {
@@ -116,15 +116,14 @@ namespace sprag
             PortStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights, &accepted.surface_contact, wanted }, found);
         coupling.add_forces(begin, z, weights, found.forces);
         hub_spring.add_forces(turned, turns_of(frame.ports, z), weights, found.forces);
-        return found.forces;
+        return { &found.forces, found.overlap() };
       };
 
       StepOutcome outcome;
       dealii::Vector<double> z;
-      auto tangent      = accepted.tangent;
-      const auto solved = solve_step<Contact::keeps_tangent>(
-          { structure->compliance(), free, frame.lengths, near }, evaluate, [&] { return found.overlap(); }, weights,
-          accepted.forces, factors, tangent, z);
+      auto tangent       = accepted.tangent;
+      const auto solved  = solve_step<Contact::keeps_tangent>({ structure->compliance(), free, frame.lengths, near }, evaluate,
+                                                             weights, accepted.forces, factors, tangent, z);
       outcome.iterations = solved.newton.iterations;
       if (!solved.newton.converged)
         return outcome;

@@ -4,82 +4,27 @@
 #include "model/kept_tangent.h"
 #include "model/port_newton.h"
 
-#include <numeric>
-
 namespace sprag
 {
-  /// What the steps of an iteration tell of its equations beside an approximate tangent: Broyden's method by the steps alone
-  /// (Kelley 1995, Iterative Methods for Linear and Nonlinear Equations, section 7.3). Steps are changes of forces, whose product
-  /// with others is the work that these do on the displacements which follow.
-  class ForceSteps
-  {
-  public:
-    /// Improves the change that the approximate tangent gives.
-    void improve(std::vector<double> &change) const
-    {
-      for (std::size_t j = 0; j + 1 < steps.size(); ++j)
-      {
-        const double factor = steps[j].share(change);
-        for (std::size_t i = 0; i < change.size(); ++i)
-          change[i] += factor * steps[j + 1].forces[i];
-      }
-      if (steps.empty())
-        return;
-      const double factor = 1. / (1. - steps.back().share(change));
-      for (double &value : change)
-        value *= factor;
-    }
-
-    /// Takes the change that was made, and the displacements that followed.
-    void accept(std::vector<double> forces, std::vector<double> displacements)
-    {
-      const double work = std::inner_product(forces.begin(), forces.end(), displacements.begin(), 0.);
-      steps.push_back({ std::move(forces), std::move(displacements), work });
-    }
-
-    void clear()
-    {
-      steps.clear();
-    }
-
-  private:
-    struct Step
-    {
-      std::vector<double> forces;
-      std::vector<double> displacements;
-      double work;
-
-      double share(const std::vector<double> &of) const
-      {
-        return std::inner_product(of.begin(), of.end(), displacements.begin(), 0.) / work;
-      }
-    };
-
-    std::vector<Step> steps;
-  };
-
   /// Solves z = z_free + G f(z) as an equation of forces, f(z_free + G phi) = phi, from a guess of phi, by corrections with a
   /// kept tangent; where these leave a large share of the unbalance, the tangent is renewed at the place that was reached.
-  /// Converged where what is left would move no point by more than `left_out` says, see solve_by_newton(). `forces_at(z,
-  /// wanted)` returns the forces, `overlap()` the size of the contact's deformation at the last evaluation [mm]. Not
-  /// converged where the unbalance does not fall fast: solve_ports() is to be tried then.
-  template <class Forces, class Overlap>
+  /// Converged where what is left would move no point by more than `left_out` says, see solve_by_newton(). `contact_at(z,
+  /// wanted)` returns a PortEvaluation. Not converged where the unbalance does not fall fast: solve_ports() is to be tried
+  /// instead.
+  template <class Contact>
   class KeptIteration
   {
   public:
-    KeptIteration(const PortEquations &equations_, const Forces &forces_at_, const Overlap &overlap_, const StepWeights &weights_,
-                  KeptFactors &factors_)
+    KeptIteration(const PortEquations &equations_, const Contact &contact_at_, const StepWeights &weights_, KeptFactors &factors_)
         : equations(equations_)
-        , forces_at(forces_at_)
-        , overlap(overlap_)
+        , contact_at(contact_at_)
         , weights(weights_)
         , factors(factors_)
-        , moved(equations.free.size())
     {
     }
 
-    PortSolution solve(const PortLoads &guess, std::shared_ptr<const KeptTangent> &kept, dealii::Vector<double> &z,
-                       const double left_out)
+    PortSolution solve(PortLoads phi, std::shared_ptr<const KeptTangent> &kept, dealii::Vector<double> &z,
+                       const double left_out) const
     {
       constexpr unsigned int most_corrections = 25;
       constexpr unsigned int most_renewals    = 8;
@@ -87,61 +32,51 @@ namespace sprag
       constexpr double hopeless               = 100.; ///< share that even a new tangent is not tried for
 
       NewtonResult result;
-      phi = guess;
       if (kept != nullptr)
-        include(kept->ports);
-      move(z);
-      if (kept != nullptr && !use(kept))
+        include(kept->ports, phi);
+      move(phi, z);
+      if (kept != nullptr && !factors.use(kept, equations.compliance, weights))
         kept.reset();
-      evaluate(z, kept == nullptr ? Wanted::with_tangent : Wanted::forces);
-      if (kept == nullptr && !renew(kept))
-        return { result, forces };
-      measure();
+      auto found = evaluate(z, kept == nullptr ? Wanted::with_tangent : Wanted::forces, phi);
+      if (kept == nullptr && !renew(*found.forces, kept))
+        return { result, found.forces };
       double by_unit        = 0.; // of unbalance, the largest movement
       unsigned int renewals = 0;
       const double least    = equations.smallest_movement();
-      result.converged      = unbalance == 0.; // nothing touches
+      result.converged      = found.unbalance == 0.; // nothing touches
       while (!result.converged && result.iterations < most_corrections)
       {
         ++result.iterations;
-        const double before   = unbalance;
-        const double movement = correct(z);
-        evaluate(z, Wanted::forces);
-        measure();
-        const double share = unbalance / before;
+        const double before   = found.unbalance;
+        const double movement = correct(found, phi, z);
+        found                 = evaluate(z, Wanted::forces, phi);
+        const double share    = found.unbalance / before;
         if (!(share < hopeless))
           break;
         by_unit          = std::max(by_unit, movement / before);
-        result.converged = by_unit * unbalance < left_out * (1. - share) * (relative_tolerance * overlap() + least);
-        if (!result.converged && share > slow)
-        {
-          if (++renewals > most_renewals)
-            break;
-          forces = &forces_at(z, Wanted::tangent_of_last);
-          if (!renew(kept))
-            break;
-        }
+        result.converged = by_unit * found.unbalance < left_out * (1. - share) * (relative_tolerance * found.overlap + least);
+        if (!result.converged && share > slow &&
+            (++renewals > most_renewals || !renew(*contact_at(z, Wanted::with_tangent).forces, kept)))
+          break;
       }
-      return { result, forces };
+      return { result, found.forces };
     }
 
   private:
+    struct Unbalanced : PortEvaluation
+    {
+      dealii::Vector<double> difference; ///< f - phi
+      dealii::Vector<double> moved;      ///< by the difference, of all ports
+      double unbalance;                  ///< size of that, each port over the root of its compliance
+    };
+
     const PortEquations &equations;
-    const Forces &forces_at;
-    const Overlap &overlap;
+    const Contact &contact_at;
     const StepWeights &weights;
     KeptFactors &factors;
 
-    PortLoads phi;
-    const PortForces *forces = nullptr; ///< at the last evaluation
-    dealii::Vector<double> difference;  ///< f - phi
-    double unbalance = 0.;              ///< its size, by what it would move
-    std::vector<unsigned int> places;   ///< of the kept tangent's ports in phi
-    ForceSteps steps;
-    dealii::Vector<double> moved; ///< room for displacements of all ports
-
     /// Makes phi have all of some ports.
-    void include(const std::vector<unsigned int> &ports)
+    static void include(const std::vector<unsigned int> &ports, PortLoads &phi)
     {
       if (std::includes(phi.ports.begin(), phi.ports.end(), ports.begin(), ports.end()))
         return;
@@ -151,115 +86,72 @@ namespace sprag
       for (unsigned int i = 0; i < phi.ports.size(); ++i)
         wider.values[place_of(phi.ports[i], wider.ports)] = phi.values[i];
       phi = std::move(wider);
-      if (!places.empty())
-        begin_steps();
     }
 
-    void begin_steps()
+    /// Sets z to z_free + G phi. Returns the largest movement.
+    double move(const PortLoads &phi, dealii::Vector<double> &z) const
     {
-      places.clear();
-      for (const unsigned int port : factors.ports())
-        places.push_back(place_of(port, phi.ports));
-      steps.clear();
-    }
-
-    /// z_free + G phi. Returns the largest movement.
-    double move(dealii::Vector<double> &z)
-    {
-      for (const unsigned int i : equations.selected)
-        moved[i] = equations.free[i];
-      add_response(equations.compliance, phi.ports, phi.values, equations.selected, moved);
-      double largest = 0.;
-      for (const unsigned int i : equations.selected)
-      {
-        largest = std::max(largest, std::abs(equations.lengths[i] * (moved[i] - z[i])));
-        z[i]    = moved[i];
-      }
+      dealii::Vector<double> next = equations.free;
+      add_response(equations.compliance, phi.ports, phi.values, equations.selected, next);
+      z -= next;
+      const double largest = equations.movement(z);
+      z                    = std::move(next);
       return largest;
     }
 
-    void evaluate(const dealii::Vector<double> &z, const Wanted wanted)
+    Unbalanced evaluate(const dealii::Vector<double> &z, const Wanted wanted, PortLoads &phi) const
     {
-      forces = &forces_at(z, wanted);
-      include(forces->ports);
-      difference = phi.values;
-      difference *= -1.;
-      for (unsigned int i = 0, place = 0; i < forces->ports.size(); ++i, ++place)
+      Unbalanced result{ contact_at(z, wanted), {}, dealii::Vector<double>(z.size()), 0. };
+      const auto &[ports, values, tangent, has_tangent] = *result.forces;
+      include(ports, phi);
+      result.difference = phi.values;
+      result.difference *= -1.;
+      for (unsigned int i = 0, place = 0; i < ports.size(); ++i)
       {
-        while (phi.ports[place] != forces->ports[i])
+        while (phi.ports[place] != ports[i])
           ++place;
-        difference[place] += forces->values[i];
+        result.difference[place] += values[i];
       }
-    }
-
-    /// As KeptFactors::movement_by(), also where there are other ports than theirs.
-    void measure()
-    {
-      if (places.size() == phi.ports.size())
-      {
-        unbalance = factors.movement_by(difference);
-        return;
-      }
-      for (const unsigned int port : phi.ports)
-        moved[port] = 0.;
-      add_response(equations.compliance, phi.ports, difference, phi.ports, moved);
-      double squares = 0.;
+      add_response(equations.compliance, phi.ports, result.difference, phi.ports, result.moved);
       for (const unsigned int port : phi.ports)
         if (const double own = equations.compliance(port, port); own > 0.)
-          squares += moved[port] * moved[port] / own;
-      unbalance = std::sqrt(squares);
+          result.unbalance += result.moved[port] * result.moved[port] / own;
+      result.unbalance = std::sqrt(result.unbalance);
+      return result;
     }
 
-    bool renew(std::shared_ptr<const KeptTangent> &kept)
+    bool renew(const PortForces &forces, std::shared_ptr<const KeptTangent> &kept) const
     {
-      kept = std::make_shared<const KeptTangent>(KeptTangent{ forces->ports, forces->tangent });
-      return use(kept);
+      kept = std::make_shared<const KeptTangent>(KeptTangent{ forces.ports, forces.tangent });
+      return factors.use(kept, equations.compliance, weights);
     }
 
-    bool use(const std::shared_ptr<const KeptTangent> &kept)
+    /// Adds to phi what it differs by, and the forces by which the kept tangent answers to that. Returns the largest movement.
+    double correct(const Unbalanced &found, PortLoads &phi, dealii::Vector<double> &z) const
     {
-      if (!factors.use(kept, equations.compliance, weights))
-        return false;
-      begin_steps();
-      return true;
-    }
-
-    /// Returns the largest movement.
-    double correct(dealii::Vector<double> &z)
-    {
-      dealii::Vector<double> of_kept(static_cast<unsigned int>(places.size()));
-      difference.extract_subvector_to(places.begin(), places.end(), of_kept.begin());
-      of_kept = factors.solve(of_kept);
-      std::vector<double> change(difference.begin(), difference.end());
-      for (unsigned int i = 0; i < places.size(); ++i)
-        change[places[i]] = of_kept[i];
-      steps.improve(change);
-      std::vector<double> displacements;
-      for (unsigned int i = 0; i < change.size(); ++i)
-      {
-        phi.values[i] += change[i];
-        displacements.push_back(-z[phi.ports[i]]);
-      }
-      const double movement = move(z);
-      for (unsigned int i = 0; i < change.size(); ++i)
-        displacements[i] += z[phi.ports[i]];
-      steps.accept(std::move(change), std::move(displacements));
-      return movement;
+      const auto &ports = factors.tangent().ports;
+      dealii::Vector<double> of_kept(static_cast<unsigned int>(ports.size()));
+      found.moved.extract_subvector_to(ports.begin(), ports.end(), of_kept.begin());
+      of_kept = factors.reaction(of_kept);
+      phi.values += found.difference;
+      for (unsigned int i = 0; i < ports.size(); ++i)
+        phi.values[place_of(ports[i], phi.ports)] += of_kept[i];
+      return move(phi, z);
     }
   };
 
   /// Solves the equations of a step in time from a guess of its forces: where the contact keeps its tangent by that, else, and
   /// where that does not lead there, by solve_ports(), which leaves none.
-  template <bool keeps_tangent, class Forces, class Overlap>
-  PortSolution solve_step(const PortEquations &equations, const Forces &forces_at, const Overlap &overlap,
-                          const StepWeights &weights, const PortLoads &guess, KeptFactors &factors,
-                          std::shared_ptr<const KeptTangent> &kept, dealii::Vector<double> &z)
+  template <bool keeps_tangent, class Contact>
+  PortSolution solve_step(const PortEquations &equations, const Contact &contact_at, const StepWeights &weights,
+                          const PortLoads &guess, KeptFactors &factors, std::shared_ptr<const KeptTangent> &kept,
+                          dealii::Vector<double> &z)
   {
     unsigned int iterations = 0;
     z                       = equations.free;
     if constexpr (keeps_tangent)
     {
-      const auto result = KeptIteration(equations, forces_at, overlap, weights, factors).solve(guess, kept, z, left_out_in_time);
+      const auto result = KeptIteration(equations, contact_at, weights, factors).solve(guess, kept, z, left_out_in_time);
       if (result.newton.converged)
         return result;
       iterations = result.newton.iterations;
@@ -267,7 +159,7 @@ namespace sprag
       z = equations.free;
     }
     add_response(equations.compliance, guess.ports, guess.values, equations.selected, z);
-    auto result = solve_ports(equations, forces_at, overlap, z, left_out_in_time);
+    auto result = solve_ports(equations, contact_at, z, left_out_in_time);
     result.newton.iterations += iterations;
     return result;
   }

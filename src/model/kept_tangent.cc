@@ -3,8 +3,6 @@
 
 #include "model/state_archive.h"
 
-#include <algorithm>
-
 namespace sprag
 {
   using namespace dealii;
@@ -23,23 +21,15 @@ namespace sprag
 
   bool KeptFactors::use(std::shared_ptr<const KeptTangent> kept, const PortCompliance &compliance, const StepWeights &weights)
   {
-    constexpr std::size_t most = 3; // of the accepted step, and of those tried before and after it was halved
-    const auto found           = std::find_if(known.begin(), known.end(),
-                                              [&](const Factors &factors) {
-                                      return factors.of == kept && factors.dt == weights.dt && factors.alpha_f == weights.alpha_f;
-                                    });
-    if (found != known.end())
-    {
-      std::rotate(found, found + 1, known.end());
+    if (factors && of == kept && dt == weights.dt && alpha_f == weights.alpha_f)
       return true;
-    }
+    factors.reset();
+    of      = std::move(kept);
+    dt      = weights.dt;
+    alpha_f = weights.alpha_f;
     try
     {
-      auto factors =
-          kept->ports.empty() ? nullptr : std::make_unique<const ReducedFactors>(compliance, kept->ports, kept->matrix);
-      if (known.size() >= most)
-        known.erase(known.begin());
-      known.push_back({ std::move(kept), weights.dt, weights.alpha_f, std::move(factors) });
+      factors.emplace(compliance, of->ports, of->matrix);
       return true;
     }
     catch (const ExceptionBase &)
@@ -48,22 +38,17 @@ namespace sprag
     }
   }
 
-  const std::vector<unsigned int> &KeptFactors::ports() const
+  const KeptTangent &KeptFactors::tangent() const
   {
-    return known.back().of->ports;
+    return *of;
   }
 
-  Vector<double> KeptFactors::solve(const Vector<double> &difference) const
+  Vector<double> KeptFactors::reaction(const Vector<double> &displacements) const
   {
-    constexpr double left = 1e-2; // of the difference: corrections that follow are small anyway
-    Vector<double> result(difference.size());
-    if (!ports().empty())
-      known.back().factors->add_solution(difference, left, result);
-    return result;
-  }
-
-  double KeptFactors::movement_by(const Vector<double> &forces) const
-  {
-    return ports().empty() ? 0. : known.back().factors->movement_by(forces);
+    Vector<double> moved = displacements, forces(displacements.size());
+    factors->solve(moved);
+    if (forces.size() > 0)
+      of->matrix.vmult(forces, moved);
+    return forces;
   }
 } // namespace sprag

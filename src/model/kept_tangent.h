@@ -3,10 +3,11 @@
 
 #include "base/archive.h"
 #include "model/generalised_alpha.h"
+#include "model/port_factors.h"
 #include "model/port_forces.h"
-#include "model/reduced_factors.h"
 
 #include <memory>
+#include <optional>
 
 namespace sprag
 {
@@ -20,33 +21,23 @@ namespace sprag
 
   void visit(Archive &archive, std::shared_ptr<const KeptTangent> &kept);
 
-  /// Factors of 1 - A G of kept tangents A with the compliances G of steps, see ReducedFactors: what a correction of forces
-  /// leaves of their unbalance the next one finds.
+  /// Factors of 1 - G A of the kept tangent A used last, with the compliance G of steps of one length.
   class KeptFactors
   {
   public:
-    /// Looks for the factors of a tangent and the compliance of a step with these weights, else makes them. Returns whether there
-    /// are: none where the matrix is singular.
+    /// Makes the factors of a tangent with the compliance of a step with these weights, unless they are there. Returns whether
+    /// there are any: none where the matrix is singular.
     bool use(std::shared_ptr<const KeptTangent> kept, const PortCompliance &compliance, const StepWeights &weights);
 
-    /// The ports of the tangent in use.
-    const std::vector<unsigned int> &ports() const;
+    const KeptTangent &tangent() const;
 
-    /// Returns the change of forces on these ports by which they follow displacements, from what they differ by.
-    dealii::Vector<double> solve(const dealii::Vector<double> &difference) const;
-
-    /// The size of what forces on these ports move, see ReducedFactors::movement_by().
-    double movement_by(const dealii::Vector<double> &forces) const;
+    /// Returns A (1 - G A)^-1 z, the forces that answer to displacements z of the tangent's ports.
+    dealii::Vector<double> reaction(const dealii::Vector<double> &displacements) const;
 
   private:
-    struct Factors
-    {
-      std::shared_ptr<const KeptTangent> of;
-      double dt;
-      double alpha_f;
-      std::unique_ptr<const ReducedFactors> factors; ///< none of no ports
-    };
-
-    std::vector<Factors> known; ///< the latest in use last
+    std::shared_ptr<const KeptTangent> of;
+    double dt      = 0.;
+    double alpha_f = 0.;
+    std::optional<PortFactors> factors;
   };
 } // namespace sprag

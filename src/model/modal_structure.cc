@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "model/modal_structure.h"
 
+#include "model/block_product.h"
 #include "model/modal_vibration.h"
 
 #include <algorithm>
@@ -26,6 +27,40 @@ namespace sprag
     double product(const FullMatrix<double> &matrix, const Vector<double> &a, const Vector<double> &b)
     {
       return a.size() == 0 ? 0. : matrix.matrix_scalar_product(a, b);
+    }
+
+    /// Places of the entries that are not 0.
+    std::vector<unsigned int> filled_places(const Vector<double> &sparse)
+    {
+      std::vector<unsigned int> result;
+      for (unsigned int i = 0; i < sparse.size(); ++i)
+        if (sparse[i] != 0.)
+          result.push_back(i);
+      return result;
+    }
+
+    /// Adds a share of G f to displacements of the selected ports. Forces may be empty, which move nothing.
+    void add_static_displacements(const FullMatrix<double> &compliance, Vector<double> forces, const double share,
+                                  const PortSelection &selected, Vector<double> &displacements)
+    {
+      const auto loaded = filled_places(forces);
+      if (loaded.empty())
+        return;
+      forces *= share;
+      const auto rows = ranges_of(selected.begin(), std::lower_bound(selected.begin(), selected.end(), forces.size()));
+      for (const auto &columns : ranges_of(loaded.begin(), loaded.end()))
+        for (const auto &row : rows)
+          add_block_product(compliance, row, columns, forces.begin() + columns.begin, displacements.begin() + row.begin);
+    }
+
+    /// f^T G f.
+    double quadratic_form(const FullMatrix<double> &compliance, const Vector<double> &forces)
+    {
+      if (forces.size() == 0)
+        return 0.;
+      Vector<double> displacements(forces.size());
+      add_static_displacements(compliance, forces, 1., filled_places(forces), displacements);
+      return displacements * forces;
     }
 
     /// Forces this small beside the largest are what repeated halving has left of old ones.
@@ -216,7 +251,7 @@ namespace sprag
   {
     Vector<double> result(n_ports());
     add_positions(motion.coordinates.position, selected, result);
-    answers.add_displacements(data.face_compliance, motion.face_force, 1., selected, result);
+    add_static_displacements(data.face_compliance, motion.face_force, 1., selected, result);
     return result;
   }
 
@@ -255,7 +290,7 @@ namespace sprag
     looked_at = selected;
     Vector<double> result(n_ports());
     add_positions(free_motion, selected, result);
-    answers.add_displacements(data.face_compliance, accepted.face_force, kept_share(w), selected, result);
+    add_static_displacements(data.face_compliance, accepted.face_force, kept_share(w), selected, result);
     return result;
   }
 
@@ -293,7 +328,10 @@ namespace sprag
     for (unsigned int i = 0; i < n_modes(); ++i)
       work.algorithmic += w.delay() * data.stiffness[i] * change[i] * change[i];
 
-    const double static_change = answers.form_of_change(data.face_compliance, begin.face_force, end.face_force);
+    Vector<double> change_of_force = end.face_force;
+    if (change_of_force.size() > 0)
+      change_of_force -= begin.face_force;
+    const double static_change = quadratic_form(data.face_compliance, change_of_force);
     work.damping += data.relaxation / w.dt * static_change;
     work.algorithmic += w.delay() * static_change;
   }
@@ -306,7 +344,7 @@ namespace sprag
     energy.layer   = std::numeric_limits<double>::quiet_NaN();
     for (unsigned int i = 0; i < n_modes(); ++i)
       (i == data.support ? energy.support : energy.elastic) += 0.5 * data.stiffness[i] * q.position[i] * q.position[i];
-    energy.elastic += 0.5 * answers.form(data.face_compliance, motion.face_force);
+    energy.elastic += 0.5 * quadratic_form(data.face_compliance, motion.face_force);
     const double rotation = port_state(motion, data.ports.rotation()).position;
     energy.spring         = 0.5 * data.spring_stiffness * rotation * rotation;
     energy.elastic -= energy.spring;

@@ -4,7 +4,6 @@
 #include "model/dynamic_model.h"
 #include "model/linearisation.h"
 #include "model/port_layout.h"
-#include "model/static_answers.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
@@ -122,6 +121,5 @@ namespace sprag
     const Step *current = nullptr;
     mutable dealii::Vector<double> free_motion; ///< modal, of the last free_ports()
     mutable PortSelection looked_at;            ///< by it
-    mutable StaticAnswers answers;              ///< of the static shapes in the last steps
   };
 } // namespace sprag

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "model/port_compliance.h"
 
-#include "model/block_product.h"
-
 #include <algorithm>
-#include <cstring>
 
 namespace sprag
 {
@@ -47,45 +44,5 @@ namespace sprag
     if (column_port < block->begin || column_port >= block->end())
       return 0.;
     return (*block->matrix)(row_port - block->begin, column_port - block->begin);
-  }
-
-  namespace
-  {
-    using EightRounded = float __attribute__((vector_size(32)));
-
-    /// Numbers that follow each other, eight at once.
-    SPRAG_FOR_ANY_PROCESSOR void copy_rounded(const double *const from, const unsigned int n, float *const to)
-    {
-      unsigned int i = 0;
-      for (; i + n_lanes <= n; i += n_lanes)
-      {
-        Lanes numbers;
-        std::memcpy(&numbers, from + i, sizeof(numbers));
-        const auto rounded = __builtin_convertvector(numbers, EightRounded);
-        std::memcpy(to + i, &rounded, sizeof(rounded));
-      }
-      for (; i < n; ++i)
-        to[i] = static_cast<float>(from[i]);
-    }
-  } // namespace
-
-  RowsOfSixteen rows_among(const std::vector<unsigned int> &ports, const PortCompliance &compliance)
-  {
-    RowsOfSixteen result(ports.size(), ports.size());
-    for (const auto &block : compliance.blocks())
-    {
-      const auto [first, last] = block.places_among(ports);
-      const auto ranges        = ranges_of(ports.begin() + first, ports.begin() + last);
-      for (unsigned int k = first; k < last; ++k)
-      {
-        float *filled = &result(k, first);
-        for (const auto &range : ranges)
-        {
-          copy_rounded(&(*block.matrix)(ports[k] - block.begin, range.begin - block.begin), range.size(), filled);
-          filled += range.size();
-        }
-      }
-    }
-    return result;
   }
 } // namespace sprag

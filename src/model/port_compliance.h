@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "base/sixteen.h"
-
 #include <deal.II/lac/full_matrix.h>
 
 #include <memory>
@@ -53,7 +51,4 @@ namespace sprag
   private:
     std::vector<Block> diagonal;
   };
-
-  /// Rows of the compliance among some ports, increasing, in single precision.
-  RowsOfSixteen rows_among(const std::vector<unsigned int> &ports, const PortCompliance &compliance);
 } // namespace sprag

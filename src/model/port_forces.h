@@ -25,13 +25,11 @@ namespace sprag
   /// Sums up forces that share ports, whose own may come in any order. `place_of_port` is room for a number a port.
   void sum_forces(const std::vector<PortForces> &loaded, std::vector<unsigned int> &place_of_port, PortForces &sum);
 
-  /// What is wanted of a contact: its forces, these with their derivatives, or both where the forces alone were found last. One
-  /// that does not keep its tangent always finds both.
+  /// Output requested of a contact. One that does not keep its tangent always finds both.
   enum class Wanted
   {
     forces,
-    with_tangent,
-    tangent_of_last
+    with_tangent
   };
 
   /// Forces on some of the ports.

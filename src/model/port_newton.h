@@ -50,31 +50,36 @@ namespace sprag
     }
   };
 
+  /// The answer of a contact to displacements of the ports.
+  struct PortEvaluation
+  {
+    const PortForces *forces;
+    double overlap; ///< size of the contact's deformation [mm]
+  };
+
   struct PortSolution
   {
     NewtonResult newton;
     const PortForces *forces; ///< at the z that was found
   };
 
-  /// Solves the equations, see solve_by_newton(), from the guess in `z`. `forces_at(z)` returns the forces, `overlap()` is the
-  /// size of the contact's deformation at the last evaluation [mm].
-  template <class Forces, class Overlap>
-  PortSolution solve_ports(const PortEquations &equations, const Forces &forces_at, const Overlap &overlap,
-                           dealii::Vector<double> &z, const double left_out = 0.)
+  /// Solves the equations, see solve_by_newton(), from the guess in `z`. `contact_at(z)` returns a
+  /// PortEvaluation.
+  template <class Contact>
+  PortSolution solve_ports(const PortEquations &equations, const Contact &contact_at, dealii::Vector<double> &z,
+                           const double left_out = 0.)
   {
-    struct Found
+    struct Found : PortEvaluation
     {
       double residual;
-      double overlap;
-      const PortForces *forces;
     };
     dealii::Vector<double> mismatch(equations.free.size());
     const auto movement = [&](const dealii::Vector<double> &change) { return equations.movement(change); };
     const auto evaluate = [&](const dealii::Vector<double> &at)
     {
-      const PortForces &forces = forces_at(at);
-      equations.set_mismatch(forces, at, mismatch);
-      return Found{ movement(mismatch), overlap(), &forces };
+      const PortEvaluation found = contact_at(at);
+      equations.set_mismatch(*found.forces, at, mismatch);
+      return Found{ found, movement(mismatch) };
     };
     const auto correction = [&](const Found &found)
     { return port_correction(equations.compliance, found.forces->ports, found.forces->tangent, equations.selected, mismatch); };

@@ -149,11 +149,11 @@ namespace sprag
     }
 
     /// Evaluates the contact at displacements of the ports.
-    const PortForces &evaluate(const SlidingState &state)
+    PortEvaluation evaluate(const SlidingState &state)
     {
       contact.evaluate_sliding(state, found);
       hub_spring.add_forces(turns_of(frame.ports, state.ports), true, found.forces);
-      return found.forces;
+      return { &found.forces, found.overlap() };
     }
 
     /// See follow(). Null where that does not converge.
@@ -169,13 +169,11 @@ namespace sprag
       const PortLoads guess             = in_line ? followed.guess_at(drive.x) : turned_forces(free, near, ideal);
       dealii::Vector<double> z          = free;
       const double speed                = sliding_speed(frame.geometries.front(), drive.x, drive.v);
-      const auto at                     = [&](const dealii::Vector<double> &ports, const Wanted wanted) -> const PortForces                     &{
+      const auto at                     = [&](const dealii::Vector<double> &ports, const Wanted wanted) {
         return evaluate({ ports, drive, speed, nullptr, ContactFriction::sliding, wanted });
       };
-      const auto solved =
-          KeptIteration(
-              { structure.compliance(), free, frame.lengths, near }, at, [&] { return found.overlap(); }, StepWeights{}, factors)
-              .solve(guess, kept, z, left_out_in_time);
+      const auto solved = KeptIteration({ structure.compliance(), free, frame.lengths, near }, at, StepWeights{}, factors)
+                              .solve(guess, kept, z, left_out_in_time);
       if (!solved.newton.converged || !found.within_reach)
       {
         kept.reset();
@@ -223,11 +221,10 @@ namespace sprag
         z[frame.ports.rotation(lever)] = guessed_turn(lever, ideal);
 
       const double speed = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
-      const auto at      = [&](const dealii::Vector<double> &ports) -> const PortForces      &{
+      const auto at      = [&](const dealii::Vector<double> &ports) {
         return evaluate({ ports, drive, speed, nullptr, friction, Wanted::with_tangent, share });
       };
-      const auto solved = solve_ports(
-          { structure.compliance(), free, frame.lengths, near }, at, [&] { return found.overlap(); }, z);
+      const auto solved = solve_ports({ structure.compliance(), free, frame.lengths, near }, at, z);
       if (!solved.newton.converged)
         return nullptr;
       if (!found.within_reach)

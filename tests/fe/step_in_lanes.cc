@@ -274,8 +274,8 @@ TEST_P(StepInLanesOfAnAxis, AStepWithoutInertiaFollowsTheLawsAtEachPoint)
       }
 }
 
-// A tangent that is asked for afterwards is that which comes with the forces.
-TEST_P(StepInLanesOfAnAxis, TheTangentOfTheLastForcesIsTheirs)
+// The forces do not depend on whether their tangent is requested, nor the tangent on what was evaluated before.
+TEST_P(StepInLanesOfAnAxis, ForcesAreTheSameWithAndWithoutATangent)
 {
   const FrictionLaw friction{ CoulombFriction{ 0.4 } };
   const auto weights = generalised_alpha(0.8, 6e-3);
@@ -297,7 +297,9 @@ TEST_P(StepInLanesOfAnAxis, TheTangentOfTheLastForcesIsTheirs)
     evaluate(Wanted::with_tangent, at_once);
     evaluate(Wanted::forces, one_by_one);
     EXPECT_FALSE(one_by_one.forces.has_tangent);
-    evaluate(Wanted::tangent_of_last, one_by_one);
+    EXPECT_EQ(one_by_one.forces.ports, at_once.forces.ports);
+    EXPECT_EQ(one_by_one.forces.values, at_once.forces.values);
+    evaluate(Wanted::with_tangent, one_by_one);
     EXPECT_TRUE(one_by_one.forces.has_tangent);
     EXPECT_GT(at_once.forces.ports.size(), 20u);
     EXPECT_EQ(one_by_one.forces.ports, at_once.forces.ports);

@@ -34,7 +34,7 @@ namespace
     double deepest    = 0.;
     PortForces forces = PortForces();
 
-    const PortForces &operator()(const Vector &z, const Wanted wanted = Wanted::with_tangent)
+    PortEvaluation operator()(const Vector &z, const Wanted wanted = Wanted::with_tangent)
     {
       const bool with_tangent = wanted != Wanted::forces;
       ++evaluations;
@@ -62,7 +62,7 @@ namespace
         forces.tangent(a, m - 1) = -stiffness * depth * 0.1 * std::cos(z[n]);
         forces.tangent(m - 1, a) = mu * stiffness;
       }
-      return forces;
+      return { &forces, deepest };
     }
 
     double overlap(const Vector &z, const unsigned int i) const
@@ -102,8 +102,7 @@ namespace
     Solved result{ {}, pressed_by(amount), { place } };
     const Vector free = result.z;
     result.solution   = solve_ports(
-          { compliance, free, lengths, selected }, [&](const Vector &z) -> const PortForces   &{ return result.ball(z); },
-          [&] { return result.ball.deepest; }, result.z);
+          { compliance, free, lengths, selected }, [&](const Vector &z) { return result.ball(z); }, result.z);
     return result;
   }
 
@@ -118,11 +117,10 @@ namespace
     Solved result{ {}, pressed_by(amount), { place } };
     const Vector free = result.z;
     const PortEquations equations{ compliance, free, lengths, selected };
-    const auto overlap = [&] { return result.ball.deepest; };
     const auto weights = generalised_alpha(0.8, 1e-3);
     auto &ball         = result.ball;
-    const auto forces  = [&](const Vector &z, const Wanted wanted) -> const PortForces  &{ return ball(z, wanted); };
-    result.solution    = KeptIteration(equations, forces, overlap, weights, factors).solve(guess, kept, result.z, 0.1);
+    const auto forces  = [&](const Vector &z, const Wanted wanted) { return ball(z, wanted); };
+    result.solution    = KeptIteration(equations, forces, weights, factors).solve(guess, kept, result.z, 0.1);
     return result;
   }
 } // namespace
@@ -202,9 +200,7 @@ TEST(KeptIteration, SaysWhereItDoesNotConverge)
   Solved result{ {}, pressed_by(0.5), { 12., -30. } };
   const Vector free = result.z;
   const PortEquations equations{ compliance, free, lengths, selected };
-  const auto forces  = [&](const Vector &z, const Wanted wanted) -> const PortForces  &{ return result.ball(z, wanted); };
-  const auto overlap = [&] { return result.ball.deepest; };
-  const auto found =
-      KeptIteration(equations, forces, overlap, generalised_alpha(0.8, 1e-3), factors).solve({}, kept, result.z, 0.1);
+  const auto forces = [&](const Vector &z, const Wanted wanted) { return result.ball(z, wanted); };
+  const auto found  = KeptIteration(equations, forces, generalised_alpha(0.8, 1e-3), factors).solve({}, kept, result.z, 0.1);
   EXPECT_FALSE(found.newton.converged);
 }

@@ -134,7 +134,6 @@ TEST(PortForces, DeterminantIsThatOfTheWholeMatrix)
   }
 }
 
-// Few ports of a single block, as of a beam, take the inverse of the whole.
 TEST(PortForces, CorrectionOfASingleBlockSolvesTheLinearisedEquations)
 {
   for (const unsigned int n : { 5u, 12u, 20u })

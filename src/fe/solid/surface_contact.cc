@@ -313,8 +313,6 @@ namespace sprag
 
   void SurfaceContact::evaluate(const PortStep &of, const FrictionLaw &friction, SurfaceEvaluation &found)
   {
-    if (of.wanted == Wanted::tangent_of_last)
-      return set_forces(of.wanted, found.forces);
     const auto &memory  = of.surface_memory != nullptr ? *of.surface_memory : no_memory;
     const bool is_first = begin_ports.size() != of.begin.position.size();
     if (is_first || begin_x != of.from.x || begin_ports != of.begin.position || !in_lanes.begins_with(memory))
@@ -421,8 +419,7 @@ namespace sprag
 
   void SurfaceContact::slide(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found)
   {
-    if (sliding.wanted != Wanted::tangent_of_last)
-      evaluate_slide(sliding, friction, found);
+    evaluate_slide(sliding, friction, found);
     set_forces(sliding.wanted, found.forces);
     if (sliding.wanted == Wanted::with_tangent)
       complete(found);

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "model/port_factors.h"
+
+#include "model/block_product.h"
+
+namespace sprag
+{
+  using namespace dealii;
+
+  /// A tangent has few entries in a row, so that its product with G is summed over these alone.
+  PortFactors::PortFactors(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+                           const FullMatrix<double> &tangent)
+      : matrix(static_cast<unsigned int>(ports.size()))
+  {
+    const auto n = static_cast<unsigned int>(ports.size());
+    if (n == 0)
+      return;
+    FullMatrix<double> row(1, n); // of G, which is symmetric
+    for (const auto &block : compliance.blocks())
+    {
+      const auto [first, last] = block.places_among(ports);
+      for (unsigned int k = first; k < last; ++k)
+      {
+        for (unsigned int i = first; i < last; ++i)
+          row(0, i) = (*block.matrix)(ports[k] - block.begin, ports[i] - block.begin);
+        for (unsigned int j = 0; j < n; ++j)
+          if (const double value = -tangent(k, j); value != 0.)
+            add_block_product(row, { first, last }, { 0, 1 }, &value, &matrix(first, j));
+      }
+    }
+    for (unsigned int i = 0; i < n; ++i)
+      matrix(i, i) += 1.;
+    matrix.compute_lu_factorization();
+  }
+
+  void PortFactors::solve(Vector<double> &values) const
+  {
+    if (values.size() > 0)
+      matrix.solve(values);
+  }
+
+  double PortFactors::determinant() const
+  {
+    return matrix.m() > 0 ? matrix.determinant() : 1.;
+  }
+} // namespace sprag

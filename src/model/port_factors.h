@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "model/port_compliance.h"
+
+#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+namespace sprag
+{
+  /// LU factors of the dense matrix 1 - G A on some of the ports, with the compliance G and a tangent A = df/dz.
+  class PortFactors
+  {
+  public:
+    /// Throws an exception of deal.II where the matrix is singular.
+    PortFactors(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+                const dealii::FullMatrix<double> &tangent);
+
+    /// Replaces b by the solution of (1 - G A) x = b.
+    void solve(dealii::Vector<double> &values) const;
+
+    double determinant() const;
+
+  private:
+    dealii::LAPACKFullMatrix<double> matrix;
+  };
+} // namespace sprag
