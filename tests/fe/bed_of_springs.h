@@ -20,7 +20,8 @@ namespace sprag
   class Bed
   {
   public:
-    explicit Bed(const Cylinder &cylinder, const double stiffness, const unsigned int elements_across = 20)
+    explicit Bed(const Cylinder &cylinder, const double stiffness, const unsigned int elements_across = 20,
+                 const FrictionLaw &friction = {})
         : fe(dealii::FE_Q<3>(2), 3)
     {
       const double e = model_a().geometry.interface_offset;
@@ -50,7 +51,9 @@ namespace sprag
                                                                                  geometry.cylinder_radius,
                                                                                  ports,
                                                                                  0.,
-                                                                                 { stiffness, stiffness } });
+                                                                                 { stiffness, stiffness },
+                                                                                 false,
+                                                                                 friction });
     }
 
     /// Ports at rest and an inclination at which the cylinder overlaps by so much in the middle [mm].
@@ -63,10 +66,10 @@ namespace sprag
       return result;
     }
 
-    SurfaceEvaluation evaluated(const dealii::Vector<double> &begin, const double from_x, const dealii::Vector<double> &end,
+    FaceEvaluation<3> evaluated(const dealii::Vector<double> &begin, const double from_x, const dealii::Vector<double> &end,
                                 const double friction)
     {
-      SurfaceEvaluation found;
+      FaceEvaluation<3> found;
       contact->begin_step({ begin, from_x });
       contact->evaluate({ end, x }, {}, 0., StaticTerms{ { CoulombFriction{ friction } }, 1. }, found);
       contact->add_points(found);
@@ -95,7 +98,7 @@ namespace sprag
     }
 
     /// Force and moment on the lever of an evaluation about the cylinder's middle, in the axes of the world.
-    std::array<dealii::Tensor<1, 3>, 2> resultant(const SurfaceEvaluation &found) const
+    std::array<dealii::Tensor<1, 3>, 2> resultant(const FaceEvaluation<3> &found) const
     {
       const auto geometry = model_a().geometry;
       const double theta  = found.displacement[ports.rotation()];

@@ -30,7 +30,7 @@ TEST(ElasticObstacle, ForcesOnLeverAndCylinderAreEqualAndOpposite)
   const MeshedPair bodies;
   const auto properties = properties_of(*bodies, false, 0.);
   FaceContact contact(*bodies, properties);
-  FaceEvaluation found;
+  FaceEvaluation<2> found;
   const PressedStep step(contact, *bodies, properties.ports, 2e-4, 1.01);
   contact.evaluate(*step, found);
   const auto n_lever = 2 * static_cast<unsigned int>((*bodies).friction_face().nodes.size());
@@ -53,9 +53,9 @@ TEST(ElasticObstacle, AnUndeformedCylinderIsARigidOne)
   const MeshedBar bar(bar_on_cylinder());
   const auto rigid_properties = properties_of(*bar, false, 0.);
   FaceContact contact(*bodies, properties);
-  FaceEvaluation found;
+  FaceEvaluation<2> found;
   FaceContact rigid(*bar, rigid_properties);
-  FaceEvaluation found_of_rigid;
+  FaceEvaluation<2> found_of_rigid;
   for (const double speed : { 100., -100. })
   {
     Vector ports(properties.ports.size()), of_rigid(rigid_properties.ports.size());
@@ -86,7 +86,7 @@ TEST(ElasticObstacle, RefusesAContactBeyondTheCylindersFace)
   const MeshedPair bodies;
   const auto properties = properties_of(*bodies, false, 0.);
   FaceContact contact(*bodies, properties);
-  FaceEvaluation found;
+  FaceEvaluation<2> found;
   Vector ports(properties.ports.size());
   const auto n_lever = static_cast<unsigned int>((*bodies).friction_face().nodes.size());
   for (unsigned int i = 0; i < n_lever; ++i)

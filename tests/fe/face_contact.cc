@@ -55,7 +55,7 @@ TEST_P(FaceContactOn, TangentIsTheDerivativeOfTheForces)
         const auto given = properties(sprung, regularisation);
         FaceContact contact(body, given);
         auto taken = step(contact, given.ports, x);
-        FaceEvaluation found;
+        FaceEvaluation<2> found;
         EXPECT_LE(tangent_error(found.forces, taken.end, [&] { contact.evaluate(*taken, found); }), tolerance)
             << sprung << " " << x;
         EXPECT_GT(found.forces.ports.size(), elastic ? 20u : 10u);
@@ -71,7 +71,7 @@ TEST_P(FaceContactOn, TangentOfSteadySlidingIsTheDerivativeOfTheForces)
       FaceContact contact(body, given);
       const auto taken = step(contact, given.ports, 1.01);
       Vector ports     = taken.end;
-      FaceEvaluation found;
+      FaceEvaluation<2> found;
       EXPECT_LE(tangent_error(found.forces, ports,
                               [&] {
                                 contact.evaluate_sliding({ ports, taken.to, speed }, found);
@@ -112,7 +112,7 @@ TEST_P(FaceContactOn, WorksBalance)
       FaceContact contact(body, given);
       const auto taken    = step(contact, given.ports, 1. + 0.05 * share, share, spectral_radius);
       const double before = taken.found.energy();
-      FaceEvaluation found;
+      FaceEvaluation<2> found;
       contact.evaluate(*taken, found);
       const StepWork work   = found.work();
       const double of_ports = work_of(found.forces, taken.begin.position, taken.end);
@@ -134,7 +134,7 @@ TEST_P(FaceContactOn, ApartNothingHappens)
   FaceContact contact(body, given);
   Vector ports(given.ports.size());
   ports[given.ports.rotation()] = 0.02;
-  FaceEvaluation found;
+  FaceEvaluation<2> found;
   EXPECT_TRUE(contact.touch(ports, { 0., 0., 0. }, found).empty());
   EXPECT_TRUE(found.forces.ports.empty());
   EXPECT_EQ(found.energy(), 0.);
@@ -186,7 +186,7 @@ TEST(FaceContact, ForcesOfSlidingAreThoseObserved)
   const auto properties = properties_of(*bar, false, 0.);
   FaceContact contact(*bar, properties);
   const PressedStep step(contact, *bar, properties.ports, 1e-3, 1.01);
-  FaceEvaluation found;
+  FaceEvaluation<2> found;
   contact.evaluate_sliding({ step.end, step.to, 100. }, found);
   Row row;
   contact.observe(found, row);

@@ -25,7 +25,7 @@ namespace
 
   PortForces forces_of(const FaceContact &contact, const SlidingState &state)
   {
-    FaceEvaluation found;
+    FaceEvaluation<2> found;
     contact.evaluate_sliding(state, found);
     return found.forces;
   }
@@ -42,7 +42,7 @@ TEST(FaceLinearisation, RatesAreTheDerivativeOfTheForcesByVelocities)
       {
         const auto properties = properties_of(*bar, sprung, regularisation);
         FaceContact contact(*bar, properties);
-        FaceEvaluation found;
+        FaceEvaluation<2> found;
         const Vector ports = pressed(properties.ports, 0.01);
         const DrivePoint drive{ 0., 0., speed, 0. };
         const auto with_rates = [&](const Vector &rates) {
@@ -78,7 +78,7 @@ TEST(FaceLinearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
       {
         const auto properties = properties_of(*bar, sprung, 0.);
         FaceContact contact(*bar, properties);
-        FaceEvaluation found;
+        FaceEvaluation<2> found;
         const Vector at   = pressed(properties.ports, 0.01);
         const auto linear = contact.linearise({ at, { 0., 0., speed, 0. }, speed }, found);
         ASSERT_GT(linear.delays.size(), 10u);
@@ -127,7 +127,7 @@ TEST(FaceLinearisation, StuckIsTheTangentOfAStepInStick)
   {
     const auto properties = properties_of(*bar, sprung, 0.);
     FaceContact contact(*bar, properties);
-    FaceEvaluation found;
+    FaceEvaluation<2> found;
     const Vector ports = pressed(properties.ports, 0.01);
     const DrivePoint drive{ 0., 0., 0., 0. };
     const auto linear = forces_of(contact, { ports, drive, 100., nullptr, ContactFriction::stuck });
@@ -149,7 +149,7 @@ TEST(FaceLinearisation, IsNothingOutOfContact)
   const MeshedBar bar(bar_on_cylinder());
   const auto properties = properties_of(*bar, true, 0.);
   FaceContact contact(*bar, properties);
-  FaceEvaluation found;
+  FaceEvaluation<2> found;
   const Vector ports = pressed(properties.ports, -0.1);
   const DrivePoint drive{ 0., 0., 100., 0. };
   EXPECT_TRUE(forces_of(contact, { ports, drive, 100. }).ports.empty());

@@ -45,7 +45,7 @@ namespace sprag
     StepWeights weights;
     DrivePoint to;
     Motion accepted;
-    FaceEvaluation found; ///< where the step begins
+    FaceEvaluation<2> found; ///< where the step begins
     Kinematic begin;
     dealii::Vector<double> end;
     dealii::Vector<double> rate;

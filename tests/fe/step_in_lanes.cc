@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "bed_of_springs.h"
 #include "cylinder_kinematics.h"
-#include "fe/solid/surface_observation.h"
+#include "fe/solid/surface_contact.h"
 #include "mpi_environment.h"
 
 #include <gtest/gtest.h>
@@ -33,15 +33,15 @@ TEST_P(StepInLanesOfAnAxis, AStepInTimeFollowsTheLawsAtEachPoint)
   for (const auto &friction : { FrictionLaw{ CoulombFriction{ 0.4 } }, FrictionLaw{ CoulombFriction{ 50. } }, FrictionLaw{},
                                 FrictionLaw{ StribeckFriction{} }, regularised })
   {
-    Bed bed(cylinder, 12.5, 6);
+    Bed bed(cylinder, 12.5, 6, friction);
     const auto weights = generalised_alpha(0.8, 6e-3);
     const std::vector<ContactMemory> none;
     const auto step = [&](const auto &from, const auto &to, const double x, const std::vector<SurfaceMemory> &memory)
     {
-      SurfaceEvaluation found;
+      FaceEvaluation<3> found;
       bed.surface().evaluate(
           PortStep{ { 0., x - 0.7, 112., 0. }, none, { 6e-3, x, 112., 0., 0.3 }, { from, {}, {} }, to, {}, weights, &memory },
-          friction, found);
+          found);
       bed.surface().complete(found);
       return found;
     };
@@ -121,9 +121,9 @@ TEST_P(StepInLanesOfAnAxis, AStepInTimeFollowsTheLawsAtEachPoint)
       pressed += expected.pressure > 0. ? 1 : 0;
     }
     EXPECT_GT(pressed, 50u);
-    EXPECT_NEAR(found.stored, energy, 1e-9 * energy);
-    EXPECT_NEAR(found.works.friction, dissipated, 1e-9 * std::abs(dissipated));
-    EXPECT_NEAR(found.works.algorithmic, algorithmic, 1e-8 * std::abs(algorithmic));
+    EXPECT_NEAR(found.sums.stored, energy, 1e-9 * energy);
+    EXPECT_NEAR(found.sums.work.friction, dissipated, 1e-9 * std::abs(dissipated));
+    EXPECT_NEAR(found.sums.work.algorithmic, algorithmic, 1e-8 * std::abs(algorithmic));
     const auto &forces = found.forces;
     const auto place   = std::find(forces.ports.begin(), forces.ports.end(), hub) - forces.ports.begin();
     EXPECT_NEAR(forces.values[static_cast<unsigned int>(place)], moment, 1e-9 * std::abs(moment));
@@ -170,7 +170,7 @@ TEST_P(StepInLanesOfAnAxis, AStepWithoutInertiaFollowsTheLawsAtEachPoint)
         const StaticTerms terms{ friction, 6e-3, mode, augmented, 0.31, 1.2 };
         const auto step = [&](const auto &from, const auto &to, const double x, const std::vector<SurfaceMemory> &memory)
         {
-          SurfaceEvaluation found;
+          FaceEvaluation<3> found;
           bed.surface().begin_step({ from, x - 0.7 });
           bed.surface().evaluate({ to, x }, memory, run, terms, found);
           bed.surface().add_points(found);
@@ -267,7 +267,7 @@ TEST_P(StepInLanesOfAnAxis, AStepWithoutInertiaFollowsTheLawsAtEachPoint)
         }
         EXPECT_GT(pressed, 50u);
         EXPECT_GT(shifted, 50u);
-        EXPECT_NEAR(found.compression, compression, 1e-10);
+        EXPECT_NEAR(found.sums.compression, compression, 1e-10);
         const auto &forces = found.forces;
         const auto place   = std::find(forces.ports.begin(), forces.ports.end(), hub) - forces.ports.begin();
         EXPECT_NEAR(forces.values[static_cast<unsigned int>(place)], moment, 1e-9 * std::abs(moment));
@@ -281,19 +281,19 @@ TEST_P(StepInLanesOfAnAxis, ForcesAreTheSameWithAndWithoutATangent)
   const auto weights = generalised_alpha(0.8, 6e-3);
   const std::vector<ContactMemory> none;
   const std::vector<SurfaceMemory> nothing;
-  Bed bed(skewed(GetParam()), 12.5, 6);
+  Bed bed(skewed(GetParam()), 12.5, 6, friction);
   const auto begin = bed.pressed(0.1), end = bed.pressed(0.03);
   const DrivePoint from{ 0., Bed::x - 0.7, 112., 0. }, to{ 6e-3, Bed::x, 112., 0. };
   const Kinematic at_begin{ begin, {}, {} };
-  const auto step = [&](const Wanted wanted, SurfaceEvaluation &found) {
-    bed.surface().evaluate(PortStep{ from, none, to, at_begin, end, {}, weights, &nothing, wanted }, friction, found);
+  const auto step = [&](const Wanted wanted, FaceEvaluation<3> &found) {
+    bed.surface().evaluate(PortStep{ from, none, to, at_begin, end, {}, weights, &nothing, wanted }, found);
   };
-  const auto slide = [&](const Wanted wanted, SurfaceEvaluation &found) {
-    bed.surface().slide(SlidingState{ end, to, 112., nullptr, ContactFriction::sliding, wanted }, friction, found);
+  const auto slide = [&](const Wanted wanted, FaceEvaluation<3> &found) {
+    bed.surface().evaluate_sliding(SlidingState{ end, to, 112., nullptr, ContactFriction::sliding, wanted }, found);
   };
   const auto check = [](const auto &evaluate)
   {
-    SurfaceEvaluation at_once, one_by_one;
+    FaceEvaluation<3> at_once, one_by_one;
     evaluate(Wanted::with_tangent, at_once);
     evaluate(Wanted::forces, one_by_one);
     EXPECT_FALSE(one_by_one.forces.has_tangent);
@@ -318,7 +318,7 @@ TEST_P(StepInLanesOfAnAxis, NothingIsPassedOverThatTouches)
   const auto weights = generalised_alpha(0.8, 6e-3);
   const std::vector<ContactMemory> none;
   const std::vector<SurfaceMemory> nothing;
-  Bed traveller(short_barrel(GetParam()), 12.5, 6);
+  Bed traveller(short_barrel(GetParam()), 12.5, 6, friction);
   unsigned int touching = 0;
   double x              = Bed::x - 0.3;
   auto begin            = traveller.pressed(-0.01);
@@ -330,20 +330,19 @@ TEST_P(StepInLanesOfAnAxis, NothingIsPassedOverThatTouches)
     const double to = x + (k % 4 == 0 ? 0.05 : 0.02);
     const auto step = [&](Bed &bed)
     {
-      SurfaceEvaluation found;
+      FaceEvaluation<3> found;
       bed.surface().evaluate(
-          PortStep{ { 0., x, 112., 0. }, none, { 6e-3, to, 112., 0. }, { begin, {}, {} }, end, {}, weights, &nothing }, friction,
-          found);
+          PortStep{ { 0., x, 112., 0. }, none, { 6e-3, to, 112., 0. }, { begin, {}, {} }, end, {}, weights, &nothing }, found);
       bed.surface().complete(found);
       bed.surface().add_points(found);
       return found;
     };
-    Bed newcomer(short_barrel(GetParam()), 12.5, 6);
+    Bed newcomer(short_barrel(GetParam()), 12.5, 6, friction);
     const auto found = step(traveller), expected = step(newcomer);
     EXPECT_EQ(found.forces.ports, expected.forces.ports);
     EXPECT_EQ(found.forces.values, expected.forces.values);
     EXPECT_EQ(found.forces.tangent, expected.forces.tangent);
-    EXPECT_EQ(found.stored, expected.stored);
+    EXPECT_EQ(found.sums.stored, expected.sums.stored);
     ASSERT_EQ(found.points.size(), expected.points.size());
     for (unsigned int i = 0; i < found.points.size(); ++i)
     {
@@ -369,23 +368,24 @@ TEST_P(StepInLanesOfAnAxis, PointsInContactTellWhatAllPointsTell)
   const auto weights = generalised_alpha(0.8, 6e-3);
   const std::vector<ContactMemory> none;
   const std::vector<SurfaceMemory> nothing;
-  Bed bed(short_barrel(GetParam()), 12.5, 6);
-  const SurfaceView view(bed.friction_face(), bed.surface(), false);
+  Bed bed(short_barrel(GetParam()), 12.5, 6, friction);
+  const FacePatches<3> patches(bed.friction_face());
+  const FaceView<3> view(bed.friction_face(), patches);
   for (const double overlap : { 0.06, 0.02, -0.01 })
   {
     const auto begin = bed.pressed(overlap - 0.01), end = bed.pressed(overlap);
-    SurfaceEvaluation found;
+    FaceEvaluation<3> found;
     bed.surface().evaluate(
         PortStep{
             { 0., Bed::x - 0.1, 112., 0. }, none, { 6e-3, Bed::x, 112., 0. }, { begin, {}, {} }, end, {}, weights, &nothing },
-        friction, found);
+        found);
     bed.surface().complete(found);
     auto all = found;
     bed.surface().add_points(all);
     EXPECT_EQ(found.points.size() < all.points.size(), overlap > 0.);
     const auto before = [](const auto &a, const auto &b) { return a.index < b.index; };
     EXPECT_TRUE(std::is_sorted(found.points.begin(), found.points.end(), before));
-    const auto deepest = [](const SurfaceEvaluation &of)
+    const auto deepest = [](const FaceEvaluation<3> &of)
     { return std::min_element(of.points.begin(), of.points.end(), [](const auto &a, const auto &b) { return a.gap < b.gap; }); };
     EXPECT_EQ(deepest(found)->index, deepest(all)->index);
     Row of_some, of_all;
@@ -406,16 +406,16 @@ TEST_P(StepInLanesOfAnAxis, PointsInContactTellWhatAllPointsTell)
 TEST_P(StepInLanesOfAnAxis, ASlideIsThatOfItsParts)
 {
   const FrictionLaw friction{ StribeckFriction{} };
-  Bed bed(skewed(GetParam()), 12.5, 6);
+  Bed bed(skewed(GetParam()), 12.5, 6, friction);
   const auto ports = bed.pressed(0.03);
   const DrivePoint drive{ 0., Bed::x, -112., 0. };
   for (const auto rubs : { ContactFriction::sliding, ContactFriction::none })
   {
     const SlidingState state{ ports, drive, -112., nullptr, rubs };
-    SurfaceEvaluation found, in_parts;
-    bed.surface().slide(state, friction, found);
+    FaceEvaluation<3> found, in_parts;
+    bed.surface().evaluate_sliding(state, found);
     bed.surface().add_points(found);
-    auto rest            = bed.surface().linearise(state, friction, in_parts).stiffness();
+    auto rest            = bed.surface().linearise(state, in_parts).stiffness();
     const auto &expected = in_parts.forces;
     ASSERT_GT(expected.ports.size(), 20u);
     ASSERT_EQ(found.forces.ports, expected.ports);
@@ -424,8 +424,8 @@ TEST_P(StepInLanesOfAnAxis, ASlideIsThatOfItsParts)
     auto difference = found.forces.values;
     difference -= expected.values;
     EXPECT_LT(difference.linfty_norm(), 1e-9 * expected.values.linfty_norm());
-    EXPECT_NEAR(found.stored, in_parts.stored, 1e-9 * in_parts.stored);
-    EXPECT_EQ(std::abs(found.works.drive) + std::abs(found.works.friction) + std::abs(found.works.algorithmic), 0.);
+    EXPECT_NEAR(found.sums.stored, in_parts.sums.stored, 1e-9 * in_parts.sums.stored);
+    EXPECT_EQ(std::abs(found.sums.work.drive) + std::abs(found.sums.work.friction) + std::abs(found.sums.work.algorithmic), 0.);
     ASSERT_EQ(found.points.size(), in_parts.points.size());
     for (unsigned int i = 0; i < found.points.size(); ++i)
     {
@@ -507,14 +507,14 @@ TEST_P(StepInLanesOfAnAxis, EveryEntryOfTheTangentIsTheDerivativeOfAForce)
   for (const auto &friction :
        { falling, FrictionLaw{ CoulombFriction{ 0.4 } }, FrictionLaw{ CoulombFriction{ 50. } }, FrictionLaw{}, regularised })
   {
-    Bed bed(short_barrel(GetParam()), 12.5, 4);
+    Bed bed(short_barrel(GetParam()), 12.5, 4, friction);
     const auto before = bed.pressed(0.12), begin = bed.pressed(0.1), end = waved(bed, 0.03);
     const auto in_time = [&](const auto &from, const auto &to, const double x, const std::vector<SurfaceMemory> &memory)
     {
-      SurfaceEvaluation found;
+      FaceEvaluation<3> found;
       bed.surface().evaluate(
           PortStep{ { 0., x - 0.7, speed, 0. }, none, { 6e-3, x, speed, 0., 0.3 }, { from, {}, {} }, to, {}, weights, &memory },
-          friction, found);
+          found);
       return found;
     };
     auto first = in_time(before, begin, Bed::x - 0.7, {});
@@ -529,7 +529,7 @@ TEST_P(StepInLanesOfAnAxis, EveryEntryOfTheTangentIsTheDerivativeOfAForce)
         bed, end,
         [&](const auto &at)
         {
-          SurfaceEvaluation found;
+          FaceEvaluation<3> found;
           bed.surface().evaluate({ at, Bed::x }, memory, 0.3, terms, found);
           return found;
         },
@@ -540,8 +540,8 @@ TEST_P(StepInLanesOfAnAxis, EveryEntryOfTheTangentIsTheDerivativeOfAForce)
         bed, end,
         [&](const auto &at)
         {
-          SurfaceEvaluation found;
-          bed.surface().slide(SlidingState{ at, drive, -speed }, friction, found);
+          FaceEvaluation<3> found;
+          bed.surface().evaluate_sliding(SlidingState{ at, drive, -speed }, found);
           return found;
         },
         every);

@@ -157,13 +157,13 @@ namespace
   void expect_tangent(const Bed &bed, const dealii::Vector<double> &ports, const Evaluated &evaluated, const double friction,
                       const double tolerance = 1.5e-4)
   {
-    const SurfaceEvaluation found = evaluated(ports);
+    const FaceEvaluation<3> found = evaluated(ports);
     const auto change             = any_change(bed);
     const double step             = 1e-7;
     auto before = ports, after = ports;
     before.add(-step, change);
     after.add(step, change);
-    const SurfaceEvaluation low = evaluated(before), high = evaluated(after);
+    const FaceEvaluation<3> low = evaluated(before), high = evaluated(after);
     ASSERT_EQ(low.forces.ports, found.forces.ports);
     ASSERT_EQ(high.forces.ports, found.forces.ports);
     dealii::Vector<double> of_ports(static_cast<unsigned int>(found.forces.ports.size())), slope(of_ports.size());
@@ -217,7 +217,7 @@ TEST_P(SurfaceContactOfAnAxis, TheTangentKnowsTheSpeedOfAContactThatTravels)
     terms.travel        = 0.69;
     const auto evaluate = [&](const dealii::Vector<double> &at)
     {
-      SurfaceEvaluation found;
+      FaceEvaluation<3> found;
       bed.surface().begin_step({ begin, Bed::x - 0.7 });
       bed.surface().evaluate({ at, Bed::x }, memory, 0.3, terms, found);
       return found;
@@ -230,14 +230,14 @@ TEST_P(SurfaceContactOfAnAxis, TheTangentKnowsTheSpeedOfAContactThatTravels)
 // their state on the way.
 TEST_P(SurfaceContactOfAnAxis, SlidingIsLinearisedByDisplacementsAndVelocities)
 {
-  Bed bed(skewed(GetParam()), 12.5, 6);
+  const FrictionLaw friction{ StribeckFriction{ 0.9, 0.6, 30., 1., 1e-3 } };
+  Bed bed(skewed(GetParam()), 12.5, 6, friction);
   auto ports = bed.pressed(0.03);
   for (unsigned int port = 0; port < bed.ports.surface; ++port)
     ports[port] += 1e-3 * std::sin(1.3 * port);
   auto rates = random_vector(bed.ports.size(), 20., 3);
   for (unsigned int port = 0; port < rates.size(); ++port)
     rates[port] /= bed.length_of(port);
-  const FrictionLaw friction{ StribeckFriction{ 0.9, 0.6, 30., 1., 1e-3 } };
   const DrivePoint drive{ 0., Bed::x, 112., 0. };
   const double speed = 100.;
   const auto change  = any_change(bed);
@@ -245,15 +245,15 @@ TEST_P(SurfaceContactOfAnAxis, SlidingIsLinearisedByDisplacementsAndVelocities)
   {
     const auto at_rest = dealii::Vector<double>(bed.ports.size());
     const auto &moving = of_rates ? rates : at_rest;
-    SurfaceEvaluation found;
-    const auto linear = bed.surface().linearise({ ports, drive, speed, &moving, ContactFriction::sliding }, friction, found);
+    FaceEvaluation<3> found;
+    const auto linear = bed.surface().linearise({ ports, drive, speed, &moving, ContactFriction::sliding }, found);
     const double step = of_rates ? 1e-3 : 1e-7;
     const auto forces = [&](const double side)
     {
       auto at = ports, with = moving;
       (of_rates ? with : at).add(side * step, change);
-      SurfaceEvaluation result;
-      bed.surface().slide({ at, drive, speed, &with, ContactFriction::sliding }, friction, result);
+      FaceEvaluation<3> result;
+      bed.surface().evaluate_sliding({ at, drive, speed, &with, ContactFriction::sliding }, result);
       EXPECT_EQ(result.forces.ports, linear.ports);
       return result.forces.values;
     };
@@ -275,18 +275,17 @@ TEST_P(SurfaceContactOfAnAxis, SlidingIsLinearisedByDisplacementsAndVelocities)
 // The tangent of a step in time, and forces that balance between its ends: pressure does the work of its springs.
 TEST_P(SurfaceContactOfAnAxis, AStepInTimeHasItsTangent)
 {
-  Bed bed(skewed(GetParam()), 12.5, 6);
-  const auto begin = bed.pressed(0.02);
   const StepWeights weights{ 1e-4, 0., 0., 0.25, 0.5 };
   const DrivePoint from{ 0., Bed::x - 0.7, 112., 0. }, to{ 1e-4, Bed::x, 112., 0. };
   for (const double friction : { 0.4, 50. }) // slips, sticks
   {
+    Bed bed(skewed(GetParam()), 12.5, 6, { CoulombFriction{ friction } });
+    const auto begin     = bed.pressed(0.02);
     const auto evaluated = [&](const dealii::Vector<double> &end)
     {
-      SurfaceEvaluation found;
+      FaceEvaluation<3> found;
       const std::vector<ContactMemory> none;
-      bed.surface().evaluate(PortStep{ from, none, to, { begin, {}, {} }, end, {}, weights }, { CoulombFriction{ friction } },
-                             found);
+      bed.surface().evaluate(PortStep{ from, none, to, { begin, {}, {} }, end, {}, weights }, found);
       return found;
     };
     auto end = bed.pressed(0.03);

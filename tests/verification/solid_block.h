@@ -234,7 +234,7 @@ namespace sprag
           placed[port] += place[port % 3];
         contact.evaluate({ placed, 0. }, memory, 0., terms, found);
         auto residual = window.residual(at, found.forces, looked_at);
-        return Pressed{ residual.norm, found.compression, std::move(residual) };
+        return Pressed{ residual.norm, found.sums.compression, std::move(residual) };
       };
       const auto result = solve_by_newton(
           elastic, 1e-14, evaluate,
@@ -339,6 +339,6 @@ namespace sprag
     SurfaceContact contact;
     dealii::Vector<double> elastic; ///< displacement of the face by the forces
     dealii::Vector<double> placed;  ///< and with the block's
-    SurfaceEvaluation found;
+    FaceEvaluation<3> found;
   };
 } // namespace sprag

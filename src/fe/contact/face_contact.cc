@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/contact/face_contact.h"
 
-#include "fe/contact/face_observation.h"
 #include "laws/friction_of_step.h"
 
 #include <algorithm>
@@ -12,18 +11,11 @@ namespace sprag
 {
   using dealii::Vector;
 
-  double FaceContact::drive_force(const FaceEvaluation &found) const
+  void FaceContact::observe(const FaceEvaluation<2> &found, Row &row, unsigned int) const
   {
-    double sum = 0.;
-    for (const auto &point : found.points)
-      sum -= face.points[point.index].weight * point.end_force[3];
-    return sum;
-  }
-
-  void FaceContact::observe(const FaceEvaluation &found, Row &row, unsigned int) const
-  {
-    FaceView(body.friction_face(), properties.layer_thickness).observe(found, row);
-    row[Column::Q] = drive_force(found);
+    view.observe(found, row);
+    row[Column::Q]           = drive_force(found);
+    row[Column::indentation] = indentation(body.friction_face(), found, row, properties.layer_thickness);
   }
 
   SurfaceShape FaceContact::surface_shape(const dealii::Vector<double> &displacements, unsigned int) const
@@ -37,16 +29,6 @@ namespace sprag
       shape.across.push_back(displacements[2 * node + 1]);
     }
     return shape;
-  }
-
-  FacePoints FaceContact::face_points() const
-  {
-    return FaceView(body.friction_face(), properties.layer_thickness).points();
-  }
-
-  FaceState FaceContact::face_state(const FaceEvaluation &found, const DrivePoint &drive) const
-  {
-    return FaceView(body.friction_face(), properties.layer_thickness).state(found, drive);
   }
 
   namespace
@@ -65,6 +47,7 @@ namespace sprag
       : body(body_)
       , properties(std::move(properties_))
       , face(body.friction_face())
+      , view(body.friction_face(), face)
       , obstacle(make_obstacle(body, face, properties))
       , place_of_port(properties.ports.size())
   {
@@ -85,16 +68,6 @@ namespace sprag
     const double inclination = properties.rest_inclination + ports[properties.ports.rotation()];
     const double relative    = x - (properties.ports.sprung ? ports[properties.ports.support()] : 0.);
     return { &ports, inclination, relative, properties.centre(relative, inclination) };
-  }
-
-  void FaceContact::begin(const Vector<double> &ports, const double x, const double duration, FaceEvaluation &found)
-  {
-    found.displacement = ports;
-    found.x            = x;
-    found.duration     = duration;
-    found.within_reach = true;
-    found.sums         = {};
-    found.points.clear();
   }
 
   namespace
@@ -132,9 +105,9 @@ namespace sprag
         obstacle);
   }
 
-  void FaceContact::evaluate(const PortStep &step, FaceEvaluation &found, const std::optional<StaticTerms> &statics) const
+  void FaceContact::evaluate(const PortStep &step, FaceEvaluation<2> &found, const std::optional<StaticTerms> &statics) const
   {
-    begin(step.end, step.to.x, step.weights.dt, found);
+    found.begin(step.end, step.to.x, step.weights.dt);
     FaceStep of_contact{ law_of_step(properties, step, statics), step.memory, step.to.surface - step.from.surface };
     if (statics)
     {
@@ -152,18 +125,15 @@ namespace sprag
 
   /// Finds the patches of a step. Where forces are means over the step, those in contact when it began belong to them.
   FacePatches<2>::Indices FaceContact::near_step(const std::vector<ContactMemory> &memory, const ForceBalance balance,
-                                                 FaceEvaluation &found) const
+                                                 FaceEvaluation<2> &found) const
   {
-    if (balance == ForceBalance::end)
-      return clip(near(), found);
-    FacePatches<2>::Indices remembered;
-    for (const auto &entry : memory)
-      if (remembered.empty() || entry.point >= face.patches[remembered.back()].end)
-        remembered.push_back(face.patch_of_point(entry.point));
-    return clip(united(near(), remembered), found);
+    auto patches = near();
+    if (balance != ForceBalance::end)
+      patches = united(patches, patches_of(face, memory));
+    return reach.clip(std::move(patches), found.within_reach);
   }
 
-  FacePointState<2> &FaceContact::add_point(const unsigned int patch, const unsigned int point, FaceEvaluation &found)
+  FacePointState<2> &FaceContact::add_point(const unsigned int patch, const unsigned int point, FaceEvaluation<2> &found)
   {
     FacePointState<2> &state = found.points.emplace_back();
     state.index              = point;
@@ -171,17 +141,9 @@ namespace sprag
     return state;
   }
 
-  namespace
-  {
-    std::vector<ContactMemory>::const_iterator first_memory(const std::vector<ContactMemory> &memory, const unsigned int point)
-    {
-      const auto is_before = [](const ContactMemory &entry, const unsigned int q) { return entry.point < q; };
-      return std::lower_bound(memory.begin(), memory.end(), point, is_before);
-    }
-  } // namespace
-
   template <class ObstacleBelow>
-  void FaceContact::step_patch(ObstacleBelow &below, const unsigned int patch, const FaceStep &step, FaceEvaluation &found) const
+  void FaceContact::step_patch(ObstacleBelow &below, const unsigned int patch, const FaceStep &step,
+                               FaceEvaluation<2> &found) const
   {
     const double penalty    = properties.penalties.normal;
     const bool ends_balance = step.law.balance == ForceBalance::end;
@@ -204,12 +166,12 @@ namespace sprag
     below.leave(found.sums);
   }
 
-  void FaceContact::evaluate_sliding(const SlidingState &state, FaceEvaluation &found) const
+  void FaceContact::evaluate_sliding(const SlidingState &state, FaceEvaluation<2> &found) const
   {
     slide(state, false, found);
   }
 
-  PortPerturbation FaceContact::linearise(const SlidingState &state, FaceEvaluation &found) const
+  PortPerturbation FaceContact::linearise(const SlidingState &state, FaceEvaluation<2> &found) const
   {
     slide(state, true, found);
     PortPerturbation result(found.forces.ports);
@@ -219,14 +181,14 @@ namespace sprag
     return result;
   }
 
-  void FaceContact::slide(const SlidingState &sliding, const bool in_parts, FaceEvaluation &found) const
+  void FaceContact::slide(const SlidingState &sliding, const bool in_parts, FaceEvaluation<2> &found) const
   {
-    begin(sliding.ports, sliding.drive.x, 1., found); // slip in a second
+    found.begin(sliding.ports, sliding.drive.x, 1.); // slip in a second
     found.sums.in_parts = in_parts;
     const auto at       = configuration(sliding.ports, sliding.drive.x);
     enter({ at, at });
     const auto law = friction_of_slide(properties.friction, sliding);
-    visit_patches(clip(near(), found),
+    visit_patches(reach.clip(near(), found.within_reach),
                   [&](auto &below, const unsigned int patch)
                   {
                     for (unsigned int q = face.patches[patch].begin; q < face.patches[patch].end; ++q)
@@ -246,7 +208,7 @@ namespace sprag
   const PortSelection &FaceContact::reachable_ports(const double x, const OfLevers &inclinations, const double travel)
   {
     const double of_radius    = properties.radius > 0. ? 0.05 * properties.radius : std::numeric_limits<double>::infinity();
-    const double of_contact   = reach_factor * of_radius + std::abs(travel);
+    const double of_contact   = reach.factor * of_radius + std::abs(travel);
     const double aside        = 4. * properties.layer_thickness; // where the face is looked at besides
     const double xi           = properties.centre(x, inclinations.front()).xi;
     const auto patches_within = [&](const double distance)
@@ -254,37 +216,15 @@ namespace sprag
       constexpr double infinity = std::numeric_limits<double>::max();
       return face.patches_in({ { { xi - distance, -infinity }, { xi + distance, infinity } } });
     };
-    reached      = patches_within(of_contact);
-    auto patches = patches_within(of_contact + aside);
-    if (reachable.empty() || patches != looked_at)
-    {
-      looked_at = std::move(patches);
-      reachable = face.displacements_of(looked_at);
-      for (auto port = 2 * static_cast<unsigned int>(body.friction_face().nodes.size()); port < properties.ports.size(); ++port)
-        reachable.push_back(port);
-    }
-    return reachable;
+    reach.set(face, patches_within(of_contact), patches_within(of_contact + aside),
+              2 * static_cast<unsigned int>(body.friction_face().nodes.size()), properties.ports.size());
+    return reach.ports;
   }
 
-  /// Leaves out the patches that reachable_ports() was not asked for. Before its first call all can be reached.
-  FacePatches<2>::Indices FaceContact::clip(FacePatches<2>::Indices near, FaceEvaluation &found) const
+  std::vector<ContactMemory> FaceContact::touch(const Vector<double> &ports, const DrivePoint &drive,
+                                                FaceEvaluation<2> &found) const
   {
-    found.within_reach = reachable.empty() || std::includes(reached.begin(), reached.end(), near.begin(), near.end());
-    if (found.within_reach)
-      return near;
-    FacePatches<2>::Indices result;
-    std::set_intersection(near.begin(), near.end(), reached.begin(), reached.end(), std::back_inserter(result));
-    return result;
-  }
-
-  void FaceContact::widen_reach()
-  {
-    reach_factor *= 2.;
-  }
-
-  std::vector<ContactMemory> FaceContact::touch(const Vector<double> &ports, const DrivePoint &drive, FaceEvaluation &found) const
-  {
-    begin(ports, drive.x, 0., found);
+    found.begin(ports, drive.x, 0.);
     const auto at = configuration(ports, drive.x);
     enter({ at, at });
     visit_patches(near(),
@@ -295,16 +235,6 @@ namespace sprag
                   });
     sum_forces(found.sums.loaded, place_of_port, found.forces);
     return {};
-  }
-
-  const ContactPenalties &FaceContact::penalties() const
-  {
-    return properties.penalties;
-  }
-
-  void FaceContact::use_penalties(const ContactPenalties &penalties)
-  {
-    properties.penalties = penalties;
   }
 
   namespace
@@ -321,7 +251,7 @@ namespace sprag
     }
   } // namespace
 
-  double FaceContact::gap_change(const FaceEvaluation &found, const Vector<double> &change_of_ports, unsigned int) const
+  double FaceContact::gap_change(const FaceEvaluation<2> &found, const Vector<double> &change_of_ports, unsigned int) const
   {
     const auto at = configuration(found.displacement, found.x);
     enter({ at, at });
@@ -337,7 +267,7 @@ namespace sprag
     return change;
   }
 
-  double FaceContact::mean_slip(const FaceEvaluation &found, const Vector<double> &from, const double from_x,
+  double FaceContact::mean_slip(const FaceEvaluation<2> &found, const Vector<double> &from, const double from_x,
                                 const Vector<double> &to, const double to_x) const
   {
     enter({ configuration(from, from_x), configuration(to, to_x) });

@@ -4,11 +4,9 @@
 #include "base/archive.h"
 #include "fe/body/elastic_body.h"
 #include "fe/contact/elastic_obstacle.h"
-#include "fe/contact/face_evaluation.h"
+#include "fe/contact/face_observation.h"
 #include "fe/contact/rigid_obstacle.h"
 #include "model/port_step.h"
-#include "results/columns.h"
-#include "results/result_file.h"
 
 #include <optional>
 #include <variant>
@@ -41,87 +39,109 @@ namespace sprag
     /// The body must outlive the contact.
     FaceContact(const ElasticBody<2> &body, FaceContactProperties properties);
 
-    using Evaluation = FaceEvaluation;
+    using Evaluation = FaceEvaluation<2>;
 
     /// Evaluates a step: in time, or without inertia, where the rates do not count.
-    void evaluate(const PortStep &step, FaceEvaluation &found, const std::optional<StaticTerms> &statics = {}) const;
+    void evaluate(const PortStep &step, FaceEvaluation<2> &found, const std::optional<StaticTerms> &statics = {}) const;
 
     /// Evaluates steady sliding.
-    void evaluate_sliding(const SlidingState &state, FaceEvaluation &found) const;
+    void evaluate_sliding(const SlidingState &state, FaceEvaluation<2> &found) const;
 
     /// Evaluates steady sliding and linearises its forces on their ports. Friction delays at each point in contact.
-    PortPerturbation linearise(const SlidingState &state, FaceEvaluation &found) const;
+    PortPerturbation linearise(const SlidingState &state, FaceEvaluation<2> &found) const;
 
     /// Returns the ports near the cylinder at x from the pivot frame's origin and inclination theta, far beyond the contact's
     /// width and where it may have been `travel` before [mm]. Evaluations that follow look at those alone.
     const PortSelection &reachable_ports(double x, const OfLevers &theta, double travel = 0.);
 
     /// Doubles how far these ports reach, from their next call on. To be called where an evaluation was not within them.
-    void widen_reach();
+    void widen_reach()
+    {
+      reach.factor *= 2.;
+    }
 
     /// Evaluates the contact at rest without force.
-    std::vector<ContactMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive, FaceEvaluation &found) const;
+    std::vector<ContactMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive,
+                                     FaceEvaluation<2> &found) const;
 
-    const ContactPenalties &penalties() const;
+    const ContactPenalties &penalties() const
+    {
+      return properties.penalties;
+    }
 
     /// Evaluates with other penalties from now on [N/mm^3], > 0.
-    void use_penalties(const ContactPenalties &penalties);
+    void use_penalties(const ContactPenalties &penalties)
+    {
+      properties.penalties = penalties;
+    }
 
     /// Returns by how much a small change of the ports changes the gap in the middle of the contact, or where it is smallest
     /// [mm].
-    double gap_change(const FaceEvaluation &found, const dealii::Vector<double> &change_of_ports, unsigned int lever = 0) const;
+    double gap_change(const FaceEvaluation<2> &found, const dealii::Vector<double> &change_of_ports,
+                      unsigned int lever = 0) const;
 
     /// Returns the mean slip of the points in contact, weighted with their pressure, from one configuration to another [mm].
-    double mean_slip(const FaceEvaluation &found, const dealii::Vector<double> &from, double from_x,
+    double mean_slip(const FaceEvaluation<2> &found, const dealii::Vector<double> &from, double from_x,
                      const dealii::Vector<double> &to, double to_x) const;
 
     /// Fills the columns of a row that follow from the contact.
-    void observe(const FaceEvaluation &found, Row &row, unsigned int lever = 0) const;
+    void observe(const FaceEvaluation<2> &found, Row &row, unsigned int lever = 0) const;
+
+    /// Fills those that are sums over the points under pressure.
+    void observe_resultants(const FaceEvaluation<2> &found, Row &row) const
+    {
+      view.observe_resultants(found, row);
+    }
 
     /// Returns Q at the end of the step [N].
-    double drive_force(const FaceEvaluation &found) const;
+    double drive_force(const FaceEvaluation<2> &found) const
+    {
+      return view.drive_force(found);
+    }
 
     /// Returns the displacements of the face's nodes.
     SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
-    FacePoints face_points() const;
-    FaceState face_state(const FaceEvaluation &found, const DrivePoint &drive) const;
+    const FacePoints &face_points() const
+    {
+      return view.points();
+    }
+    FaceState face_state(const FaceEvaluation<2> &found, const DrivePoint &drive) const
+    {
+      return view.state(found, drive);
+    }
 
     /// Visits how far it reaches and where it was last.
     void visit_history(Archive &archive)
     {
-      archive(reach_factor);
+      archive(reach.factor);
       face.visit_history(archive);
     }
 
   private:
-    static void begin(const dealii::Vector<double> &ports, double x, double duration, FaceEvaluation &found);
     FaceConfiguration configuration(const dealii::Vector<double> &ports, double x) const;
     FacePatches<2>::Indices near_step(const std::vector<ContactMemory> &memory, ForceBalance balance,
-                                      FaceEvaluation &found) const;
+                                      FaceEvaluation<2> &found) const;
 
     /// Enters patches of the obstacle one after the other and calls `of_patch`(obstacle, patch).
     template <class OfPatch>
     void visit_patches(const FacePatches<2>::Indices &patches, const OfPatch &of_patch) const;
 
     template <class ObstacleBelow>
-    void step_patch(ObstacleBelow &below, unsigned int patch, const FaceStep &step, FaceEvaluation &found) const;
-    void slide(const SlidingState &sliding, bool in_parts, FaceEvaluation &found) const;
+    void step_patch(ObstacleBelow &below, unsigned int patch, const FaceStep &step, FaceEvaluation<2> &found) const;
+    void slide(const SlidingState &sliding, bool in_parts, FaceEvaluation<2> &found) const;
     void enter(const StepPlaces &places) const;
     FacePatches<2>::Indices near() const;
-    static FacePointState<2> &add_point(unsigned int patch, unsigned int point, FaceEvaluation &found);
-    FacePatches<2>::Indices clip(FacePatches<2>::Indices near, FaceEvaluation &found) const;
+    static FacePointState<2> &add_point(unsigned int patch, unsigned int point, FaceEvaluation<2> &found);
 
     const ElasticBody<2> &body;
     FaceContactProperties properties;
     FacePatches<2> face;
+    const FaceView<2> view;
 
     // What evaluations work with; nothing of it is a result.
     mutable std::variant<RigidObstacle, ElasticObstacle> obstacle; ///< looks at one patch after the other
     mutable std::vector<unsigned int> place_of_port;               ///< among those summed
 
-    PortSelection reachable;
-    FacePatches<2>::Indices reached;   ///< patches that the contact may touch
-    FacePatches<2>::Indices looked_at; ///< patches of `reachable`
-    double reach_factor = 1.;
+    FaceReach<2> reach;
   };
 } // namespace sprag

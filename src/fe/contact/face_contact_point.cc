@@ -24,31 +24,35 @@ namespace sprag
     properties.radius   = geometry.cylinder_radius;
   }
 
-  ContactMemory FaceStep::memory_of(const unsigned int point) const
-  {
-    const auto is_before = [](const ContactMemory &entry, const unsigned int q) { return entry.point < q; };
-    const auto found     = std::lower_bound(memory.begin(), memory.end(), point, is_before);
-    return found != memory.end() && found->point == point ? *found : ContactMemory{};
-  }
-
-  SlipShift slip_shift(const FacePatches<2> &face, const unsigned int point, const double slope, const FaceStep &step,
+  template <int dim>
+  SlipShift slip_shift(const FacePatches<dim> &face, const unsigned int point, const double slope, const double travel,
+                       const double stiffness, const std::vector<PointMemory<dim - 1>> &memory,
                        const std::function<double(unsigned int)> &slip_at_begin)
   {
-    const auto &points = face.points;
-    const double xi    = points[point].position[0] - step.travel;
-    if (step.travel == 0. || xi < points.front().position[0] || xi > points.back().position[0])
+    const auto &line = face.lines[face.line_of_point[point]];
+    const auto xi_of = [&](const unsigned int q) { return face.points[q].position[0]; };
+    const double xi  = xi_of(point) - travel;
+    if (travel == 0. || line.size() < 2 || xi < xi_of(line.front()) || xi > xi_of(line.back()))
       return {};
-    const auto after    = std::upper_bound(points.begin() + 1, points.end() - 1, xi,
-                                           [](const double value, const auto &at) { return value < at.position[0]; });
-    const auto i        = static_cast<unsigned int>(after - points.begin());
-    const double before = (after - 1)->position[0];
-    const double share  = (xi - before) / (after->position[0] - before);
-    const auto between  = [share](const double a, const double b) { return (1. - share) * a + share * b; };
-    const double slip   = slip_at_begin(point) - between(slip_at_begin(i - 1), slip_at_begin(i)) - step.travel * slope;
-    const double unwinding =
-        between(step.memory_of(i - 1).traction[0], step.memory_of(i).traction[0]) - step.memory_of(point).traction[0];
-    return { slip, step.augmented ? 0. : unwinding / step.law.slip.stiffness, -step.travel };
+    const auto after     = std::upper_bound(line.begin() + 1, line.end() - 1, xi,
+                                            [&](const double value, const unsigned int q) { return value < xi_of(q); });
+    const unsigned int a = *(after - 1), b = *after;
+    const double share     = (xi - xi_of(a)) / (xi_of(b) - xi_of(a));
+    const auto between     = [share](const double first, const double last) { return (1. - share) * first + share * last; };
+    const auto traction_of = [&](const unsigned int q)
+    {
+      const auto found = first_memory(memory, q);
+      return found != memory.end() && found->point == q ? found->traction[0] : 0.;
+    };
+    const double slip      = slip_at_begin(point) - between(slip_at_begin(a), slip_at_begin(b)) - travel * slope;
+    const double unwinding = between(traction_of(a), traction_of(b)) - traction_of(point);
+    return { slip, unwinding / stiffness, -travel };
   }
+
+  template SlipShift slip_shift<2>(const FacePatches<2> &, unsigned int, double, double, double,
+                                   const std::vector<PointMemory<1>> &, const std::function<double(unsigned int)> &);
+  template SlipShift slip_shift<3>(const FacePatches<3> &, unsigned int, double, double, double,
+                                   const std::vector<PointMemory<2>> &, const std::function<double(unsigned int)> &);
 
   SlidingTangent slide(const FaceContactProperties &properties, const FrictionLaw &law, const SlidingState &sliding,
                        const double weight, FacePointState<2> &state, ContactSums &sums)

@@ -6,7 +6,9 @@
 #include "model/linearisation.h"
 #include "model/port_coordinates.h"
 
+#include <algorithm>
 #include <functional>
+#include <limits>
 
 namespace sprag
 {
@@ -106,9 +108,31 @@ namespace sprag
     double travel      = 0.; ///< of the contact along the lever in the step [mm]; 0: speeds are means
     double speed_ratio = 1.; ///< sliding speed of a rigid lever at the end over its mean; the law's duration is shorter by it
 
-    /// Returns the memory of a point of the face, by its index. That of a point that was open is empty.
-    ContactMemory memory_of(unsigned int point) const;
+    /// Returns what the tangential penalty adds to the traction that is remembered, over the slip; a multiplier needs none.
+    double unwinding_stiffness() const
+    {
+      return augmented ? std::numeric_limits<double>::infinity() : law.slip.stiffness;
+    }
   };
+
+  /// Finds the memory of the first point in contact from one on, by indices in the face.
+  template <int slips>
+  auto first_memory(const std::vector<PointMemory<slips>> &memory, const unsigned int point)
+  {
+    const auto is_before = [](const PointMemory<slips> &entry, const unsigned int q) { return entry.point < q; };
+    return std::lower_bound(memory.begin(), memory.end(), point, is_before);
+  }
+
+  /// Returns the patches that hold points in contact.
+  template <int dim>
+  std::vector<unsigned int> patches_of(const FacePatches<dim> &face, const std::vector<PointMemory<dim - 1>> &memory)
+  {
+    std::vector<unsigned int> result;
+    for (const auto &entry : memory)
+      if (result.empty() || entry.point >= face.patches[result.back()].end)
+        result.push_back(face.patch_of_point(entry.point));
+    return result;
+  }
 
   /// The slip that a point would have more in a step at the speed of its end, the ratio of speeds apart [mm].
   struct SlipShift
@@ -124,10 +148,13 @@ namespace sprag
   };
 
   /// Finds the shift of a point, given by its index in the face. `slope` is that of the slip coordinate along the face at the end
-  /// of the step, `slip_at_begin` tells the slip coordinate of any point, by its index, where the step begins. There is no shift
-  /// where the contact came from beyond the face.
-  SlipShift slip_shift(const FacePatches<2> &face, unsigned int point, double slope, const FaceStep &step,
-                       const std::function<double(unsigned int)> &slip_at_begin);
+  /// of the step; 0 where its part is added later. `slip_at_begin` tells the slip coordinate of any point, by its index, where
+  /// the step begins. `stiffness` is that of the tangential penalty, infinite with multipliers. The place that had the same
+  /// distance from the contact when the step began has the same zeta. There is no shift where the contact came from beyond the
+  /// face.
+  template <int dim>
+  SlipShift slip_shift(const FacePatches<dim> &face, unsigned int point, double slope, double travel, double stiffness,
+                       const std::vector<PointMemory<dim - 1>> &memory, const std::function<double(unsigned int)> &slip_at_begin);
 
   /// Friction's part of the tangent of a patch that slides steadily, where it is wanted apart; see PortPerturbation.
   template <class Matrix>

@@ -6,19 +6,23 @@
 
 namespace sprag
 {
-  /// The result of an evaluation of a FaceContact. The caller keeps it and may use it for the next one.
+  /// The result of an evaluation of a contact. The caller keeps it and may use it for the next one.
+  template <int dim>
   struct FaceEvaluation
   {
     dealii::Vector<double> displacement; ///< of the ports
-    double x          = 0.;              ///< of the drive
+    double x          = 0.;              ///< of the drive [mm]
     double duration   = 0.;              ///< of the step; 0: no slip speed [s]
     bool within_reach = true;            ///< whether the contact was within the ports that it may reach
     ContactSums sums;
-    std::vector<FacePointState<2>> points; ///< of the patches near the obstacle, by increasing point; those elsewhere are open
+    std::vector<FacePointState<dim>> points; ///< near the obstacle, by increasing point; in three dimensions see SurfaceContact
     PortForces forces;
 
+    /// Forgets what was found and begins another evaluation.
+    void begin(const dealii::Vector<double> &ports, double at_x, double of_duration);
+
     /// Returns the memory of the points in contact, by increasing point. Throws AnalysisError where there is an objection().
-    std::vector<ContactMemory> memory() const;
+    std::vector<PointMemory<dim - 1>> memory() const;
 
     /// Tells why the contact goes beyond what can touch; empty if it does not.
     std::string objection() const;
@@ -40,8 +44,5 @@ namespace sprag
     {
       return sums.compression;
     }
-
-    /// Returns the largest overlap of a point and the obstacle [mm].
-    double penetration() const;
   };
 } // namespace sprag

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/contact/face_observation.h"
 
-#include "fe/contact/pressure_recovery.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -10,76 +8,22 @@ namespace sprag
 {
   namespace
   {
-    /// An evaluation and the face that it is of.
-    struct FoundFace
-    {
-      const FrictionFace<2> &face;
-      const FaceEvaluation &found;
-    };
-
-    PressureSamples samples_of(const FoundFace &contact)
-    {
-      const auto &face = contact.face;
-      PressureSamples samples;
-      const auto ends_before = [](const FacePatch &patch, const unsigned int point) { return patch.end <= point; };
-      auto patch             = face.patches.begin();
-      if (!contact.found.points.empty())
-        patch = std::lower_bound(patch, face.patches.end(), contact.found.points.front().index, ends_before);
-      for (const auto &point : contact.found.points)
-      {
-        while (ends_before(*patch, point.index))
-          ++patch;
-        samples.xi.push_back(point.position[0]);
-        samples.weight.push_back(face.points[point.index].weight);
-        samples.pressure.push_back(point.pressure);
-        samples.trial.push_back(point.trial_pressure);
-        samples.cell.push_back(static_cast<unsigned int>(patch - face.patches.begin()));
-      }
-      samples.begin = face.points.front().position[0];
-      samples.end   = face.points.back().position[0];
-      return samples;
-    }
-
-    /// Displacement along xi and eta of an integration point [mm].
-    dealii::Tensor<1, 2> displacement(const FoundFace &contact, const unsigned int point)
-    {
-      dealii::Tensor<1, 2> result;
-      for (const auto &[node, shape] : contact.face.points[point].nodes)
-        for (unsigned int d = 0; d < 2; ++d)
-          result[d] += shape * contact.found.displacement[2 * node + d];
-      return result;
-    }
-
     /// Displacement along eta at xi, linear between the points [mm].
-    double deflection(const FoundFace &contact, const double xi)
+    double deflection(const FrictionFace<2> &face, const dealii::Vector<double> &displacement, const double xi)
     {
-      const auto &points   = contact.face.points;
+      const auto &points   = face.points;
       const auto is_before = [](const auto &point, const double value) { return point.position[0] < value; };
       const auto after     = std::lower_bound(points.begin() + 1, points.end() - 1, xi, is_before);
       const auto before    = after - 1;
       const double share   = std::clamp((xi - before->position[0]) / (after->position[0] - before->position[0]), 0., 1.);
-      const auto index     = static_cast<unsigned int>(before - points.begin());
-      return (1. - share) * displacement(contact, index)[1] + share * displacement(contact, index + 1)[1];
-    }
-
-    double indentation(const FoundFace &contact, const double centre, const double width, const double layer_thickness)
-    {
-      if (layer_thickness == 0.)
-        return 0.;
-      const double aside = 0.5 * width + 4. * layer_thickness;
-      return deflection(contact, centre) - 0.5 * (deflection(contact, centre - aside) + deflection(contact, centre + aside));
-    }
-
-    double cone_violation(const std::vector<FacePointState<2>> &points)
-    {
-      double excess = 0.;
-      double peak   = 0.;
-      for (const auto &point : points)
+      const auto of_point  = [&](const FacePoint<2> &point)
       {
-        excess = std::max(excess, point.traction.norm() - point.mu * point.pressure);
-        peak   = std::max(peak, point.mu * point.pressure);
-      }
-      return peak > 0. ? excess / peak : 0.;
+        double result = 0.;
+        for (const auto &[node, shape] : point.nodes)
+          result += shape * displacement[2 * node + 1];
+        return result;
+      };
+      return (1. - share) * of_point(*before) + share * of_point(*after);
     }
 
     /// Friction at a point under pressure.
@@ -110,16 +54,17 @@ namespace sprag
 
     /// Returns the friction that the recovered pressure takes along: in the ratio of each point, then as far towards mu p, either
     /// way, as the resultant of the points asks, the same share of the way everywhere.
-    std::vector<double> recovered_traction(const FoundFace &contact, const std::vector<double> &pressure)
+    std::vector<double> recovered_traction(const FrictionFace<2> &face, const FaceEvaluation<2> &found,
+                                           const std::vector<double> &pressure)
     {
-      const auto friction = frictions(contact.found.points);
-      const auto area     = [&](const std::size_t i) { return contact.face.points[contact.found.points[i].index].weight; };
+      const auto friction = frictions(found.points);
+      const auto area     = [&](const std::size_t i) { return face.points[found.points[i].index].weight; };
       std::vector<double> result;
       double lacking = 0.;
       for (std::size_t i = 0; i < friction.size(); ++i)
       {
         result.push_back(friction[i].ratio * pressure[i]);
-        lacking += area(i) * (contact.found.points[i].traction[0] - result.back());
+        lacking += area(i) * (found.points[i].traction[0] - result.back());
       }
       const auto way = [&](const std::size_t i) { return std::copysign(friction[i].mu * pressure[i], lacking) - result[i]; };
       double whole   = 0.;
@@ -130,118 +75,182 @@ namespace sprag
           result[i] += std::min(1., lacking / whole) * way(i);
       return result;
     }
-
-    /// Returns the share of a force on a point, by its index, that nodes take which the hub does not hold.
-    double share_of_free_nodes(const FoundFace &contact, const unsigned int point)
-    {
-      double share = 0.;
-      for (const auto &node : contact.face.points[point].nodes)
-        share += node.second;
-      return share;
-    }
-
-    /// Sums over the points under pressure.
-    struct Sums
-    {
-      double normal = 0., friction = 0., position = 0., speed = 0., mu = 0., power = 0., energy = 0., active = 0.;
-      double elastic_slip = 0.; ///< the largest
-      double P = 0., F = 0.;
-    };
-
-    Sums sum(const FoundFace &contact)
-    {
-      Sums sums;
-      const double dt = contact.found.duration;
-      for (const auto &point : contact.found.points)
-      {
-        if (!(point.trial_pressure > 0.))
-          continue;
-        const double area   = contact.face.points[point.index].weight;
-        const double normal = area * point.pressure;
-        const double share  = share_of_free_nodes(contact, point.index);
-        sums.F -= area * share * point.end_force[0];
-        sums.P += area * share * point.end_force[1];
-        const auto moved  = displacement(contact, point.index);
-        const double rate = dt > 0. ? point.slip_change[0] / dt : 0.;
-        sums.normal += normal;
-        sums.friction += area * point.traction[0];
-        sums.position += normal * point.position[0];
-        sums.speed += normal * rate;
-        sums.mu += normal * point.mu;
-        sums.power += area * point.traction[0] * rate;
-        sums.energy += 0.5 * area * (point.end_force[0] * moved[0] + point.end_force[1] * moved[1]);
-        sums.active += 1.;
-        sums.elastic_slip = std::max(sums.elastic_slip, point.elastic_slip);
-      }
-      return sums;
-    }
   } // namespace
 
-  void FaceView::observe(const FaceEvaluation &found, Row &row) const
+  double indentation(const FrictionFace<2> &face, const FaceEvaluation<2> &found, const Row &row, const double layer_thickness)
   {
-    const FoundFace contact{ face, found };
-    const auto samples            = samples_of(contact);
-    const auto recovery           = recover(samples);
-    row[Column::contact_width]    = contact_width(samples, recovery);
-    row[Column::largest_pressure] = recovery.largest;
-    if (recovery.largest > 0.)
-      row[Column::largest_pressure_xi] = recovery.place;
-    row[Column::indentation] = 0.;
+    if (layer_thickness == 0. || !(row[Column::normal_resultant] > 0.))
+      return 0.;
+    const double centre = row[Column::s];
+    const double aside  = 0.5 * row[Column::contact_width] + 4. * layer_thickness;
+    const auto at       = [&](const double xi) { return deflection(face, found.displacement, xi); };
+    return at(centre) - 0.5 * (at(centre - aside) + at(centre + aside));
+  }
+
+  template <int dim>
+  FaceView<dim>::FaceView(const FrictionFace<dim> &face_, const FacePatches<dim> &patches_, const bool half)
+      : face(face_)
+      , patches(patches_)
+      , is_half(half)
+      , parts(parts_of(face))
+  {
+  }
+
+  /// The pressure is told as recovered in a plane, on a surface as it is.
+  template <int dim>
+  FaceState FaceView<dim>::state(const FaceEvaluation<dim> &found, const DrivePoint &drive) const
+  {
+    const std::vector<double> nothing(parts.points.xi.size(), 0.);
+    FaceState result{ drive.time, drive.x, nothing, nothing, {}, {}, {} };
+    if constexpr (dim == 2)
+    {
+      const auto pressure = recover(samples_of(found, 0)).pressure;
+      const auto traction = recovered_traction(face, found, pressure);
+      for (std::size_t i = 0; i < found.points.size(); ++i)
+      {
+        result.pressure[found.points[i].index] = pressure[i];
+        result.traction[found.points[i].index] = traction[i];
+      }
+    }
+    else
+    {
+      result.traction_across = nothing;
+      for (const auto &point : found.points)
+      {
+        const unsigned int part = parts.part_of_point[point.index];
+        const double share      = face.points[point.index].weight / parts.points.weight[part];
+        result.pressure[part] += share * point.pressure;
+        result.traction[part] += share * point.traction[0];
+        result.traction_across[part] += share * point.end_force[2];
+      }
+    }
+    return result;
+  }
+
+  template <int dim>
+  double FaceView<dim>::drive_force(const FaceEvaluation<dim> &found) const
+  {
+    double sum = 0.;
+    for (const auto &point : found.points)
+      sum -= face.points[point.index].weight * point.end_force[dim + 1];
+    return sum;
+  }
+
+  template <int dim>
+  void FaceView<dim>::observe(const FaceEvaluation<dim> &found, Row &row) const
+  {
     observe_resultants(found, row);
-    if (row[Column::normal_resultant] > 0.)
-      row[Column::indentation] = indentation(contact, row[Column::s], row[Column::contact_width], layer_thickness);
+    observe_pressure(found, row);
   }
 
-  void FaceView::observe_resultants(const FaceEvaluation &found, Row &row) const
+  template <int dim>
+  void FaceView<dim>::observe_resultants(const FaceEvaluation<dim> &found, Row &row) const
   {
-    const FoundFace contact{ face, found };
-    const Sums sums                 = sum(contact);
-    row[Column::normal_resultant]   = sums.normal;
-    row[Column::friction_resultant] = sums.friction;
-    row[Column::friction_power]     = sums.power;
-    row[Column::elastic_energy]     = sums.energy;
-    row[Column::active_points]      = sums.active;
-    row[Column::elastic_slip]       = sums.elastic_slip;
-    row[Column::penetration]        = contact.found.penetration();
-    row[Column::cone_violation]     = cone_violation(contact.found.points);
-    row[Column::P]                  = sums.P;
-    row[Column::F]                  = sums.F;
-    if (sums.normal > 0.)
+    double normal = 0., speed = 0., mu = 0., power = 0., energy = 0., active = 0.;
+    double elastic_slip = 0., penetration = 0., excess = 0., cone = 0.;
+    dealii::Tensor<1, dim> force, position;
+    dealii::Tensor<1, dim - 1> friction;
+    for (const auto &point : found.points)
     {
-      row[Column::s]  = sums.position / sums.normal;
-      row[Column::mu] = sums.mu / sums.normal;
-      if (contact.found.duration > 0.)
-        row[Column::v_rel] = sums.speed / sums.normal;
+      penetration = std::max(penetration, -point.gap);
+      if (!(point.pressure > 0.))
+        continue;
+      const auto &of_face = face.points[point.index];
+      const double area   = of_face.weight;
+      double free         = 0.; // share of a force here that nodes take which the hub does not hold
+      dealii::Tensor<1, dim> moved;
+      for (const auto &[node, shape] : of_face.nodes)
+      {
+        free += shape;
+        for (unsigned int d = 0; d < dim; ++d)
+          moved[d] += shape * found.displacement[dim * node + d];
+      }
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        force[d] += area * free * point.end_force[d];
+        energy += 0.5 * area * point.end_force[d] * moved[d];
+      }
+      const auto rate = found.duration > 0. ? point.slip_change / found.duration : dealii::Tensor<1, dim - 1>();
+      normal += area * point.pressure;
+      friction += area * point.traction;
+      position += area * point.pressure * point.position;
+      speed += area * point.pressure * rate[0];
+      mu += area * point.pressure * point.mu;
+      power += area * (point.traction * rate);
+      active += 1.;
+      elastic_slip = std::max(elastic_slip, point.elastic_slip);
+      excess       = std::max(excess, point.traction.norm() - point.mu * point.pressure);
+      cone         = std::max(cone, point.mu * point.pressure);
+    }
+    row[Column::P]                  = force[1];
+    row[Column::F]                  = -force[0];
+    row[Column::normal_resultant]   = normal;
+    row[Column::friction_resultant] = friction[0];
+    row[Column::friction_power]     = power;
+    row[Column::elastic_energy]     = energy;
+    row[Column::active_points]      = active;
+    row[Column::elastic_slip]       = elastic_slip;
+    row[Column::penetration]        = penetration;
+    row[Column::cone_violation]     = cone > 0. ? excess / cone : 0.;
+    if (normal > 0.)
+    {
+      row[Column::s]  = position[0] / normal;
+      row[Column::mu] = mu / normal;
+      if (found.duration > 0.)
+        row[Column::v_rel] = speed / normal;
+    }
+    if constexpr (dim == 3)
+    {
+      row.across.assign(columns_across().size(), 0.);
+      if (is_half)
+        return;
+      row.across[0] = force[2];
+      row.across[1] = normal > 0. ? position[2] / normal : 0.;
+      for (const auto &point : found.points)
+      {
+        const double arm = face.points[point.index].weight * point.position[2];
+        row.across[2] += arm * point.end_force[1];
+        row.across[3] -= arm * point.end_force[0];
+      }
     }
   }
 
-  FacePoints FaceView::points() const
+  template <int dim>
+  PressureSamples FaceView<dim>::samples_of(const FaceEvaluation<dim> &found, const unsigned int line) const
   {
-    FacePoints result;
-    for (const auto &point : face.points)
-    {
-      result.xi.push_back(point.position[0]);
-      result.weight.push_back(point.weight);
-    }
-    return result;
+    PressureSamples samples;
+    for (const auto &point : found.points)
+      if (patches.line_of_point[point.index] == line)
+      {
+        samples.xi.push_back(point.position[0]);
+        samples.weight.push_back(face.points[point.index].weight);
+        samples.pressure.push_back(point.pressure);
+        samples.trial.push_back(point.trial_pressure);
+        samples.cell.push_back(point.patch);
+      }
+    samples.begin = face.points[patches.lines[line].front()].position[0];
+    samples.end   = face.points[patches.lines[line].back()].position[0];
+    return samples;
   }
 
-  FaceState FaceView::state(const FaceEvaluation &found, const DrivePoint &drive) const
+  /// On a surface the pressure is recovered as in a plane, along the points with the zeta where it is largest.
+  template <int dim>
+  void FaceView<dim>::observe_pressure(const FaceEvaluation<dim> &found, Row &row) const
   {
-    const FoundFace contact{ face, found };
-    FaceState result;
-    result.time         = drive.time;
-    result.x            = drive.x;
-    const std::size_t n = contact.face.points.size();
-    result.pressure.resize(n);
-    result.traction.resize(n);
-    const auto recovery = recover(samples_of(contact));
-    const auto traction = recovered_traction(contact, recovery.pressure);
-    for (std::size_t i = 0; i < contact.found.points.size(); ++i)
-    {
-      result.pressure[contact.found.points[i].index] = recovery.pressure[i];
-      result.traction[contact.found.points[i].index] = traction[i];
-    }
-    return result;
+    row[Column::contact_width] = row[Column::largest_pressure] = 0.;
+    const auto by_pressure = [](const auto &a, const auto &b) { return a.pressure < b.pressure; };
+    const auto largest     = std::max_element(found.points.begin(), found.points.end(), by_pressure);
+    if (largest == found.points.end() || largest->pressure == 0.)
+      return;
+    const auto samples               = samples_of(found, patches.line_of_point[largest->index]);
+    const auto recovered             = recover(samples);
+    row[Column::contact_width]       = contact_width(samples, recovered);
+    row[Column::largest_pressure]    = recovered.largest;
+    row[Column::largest_pressure_xi] = recovered.place;
+    if constexpr (dim == 3)
+      row.across[4] = largest->position[2];
   }
+
+  template class FaceView<2>;
+  template class FaceView<3>;
 } // namespace sprag

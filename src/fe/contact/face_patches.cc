@@ -5,6 +5,9 @@
 
 #include <deal.II/numerics/rtree.h>
 
+#include <cmath>
+#include <map>
+
 namespace sprag
 {
   /// The patches by the boxes around their nodes.
@@ -87,6 +90,7 @@ namespace sprag
       , tree(std::make_unique<Tree>(face))
   {
     find_neighbours();
+    find_lines();
   }
 
   template <int dim>
@@ -124,6 +128,49 @@ namespace sprag
     }
     if (other_starts.size() == 1)
       other_starts.clear();
+  }
+
+  template <int dim>
+  void FacePatches<dim>::find_lines()
+  {
+    std::map<long, Indices> by_zeta;
+    for (unsigned int q = 0; q < points.size(); ++q)
+      by_zeta[dim == 3 ? std::lround(1e6 * points[q].position[dim - 1]) : 0].push_back(q);
+    line_of_point.resize(points.size());
+    for (auto &entry : by_zeta)
+    {
+      auto &line       = entry.second;
+      const auto by_xi = [&](const unsigned int a, const unsigned int b)
+      { return points[a].position[0] < points[b].position[0]; };
+      std::sort(line.begin(), line.end(), by_xi);
+      for (const unsigned int point : line)
+        line_of_point[point] = static_cast<unsigned int>(lines.size());
+      lines.push_back(std::move(line));
+    }
+  }
+
+  template <int dim>
+  void FaceReach<dim>::set(const FacePatches<dim> &face, Indices may_touch, Indices shown, const unsigned int surface,
+                           const unsigned int size)
+  {
+    reached = std::move(may_touch);
+    if (!ports.empty() && shown == looked_at)
+      return;
+    looked_at = std::move(shown);
+    ports     = face.displacements_of(looked_at);
+    for (auto port = surface; port < size; ++port)
+      ports.push_back(port);
+  }
+
+  template <int dim>
+  auto FaceReach<dim>::clip(Indices near, bool &within_reach) const -> Indices
+  {
+    within_reach = ports.empty() || std::includes(reached.begin(), reached.end(), near.begin(), near.end());
+    if (within_reach)
+      return near;
+    Indices result;
+    std::set_intersection(near.begin(), near.end(), reached.begin(), reached.end(), std::back_inserter(result));
+    return result;
   }
 
   template <int dim>
@@ -189,4 +236,6 @@ namespace sprag
 
   template class FacePatches<2>;
   template class FacePatches<3>;
+  template struct FaceReach<2>;
+  template struct FaceReach<3>;
 } // namespace sprag

@@ -56,6 +56,8 @@ namespace sprag
 
     const std::vector<Patch> patches;
     const std::vector<Point> points;
+    std::vector<Indices> lines;              ///< points that have the same zeta, by increasing xi; in a plane all of them
+    std::vector<unsigned int> line_of_point; ///< index in `lines`
 
     /// The patch's part of the displacements of the face, dim entries a node.
     using Nodal = std::array<double, dim * max_nodes>;
@@ -87,6 +89,7 @@ namespace sprag
     struct Tree;
     unsigned int patch_below(const dealii::Point<dim> &centre) const;
     void find_neighbours();
+    void find_lines();
 
     std::unique_ptr<const Tree> tree;
     std::vector<Indices> neighbours; ///< of the patches: those that touch them
@@ -102,6 +105,25 @@ namespace sprag
     std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
     return result;
   }
+
+  /// The part of a face where a contact may be.
+  template <int dim>
+  struct FaceReach
+  {
+    using Indices = typename FacePatches<dim>::Indices;
+
+    double factor = 1.;              ///< of the distances that are looked at
+    Indices reached;                 ///< patches that the contact may touch
+    Indices looked_at;               ///< patches of the ports
+    std::vector<unsigned int> ports; ///< increasing; none before the first set()
+
+    /// Sets patches and ports: the displacements of those looked at, and what follows the displacements of the face, from
+    /// `surface` to `size`.
+    void set(const FacePatches<dim> &face, Indices may_touch, Indices shown, unsigned int surface, unsigned int size);
+
+    /// Leaves out the patches beyond reach and tells whether there are none. Before the first set() all can be reached.
+    Indices clip(Indices near, bool &within_reach) const;
+  };
 
   template <int dim>
   template <class Distance>

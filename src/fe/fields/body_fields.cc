@@ -2,7 +2,7 @@
 #include "fe/fields/body_fields.h"
 
 #include "fe/body/cell_elasticity.h"
-#include "fe/solid/face_parts.h"
+#include "fe/contact/face_parts.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_dgq.h>

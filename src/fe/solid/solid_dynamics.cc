@@ -6,7 +6,7 @@
 #include "fe/body/friction_face.h"
 #include "fe/dynamics/condensed_basis.h"
 #include "fe/dynamics/lever_constants.h"
-#include "fe/solid/surface_observation.h"
+#include "fe/solid/surface_contact.h"
 #include "fe/statics/contact_penalties.h"
 #include "fe/statics/lever_properties.h"
 #include "model/dynamic_lever.h"
@@ -30,7 +30,7 @@ namespace sprag
 
   /// A condensed lever in three dimensions, or a pair of them, which tells shapes of modes along an edge of the whole face, by
   /// the modes of the free lever. What these leave out is the dent of the layer under the cylinder. Structure and Contact: see
-  /// DynamicLever.
+  /// DynamicLever; `face` is that of the contact.
   template <class Structure, class Contact>
   class SolidDynamicLever : public DynamicLever<Structure, Contact>
   {
@@ -39,8 +39,9 @@ namespace sprag
   public:
     /// `lever` must outlive this.
     SolidDynamicLever(std::unique_ptr<Structure> structure, std::unique_ptr<Contact> contact, LeverFrame frame,
-                      const SolidInTime &lever_)
+                      const SolidInTime &lever_, std::shared_ptr<const FrictionFace<3>> face_)
         : Base(std::move(structure), std::move(contact), std::move(frame))
+        , face(std::move(face_))
         , lever(lever_)
         , structures(modes_of_structures(lever, Structure::levers))
     {
@@ -74,6 +75,7 @@ namespace sprag
   private:
     using Node = FaceNode<3>;
 
+    const std::shared_ptr<const FrictionFace<3>> face;
     const SolidInTime &lever;
     const std::vector<const SolidModes *> structures;
 
@@ -104,199 +106,6 @@ namespace sprag
       return structures.size() == 2 ? MirroredPorts::share() * result : result;
     }
   };
-
-  /// The contact of a lever in three dimensions in time and in held slides, see DynamicLever, on a face of its own.
-  class SolidContact
-  {
-  public:
-    static constexpr bool uses_rates       = false;
-    static constexpr bool stands_for_layer = false;
-    static constexpr bool keeps_tangent    = true;
-    static constexpr unsigned int levers   = 1;
-
-    using Evaluation = SurfaceEvaluation;
-
-    /// `layer_thickness` [mm]; `half`: the face is half of one which is the same on both sides of the middle.
-    SolidContact(FrictionFace<3> face, SurfaceContactProperties properties, FrictionLaw friction, double layer_thickness,
-                 bool half);
-
-    void evaluate(const PortStep &step, SurfaceEvaluation &found);
-    void complete(SurfaceEvaluation &found);
-    void evaluate_sliding(const SlidingState &state, SurfaceEvaluation &found);
-    PortPerturbation linearise(const SlidingState &state, SurfaceEvaluation &found);
-    std::vector<SurfaceMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive, SurfaceEvaluation &found);
-
-    const PortSelection &reachable_ports(double x, const OfLevers &theta);
-
-    void widen_reach()
-    {
-      contact.widen_reach();
-    }
-
-    const ContactPenalties &penalties() const
-    {
-      return contact.penalties();
-    }
-
-    /// Where the pressure is largest, or where the gap is smallest.
-    double gap_change(const SurfaceEvaluation &found, const dealii::Vector<double> &change_of_ports,
-                      unsigned int lever = 0) const;
-
-    /// Mean slip round the cylinder of the points in contact, weighted with their pressure, from one configuration to another.
-    double mean_slip(const SurfaceEvaluation &found, const dealii::Vector<double> &from, double from_x,
-                     const dealii::Vector<double> &to, double to_x) const;
-
-    void observe(const SurfaceEvaluation &found, Row &row, unsigned int lever = 0) const;
-
-    /// Returns Q at the end of the step [N].
-    double drive_force(const SurfaceEvaluation &found) const;
-
-    /// Displacements of the nodes at the middle of the width.
-    SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
-
-    FacePoints face_points() const
-    {
-      return view.points();
-    }
-
-    FaceState face_state(const SurfaceEvaluation &found, const DrivePoint &drive) const
-    {
-      return view.state(found, drive);
-    }
-
-    void visit_history(Archive &archive)
-    {
-      contact.visit_history(archive);
-    }
-
-  private:
-    double indentation(const SurfaceEvaluation &found, const Row &row) const;
-    std::vector<unsigned int> line_at(double zeta) const;
-
-    const FrictionFace<3> face;
-    const FrictionLaw friction;
-    const double layer_thickness;
-    SurfaceContact contact;
-    const SurfaceView view;
-  };
-
-  SolidContact::SolidContact(FrictionFace<3> face_, SurfaceContactProperties properties, FrictionLaw friction_,
-                             const double layer_thickness_, const bool half)
-      : face(std::move(face_))
-      , friction(std::move(friction_))
-      , layer_thickness(layer_thickness_)
-      , contact(face, std::move(properties))
-      , view(face, contact, half)
-  {
-  }
-
-  void SolidContact::evaluate(const PortStep &step, SurfaceEvaluation &found)
-  {
-    contact.evaluate(step, friction, found);
-  }
-
-  void SolidContact::complete(SurfaceEvaluation &found)
-  {
-    contact.complete(found);
-  }
-
-  void SolidContact::evaluate_sliding(const SlidingState &state, SurfaceEvaluation &found)
-  {
-    contact.slide(state, friction, found);
-  }
-
-  PortPerturbation SolidContact::linearise(const SlidingState &state, SurfaceEvaluation &found)
-  {
-    return contact.linearise(state, friction, found);
-  }
-
-  std::vector<SurfaceMemory> SolidContact::touch(const Vector<double> &ports, const DrivePoint &drive, SurfaceEvaluation &found)
-  {
-    contact.touch({ ports, drive.x }, found);
-    return {};
-  }
-
-  const PortSelection &SolidContact::reachable_ports(const double x, const OfLevers &theta)
-  {
-    return contact.reachable_ports(x, theta);
-  }
-
-  double SolidContact::gap_change(const SurfaceEvaluation &found, const Vector<double> &change_of_ports, unsigned int) const
-  {
-    const auto deepest =
-        std::min_element(found.points.begin(), found.points.end(), [](const auto &a, const auto &b) { return a.gap < b.gap; });
-    return contact.change_at(*deepest, found, change_of_ports)[0];
-  }
-
-  double SolidContact::mean_slip(const SurfaceEvaluation &found, const Vector<double> &from, const double from_x,
-                                 const Vector<double> &to, const double to_x) const
-  {
-    double weighted = 0., weights = 0.;
-    for (const auto &point : found.points)
-      if (point.pressure > 0.)
-      {
-        const double weight = face.points[point.index].weight * point.pressure;
-        weighted += weight * (contact.slip_at(point, { to, to_x }) - contact.slip_at(point, { from, from_x }));
-        weights += weight;
-      }
-    return weights > 0. ? weighted / weights : 0.;
-  }
-
-  void SolidContact::observe(const SurfaceEvaluation &found, Row &row, unsigned int) const
-  {
-    view.observe(found, row);
-    row[Column::Q]           = drive_force(found);
-    row[Column::indentation] = indentation(found, row);
-  }
-
-  double SolidContact::drive_force(const SurfaceEvaluation &found) const
-  {
-    double sum = 0.;
-    for (const auto &point : found.points)
-      sum -= face.points[point.index].weight * point.end_force[4];
-    return sum;
-  }
-
-  std::vector<unsigned int> SolidContact::line_at(const double zeta) const
-  {
-    double closest = std::numeric_limits<double>::max();
-    for (const auto &node : face.nodes)
-      closest = std::min(closest, std::abs(node.position[2] - zeta));
-    std::vector<unsigned int> result;
-    for (unsigned int i = 0; i < face.nodes.size(); ++i)
-      if (std::abs(face.nodes[i].position[2] - zeta) < closest + 1e-6)
-        result.push_back(i);
-    return result;
-  }
-
-  /// Deflection under the contact beyond that on both sides of it, between the nodes closest to these places.
-  double SolidContact::indentation(const SurfaceEvaluation &found, const Row &row) const
-  {
-    if (layer_thickness == 0. || !(row[Column::normal_resultant] > 0.))
-      return 0.;
-    const auto line       = line_at(row.across[4]);
-    const double s        = row[Column::s];
-    const double aside    = 0.5 * row[Column::contact_width] + 4. * layer_thickness;
-    const auto deflection = [&](const double xi)
-    {
-      const auto is_closer = [&](const unsigned int a, const unsigned int b)
-      { return std::abs(face.nodes[a].position[0] - xi) < std::abs(face.nodes[b].position[0] - xi); };
-      return found.displacement[3 * *std::min_element(line.begin(), line.end(), is_closer) + 1];
-    };
-    return deflection(s) - 0.5 * (deflection(s - aside) + deflection(s + aside));
-  }
-
-  SurfaceShape SolidContact::surface_shape(const Vector<double> &displacements, unsigned int) const
-  {
-    SurfaceShape shape;
-    for (const unsigned int node : line_at(0.))
-    {
-      shape.xi.push_back(face.nodes[node].position[0]);
-      shape.along.push_back(displacements[3 * node]);
-      shape.across.push_back(displacements[3 * node + 1]);
-    }
-    return shape;
-  }
 
   namespace
   {
@@ -451,24 +260,17 @@ namespace sprag
       return result;
     }
 
-    SurfaceContactProperties contact_properties(const Scene &own, const double rest, const FrictionFace<3> &face,
-                                                const PortLayout &ports)
-    {
-      return { RigidCylinder(own.geometry, own.cylinder),
-               [geometry = own.geometry](const double x, const double theta) { return cylinder_centre(geometry, x, theta); },
-               own.geometry.cylinder_radius,
-               ports,
-               rest,
-               penalties_in_time(own, face) };
-    }
-
-    std::unique_ptr<SolidContact> contact_of(const Scene &scene, const SolidInTime &lever, FrictionFace<3> face,
-                                             const PortLayout &ports, const unsigned int index)
+    std::unique_ptr<SurfaceContact> contact_of(const Scene &scene, const SolidInTime &lever, const FrictionFace<3> &face,
+                                               const PortLayout &ports, const unsigned int index)
     {
       const Scene own = scene_of_lever(scene, index);
-      return std::make_unique<SolidContact>(std::move(face),
-                                            contact_properties(own, rest_inclination(scene), lever.body->friction_face(), ports),
-                                            own.friction, scene.layer.thickness, lever.body->is_half());
+      return std::make_unique<SurfaceContact>(
+          face, SurfaceContactProperties{ RigidCylinder(own.geometry, own.cylinder),
+                                          [geometry = own.geometry](const double x, const double theta)
+                                          { return cylinder_centre(geometry, x, theta); },
+                                          own.geometry.cylinder_radius, ports, rest_inclination(scene),
+                                          penalties_in_time(own, lever.body->friction_face()), lever.body->is_half(),
+                                          own.friction, scene.layer.thickness });
     }
 
     LeverFrame frame_of(const Scene &scene, const SolidInTime &lever, const PortLayout &ports)
@@ -544,17 +346,18 @@ namespace sprag
   MeshedDynamics make_solid_dynamics(const Scene &scene, const SolidInTime &lever, const double relaxation,
                                      const unsigned int n_modes)
   {
-    const auto window    = window_of_scene(scene, lever.body->friction_face());
+    const auto window    = std::make_shared<const FaceWindow>(window_of_scene(scene, lever.body->friction_face()));
+    const auto face      = std::shared_ptr<const FrictionFace<3>>(window, &window->face);
     const auto structure = [&](const SolidModes &modes)
     {
-      const auto basis = truncated(basis_on(window, lever, modes, scene), n_modes);
+      const auto basis = truncated(basis_on(*window, lever, modes, scene), n_modes);
       return std::make_unique<ModalStructure>(modal_data(basis, constants_of(scene, relaxation, basis.lever_mass)));
     };
     std::vector<unsigned int> dofs;
-    for (const auto &node : window.face.nodes)
+    for (const auto &node : face->nodes)
       dofs.insert(dofs.end(), node.dofs.begin(), node.dofs.end());
     const auto contact = [&](const PortLayout &ports, const unsigned int index)
-    { return contact_of(scene, lever, window.face, ports.of_one_lever(), index); };
+    { return contact_of(scene, lever, *face, ports.of_one_lever(), index); };
     MeshedDynamics result = facts(scene, lever, n_modes);
     if (number_of_levers(scene) == 1)
     {
@@ -562,12 +365,12 @@ namespace sprag
       const auto ports            = alone->ports();
       result.elastic_displacement = [&lever, dofs](const Motion &motion, unsigned int)
       { return displacement(*lever.body, lever.modes, dofs, motion); };
-      result.model = std::make_unique<SolidDynamicLever<ModalStructure, SolidContact>>(std::move(alone), contact(ports, 0),
-                                                                                       frame_of(scene, lever, ports), lever);
+      result.model = std::make_unique<SolidDynamicLever<ModalStructure, SurfaceContact>>(
+          std::move(alone), contact(ports, 0), frame_of(scene, lever, ports), lever, face);
       return result;
     }
     using Pair                  = MirroredStructure<ModalStructure>;
-    using OfPair                = MirroredContact<SolidContact>;
+    using OfPair                = MirroredContact<SurfaceContact>;
     const auto both             = modes_of_structures(lever, 2);
     auto pair                   = std::make_unique<Pair>(structure(*both[0]), structure(*both[1]), both[0] == both[1]);
     const auto ports            = pair->ports();
@@ -578,10 +381,10 @@ namespace sprag
                           { return displacement(*lever.body, *both[part], dofs, of_part); });
     };
     auto contacts =
-        std::make_unique<OfPair>(std::array<std::unique_ptr<SolidContact>, 2>{ { contact(ports, 0), contact(ports, 1) } }, ports,
-                                 static_cast<unsigned int>(window.face.points.size()));
+        std::make_unique<OfPair>(std::array<std::unique_ptr<SurfaceContact>, 2>{ { contact(ports, 0), contact(ports, 1) } },
+                                 ports, static_cast<unsigned int>(face->points.size()));
     result.model = std::make_unique<SolidDynamicLever<Pair, OfPair>>(std::move(pair), std::move(contacts),
-                                                                     frame_of(scene, lever, ports), lever);
+                                                                     frame_of(scene, lever, ports), lever, face);
     return result;
   }
 

@@ -109,17 +109,8 @@ namespace sprag
                { RigidCylinder(*properties.geometry, properties.cylinder), properties.centre, properties.radius, ports,
                  properties.spring.rest,
                  contact_penalties(body.friction_face(), properties.contact, properties.layer_thickness,
-                                   properties.penalty_factor, properties.longest_face) } };
-    }
-
-    FaceView view_of(const ElasticBody<2> &body, const FaceContact &, const LeverProperties &properties)
-    {
-      return { body.friction_face(), properties.layer_thickness };
-    }
-
-    SurfaceView view_of(const SolidBody &body, const SurfaceContact &contact, const LeverProperties &)
-    {
-      return { body.friction_face(), contact, body.is_half() };
+                                   properties.penalty_factor, properties.longest_face),
+                 body.is_half() } };
     }
 
     LeverParts<2>::Structure structure_of(const ElasticBody<2> &body, const LeverProperties &properties, const PortLayout &ports,
@@ -171,7 +162,6 @@ namespace sprag
   StaticLever<dim>::Lever::Lever(const typename Parts::Body &body, const PortLayout &ports, LeverProperties lever)
       : properties(std::move(lever))
       , contact(contact_of(body, properties, ports))
-      , view(view_of(body, contact, properties))
   {
   }
 
@@ -271,7 +261,7 @@ namespace sprag
     PortSelection result = step.forces.ports;
     for (unsigned int i = 0; i < ports.levers; ++i)
     {
-      auto &[properties, contact, view] = levers[i];
+      auto &[properties, contact] = levers[i];
       const double rest = properties.spring.rest, theta = rest + end[ports.rotation(i)];
       const double travel = properties.centre(x, theta).xi - properties.centre(begin_x, rest + step.ports[ports.rotation(i)]).xi;
       PortSelection of_lever;
@@ -311,8 +301,8 @@ namespace sprag
     found.levers.resize(ports.levers);
     for (unsigned int i = 0; i < ports.levers; ++i)
     {
-      auto &[properties, lever, view] = levers[i];
-      auto &[memory, contact]         = found.levers[i];
+      auto &[properties, lever] = levers[i];
+      auto &[memory, contact]   = found.levers[i];
 
       memory          = memory_of_lever(i, n_face_points(), memory_of(trial, lever));
       auto terms      = static_terms(properties.friction, properties.geometry, step.start, trial.drive, mode);
@@ -415,14 +405,13 @@ namespace sprag
   std::string StaticLever<dim>::objection(const unsigned int lever, const DrivePoint &drive,
                                           const typename Parts::Evaluation &found) const
   {
-    const auto &[properties, contact, view] = levers[lever];
+    const auto &[properties, contact] = levers[lever];
     Row row;
-    view.observe_resultants(found, row);
+    contact.observe_resultants(found, row);
     if (const auto locks = locking_objection(row, properties.interface_offset, drive); !locks.empty())
       return locks;
-    if constexpr (dim == 2)
-      if (const auto beyond = found.objection(); !beyond.empty())
-        return beyond;
+    if (const auto beyond = found.objection(); !beyond.empty())
+      return beyond;
     // A linear material knows no limit of its own.
     const double pressure = found.overlap() * penalties().normal;
     if (const auto beyond = pressure_objection(pressure, own_body.friction_face().young_modulus);
@@ -485,7 +474,7 @@ namespace sprag
   void StaticLever<dim>::observe(const unsigned int lever, const State &state, const typename Parts::Evaluation &found,
                                  Row &row) const
   {
-    const auto &[properties, contact, view] = levers[lever];
+    const auto &[properties, contact] = levers[lever];
 
     const double turn          = turns(state)[lever];
     const double theta         = properties.spring.rest + turn;
@@ -493,7 +482,7 @@ namespace sprag
     const double support       = properties.support_stiffness.value_or(0.);
     row[Column::theta]         = theta;
     row[Column::spring_energy] = properties.spring.law.energy(turn);
-    view.observe(found, row);
+    contact.observe(found, row);
     row[Column::centre_offset]        = row[Column::s] - properties.centre(state.drive.x - u, theta).xi;
     row[Column::Q]                    = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
     row[Column::support_displacement] = u;
@@ -534,14 +523,14 @@ namespace sprag
   template <int dim>
   FacePoints StaticLever<dim>::face_points() const
   {
-    return levers.front().view.points();
+    return levers.front().contact.face_points();
   }
 
   template <int dim>
   FaceState StaticLever<dim>::face_state(const State &state, const Evaluation &evaluation) const
   {
     const auto of_lever = [&](const std::size_t lever)
-    { return levers[lever].view.state(balance_of(evaluation).levers[lever].contact, state.drive); };
+    { return levers[lever].contact.face_state(balance_of(evaluation).levers[lever].contact, state.drive); };
     return ports.levers == 1 ? of_lever(0) : joined_faces(of_lever(0), of_lever(1));
   }
 

@@ -2,9 +2,8 @@
 #pragma once
 
 #include "fe/contact/augmentation.h"
-#include "fe/contact/face_observation.h"
 #include "fe/solid/solid_structure.h"
-#include "fe/solid/surface_observation.h"
+#include "fe/solid/surface_contact.h"
 #include "fe/statics/full_stiffness.h"
 #include "fe/statics/lever_properties.h"
 #include "fe/statics/static_structure.h"
@@ -32,8 +31,7 @@ namespace sprag
     using KeptBody   = const ElasticBody<2>;
     using Structure  = std::variant<StaticStructure, FullStiffness>;
     using Contact    = FaceContact;
-    using Evaluation = FaceEvaluation;
-    using View       = FaceView;
+    using Evaluation = FaceEvaluation<2>;
   };
 
   template <>
@@ -44,8 +42,7 @@ namespace sprag
     using KeptBody   = const SolidBody &;
     using Structure  = std::variant<SolidStructure>;
     using Contact    = SurfaceContact;
-    using Evaluation = SurfaceEvaluation;
-    using View       = SurfaceView;
+    using Evaluation = FaceEvaluation<3>;
   };
 
   /// A meshed lever on its hub, rotational spring and support without inertia, or the two of a full mirrored pair, each on its
@@ -117,7 +114,6 @@ namespace sprag
 
       const LeverProperties properties;
       typename Parts::Contact contact;
-      const typename Parts::View view;
     };
 
     /// The contact of a lever in an evaluation.

@@ -191,9 +191,8 @@ namespace sprag
   {
     auto &of_patch           = blocks[patch];
     const unsigned int first = patches.patches[patch].begin;
-    const auto is_before     = [](const PointMemory<2> &entry, const unsigned int q) { return entry.point < q; };
-    for (auto entry = std::lower_bound(remembered.begin(), remembered.end(), first, is_before);
-         entry != remembered.end() && entry->point < patches.patches[patch].end; ++entry)
+    for (auto entry = first_memory(remembered, first); entry != remembered.end() && entry->point < patches.patches[patch].end;
+         ++entry)
     {
       const unsigned int q = entry->point - first, b = q / n_lanes, i = q % n_lanes;
       auto &begin = begins[of_patch.first + b];

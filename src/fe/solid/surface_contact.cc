@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/solid/surface_contact.h"
 
-#include "base/errors.h"
 #include "laws/friction_of_step.h"
 
 #include <algorithm>
@@ -17,39 +16,24 @@ namespace sprag
   namespace
   {
     const std::vector<SurfaceMemory> no_memory;
-
-    /// Forgets what was found, and keeps the memory for what follows.
-    void clear(SurfaceEvaluation &found)
-    {
-      auto points = std::move(found.points);
-      auto forces = std::move(found.forces);
-      points.clear();
-      found        = SurfaceEvaluation();
-      found.points = std::move(points);
-      found.forces = std::move(forces);
-    }
   } // namespace
-
-  std::vector<SurfaceMemory> SurfaceEvaluation::memory() const
-  {
-    if (beyond_face)
-      throw AnalysisError("the contact reaches the end of the friction face, or of the part of it that is looked at");
-    std::vector<SurfaceMemory> result;
-    for (const auto &point : points)
-      if (point.pressure > 0.)
-        result.push_back(point.memory);
-    return result;
-  }
 
   SurfaceContact::SurfaceContact(const FrictionFace<3> &face_, SurfaceContactProperties properties_)
       : face(face_)
       , properties(std::move(properties_))
       , patches(face)
+      , view(face, patches, properties.half)
       , in_lanes(face, patches, properties.cylinder)
       , place_of_port(properties.ports.size())
   {
-    find_lines();
     find_ends();
+    for (const auto &patch : patches.patches)
+    {
+      std::set<unsigned int> lines;
+      for (unsigned int q = patch.begin; q < patch.end; ++q)
+        lines.insert(patches.line_of_point[q]);
+      lines_of_patch.emplace_back(lines.begin(), lines.end());
+    }
   }
 
   void SurfaceContact::find_ends()
@@ -60,30 +44,6 @@ namespace sprag
     for (const auto &edge : face.edges)
       is_at_end.push_back(std::any_of(edge.nodes.begin(), edge.nodes.end(),
                                       [&](const auto &node) { return node.position[0] <= first || node.position[0] >= last; }));
-  }
-
-  void SurfaceContact::find_lines()
-  {
-    std::map<long, std::vector<unsigned int>> by_zeta;
-    for (unsigned int q = 0; q < face.points.size(); ++q)
-      by_zeta[std::lround(1e6 * face.points[q].position[2])].push_back(q);
-    place_in_line.resize(face.points.size());
-    for (auto &[zeta, points] : by_zeta)
-    {
-      const auto by_xi = [&](const unsigned int a, const unsigned int b)
-      { return face.points[a].position[0] < face.points[b].position[0]; };
-      std::sort(points.begin(), points.end(), by_xi);
-      for (unsigned int i = 0; i < points.size(); ++i)
-        place_in_line[points[i]] = { static_cast<unsigned int>(points_of_line.size()), i };
-      points_of_line.push_back(std::move(points));
-    }
-    for (const auto &patch : patches.patches)
-    {
-      std::set<unsigned int> lines;
-      for (unsigned int q = patch.begin; q < patch.end; ++q)
-        lines.insert(place_in_line[q].first);
-      lines_of_patch.emplace_back(lines.begin(), lines.end());
-    }
   }
 
   RigidCylinder::Pose SurfaceContact::pose_of(const SurfacePlace &place) const
@@ -101,12 +61,64 @@ namespace sprag
     return result;
   }
 
-  AxisSlopes SurfaceContact::slopes_in(const SurfaceEvaluation &found) const
+  AxisSlopes SurfaceContact::slopes_in(const FaceEvaluation<3> &found) const
   {
     auto result = turned_by(found.displacement);
     for (unsigned int i = 0; i < 2; ++i)
       result[i] += properties.cylinder.slopes()[i];
     return result;
+  }
+
+  std::vector<unsigned int> SurfaceContact::nodes_at(const double zeta) const
+  {
+    double closest = std::numeric_limits<double>::max();
+    for (const auto &node : face.nodes)
+      closest = std::min(closest, std::abs(node.position[2] - zeta));
+    std::vector<unsigned int> result;
+    for (unsigned int i = 0; i < face.nodes.size(); ++i)
+      if (std::abs(face.nodes[i].position[2] - zeta) < closest + 1e-6)
+        result.push_back(i);
+    return result;
+  }
+
+  /// Deflection under the contact beyond that on both sides of it, between the nodes closest to these places.
+  double SurfaceContact::indentation(const FaceEvaluation<3> &found, const Row &row) const
+  {
+    if (properties.layer_thickness == 0. || !(row[Column::normal_resultant] > 0.))
+      return 0.;
+    const auto line       = nodes_at(row.across[4]);
+    const double s        = row[Column::s];
+    const double aside    = 0.5 * row[Column::contact_width] + 4. * properties.layer_thickness;
+    const auto deflection = [&](const double xi)
+    {
+      const auto is_closer = [&](const unsigned int a, const unsigned int b)
+      { return std::abs(face.nodes[a].position[0] - xi) < std::abs(face.nodes[b].position[0] - xi); };
+      return found.displacement[3 * *std::min_element(line.begin(), line.end(), is_closer) + 1];
+    };
+    return deflection(s) - 0.5 * (deflection(s - aside) + deflection(s + aside));
+  }
+
+  SurfaceShape SurfaceContact::surface_shape(const Vector<double> &displacements, unsigned int) const
+  {
+    SurfaceShape shape;
+    for (const unsigned int node : nodes_at(0.))
+    {
+      shape.xi.push_back(face.nodes[node].position[0]);
+      shape.along.push_back(displacements[3 * node]);
+      shape.across.push_back(displacements[3 * node + 1]);
+    }
+    return shape;
+  }
+
+  void SurfaceContact::observe(const FaceEvaluation<3> &found, Row &row, unsigned int) const
+  {
+    view.observe(found, row);
+    row[Column::Q]           = drive_force(found);
+    row[Column::indentation] = indentation(found, row);
+    if (!properties.cylinder.has_free_axis())
+      return;
+    const auto slopes = slopes_in(found);
+    row.across.insert(row.across.end(), slopes.begin(), slopes.end());
   }
 
   void SurfaceContact::begin_step(const SurfacePlace &begin)
@@ -159,7 +171,7 @@ namespace sprag
     return patches.find_near({ centre.xi, centre.eta, 0. }, distance);
   }
 
-  void SurfaceContact::evaluate(const PortStep &step, SurfaceEvaluation &found, const StaticTerms &terms)
+  void SurfaceContact::evaluate(const PortStep &step, FaceEvaluation<3> &found, const StaticTerms &terms)
   {
     if (begin_x != step.from.x || begin_ports.size() != step.begin.position.size() || begin_ports != step.begin.position ||
         begin_travel != terms.travel || begin_augmented != terms.augmented)
@@ -177,7 +189,7 @@ namespace sprag
   }
 
   void SurfaceContact::evaluate(const SurfacePlace &end, const std::vector<SurfaceMemory> &memory, const double surface_run,
-                                const StaticTerms &terms, SurfaceEvaluation &found)
+                                const StaticTerms &terms, FaceEvaluation<3> &found)
   {
     if (!in_lanes.begins_with(memory))
       in_lanes.begin(memory);
@@ -190,11 +202,11 @@ namespace sprag
     step.speed_ratio = terms.speed_ratio;
     in_lanes.set(step);
 
-    found.displacement = end.ports;
-    found.x            = end.x;
-    found.compression  = 0.;
+    found.displacement     = end.ports;
+    found.x                = end.x;
+    found.sums.compression = 0.;
     found.points.clear();
-    looked_at = clip(near(end, step.end), found);
+    looked_at = reach.clip(near(end, step.end), found.within_reach);
     for (const unsigned int patch : looked_at)
       if (!in_lanes.is_placed(patch))
         in_lanes.place(patch, Patches::nodal(patches.patches[patch], begin_ports), shifts_of(patch, memory, terms));
@@ -214,35 +226,14 @@ namespace sprag
     return result;
   }
 
-  /// See slip_shift(): the place that had the same distance from the contact when the step began has the same zeta.
   std::vector<SlipShift> SurfaceContact::shifts_of(const unsigned int patch, const std::vector<SurfaceMemory> &memory,
                                                    const StaticTerms &terms) const
   {
-    const auto traction_of = [&](const unsigned int point)
-    {
-      const auto is_before = [](const SurfaceMemory &entry, const unsigned int q) { return entry.point < q; };
-      const auto found     = std::lower_bound(memory.begin(), memory.end(), point, is_before);
-      return found != memory.end() && found->point == point ? found->traction[0] : 0.;
-    };
-    const auto xi_of = [&](const unsigned int q) { return face.points[q].position[0]; };
+    const double stiffness = terms.augmented ? std::numeric_limits<double>::infinity() : properties.penalties.tangential;
     std::vector<SlipShift> result;
     for (unsigned int point = patches.patches[patch].begin; point < patches.patches[patch].end; ++point)
-    {
-      auto &shift      = result.emplace_back();
-      const auto &line = points_of_line[place_in_line[point].first];
-      const double xi  = xi_of(point) - terms.travel;
-      if (terms.travel == 0. || line.size() < 2 || xi < xi_of(line.front()) || xi > xi_of(line.back()))
-        continue;
-      const auto after     = std::upper_bound(line.begin() + 1, line.end() - 1, xi,
-                                              [&](const double value, const unsigned int q) { return value < xi_of(q); });
-      const unsigned int a = *(after - 1), b = *after;
-      const double share   = (xi - xi_of(a)) / (xi_of(b) - xi_of(a));
-      const auto between   = [share](const double first, const double second) { return (1. - share) * first + share * second; };
-      const double winding = traction_of(point) - between(traction_of(a), traction_of(b));
-      shift.slip           = slip_at_begin(point) - between(slip_at_begin(a), slip_at_begin(b));
-      shift.elastic        = terms.augmented ? 0. : -winding / properties.penalties.tangential;
-      shift.d_slope        = -terms.travel;
-    }
+      result.push_back(slip_shift(patches, point, 0., terms.travel, stiffness, memory,
+                                  [this](const unsigned int q) { return slip_at_begin(q); }));
     return result;
   }
 
@@ -263,41 +254,21 @@ namespace sprag
   {
     constexpr double over_radius = 0.05;
     constexpr double infinity    = std::numeric_limits<double>::max();
-    const double aside           = reach_factor * over_radius * properties.radius;
+    const double aside           = reach.factor * over_radius * properties.radius;
     const double end             = properties.centre(x, theta.front()).xi;
     const double begin           = end - travel;
     const auto between           = [&](const double a, const double b) {
       return patches.patches_in({ { { a - aside, -infinity, -infinity }, { b + aside, infinity, infinity } } });
     };
     const auto [first, last] = std::minmax(begin, end);
-    auto now = last - first > 2. * aside ? united(between(first, first), between(last, last)) : between(first, last);
-    if (reachable.empty() || now != reached)
-    {
-      reached   = std::move(now);
-      reachable = patches.displacements_of(reached);
-      for (auto port = 3 * static_cast<unsigned int>(face.nodes.size()); port < properties.ports.size(); ++port)
-        reachable.push_back(port);
-    }
-    return reachable;
+    const auto now = last - first > 2. * aside ? united(between(first, first), between(last, last)) : between(first, last);
+    reach.set(patches, now, now, 3 * static_cast<unsigned int>(face.nodes.size()), properties.ports.size());
+    return reach.ports;
   }
 
-  SurfaceContact::Patches::Indices SurfaceContact::clip(Patches::Indices near, SurfaceEvaluation &found) const
+  StepInLanes::Constants SurfaceContact::constants_of(const PortStep &of) const
   {
-    found.within_reach = reachable.empty() || std::includes(reached.begin(), reached.end(), near.begin(), near.end());
-    if (found.within_reach)
-      return near;
-    Patches::Indices result;
-    std::set_intersection(near.begin(), near.end(), reached.begin(), reached.end(), std::back_inserter(result));
-    return result;
-  }
-
-  void SurfaceContact::widen_reach()
-  {
-    reach_factor *= 2.;
-  }
-  StepInLanes::Constants SurfaceContact::constants_of(const PortStep &of, const FrictionLaw &friction) const
-  {
-    auto result       = constants(Kind::in_time, { of.end, of.to.x }, friction_of_step(friction, of.to.v));
+    auto result       = constants(Kind::in_time, { of.end, of.to.x }, friction_of_step(properties.friction, of.to.v));
     result.weights    = of.weights;
     result.begin      = begin_pose;
     result.share      = of.weights.stiffness();
@@ -311,7 +282,7 @@ namespace sprag
     return result;
   }
 
-  void SurfaceContact::evaluate(const PortStep &of, const FrictionLaw &friction, SurfaceEvaluation &found)
+  void SurfaceContact::evaluate(const PortStep &of, FaceEvaluation<3> &found)
   {
     const auto &memory  = of.surface_memory != nullptr ? *of.surface_memory : no_memory;
     const bool is_first = begin_ports.size() != of.begin.position.size();
@@ -319,16 +290,16 @@ namespace sprag
     {
       begin_step({ of.begin.position, of.from.x });
       in_lanes.begin(memory);
-      looked_at_first = united(near({ begin_ports, begin_x }, begin_pose), patches_of(memory));
+      looked_at_first = united(near({ begin_ports, begin_x }, begin_pose), patches_of(patches, memory));
     }
-    const auto step = constants_of(of, friction);
+    const auto step = constants_of(of);
     in_lanes.set(step);
 
-    found.displacement = of.end;
-    found.x            = of.to.x;
-    found.duration     = of.weights.dt;
-    found.compression  = 0.;
-    looked_at          = clip(united(near({ of.end, of.to.x }, step.end), looked_at_first), found);
+    found.displacement     = of.end;
+    found.x                = of.to.x;
+    found.duration         = of.weights.dt;
+    found.sums.compression = 0.;
+    looked_at              = reach.clip(united(near({ of.end, of.to.x }, step.end), looked_at_first), found.within_reach);
     place_patches(of.begin.position);
     press_patches(of.end, found);
     set_forces(of.wanted, found.forces);
@@ -342,7 +313,7 @@ namespace sprag
   }
 
   /// Presses the patches that are looked at, which are placed.
-  void SurfaceContact::press_patches(const Vector<double> &end, SurfaceEvaluation &found)
+  void SurfaceContact::press_patches(const Vector<double> &end, FaceEvaluation<3> &found)
   {
     pressed.clear();
     most_pressed.reset();
@@ -350,24 +321,15 @@ namespace sprag
     for (const unsigned int patch : looked_at)
     {
       auto &forces        = pressed.emplace_back();
-      const double before = found.compression;
-      if (in_lanes.press(patch, Patches::nodal(patches.patches[patch], end), forces, found.compression))
+      const double before = found.sums.compression;
+      if (in_lanes.press(patch, Patches::nodal(patches.patches[patch], end), forces, found.sums.compression))
         touched.push_back(patch);
       else
         pressed.pop_back();
-      if (found.compression > before)
+      if (found.sums.compression > before)
         most_pressed = patch;
     }
     find_summed(std::move(touched));
-  }
-
-  SurfaceContact::Patches::Indices SurfaceContact::patches_of(const std::vector<SurfaceMemory> &memory) const
-  {
-    Patches::Indices result;
-    for (const auto &entry : memory)
-      if (result.empty() || entry.point >= patches.patches[result.back()].end)
-        result.push_back(patches.patch_of_point(entry.point));
-    return result;
   }
 
   /// The ports of some patches and the places of their coordinates among these are found again where the patches change alone.
@@ -417,17 +379,17 @@ namespace sprag
     return result;
   }
 
-  void SurfaceContact::slide(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found)
+  void SurfaceContact::evaluate_sliding(const SlidingState &sliding, FaceEvaluation<3> &found)
   {
-    evaluate_slide(sliding, friction, found);
+    press_slide(sliding, found);
     set_forces(sliding.wanted, found.forces);
     if (sliding.wanted == Wanted::with_tangent)
       complete(found);
   }
 
-  PortPerturbation SurfaceContact::linearise(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found)
+  PortPerturbation SurfaceContact::linearise(const SlidingState &sliding, FaceEvaluation<3> &found)
   {
-    evaluate_slide(sliding, friction, found);
+    press_slide(sliding, found);
     set_forces(Wanted::forces, found.forces);
     complete(found);
     add_points(found);
@@ -438,11 +400,11 @@ namespace sprag
     return result;
   }
 
-  void SurfaceContact::evaluate_slide(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found)
+  void SurfaceContact::press_slide(const SlidingState &sliding, FaceEvaluation<3> &found)
   {
     const SurfacePlace place{ sliding.ports, sliding.drive.x };
-    clear(found);
-    auto step           = constants(Kind::slide, place, friction_of_slide(friction, sliding));
+    found.begin(sliding.ports, sliding.drive.x, 1.); // slips are those of a second
+    auto step           = constants(Kind::slide, place, friction_of_slide(properties.friction, sliding));
     step.slide.speed    = sliding.speed;
     step.slide.friction = sliding.friction;
     if (sliding.rates != nullptr)
@@ -452,25 +414,24 @@ namespace sprag
       step.slide.x_rate      = properties.ports.sprung ? -(*sliding.rates)[properties.ports.support()] : 0.;
       step.slide.slope_rates = turned_by(*sliding.rates);
     }
-    press(step, place, clip(near(place, step.end), found), found);
-    found.duration = 1.; // slips are those of a second
+    press(step, place, reach.clip(near(place, step.end), found.within_reach), found);
   }
 
-  void SurfaceContact::touch(const SurfacePlace &place, SurfaceEvaluation &found)
+  std::vector<SurfaceMemory> SurfaceContact::touch(const Vector<double> &ports, const DrivePoint &drive, FaceEvaluation<3> &found)
   {
+    const SurfacePlace place{ ports, drive.x };
     const auto step = constants(Kind::touch, place, {});
-    clear(found);
+    found.begin(ports, drive.x, 0.);
     press(step, place, near(place, step.end), found);
     add_points(found);
+    return {};
   }
 
   /// Presses where the step begins.
   void SurfaceContact::press(const StepInLanes::Constants &step, const SurfacePlace &place, Patches::Indices patches_near,
-                             SurfaceEvaluation &found)
+                             FaceEvaluation<3> &found)
   {
-    found.displacement = place.ports;
-    found.x            = place.x;
-    looked_at          = std::move(patches_near);
+    looked_at = std::move(patches_near);
     begin_ports.reinit(0); // a step in time that follows begins anew
     in_lanes.set(step);
     in_lanes.begin({});
@@ -478,25 +439,40 @@ namespace sprag
     press_patches(place.ports, found);
   }
 
-  std::array<double, 2> SurfaceContact::change_at(const FacePointState<3> &point, const SurfaceEvaluation &found,
-                                                  const Vector<double> &change_of_ports) const
+  double SurfaceContact::gap_change(const FaceEvaluation<3> &found, const Vector<double> &change_of_ports, unsigned int) const
   {
-    const auto &of     = patches.points[point.index];
-    const auto &at     = properties.ports;
-    const auto nodal   = Patches::nodal(patches.patches[point.patch], change_of_ports);
-    const auto changes = properties.cylinder.changes(
+    const auto &point =
+        *std::min_element(found.points.begin(), found.points.end(), [](const auto &a, const auto &b) { return a.gap < b.gap; });
+    const auto &of   = patches.points[point.index];
+    const auto &at   = properties.ports;
+    const auto nodal = Patches::nodal(patches.patches[point.patch], change_of_ports);
+    return properties.cylinder.changes(
         pose_of({ found.displacement, found.x }), point.position, Patches::position(of, nodal) - of.position,
-        at.sprung ? -change_of_ports[at.support()] : 0., change_of_ports[at.rotation()], turned_by(change_of_ports));
-    return { { changes[0], changes[1] } };
+        at.sprung ? -change_of_ports[at.support()] : 0., change_of_ports[at.rotation()], turned_by(change_of_ports))[0];
   }
 
+  double SurfaceContact::mean_slip(const FaceEvaluation<3> &found, const Vector<double> &from, const double from_x,
+                                   const Vector<double> &to, const double to_x) const
+  {
+    double weighted = 0., weights = 0.;
+    for (const auto &point : found.points)
+      if (point.pressure > 0.)
+      {
+        const double weight = face.points[point.index].weight * point.pressure;
+        weighted += weight * (slip_at(point, { to, to_x }) - slip_at(point, { from, from_x }));
+        weights += weight;
+      }
+    return weights > 0. ? weighted / weights : 0.;
+  }
+
+  /// The slip coordinate round the cylinder of a point, in another configuration [mm].
   double SurfaceContact::slip_at(const FacePointState<3> &point, const SurfacePlace &place) const
   {
     const auto nodal = Patches::nodal(patches.patches[point.patch], place.ports);
     return properties.cylinder.slip(pose_of(place), Patches::position(patches.points[point.index], nodal));
   }
 
-  void SurfaceContact::add_points(SurfaceEvaluation &found) const
+  void SurfaceContact::add_points(FaceEvaluation<3> &found) const
   {
     found.points.clear();
     for (const unsigned int patch : looked_at)
@@ -510,14 +486,14 @@ namespace sprag
   }
 
   /// `peak`: patch where the pressure is largest, if there is any.
-  void SurfaceContact::add_points_in_contact(const std::optional<unsigned int> &peak, SurfaceEvaluation &found) const
+  void SurfaceContact::add_points_in_contact(const std::optional<unsigned int> &peak, FaceEvaluation<3> &found) const
   {
     found.points.clear();
     for (const unsigned int patch : looked_at)
       in_lanes.add_points(patch, !peak || share_line(patch, *peak), found.points);
   }
 
-  void SurfaceContact::complete(SurfaceEvaluation &found) const
+  void SurfaceContact::complete(FaceEvaluation<3> &found) const
   {
     StepInLanes::Sums sums;
     std::optional<unsigned int> peak;
@@ -529,16 +505,16 @@ namespace sprag
         peak = patch;
     }
     add_points_in_contact(peak, found);
-    found.stored            = sums.stored;
-    found.beyond_face       = reaches_end(found);
-    found.works             = StepWork();
-    found.works.drive       = sums.drive;
-    found.works.friction    = sums.friction;
-    found.works.algorithmic = sums.algorithmic;
-    found.works.creep       = sums.creep;
+    found.sums.stored           = sums.stored;
+    found.sums.beyond_face      = reaches_end(found);
+    found.sums.work             = StepWork();
+    found.sums.work.drive       = sums.drive;
+    found.sums.work.friction    = sums.friction;
+    found.sums.work.algorithmic = sums.algorithmic;
+    found.sums.work.creep       = sums.creep;
   }
 
-  bool SurfaceContact::reaches_end(const SurfaceEvaluation &found) const
+  bool SurfaceContact::reaches_end(const FaceEvaluation<3> &found) const
   {
     return std::any_of(found.points.begin(), found.points.end(),
                        [&](const auto &point) { return point.pressure > 0. && is_at_end[point.patch]; });

@@ -15,6 +15,11 @@ namespace sprag
     PortLayout ports;                                         ///< three a node of the face; with slopes where these may change
     double rest_inclination;                                  ///< theta without moment [rad]
     ContactPenalties penalties;
+    bool half = false; ///< the face is half of one which is the same on both sides of the middle
+
+    // In time and in steady sliding.
+    FrictionLaw friction   = {};
+    double layer_thickness = 0.; ///< [mm]
   };
 
   using SurfaceMemory = PointMemory<2>;
@@ -26,47 +31,23 @@ namespace sprag
     double x; ///< of the drive [mm]
   };
 
-  /// The result of an evaluation. The caller keeps it and may use it for the next one.
-  struct SurfaceEvaluation
-  {
-    dealii::Vector<double> displacement;   ///< of the ports
-    double x           = 0.;               ///< of the drive [mm]
-    double duration    = 0.;               ///< of the step; 0: no slip speed [s]
-    bool within_reach  = true;             ///< whether the contact was within the ports that it may reach
-    bool beyond_face   = false;            ///< whether it reaches the end of the face along xi
-    double compression = 0.;               ///< of the contact springs, the largest; with multipliers p / penalty [mm]
-    double stored      = 0.;               ///< energy of the contact springs; in time alone [N mm]
-    StepWork works;                        ///< of the step; in time alone
-    std::vector<FacePointState<3>> points; ///< by increasing point, see complete() and add_points()
-    PortForces forces;
-
-    /// Returns the memory of the points in contact, by increasing point. Throws AnalysisError beyond the face.
-    std::vector<SurfaceMemory> memory() const;
-
-    const StepWork &work() const
-    {
-      return works;
-    }
-    double energy() const
-    {
-      return stored;
-    }
-    double overlap() const
-    {
-      return compression;
-    }
-  };
-
   /// Contact of a rigid cylinder along the friction face of a body in three dimensions by the penalty method: pressure and, in
-  /// two directions, friction at the points of the face.
+  /// two directions, friction at the points of the face. What FaceContact has as well is as there.
   class SurfaceContact
   {
   public:
+    static constexpr bool uses_rates       = false;
+    static constexpr bool stands_for_layer = false;
+    static constexpr bool keeps_tangent    = true;
+    static constexpr unsigned int levers   = 1;
+
+    using Evaluation = FaceEvaluation<3>;
+
     /// The face must outlive the contact.
     SurfaceContact(const FrictionFace<3> &face, SurfaceContactProperties properties);
 
     /// Evaluates a step without inertia, with its points: where it is augmented all near the cylinder, else those of complete().
-    void evaluate(const PortStep &step, SurfaceEvaluation &found, const StaticTerms &terms);
+    void evaluate(const PortStep &step, FaceEvaluation<3> &found, const StaticTerms &terms);
 
     /// Sets the accepted state in which the following steps begin.
     void begin_step(const SurfacePlace &begin);
@@ -75,56 +56,77 @@ namespace sprag
     /// contact where it begins. `surface_run`: of the cylinder by turning [mm]. Of the terms `travel` and `augmented` belong to
     /// the step: they are the same until the next begin_step().
     void evaluate(const SurfacePlace &end, const std::vector<SurfaceMemory> &memory, double surface_run, const StaticTerms &terms,
-                  SurfaceEvaluation &found);
+                  FaceEvaluation<3> &found);
 
     /// Evaluates forces, compression and, where it is wanted, the tangent of a step in time. Where that of the last one is
     /// wanted, the step has to be the same, or the slide.
-    void evaluate(const PortStep &step, const FrictionLaw &friction, SurfaceEvaluation &found);
+    void evaluate(const PortStep &step, FaceEvaluation<3> &found);
 
     /// Finds works, energy and points of the step in time that was evaluated last: those that may take part and, along the lines
     /// where the pressure is largest, all near the cylinder. Where nothing touches those are all.
-    void complete(SurfaceEvaluation &found) const;
+    void complete(FaceEvaluation<3> &found) const;
 
     /// Finds all points near the cylinder of the last evaluation, in time or without inertia.
-    void add_points(SurfaceEvaluation &found) const;
+    void add_points(FaceEvaluation<3> &found) const;
 
     /// Evaluates steady sliding: the cylinder's surface runs round its axis at the slide's speed. Where the tangent is not
     /// wanted, complete() finds what there is beside forces and compression.
-    void slide(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found);
+    void evaluate_sliding(const SlidingState &sliding, FaceEvaluation<3> &found);
 
     /// The same, with its forces linearised on their ports. What the spring of stick delays is left out: at a speed v it takes
     /// mu p / (v times its stiffness), microseconds.
-    PortPerturbation linearise(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found);
+    PortPerturbation linearise(const SlidingState &sliding, FaceEvaluation<3> &found);
 
     /// Evaluates the contact at rest without force.
-    void touch(const SurfacePlace &place, SurfaceEvaluation &found);
+    std::vector<SurfaceMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive, FaceEvaluation<3> &found);
 
-    /// By how much a small change of the ports changes gap and slip round the cylinder at a point of an evaluation [mm].
-    std::array<double, 2> change_at(const FacePointState<3> &point, const SurfaceEvaluation &found,
-                                    const dealii::Vector<double> &change_of_ports) const;
+    /// Returns by how much a small change of the ports changes the gap where that is smallest [mm].
+    double gap_change(const FaceEvaluation<3> &found, const dealii::Vector<double> &change_of_ports,
+                      unsigned int lever = 0) const;
 
-    /// The slip coordinate round the cylinder of a point of an evaluation, in another configuration [mm].
-    double slip_at(const FacePointState<3> &point, const SurfacePlace &place) const;
+    /// Returns the mean slip round the cylinder of the points in contact, weighted with their pressure, from one configuration to
+    /// another [mm].
+    double mean_slip(const FaceEvaluation<3> &found, const dealii::Vector<double> &from, double from_x,
+                     const dealii::Vector<double> &to, double to_x) const;
 
     /// Returns the ports near the cylinder at the beginning and at the end of a step in which the contact travels along xi [mm];
     /// those that it passes between take no part.
     const PortSelection &reachable_ports(double x, const OfLevers &theta, double travel = 0.);
 
     /// Doubles how far these ports reach, from their next call on.
-    void widen_reach();
-
-    /// The slopes of the cylinder's axis in an evaluation.
-    AxisSlopes slopes_in(const SurfaceEvaluation &found) const;
-
-    const RigidCylinder &cylinder() const
+    void widen_reach()
     {
-      return properties.cylinder;
+      reach.factor *= 2.;
     }
 
-    /// Returns the positions of a point among those that have the same zeta, by increasing xi.
-    const std::vector<std::vector<unsigned int>> &lines() const
+    /// The slopes of the cylinder's axis in an evaluation.
+    AxisSlopes slopes_in(const FaceEvaluation<3> &found) const;
+
+    /// Fills the columns of a row that follow from the contact.
+    void observe(const FaceEvaluation<3> &found, Row &row, unsigned int lever = 0) const;
+
+    /// Returns the displacements of the nodes at the middle of the width.
+    SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
+
+    /// Fills those that are sums over the points under pressure.
+    void observe_resultants(const FaceEvaluation<3> &found, Row &row) const
     {
-      return points_of_line;
+      view.observe_resultants(found, row);
+    }
+
+    /// Returns Q at the end of the step [N].
+    double drive_force(const FaceEvaluation<3> &found) const
+    {
+      return view.drive_force(found);
+    }
+
+    const FacePoints &face_points() const
+    {
+      return view.points();
+    }
+    FaceState face_state(const FaceEvaluation<3> &found, const DrivePoint &drive) const
+    {
+      return view.state(found, drive);
     }
 
     const ContactPenalties &penalties() const
@@ -141,7 +143,7 @@ namespace sprag
     /// Visits how far it reaches.
     void visit_history(Archive &archive)
     {
-      archive(reach_factor);
+      archive(reach.factor);
       patches.visit_history(archive);
     }
 
@@ -149,38 +151,37 @@ namespace sprag
     using Patches = FacePatches<3>;
     using Kind    = StepInLanes::Kind;
 
-    void find_lines();
     void find_ends();
     bool share_line(unsigned int patch, unsigned int other) const;
-    void add_points_in_contact(const std::optional<unsigned int> &peak, SurfaceEvaluation &found) const;
+    void add_points_in_contact(const std::optional<unsigned int> &peak, FaceEvaluation<3> &found) const;
     RigidCylinder::Pose pose_of(const SurfacePlace &place) const;
     AxisSlopes turned_by(const dealii::Vector<double> &ports) const;
     Patches::Indices near(const SurfacePlace &place, const RigidCylinder::Pose &pose) const;
     StepInLanes::Constants constants(Kind kind, const SurfacePlace &end, const FrictionLaw &friction) const;
     std::vector<SlipShift> shifts_of(unsigned int patch, const std::vector<SurfaceMemory> &memory,
                                      const StaticTerms &terms) const;
-    void evaluate_slide(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found);
+    void press_slide(const SlidingState &sliding, FaceEvaluation<3> &found);
     void press(const StepInLanes::Constants &step, const SurfacePlace &place, Patches::Indices patches_near,
-               SurfaceEvaluation &found);
+               FaceEvaluation<3> &found);
     void place_patches(const dealii::Vector<double> &begin);
-    void press_patches(const dealii::Vector<double> &end, SurfaceEvaluation &found);
-    StepInLanes::Constants constants_of(const PortStep &step, const FrictionLaw &friction) const;
-    Patches::Indices patches_of(const std::vector<SurfaceMemory> &memory) const;
+    void press_patches(const dealii::Vector<double> &end, FaceEvaluation<3> &found);
+    StepInLanes::Constants constants_of(const PortStep &step) const;
+    double slip_at(const FacePointState<3> &point, const SurfacePlace &place) const;
+    std::vector<unsigned int> nodes_at(double zeta) const;
+    double indentation(const FaceEvaluation<3> &found, const Row &row) const;
     void find_summed(Patches::Indices touched);
     void set_forces(Wanted wanted, PortForces &forces) const;
     dealii::FullMatrix<double> tangent(StepInLanes::Part part) const;
-    bool reaches_end(const SurfaceEvaluation &found) const;
+    bool reaches_end(const FaceEvaluation<3> &found) const;
     double slip_at_begin(unsigned int point) const;
     PortCoordinates coordinates_of(unsigned int patch) const;
-    Patches::Indices clip(Patches::Indices near, SurfaceEvaluation &found) const;
 
     const FrictionFace<3> &face;
     SurfaceContactProperties properties;
     Patches patches;
-    std::vector<std::vector<unsigned int>> points_of_line;
-    std::vector<std::vector<unsigned int>> lines_of_patch;            ///< increasing
-    std::vector<bool> is_at_end;                                      ///< whether a patch is at an end of the face along xi
-    std::vector<std::pair<unsigned int, unsigned int>> place_in_line; ///< of a point: its line and its place there
+    const FaceView<3> view;
+    std::vector<std::vector<unsigned int>> lines_of_patch; ///< increasing
+    std::vector<bool> is_at_end;                           ///< whether a patch is at an end of the face along xi
 
     dealii::Vector<double> begin_ports;
     double begin_x = 0.;
@@ -205,8 +206,6 @@ namespace sprag
     Summed summed;
 
     std::vector<unsigned int> place_of_port; ///< among those summed
-    PortSelection reachable;
-    Patches::Indices reached;
-    double reach_factor = 1.;
+    FaceReach<3> reach;
   };
 } // namespace sprag

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "fe/solid/face_parts.h"
+#include "fe/contact/face_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,18 @@ namespace sprag
   namespace
   {
     constexpr unsigned int parts_along = 4;
+  }
+
+  FaceParts parts_of(const FrictionFace<2> &face)
+  {
+    FaceParts result;
+    for (const auto &point : face.points)
+    {
+      result.part_of_point.push_back(static_cast<unsigned int>(result.part_of_point.size()));
+      result.points.xi.push_back(point.position[0]);
+      result.points.weight.push_back(point.weight);
+    }
+    return result;
   }
 
   FaceParts parts_of(const FrictionFace<3> &face)

@@ -8,12 +8,14 @@
 
 namespace sprag
 {
-  /// The parts of a friction face over which results tell means: four along xi of each of its cells, at each zeta of its points.
+  /// The parts of a friction face over which results tell means: in a plane its points, else four along xi of each of its cells,
+  /// at each zeta of its points.
   struct FaceParts
   {
     FacePoints points;                       ///< their middles
     std::vector<unsigned int> part_of_point; ///< of the face's points
   };
 
+  FaceParts parts_of(const FrictionFace<2> &face);
   FaceParts parts_of(const FrictionFace<3> &face);
 } // namespace sprag
