@@ -8,14 +8,6 @@
 
 #define SPRAG_EACH _Pragma("GCC unroll 16") for (int i = 0; i < n; ++i)
 
-/// A large function that computes with Lanes is compiled for two generations of processors, and unrolls only the loops that say
-/// so.
-#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
-#  define SPRAG_LARGE_KERNEL __attribute__((target_clones("avx512f", "default")))
-#else
-#  define SPRAG_LARGE_KERNEL
-#endif
-
 namespace sprag
 {
   /// Lanes as an argument of templates, which forget their alignment: what is kept of them in memory says alignas(Lanes).

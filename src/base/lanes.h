@@ -4,15 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-/// A function that computes with Lanes is compiled for several generations of processors, of which the loader takes the best. Its
-/// loops are unrolled. Clang 14 can do neither.
-#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
-#  define SPRAG_FOR_ANY_PROCESSOR __attribute__((target_clones("avx512f", "avx2", "default"), optimize("unroll-loops")))
-#else
-#  define SPRAG_FOR_ANY_PROCESSOR
-#endif
-
-/// What such a function calls with Lanes becomes a part of it.
+/// A function of Lanes becomes a part of the one that calls it.
 #define SPRAG_PART inline __attribute__((always_inline))
 
 namespace sprag

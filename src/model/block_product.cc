@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "model/block_product.h"
 
-#include "base/lanes.h"
-
-// Fused operations would round otherwise than processors without them, and than sums elsewhere.
-#if defined(__GNUC__) && !defined(__clang__)
-#  pragma GCC push_options
-#  pragma GCC optimize("O3", "fp-contract=off")
-#endif
-
 namespace sprag
 {
   /// Each row is summed column by column, whatever rows stand beside it: a library would let its last bits depend on these.
-  SPRAG_FOR_ANY_PROCESSOR void add_block_product(const dealii::FullMatrix<double> &symmetric, const NumberRange &rows,
-                                                 const NumberRange &columns, const double *const values, double *const result)
+  void add_block_product(const dealii::FullMatrix<double> &symmetric, const NumberRange &rows, const NumberRange &columns,
+                         const double *const values, double *const result)
   {
     const unsigned int n = rows.size();
     for (unsigned int j = 0; j < columns.size(); ++j)
@@ -24,7 +16,3 @@ namespace sprag
     }
   }
 } // namespace sprag
-
-#if defined(__GNUC__) && !defined(__clang__)
-#  pragma GCC pop_options
-#endif

@@ -247,7 +247,7 @@ TEST(ModelsAAndB, PenaltyAndAugmentedLagrangianAgreeWithinThePenetration)
   for (const auto &[name, model] : models())
   {
     SCOPED_TRACE(name);
-    const auto expect_agreement = [&](const Row &penalty, const Row &augmented)
+    const auto expect_agreement = [&model = model](const Row &penalty, const Row &augmented)
     {
       ASSERT_EQ(penalty[Column::x], augmented[Column::x]);
       const double turn  = penalty[Column::theta] - kinematics(model.geometry, 0.).theta;

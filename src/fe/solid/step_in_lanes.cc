@@ -169,7 +169,7 @@ namespace sprag
   }
 
   /// Without memory and shifts. Wherever it is called from it computes with the same round-off.
-  SPRAG_LARGE_KERNEL void StepInLanes::place_block(const Block &block, const Patches::Nodal &nodal, Begin &begin) const
+  void StepInLanes::place_block(const Block &block, const Patches::Nodal &nodal, Begin &begin) const
   {
     begin           = Begin();
     begin.place     = at_points(block.shapes, block.position, nodal);
@@ -326,8 +326,7 @@ namespace sprag
       end.mean_pressure = N{};
   }
 
-  SPRAG_LARGE_KERNEL void StepInLanes::evaluate(const Block &block, const Begin &begin, const Patches::Nodal &nodal,
-                                                End<Batch> &end) const
+  void StepInLanes::evaluate(const Block &block, const Begin &begin, const Patches::Nodal &nodal, End<Batch> &end) const
   {
     const auto pose = in_lanes(of.end);
     end.place       = at_points(block.shapes, block.position, nodal);
@@ -345,8 +344,7 @@ namespace sprag
       respond<false>(block, begin, pose, nodal, Part::all, end);
   }
 
-  SPRAG_LARGE_KERNEL bool StepInLanes::press(const unsigned int patch, const Patches::Nodal &to, Forces &forces,
-                                             double &compression)
+  bool StepInLanes::press(const unsigned int patch, const Patches::Nodal &to, Forces &forces, double &compression)
   {
     constexpr double round_off = 1e-9; // of gaps and travels [mm]
     const bool in_time         = of.kind == Kind::in_time;
@@ -477,8 +475,8 @@ namespace sprag
     }
   }
 
-  SPRAG_LARGE_KERNEL void StepInLanes::find_tangents(const Patches::Indices &some, const Part part,
-                                                     const std::function<void(unsigned int, const Tangent &)> &take) const
+  void StepInLanes::find_tangents(const Patches::Indices &some, const Part part,
+                                  const std::function<void(unsigned int, const Tangent &)> &take) const
   {
     const bool in_time = of.kind == Kind::in_time;
     if (of.slopes == 0)
