@@ -166,7 +166,7 @@ TEST_P(StepInLanesOfAnAxis, AStepWithoutInertiaFollowsTheLawsAtEachPoint)
     for (const auto mode : { FrictionMode::cone, FrictionMode::stick })
       for (const bool augmented : { false, true })
       {
-        Bed bed(cylinder, 12.5, 6);
+        Bed bed(cylinder, 12.5, 3);
         const StaticTerms terms{ friction, 6e-3, mode, augmented, 0.31, 1.2 };
         const auto step = [&](const auto &from, const auto &to, const double x, const std::vector<SurfaceMemory> &memory)
         {
@@ -507,7 +507,7 @@ TEST_P(StepInLanesOfAnAxis, EveryEntryOfTheTangentIsTheDerivativeOfAForce)
   for (const auto &friction :
        { falling, FrictionLaw{ CoulombFriction{ 0.4 } }, FrictionLaw{ CoulombFriction{ 50. } }, FrictionLaw{}, regularised })
   {
-    Bed bed(short_barrel(GetParam()), 12.5, 4, friction);
+    Bed bed(short_barrel(GetParam()), 12.5, 2, friction);
     const auto before = bed.pressed(0.12), begin = bed.pressed(0.1), end = waved(bed, 0.03);
     const auto in_time = [&](const auto &from, const auto &to, const double x, const std::vector<SurfaceMemory> &memory)
     {

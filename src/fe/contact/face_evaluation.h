@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fe/contact/face_contact_point.h"
+
 #include <string>
 
 namespace sprag

@@ -58,8 +58,7 @@ namespace sprag
     void evaluate(const SurfacePlace &end, const std::vector<SurfaceMemory> &memory, double surface_run, const StaticTerms &terms,
                   FaceEvaluation<3> &found);
 
-    /// Evaluates forces, compression and, where it is wanted, the tangent of a step in time. Where that of the last one is
-    /// wanted, the step has to be the same, or the slide.
+    /// Evaluates forces, compression and, where it is wanted, the tangent of a step in time.
     void evaluate(const PortStep &step, FaceEvaluation<3> &found);
 
     /// Finds works, energy and points of the step in time that was evaluated last: those that may take part and, along the lines
