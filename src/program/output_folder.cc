@@ -52,7 +52,7 @@ namespace sprag
       OpenFile opened(folder, O_RDONLY | O_DIRECTORY);
       if (!opened.is_open() || held.is_same_as(opened))
         return false;
-      if (!opened.lock(lock_patience))
+      if (!opened.lock(lock_patience) && errno == EWOULDBLOCK)
         throw InputError("--output = " + folder + ": another run writes there" + holder_of(opened) +
                          ". Wait for its end or choose another folder");
       held = std::move(opened);

@@ -81,7 +81,7 @@ namespace sprag
   {
     if (!file.is_open())
       throw InputError(path + " cannot be written: " + std::strerror(errno));
-    if (!file.lock(lock_patience))
+    if (!file.lock(lock_patience) && errno == EWOULDBLOCK)
       throw InputError(path + " is in use by another run. Choose another --output, or end that run.");
     read();
   }

@@ -48,9 +48,9 @@ namespace sprag
   {
     constexpr std::chrono::milliseconds pause(50);
     const auto end = std::chrono::steady_clock::now() + patience;
-    while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
     {
-      if (std::chrono::steady_clock::now() >= end)
+      if (errno != EWOULDBLOCK || std::chrono::steady_clock::now() >= end)
         return false;
       std::this_thread::sleep_for(pause);
     }

@@ -29,8 +29,8 @@ namespace sprag
       return descriptor >= 0;
     }
 
-    /// Waits up to `patience` for a lock that no other process has; kept until the file is closed. File systems without locks
-    /// give it at once.
+    /// Waits up to `patience` for a lock that no other process has; kept until the file is closed. EWOULDBLOCK says that another
+    /// process has it, other reasons that the file system has no locks.
     bool lock(std::chrono::milliseconds patience = {}) const;
 
     bool write(const std::string &text) const;
