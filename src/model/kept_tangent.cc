@@ -45,10 +45,6 @@ namespace sprag
 
   Vector<double> KeptFactors::reaction(const Vector<double> &displacements) const
   {
-    Vector<double> moved = displacements, forces(displacements.size());
-    factors->solve(moved);
-    if (forces.size() > 0)
-      of->matrix.vmult(forces, moved);
-    return forces;
+    return factors->reaction(of->matrix, displacements);
   }
 } // namespace sprag

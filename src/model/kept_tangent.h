@@ -31,7 +31,7 @@ namespace sprag
 
     const KeptTangent &tangent() const;
 
-    /// Returns A (1 - G A)^-1 z, the forces that answer to displacements z of the tangent's ports.
+    /// Returns PortFactors::reaction() of the tangent.
     dealii::Vector<double> reaction(const dealii::Vector<double> &displacements) const;
 
   private:

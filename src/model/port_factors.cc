@@ -33,10 +33,14 @@ namespace sprag
     matrix.compute_lu_factorization();
   }
 
-  void PortFactors::solve(Vector<double> &values) const
+  Vector<double> PortFactors::reaction(const FullMatrix<double> &tangent, const Vector<double> &displacements) const
   {
-    if (values.size() > 0)
-      matrix.solve(values);
+    Vector<double> moved = displacements, forces(displacements.size());
+    if (forces.size() == 0)
+      return forces;
+    matrix.solve(moved);
+    tangent.vmult(forces, moved);
+    return forces;
   }
 
   double PortFactors::determinant() const

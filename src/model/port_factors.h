@@ -16,8 +16,8 @@ namespace sprag
     PortFactors(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
                 const dealii::FullMatrix<double> &tangent);
 
-    /// Replaces b by the solution of (1 - G A) x = b.
-    void solve(dealii::Vector<double> &values) const;
+    /// Returns A (1 - G A)^-1 z, the forces that answer to displacements z of the ports which those forces have not changed yet.
+    dealii::Vector<double> reaction(const dealii::FullMatrix<double> &tangent, const dealii::Vector<double> &displacements) const;
 
     double determinant() const;
 

@@ -64,22 +64,6 @@ namespace sprag
     return PortFactors(compliance, ports, tangent).determinant();
   }
 
-  Vector<double> port_reaction(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
-                               const FullMatrix<double> &tangent, const Vector<double> &displacements)
-  {
-    try
-    {
-      Vector<double> change = displacements, forces(displacements.size());
-      PortFactors(compliance, ports, tangent).solve(change);
-      tangent.vmult(forces, change);
-      return forces;
-    }
-    catch (const ExceptionBase &)
-    {
-      throw AnalysisError("the tangent of the contact is singular");
-    }
-  }
-
   PortSelection all_ports(const unsigned int number)
   {
     PortSelection result(number);
@@ -117,7 +101,15 @@ namespace sprag
     Vector<double> loaded(static_cast<unsigned int>(ports.size()));
     for (unsigned int i = 0; i < loaded.size(); ++i)
       loaded[i] = mismatch[ports[i]];
-    add_response(compliance, ports, port_reaction(compliance, ports, tangent, loaded), selected, result);
-    return result;
+    try
+    {
+      const PortFactors factors(compliance, ports, tangent);
+      add_response(compliance, ports, factors.reaction(tangent, loaded), selected, result);
+      return result;
+    }
+    catch (const ExceptionBase &)
+    {
+      throw AnalysisError("the tangent of the contact is singular");
+    }
   }
 } // namespace sprag

@@ -45,11 +45,6 @@ namespace sprag
 
   PortSelection all_ports(unsigned int number);
 
-  /// Forces f = A (1 - G A)^-1 z on some of the ports, with the tangent A = df/dz, that answer to displacements z of them which
-  /// those forces have not changed yet.
-  dealii::Vector<double> port_reaction(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
-                                       const dealii::FullMatrix<double> &tangent, const dealii::Vector<double> &displacements);
-
   /// det(1 - G df/dz) on some of the ports.
   double port_determinant(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
                           const dealii::FullMatrix<double> &tangent);

@@ -86,7 +86,7 @@ TEST(PortForces, PortsOfDifferentBlocksFeelNothingOfEachOther)
 // dz = mismatch + G (df/dz) dz, whatever the levers feel of each other through the forces, of few ports and of more.
 TEST(PortForces, CorrectionSolvesTheLinearisedEquations)
 {
-  for (const unsigned int ports : { 4u, 20u })
+  for (const unsigned int ports : { 4u, 160u })
     for (const bool coupled : { false, true })
     {
       const auto compliance = of_two_levers_and_support(ports);
