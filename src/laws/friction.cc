@@ -152,4 +152,15 @@ namespace sprag
   {
     return std::visit([speed](const auto &choice) { return knot_after(speed, choice); }, law.law);
   }
+
+  FrictionLaw friction_of_step(const FrictionLaw &friction, const double drive_speed)
+  {
+    FrictionLaw law = friction;
+    if (law.speed == FrictionSpeed::drive)
+    {
+      law.law    = CoulombFriction{ friction_coefficient(friction, std::abs(drive_speed)).coefficient };
+      law.factor = 1.;
+    }
+    return law;
+  }
 } // namespace sprag

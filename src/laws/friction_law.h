@@ -72,4 +72,14 @@ namespace sprag
     double regularisation_speed = 0.; ///< [mm/s]; 0: stick is resolved
     double factor               = 1.; ///< times mu of the law, >= 0
   };
+
+  /// Returns the law as one step sees it: where mu depends on the drive's speed [mm/s] it is a constant of the step.
+  FrictionLaw friction_of_step(const FrictionLaw &friction, double drive_speed);
+
+  /// mu = (quadratic v + linear) v + constant from a speed on [mm/s].
+  struct FrictionPiece
+  {
+    double from;
+    double quadratic, linear, constant;
+  };
 } // namespace sprag

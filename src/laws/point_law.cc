@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "laws/point_law.h"
 
+#include "laws/friction.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -90,6 +92,11 @@ namespace sprag
     }
   } // namespace
 
+  double friction_in_stick(const FrictionLaw &law)
+  {
+    return friction_coefficient(law, 0.).coefficient;
+  }
+
   FrictionValue slip_friction(const FrictionLaw &law, const double load, const double resistance, const double pressure)
   {
     return friction_coefficient(law, slip_speed({ law, load, pressure, resistance }));
@@ -100,9 +107,10 @@ namespace sprag
     const auto mu    = friction_coefficient(law, std::abs(speed));
     const double v_r = law.regularisation_speed;
     if (v_r == 0.)
-      return { std::copysign(mu.coefficient, speed), mu.derivative };
+      return { std::copysign(mu.coefficient, speed), mu.derivative, mu.coefficient };
     const double root  = std::hypot(speed, v_r);
     const double share = speed / root;
-    return { mu.coefficient * share, mu.derivative * std::abs(share) + mu.coefficient * v_r * v_r / (root * root * root) };
+    return { mu.coefficient * share, mu.derivative * std::abs(share) + mu.coefficient * v_r * v_r / (root * root * root),
+             mu.coefficient };
   }
 } // namespace sprag

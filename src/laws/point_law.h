@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/dual.h"
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 
 #include <limits>
 
@@ -38,10 +38,14 @@ namespace sprag
   {
     double coefficient = 0.; ///< signed as the speed
     double derivative  = 0.; ///< [s/mm]
+    double mu          = 0.; ///< of the law at that speed
   };
 
   /// mu(|w|) sgn(w), or mu(|w|) w / sqrt(w^2 + v_r^2) with a regularisation speed v_r; w != 0 [mm/s].
   SlidingFriction sliding_friction(const FrictionLaw &law, double speed);
+
+  /// mu(0), the cone in stick.
+  double friction_in_stick(const FrictionLaw &law);
 
   /// Friction as a step applies it.
   struct SlipLaw
@@ -154,7 +158,7 @@ namespace sprag
     const SizeAndDirection<N, slips> of(trial);
     const N along      = dot(of.direction, shift);
     const N load       = of.size + k * along;
-    const double mu_0  = friction_coefficient(law.friction, 0.).coefficient;
+    const double mu_0  = friction_in_stick(law.friction);
     const auto pressed = value(p) > 0.;
     const auto beyond  = pressed & (value(of.size) > mu_0 * value(p));
     const auto at_rest = value(load) <= mu_0 * value(p);
@@ -221,7 +225,7 @@ namespace sprag
                     const auto found   = sliding_friction(law.friction, speed);
                     set_lane(coefficient, i, found.coefficient);
                     set_lane(slope, i, found.derivative);
-                    set_lane(result.mu, i, friction_coefficient(law.friction, std::abs(speed)).coefficient);
+                    set_lane(result.mu, i, found.mu);
                   });
     const N along = chained(coefficient, slope, w);
     for (int i = 0; i < slips; ++i)

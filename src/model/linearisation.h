@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "laws/friction_of_step.h"
+#include "laws/friction_law.h"
 #include "model/dynamic_model.h"
 
 #include <deal.II/lac/full_matrix.h>

@@ -2,7 +2,7 @@
 #include "scene/held_slide.h"
 
 #include "base/text.h"
-#include "laws/friction_of_step.h"
+#include "laws/friction_law.h"
 #include "scene/analysis_use.h"
 #include "scene/closed_form.h"
 #include "scene/lever_shape.h"

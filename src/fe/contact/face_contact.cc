@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/contact/face_contact.h"
 
-#include "laws/friction_of_step.h"
+#include "laws/friction_law.h"
 
 #include <algorithm>
 #include <cmath>

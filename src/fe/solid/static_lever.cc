@@ -4,7 +4,7 @@
 #include "base/text.h"
 #include "fe/contact/face_contact.h"
 #include "fe/statics/contact_penalties.h"
-#include "laws/friction_of_step.h"
+#include "laws/friction_law.h"
 #include "model/joined_memory.h"
 #include "model/joined_ports.h"
 #include "scene/across.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/solid/step_in_lanes.h"
 
+#include "laws/friction.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -246,7 +248,7 @@ namespace sprag
                     {
                       const auto found = sliding_friction(of.slip.friction, w.size[i]);
                       coefficient[i] = found.coefficient, slope[i] = found.derivative;
-                      friction.mu[i] = friction_coefficient(of.slip.friction, w.size[i]).coefficient;
+                      friction.mu[i] = found.mu;
                     });
       const Lanes sign  = w.is_nothing ? all_lanes(std::copysign(1., of.slide.speed)) : all_lanes(1.);
       friction.slipping = ~LaneMask{};
