@@ -5,6 +5,7 @@
 #include "fe/statics/lever_properties.h"
 #include "model/reduced_lever.h"
 #include "scene/contact_reference.h"
+#include "scene/held_slide.h"
 #include "scene/scene.h"
 #include "scene/scene_key.h"
 
@@ -65,8 +66,9 @@ namespace sprag
     }
     const PhaseTimer::Scope scope(time, "model");
     Dynamics result;
-    result.solid  = solid.second;
-    result.meshed = make_solid_dynamics(scene, *result.solid, contact_reference(scene).relaxation, n_modes);
+    result.solid = solid.second;
+    result.meshed =
+        make_solid_dynamics(scene, *result.solid, reachable_contact(scene), contact_reference(scene).relaxation, n_modes);
     return result;
   }
 
@@ -96,13 +98,13 @@ namespace sprag
     }
     else
     {
-      levers.emplace_front(key, make_lever(scene));
+      levers.emplace_front(key, make_lever(scene, key));
       levers.resize(std::min(levers.size(), kept));
     }
     return levers.front().second;
   }
 
-  std::shared_ptr<const MeshedLever> DynamicsMaker::make_lever(const Scene &scene)
+  std::shared_ptr<const MeshedLever> DynamicsMaker::make_lever(const Scene &scene, const std::string &key)
   {
     const std::clock_t begin = std::clock();
     auto lever               = std::make_shared<MeshedLever>();
@@ -113,7 +115,7 @@ namespace sprag
     const PhaseTimer::Scope scope(time, "basis");
     lever->body = std::make_unique<const Body>(lever->triangulation, body_properties(scene));
     if (scene.analysis.model == ModelType::condensed)
-      lever->condensed = make_condensed_basis(scene, *lever->body, store);
+      lever->condensed = make_condensed_basis(scene, key, *lever->body, store);
     else
       lever->elements = make_finite_element_basis(scene, *lever->body);
     lever->cpu_seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;

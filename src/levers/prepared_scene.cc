@@ -15,7 +15,8 @@ namespace sprag
     // Each run of a study is prepared by itself.
     if (scene.spring.type == SpringType::torsional || scene.analysis.type == AnalysisType::study)
       return scene;
-    Scene result = with_leaf_spring(scene);
+    Scene result  = scene;
+    result.spring = prepared_spring(scene);
     std::vector<std::string> mistakes;
     for (const auto &violation : violations(result))
       mistakes.push_back(scene.name + ".prm: " + violation.parameter + " " + violation.rule);

@@ -13,17 +13,17 @@ namespace sprag
 {
   namespace
   {
-    using FindMargin = std::function<JammingMargin(const Scene &)>;
+    using FindMargin = std::function<JammingMargin(const Device &)>;
 
     /// The margin of the lever of a pair that is closer to jamming.
-    JammingMargin least_margin(const Scene &scene, const FindMargin &margin)
+    JammingMargin least_margin(const Device &device, const FindMargin &margin)
     {
-      if (number_of_levers(scene) == 1)
-        return margin(scene);
+      if (number_of_levers(device) == 1)
+        return margin(device);
       const auto of_lever = [&](const unsigned int lever)
       {
-        Scene alone = scene_of_lever(scene, lever);
-        alone.pair  = {};
+        Device alone = device_of_lever(device, lever);
+        alone.pair   = {};
         return margin(alone);
       };
       const auto first  = of_lever(0);

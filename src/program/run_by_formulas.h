@@ -8,6 +8,7 @@
 
 namespace sprag
 {
+  struct Device;
   struct Scene;
 
   /// A function that carries out an analysis.
@@ -16,7 +17,7 @@ namespace sprag
   /// Carries out an analysis from its first line to the last: tells the margin to jamming, which `margin` finds for one lever,
   /// before anything is computed and the warnings at the end.
   void run_from_margin_to_warnings(const Scene &scene, const RunOptions &options,
-                                   const std::function<JammingMargin(const Scene &)> &margin, const Run &analysis);
+                                   const std::function<JammingMargin(const Device &)> &margin, const Run &analysis);
 
   /// Carries out the analysis of a scene that follows_formulas() and has no leaf spring. It throws what run() throws.
   void run_by_formulas(const Scene &scene, const RunOptions &options);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "run/in_memory.h"
+
 #include "fe/mesh/mesh.h"
+#include "scene/scene.h"
 #include "scene/scene_key.h"
 
 #include <ctime>

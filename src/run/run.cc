@@ -66,10 +66,10 @@ namespace sprag
         check_solid_file(scene);
     }
 
-    JammingMargin margin_of(const Scene &scene)
+    JammingMargin margin_of(const Device &device)
     {
-      const ModelType model = scene.analysis.model;
-      return jamming_margin(scene, model != ModelType::closed_form && model != ModelType::rigid);
+      const ModelType model = device.analysis.model;
+      return jamming_margin(device, model != ModelType::closed_form && model != ModelType::rigid);
     }
   } // namespace
 

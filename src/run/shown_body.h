@@ -3,6 +3,7 @@
 
 #include "fe/fields/body_fields.h"
 #include "levers/dynamics.h"
+#include "scene/held_slide.h"
 
 namespace sprag
 {
@@ -14,6 +15,6 @@ namespace sprag
     if (dynamics.lever)
       return BodyFields(*dynamics.lever->body);
     const auto &body = *dynamics.solid->body;
-    return { body, reached_face(scene, body) };
+    return { body, reached_face(reachable_contact(scene), body) };
   }
 } // namespace sprag

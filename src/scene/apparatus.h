@@ -76,7 +76,7 @@ namespace sprag
     SpringType type  = SpringType::torsional;
     double stiffness = 7.40e4; ///< k [N mm/rad], > 0; of a leaf spring that of its behaviour
     LeafSpring leaf;
-    LeafBehaviour behaviour; ///< filled in by with_leaf_spring(), empty for a torsional spring
+    LeafBehaviour behaviour; ///< filled in by prepared_spring(), empty for a torsional spring
 
     /// The behaviour where both levers of a pair swing together with a joint that is free; filled in there too.
     std::optional<LeafBehaviour> swing;

@@ -331,6 +331,12 @@ namespace sprag
         check_identification(scene, rules);
       return rules.broken;
     }
+
+    Scene with_device(Scene scene, const Device &device)
+    {
+      static_cast<Device &>(scene) = device;
+      return scene;
+    }
   } // namespace
 
   std::vector<Violation> violations(const Scene &scene)
@@ -346,10 +352,10 @@ namespace sprag
     }
     const Use use{ scene };
     settings(scene, use, rules);
-    auto of_levers = positions(scene_of_lever(scene, 0), use);
+    auto of_levers = positions(with_device(scene, device_of_lever(scene, 0)), use);
     // The second lever adds only violations of parameters that the first does not break.
     if (number_of_levers(scene) == 2)
-      for (const auto &violation : positions(scene_of_lever(scene, 1), use))
+      for (const auto &violation : positions(with_device(scene, device_of_lever(scene, 1)), use))
         if (std::none_of(of_levers.begin(), of_levers.end(),
                          [&](const Violation &v) { return v.parameter == violation.parameter; }))
           of_levers.push_back(violation);

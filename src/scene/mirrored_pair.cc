@@ -77,59 +77,59 @@ namespace sprag
     }
   } // namespace
 
-  unsigned int number_of_levers(const Scene &scene)
+  unsigned int number_of_levers(const Device &device)
   {
-    return scene.pair.type == PairType::full ? 2 : 1;
+    return device.pair.type == PairType::full ? 2 : 1;
   }
 
-  Scene scene_of_lever(const Scene &scene, const unsigned int lever)
+  Device device_of_lever(const Device &device, const unsigned int lever)
   {
-    Scene result    = scene;
-    result.geometry = geometry_of_lever(scene, lever);
-    result.friction = friction_of_lever(scene, lever);
+    Device result   = device;
+    result.geometry = geometry_of_lever(device, lever);
+    result.friction = friction_of_lever(device, lever);
     if (lever == 1)
       result.cylinder.tilt = -result.cylinder.tilt;
     return result;
   }
 
-  Geometry geometry_of_lever(const Scene &scene, const unsigned int lever)
+  Geometry geometry_of_lever(const Device &device, const unsigned int lever)
   {
-    Geometry result = scene.geometry;
-    if (number_of_levers(scene) == 2)
-      result.pivot_height -= (lever == 0 ? 1. : -1.) * scene.pair.cylinder_offset;
+    Geometry result = device.geometry;
+    if (number_of_levers(device) == 2)
+      result.pivot_height -= (lever == 0 ? 1. : -1.) * device.pair.cylinder_offset;
     return result;
   }
 
-  FrictionLaw friction_of_lever(const Scene &scene, const unsigned int lever)
+  FrictionLaw friction_of_lever(const Device &device, const unsigned int lever)
   {
-    FrictionLaw result = scene.friction;
+    FrictionLaw result = device.friction;
     if (lever == 1)
-      result.factor *= scene.pair.friction_ratio;
+      result.factor *= device.pair.friction_ratio;
     return result;
   }
 
-  double rest_inclination(const Scene &scene)
+  double rest_inclination(const Device &device)
   {
-    return kinematics(scene.geometry, 0.).theta;
+    return kinematics(device.geometry, 0.).theta;
   }
 
-  bool swings(const Scene &scene)
+  bool swings(const Device &device)
   {
-    return scene.pair.type == PairType::full && scene.pair.joint == SpringJoint::free;
+    return device.pair.type == PairType::full && device.pair.joint == SpringJoint::free;
   }
 
-  bool swings_otherwise(const Scene &scene)
+  bool swings_otherwise(const Device &device)
   {
-    return swings(scene) && scene.spring.swing;
+    return swings(device) && device.spring.swing;
   }
 
-  Scene swinging_scene(const Scene &scene)
+  Device swinging_device(const Device &device)
   {
-    Scene result = scene;
-    if (!scene.spring.swing)
+    Device result = device;
+    if (!device.spring.swing)
       return result;
-    result.lever.moment_of_inertia += scene.spring.swing->inertia - scene.spring.behaviour.inertia;
-    result.spring.behaviour = *scene.spring.swing;
+    result.lever.moment_of_inertia += device.spring.swing->inertia - device.spring.behaviour.inertia;
+    result.spring.behaviour = *device.spring.swing;
     result.spring.swing.reset();
     return result;
   }

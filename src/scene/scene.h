@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "laws/friction_law.h"
-#include "scene/analysis_settings.h"
-#include "scene/apparatus.h"
-#include "scene/contact_settings.h"
 #include "scene/design.h"
-#include "scene/discretisation_settings.h"
-#include "scene/drive.h"
+#include "scene/device.h"
 #include "scene/identification.h"
 #include "scene/isolation.h"
-#include "scene/lever.h"
 #include "scene/study_settings.h"
 #include "scene/vibration_settings.h"
 
@@ -22,27 +16,10 @@
 
 namespace sprag
 {
-  // A scene is plain data: what there is and what is done to it, at no particular fidelity.
-  // Units: mm, N, s, tonne, rad (so MPa and mJ). All forces and stiffnesses are per lever over its whole width.
-
-  struct Scene
+  /// A device and the analysis that is made of it, as a file describes them.
+  struct Scene : Device
   {
-    AnalysisSettings analysis;
-    Geometry geometry;
-    Drive drive;
-    FrictionLaw friction;
-    Lever lever;
-    FrictionLayer layer;
-    LeverFrameShape frame;
-    FrictionPlate plate;
-    Cylinder cylinder;
-    RotationalSpring spring;
-    MirroredPair pair;
-    Support support;
     TimeSettings time;
-    CondensedSettings condensed;
-    ContactSettings contact;
-    MeshSettings mesh;
     OutputSettings output;
     SlopeSettings slope;
     StabilitySettings stability;
@@ -54,8 +31,6 @@ namespace sprag
     DesignSettings design;
     IdentificationSettings identification;
     AccuracySettings accuracy;
-    std::string name;   ///< file name without folder and ending
-    std::string folder; ///< of the file, to which paths are relative
 
     /// Every parameter as it was read, by "Section/Name", numbers without unit, files with absolute paths; null for a scene that
     /// was not read.

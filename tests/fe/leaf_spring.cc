@@ -273,12 +273,12 @@ TEST(LeafSpring, ModesTakePartInWhatTheHubMoves)
 TEST(LeafSpring, CoversTheDriveOfItsScene)
 {
   Scene scene;
-  const Scene torsional = with_leaf_spring(scene);
-  EXPECT_EQ(torsional.spring.stiffness, scene.spring.stiffness);
-  EXPECT_TRUE(torsional.spring.behaviour.modes.empty());
+  const auto torsional = prepared_spring(scene);
+  EXPECT_EQ(torsional.stiffness, scene.spring.stiffness);
+  EXPECT_TRUE(torsional.behaviour.modes.empty());
 
   scene.spring.type    = SpringType::leaf;
-  const auto spring    = with_leaf_spring(scene).spring;
+  const auto spring    = prepared_spring(scene);
   const auto &samples  = spring.behaviour.law.samples();
   const double largest = kinematics(scene.geometry, scene.drive.maximum()).theta - kinematics(scene.geometry, 0.).theta;
   EXPECT_EQ(spring.stiffness, spring.behaviour.law.linear_stiffness());
@@ -307,12 +307,12 @@ TEST(LeafSpring, ThePlaneOfTheLeverLeavesItAlone)
 {
   Scene scene          = model_a();
   scene.spring.type    = SpringType::leaf;
-  const double as_beam = with_leaf_spring(scene).spring.stiffness;
+  const double as_beam = prepared_spring(scene).stiffness;
   scene.analysis.plane = PlaneState::strain;
-  EXPECT_EQ(with_leaf_spring(scene).spring.stiffness, as_beam);
+  EXPECT_EQ(prepared_spring(scene).stiffness, as_beam);
   auto &leaf            = scene.spring.leaf;
   leaf.plane            = PlaneState::strain;
-  const double as_plate = with_leaf_spring(scene).spring.stiffness;
+  const double as_plate = prepared_spring(scene).stiffness;
   EXPECT_NEAR(as_plate / as_beam * (1. - leaf.poisson_ratio * leaf.poisson_ratio), 1., 2e-3); // the clamps hinder both
 }
 

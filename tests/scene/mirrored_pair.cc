@@ -67,12 +67,12 @@ TEST(MirroredPair, EachLeverStandsInItsOwnMirroredAxes)
   pair.pair.cylinder_offset = 0.3;
   pair.pair.friction_ratio  = 0.8;
   EXPECT_EQ(number_of_levers(pair), 2u);
-  EXPECT_EQ(scene_of_lever(pair, 0).geometry.pivot_height, -0.3);
-  EXPECT_EQ(scene_of_lever(pair, 1).geometry.pivot_height, 0.3);
-  EXPECT_EQ(scene_of_lever(pair, 0).friction.factor, 1.);
-  EXPECT_EQ(scene_of_lever(pair, 1).friction.factor, 0.8);
+  EXPECT_EQ(device_of_lever(pair, 0).geometry.pivot_height, -0.3);
+  EXPECT_EQ(device_of_lever(pair, 1).geometry.pivot_height, 0.3);
+  EXPECT_EQ(device_of_lever(pair, 0).friction.factor, 1.);
+  EXPECT_EQ(device_of_lever(pair, 1).friction.factor, 0.8);
   EXPECT_EQ(rest_inclination(pair), rest_inclination(model_a()));
   pair.pair.type = PairType::half;
-  EXPECT_EQ(scene_of_lever(pair, 1).geometry.pivot_height, 0.);
+  EXPECT_EQ(device_of_lever(pair, 1).geometry.pivot_height, 0.);
   EXPECT_FALSE(swings(pair));
 }

@@ -7,6 +7,7 @@
 #include "fe/statics/lever_properties.h"
 #include "mpi_environment.h"
 #include "scene/scene.h"
+#include "scene/scene_key.h"
 #include "verification/run_transient.h"
 
 namespace sprag
@@ -18,9 +19,10 @@ namespace sprag
     make_mesh(scene, triangulation);
     const ElasticBody<2> body(triangulation, lever_properties(scene).body);
     const double relaxation = contact_reference(scene).relaxation;
-    const auto lever        = scene.analysis.model == ModelType::condensed
-                                  ? make_condensed_dynamics(scene, body, make_condensed_basis(scene, body, true), relaxation)
-                                  : make_finite_element_dynamics(scene, body, make_finite_element_basis(scene, body), relaxation);
+    const auto lever =
+        scene.analysis.model == ModelType::condensed
+            ? make_condensed_dynamics(scene, body, make_condensed_basis(scene, body_key(scene), body, true), relaxation)
+            : make_finite_element_dynamics(scene, body, make_finite_element_basis(scene, body), relaxation);
     return run_in_time(*lever.model, scene);
   }
 

@@ -139,8 +139,9 @@ TEST(MirroredPairInTime, SwingingChangesTheInertiaOfLeafAndJointAlone)
   auto scene            = paired(in_time(model_a(), ModelType::beam), SpringJoint::free);
   scene.spring.type     = SpringType::leaf;
   scene.pair.joint_mass = 1e-4;
-  const auto prepared   = with_leaf_spring(scene);
-  const auto swinging   = swinging_scene(prepared);
+  auto prepared         = scene;
+  prepared.spring       = prepared_spring(scene);
+  const auto swinging   = swinging_device(prepared);
   EXPECT_NEAR(mass_per_length(swinging), mass_per_length(prepared), 1e-12 * mass_per_length(prepared));
   EXPECT_GT(moment_of_inertia(swinging) - moment_of_inertia(prepared), 0.5 * 1e-4 * 1e4);
   EXPECT_EQ(moment_of_inertia(prepared), 6.45);
@@ -153,7 +154,8 @@ TEST(MirroredPairInTime, ModesOfAllFidelitiesAgree)
   scene.spring.type     = SpringType::leaf;
   scene.pair.joint_mass = 1e-4;
   scene.condensed.modes = 40;
-  scene                 = undamped(with_leaf_spring(scene));
+  scene.spring          = prepared_spring(scene);
+  scene                 = undamped(scene);
   const auto modes      = [](const Scene &of)
   {
     DynamicsMaker maker(false);

@@ -128,8 +128,9 @@ TEST(SolidPair, LeversThatNothingJoinsAreAsAlone)
     const SolidRun pair(scene);
     for (const unsigned int lever : { 0u, 1u })
     {
-      Scene alone     = scene_of_lever(scene, lever);
-      alone.pair.type = PairType::half;
+      Scene alone                  = scene;
+      static_cast<Device &>(alone) = device_of_lever(scene, lever);
+      alone.pair.type              = PairType::half;
       const SolidRun single(alone);
       const auto of_pair = [&](const Column column) { return lever == 0 ? of_first(column) : of_second(column); };
       for (const Column column : { Column::P, Column::Q, Column::theta, Column::largest_pressure })

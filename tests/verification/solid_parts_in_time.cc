@@ -51,7 +51,8 @@ namespace
     scene.spring.leaf.thickness = 2.;
     scene.lever.tip_mass        = 2e-5;
     scene.support.type          = SupportType::sprung;
-    return with_leaf_spring(scene);
+    scene.spring                = prepared_spring(scene);
+    return scene;
   }
 
   /// A plate on two places of sensors, whose pads of half the width each are those of the plane.
@@ -168,7 +169,8 @@ TEST(SolidPartsInTime, ALeafVibratesAtItsOwnFrequency)
   Scene scene                   = in_space(AnalysisType::transient);
   scene.spring.type             = SpringType::leaf;
   scene.spring.leaf.thickness   = 1.;
-  scene                         = with_leaf_spring(with_face_size(scene, 4.));
+  scene                         = with_face_size(scene, 4.);
+  scene.spring                  = prepared_spring(scene);
   scene.lever.hub_inertia       = 1e3;
   scene.lever.moment_of_inertia = 1.01e3;
   const auto &leaf              = scene.spring.leaf;
@@ -342,7 +344,7 @@ TEST(SolidPartsInTime, AVibrationGrowsAsItsEigenvalueSaysSlow)
   scene.lever.depth        = 6.;
   scene.drive              = Drive(DriveProfile::triangle, 0., 65., 112., 1.);
   scene.stability.position = 65.;
-  scene                    = with_leaf_spring(scene);
+  scene.spring             = prepared_spring(scene);
   const JudgedSlide judged(scene);
   ASSERT_EQ(judged.stability.kind, SlideKind::flutter);
   HeldRun run(judged.dynamics.model(), judged.step());

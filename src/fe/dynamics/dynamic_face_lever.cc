@@ -4,9 +4,8 @@
 #include "fe/dynamics/lever_constants.h"
 #include "fe/statics/contact_penalties.h"
 #include "model/assemble_lever.h"
+#include "scene/device.h"
 #include "scene/mirrored_pair.h"
-#include "scene/scene.h"
-#include "scene/scene_key.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,87 +14,88 @@ namespace sprag
 {
   namespace
   {
-    BasisSettings basis_settings(const Scene &scene)
+    BasisSettings basis_settings(const Device &device)
     {
-      return { scene.condensed.modes, scene.spring.stiffness, inertia_of(scene), scene.condensed.cache, body_key(scene) };
+      return { device.condensed.modes, device.spring.stiffness, inertia_of(device), device.condensed.cache, {} };
     }
 
-    FaceContactProperties contact_of(const Scene &scene, const PortLayout &ports, const ContactPenalties &penalties,
+    FaceContactProperties contact_of(const Device &device, const PortLayout &ports, const ContactPenalties &penalties,
                                      const unsigned int lever)
     {
-      const Scene own = scene_of_lever(scene, lever);
+      const Device own = device_of_lever(device, lever);
       FaceContactProperties result;
       set_cylinder(own.geometry, result);
       result.ports            = ports;
-      result.rest_inclination = rest_inclination(scene);
+      result.rest_inclination = rest_inclination(device);
       result.penalties        = penalties;
       result.friction         = own.friction;
-      result.layer_thickness  = scene.layer.thickness;
+      result.layer_thickness  = device.layer.thickness;
       return result;
     }
 
-    MeshedDynamics facts(const Scene &scene, const ElasticBody<2> &body, const std::vector<double> &omega_squared)
+    MeshedDynamics facts(const Device &device, const ElasticBody<2> &body, const std::vector<double> &omega_squared)
     {
       using namespace penalty_over_layer;
       MeshedDynamics result;
-      const double factor = scene.mesh.degree == 1 ? in_time_linear : in_time;
-      result.penalties    = contact_penalties(body, scene.contact, scene.layer.thickness, factor);
+      const double factor = device.mesh.degree == 1 ? in_time_linear : in_time;
+      result.penalties    = contact_penalties(body, device.contact, device.layer.thickness, factor);
       for (const double stiffness : omega_squared)
         result.frequencies.push_back(0.5 * std::sqrt(stiffness) / M_PI);
       return result;
     }
 
     template <class Structure>
-    std::unique_ptr<DynamicModel> assemble(const Scene &scene, const ElasticBody<2> &body, std::unique_ptr<Structure> structure,
+    std::unique_ptr<DynamicModel> assemble(const Device &device, const ElasticBody<2> &body, std::unique_ptr<Structure> structure,
                                            const MeshedDynamics &facts)
     {
       const PortLayout ports = structure->ports();
       const auto contact     = [&](const unsigned int lever)
-      { return std::make_unique<FaceContact>(body, contact_of(scene, ports.of_one_lever(), facts.penalties, lever)); };
-      return assemble_lever(std::move(structure), lever_frame(scene, ports, facts.lever_mass), contact,
+      { return std::make_unique<FaceContact>(body, contact_of(device, ports.of_one_lever(), facts.penalties, lever)); };
+      return assemble_lever(std::move(structure), lever_frame(device, ports, facts.lever_mass), contact,
                             static_cast<unsigned int>(body.friction_face().points.size()));
     }
   } // namespace
 
-  double mesh_inertia(const Scene &scene, const ElasticBody<2> &body)
+  double mesh_inertia(const Device &device, const ElasticBody<2> &body)
   {
-    return InertialMatrices(body, inertia_of(scene)).moment_of_inertia;
+    return InertialMatrices(body, inertia_of(device)).moment_of_inertia;
   }
 
-  FiniteElementBasis make_finite_element_basis(const Scene &scene, const ElasticBody<2> &body)
+  FiniteElementBasis make_finite_element_basis(const Device &device, const ElasticBody<2> &body)
   {
-    const auto matrices = std::make_shared<InertialMatrices>(body, inertia_of(scene));
+    const auto matrices = std::make_shared<InertialMatrices>(body, inertia_of(device));
     dealii::PETScWrappers::SparseMatrix stiffness;
-    matrices->sum({ 0., 1., 0., scene.spring.stiffness }, stiffness);
-    FiniteElementBasis basis{ matrices, free_modes(stiffness, matrices->mass, scene.condensed.modes), {} };
-    if (swings_otherwise(scene))
-      basis.swinging = std::make_shared<const FiniteElementBasis>(make_finite_element_basis(swinging_scene(scene), body));
+    matrices->sum({ 0., 1., 0., device.spring.stiffness }, stiffness);
+    FiniteElementBasis basis{ matrices, free_modes(stiffness, matrices->mass, device.condensed.modes), {} };
+    if (swings_otherwise(device))
+      basis.swinging = std::make_shared<const FiniteElementBasis>(make_finite_element_basis(swinging_device(device), body));
     return basis;
   }
 
-  CondensedBases make_condensed_basis(const Scene &scene, const ElasticBody<2> &body, const bool store)
+  CondensedBases make_condensed_basis(const Device &device, const std::string &key, const ElasticBody<2> &body, const bool store)
   {
-    const auto make = [&](const Scene &of)
+    const auto make = [&](const Device &of)
     {
-      const auto settings = basis_settings(of);
+      auto settings   = basis_settings(of);
+      settings.origin = key;
       return std::make_shared<const CondensedBasis>(store ? condensed_basis(body, settings) : make_basis(body, settings));
     };
-    CondensedBases bases{ make(scene), {} };
-    if (swings_otherwise(scene))
-      bases.swinging = make(swinging_scene(scene));
+    CondensedBases bases{ make(device), {} };
+    if (swings_otherwise(device))
+      bases.swinging = make(swinging_device(device));
     return bases;
   }
 
-  MeshedDynamics make_finite_element_dynamics(const Scene &scene, const ElasticBody<2> &body, const FiniteElementBasis &basis,
+  MeshedDynamics make_finite_element_dynamics(const Device &device, const ElasticBody<2> &body, const FiniteElementBasis &basis,
                                               const double relaxation)
   {
     const auto &matrices = *basis.matrices;
-    const auto constants = constants_of(scene, relaxation, matrices.total_mass);
+    const auto constants = constants_of(device, relaxation, matrices.total_mass);
     const auto structure = [&](const FiniteElementBasis &of)
     { return std::make_unique<SparseStructure>(body, of.matrices, of.modes, constants); };
 
-    MeshedDynamics result    = facts(scene, body, basis.modes.stiffness);
-    result.n_coordinates     = number_of_levers(scene) * matrices.coordinates.size();
+    MeshedDynamics result    = facts(device, body, basis.modes.stiffness);
+    result.n_coordinates     = number_of_levers(device) * matrices.coordinates.size();
     result.density_factor    = matrices.density_factor;
     result.lever_mass        = matrices.total_mass;
     result.moment_of_inertia = matrices.moment_of_inertia;
@@ -103,9 +103,9 @@ namespace sprag
     {
       result.elastic_displacement = [of = lever.get()](const Motion &motion, const unsigned int index)
       { return of->elastic_displacement(motion, index); };
-      result.model = assemble(scene, body, std::move(lever), result);
+      result.model = assemble(device, body, std::move(lever), result);
     };
-    if (number_of_levers(scene) == 1)
+    if (number_of_levers(device) == 1)
       complete(structure(basis));
     else
       complete(std::make_unique<MirroredStructure<SparseStructure>>(
@@ -113,16 +113,16 @@ namespace sprag
     return result;
   }
 
-  MeshedDynamics make_condensed_dynamics(const Scene &scene, const ElasticBody<2> &body, const CondensedBases &bases,
+  MeshedDynamics make_condensed_dynamics(const Device &device, const ElasticBody<2> &body, const CondensedBases &bases,
                                          const double relaxation)
   {
     const auto &basis    = bases.lever;
     const auto &swinging = bases.swinging ? bases.swinging : bases.lever;
-    const auto constants = constants_of(scene, relaxation, basis->lever_mass);
+    const auto constants = constants_of(device, relaxation, basis->lever_mass);
     const auto structure = [&](const CondensedBasis &of) { return std::make_unique<ModalStructure>(modal_data(of, constants)); };
 
-    MeshedDynamics result    = facts(scene, body, basis->stiffness);
-    result.n_coordinates     = number_of_levers(scene) * static_cast<unsigned int>(basis->stiffness.size()) + constants.sprung;
+    MeshedDynamics result    = facts(device, body, basis->stiffness);
+    result.n_coordinates     = number_of_levers(device) * static_cast<unsigned int>(basis->stiffness.size()) + constants.sprung;
     result.density_factor    = basis->density_factor;
     result.lever_mass        = basis->lever_mass;
     result.moment_of_inertia = basis->moment_of_inertia;
@@ -130,7 +130,7 @@ namespace sprag
     result.basis_cpu_seconds = basis->cpu_seconds + (bases.swinging ? swinging->cpu_seconds : 0.);
     result.message           = basis->message;
     // Made when the first field is wanted.
-    const auto displacement = [&body](const Scene &of, const std::shared_ptr<const CondensedBasis> &own)
+    const auto displacement = [&body](const Device &of, const std::shared_ptr<const CondensedBasis> &own)
     {
       return [&body, settings = basis_settings(of), own,
               made = std::shared_ptr<CondensedDisplacement>()](const Motion &motion) mutable
@@ -140,24 +140,24 @@ namespace sprag
         return (*made)(motion);
       };
     };
-    if (number_of_levers(scene) == 1)
+    if (number_of_levers(device) == 1)
     {
-      result.elastic_displacement = [of_lever = displacement(scene, basis)](const Motion &motion, unsigned int) mutable
+      result.elastic_displacement = [of_lever = displacement(device, basis)](const Motion &motion, unsigned int) mutable
       { return of_lever(motion); };
-      result.model = assemble(scene, body, structure(*basis), result);
+      result.model = assemble(device, body, structure(*basis), result);
     }
     else
     {
       auto pair = std::make_unique<MirroredStructure<ModalStructure>>(structure(*basis), structure(*swinging), !bases.swinging);
       result.elastic_displacement =
-          [of = pair.get(), mirroring = displacement(scene, basis),
-           opposite = displacement(swinging_scene(scene), swinging)](const Motion &motion, const unsigned int lever) mutable
+          [of = pair.get(), mirroring = displacement(device, basis),
+           opposite = displacement(swinging_device(device), swinging)](const Motion &motion, const unsigned int lever) mutable
       {
         return of->of_lever(motion, lever,
                             [&](const unsigned int part, const Motion &of_part)
                             { return part == 0 ? mirroring(of_part) : opposite(of_part); });
       };
-      result.model = assemble(scene, body, std::move(pair), result);
+      result.model = assemble(device, body, std::move(pair), result);
     }
     return result;
   }

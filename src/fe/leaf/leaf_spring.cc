@@ -6,8 +6,8 @@
 #include "fe/algebra/free_modes.h"
 #include "fe/leaf/leaf_body.h"
 #include "scene/closed_form.h"
+#include "scene/device.h"
 #include "scene/mirrored_pair.h"
-#include "scene/scene.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -255,20 +255,21 @@ namespace sprag
     return behaviour;
   }
 
-  Scene with_leaf_spring(Scene scene)
+  RotationalSpring prepared_spring(const Device &device)
   {
-    if (scene.spring.type != SpringType::leaf)
-      return scene;
-    const double rest       = kinematics(scene.geometry, 0.).theta;
-    const double smallest   = std::min(0., kinematics(scene.geometry, scene.drive.minimum()).theta - rest);
-    const double largest    = std::max(0., kinematics(scene.geometry, scene.drive.maximum()).theta - rest);
+    RotationalSpring result = device.spring;
+    if (result.type != SpringType::leaf)
+      return result;
+    const double rest       = kinematics(device.geometry, 0.).theta;
+    const double smallest   = std::min(0., kinematics(device.geometry, device.drive.minimum()).theta - rest);
+    const double largest    = std::max(0., kinematics(device.geometry, device.drive.maximum()).theta - rest);
     const double room       = std::max(0.02, 0.5 * std::max(-smallest, largest));
-    const double joint_mass = 0.5 * scene.pair.joint_mass; // the mirrored lever's leaf carries the other half
-    const auto plane        = scene.spring.leaf.plane;
-    scene.spring.behaviour  = leaf_behaviour(scene.spring.leaf, plane, smallest - room, largest + room, joint_mass);
-    scene.spring.stiffness  = scene.spring.behaviour.law.linear_stiffness();
-    if (swings(scene))
-      scene.spring.swing = swinging_leaf(scene.spring.leaf, plane, joint_mass);
-    return scene;
+    const double joint_mass = 0.5 * device.pair.joint_mass; // the mirrored lever's leaf carries the other half
+    const auto plane        = result.leaf.plane;
+    result.behaviour        = leaf_behaviour(result.leaf, plane, smallest - room, largest + room, joint_mass);
+    result.stiffness        = result.behaviour.law.linear_stiffness();
+    if (swings(device))
+      result.swing = swinging_leaf(result.leaf, plane, joint_mass);
+    return result;
   }
 } // namespace sprag

@@ -6,7 +6,7 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   /// Finds the behaviour of a leaf spring by finite elements, over its whole width: finite rotations in the moment, sampled from
   /// `smallest_turn` <= 0 to `largest_turn` >= 0 [rad] of the hub so finely that between samples it is within 1e-8 of the largest
@@ -19,8 +19,8 @@ namespace sprag
   /// inertia and vibrations, and no moment.
   LeafBehaviour swinging_leaf(LeafSpring leaf, PlaneState plane, double joint_mass);
 
-  /// Fills in the stiffness of a leaf spring and its behaviour over the turns of the drive and half of the largest, at least 0.02
-  /// rad, beyond on both sides; of a full pair with a free joint also how the springs swing. A scene with a torsional spring
-  /// stays as it is.
-  Scene with_leaf_spring(Scene scene);
+  /// Returns the device's spring with the stiffness of a leaf spring and its behaviour over the turns of the drive and half of
+  /// the largest, at least 0.02 rad, beyond on both sides; of a full pair with a free joint also how the springs swing. A
+  /// torsional spring stays as it is.
+  RotationalSpring prepared_spring(const Device &device);
 } // namespace sprag

@@ -14,11 +14,9 @@
 #include "model/mirrored_ports.h"
 #include "model/mirrored_structure.h"
 #include "scene/across.h"
-#include "scene/analysis_use.h"
-#include "scene/held_slide.h"
+#include "scene/device.h"
 #include "scene/lever_shape.h"
 #include "scene/mirrored_pair.h"
-#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -167,12 +165,6 @@ namespace sprag
       return result;
     }
 
-    FaceWindow window_of_scene(const Scene &scene, const FrictionFace<3> &face)
-    {
-      const auto [begin, end] = reachable_contact(scene);
-      return window_of(face, begin, end);
-    }
-
     PortSelection ports_of(const FaceWindow &window)
     {
       PortSelection result(3 * window.face.nodes.size());
@@ -182,10 +174,10 @@ namespace sprag
     }
 
     /// Of the window, the sensors, the cylinder's axis, the hub and its momentum.
-    PortLayout layout_of(const FaceWindow &window, const SolidInTime &lever, const Scene &scene)
+    PortLayout layout_of(const FaceWindow &window, const SolidInTime &lever, const Device &device)
     {
       PortLayout result{ static_cast<unsigned int>(3 * window.face.nodes.size()), true, lever.sensors->number() };
-      result.slopes = lever.body->is_half() || !scene.cylinder.has_free_axis() ? 0 : 2;
+      result.slopes = lever.body->is_half() || !device.cylinder.has_free_axis() ? 0 : 2;
       return result;
     }
 
@@ -212,7 +204,7 @@ namespace sprag
 
     /// Static compliance of these ports up to the hub's rotation [mm/N].
     FullMatrix<double> port_compliance(const SolidInTime &lever, const FaceWindow &window, const PortLayout &ports,
-                                       const Scene &scene)
+                                       const Device &device)
     {
       FullMatrix<double> result(ports.rotation() + 1, ports.rotation() + 1);
       result.fill(*lever.compliance->among(ports_of(window)));
@@ -227,15 +219,15 @@ namespace sprag
           result(port, ports.sensor(other)) = of_sensors(s, of_face + other);
       }
       for (unsigned int i = 0; i < ports.slopes; ++i)
-        result(ports.slope(i), ports.slope(i)) = slope_compliances(scene.cylinder)[i];
-      result(ports.rotation(), ports.rotation()) = 1. / scene.spring.stiffness;
+        result(ports.slope(i), ports.slope(i)) = slope_compliances(device.cylinder)[i];
+      result(ports.rotation(), ports.rotation()) = 1. / device.spring.stiffness;
       return result;
     }
 
     /// The basis as of a lever in a plane whose face is the window.
-    CondensedBasis basis_on(const FaceWindow &window, const SolidInTime &lever, const SolidModes &modes, const Scene &scene)
+    CondensedBasis basis_on(const FaceWindow &window, const SolidInTime &lever, const SolidModes &modes, const Device &device)
     {
-      const auto ports = layout_of(window, lever, scene);
+      const auto ports = layout_of(window, lever, device);
       CondensedBasis result;
       result.sensors           = ports.sensors;
       result.slopes            = ports.slopes;
@@ -245,7 +237,7 @@ namespace sprag
       result.density_factor    = modes.density_factor;
       result.lever_mass        = modes.total_mass;
       result.moment_of_inertia = modes.moment_of_inertia;
-      result.face_compliance   = port_compliance(lever, window, ports, scene);
+      result.face_compliance   = port_compliance(lever, window, ports, device);
 
       const auto n = ports.rotation() + 1, m = static_cast<unsigned int>(result.stiffness.size());
       FullMatrix<double> at_ports(n, m), scaled(n, m);
@@ -260,22 +252,22 @@ namespace sprag
       return result;
     }
 
-    std::unique_ptr<SurfaceContact> contact_of(const Scene &scene, const SolidInTime &lever, const FrictionFace<3> &face,
+    std::unique_ptr<SurfaceContact> contact_of(const Device &device, const SolidInTime &lever, const FrictionFace<3> &face,
                                                const PortLayout &ports, const unsigned int index)
     {
-      const Scene own = scene_of_lever(scene, index);
+      const Device own = device_of_lever(device, index);
       return std::make_unique<SurfaceContact>(
           face, SurfaceContactProperties{ RigidCylinder(own.geometry, own.cylinder),
                                           [geometry = own.geometry](const double x, const double theta)
                                           { return cylinder_centre(geometry, x, theta); },
-                                          own.geometry.cylinder_radius, ports, rest_inclination(scene),
+                                          own.geometry.cylinder_radius, ports, rest_inclination(device),
                                           penalties_in_time(own, lever.body->friction_face()), lever.body->is_half(),
-                                          own.friction, scene.layer.thickness });
+                                          own.friction, device.layer.thickness });
     }
 
-    LeverFrame frame_of(const Scene &scene, const SolidInTime &lever, const PortLayout &ports)
+    LeverFrame frame_of(const Device &device, const SolidInTime &lever, const PortLayout &ports)
     {
-      LeverFrame result       = lever_frame(scene, ports, lever.modes.total_mass);
+      LeverFrame result       = lever_frame(device, ports, lever.modes.total_mass);
       result.sensor_stiffness = lever.sensors->stiffness();
       result.tell_sensors     = [&lever](const std::vector<double> &forces, Row &row) { lever.sensors->tell(forces, row); };
       return result;
@@ -307,14 +299,14 @@ namespace sprag
       return result;
     }
 
-    MeshedDynamics facts(const Scene &scene, const SolidInTime &lever, const unsigned int n_modes)
+    MeshedDynamics facts(const Device &device, const SolidInTime &lever, const unsigned int n_modes)
     {
       MeshedDynamics result;
-      result.n_coordinates     = number_of_levers(scene) * n_modes + (scene.support.type == SupportType::sprung ? 1 : 0);
+      result.n_coordinates     = number_of_levers(device) * n_modes + (device.support.type == SupportType::sprung ? 1 : 0);
       result.density_factor    = lever.modes.density_factor;
       result.lever_mass        = lever.modes.total_mass;
       result.moment_of_inertia = lever.modes.moment_of_inertia;
-      result.penalties         = penalties_in_time(scene, lever.body->friction_face());
+      result.penalties         = penalties_in_time(device, lever.body->friction_face());
       return result;
     }
   } // namespace
@@ -326,47 +318,47 @@ namespace sprag
     return { &lever.modes, lever.swinging ? &*lever.swinging : &lever.modes };
   }
 
-  SolidInTime make_solid_in_time(const Scene &scene, const Mesh &plane)
+  SolidInTime make_solid_in_time(const Device &device, const Mesh &plane)
   {
     SolidInTime result;
-    result.body                         = std::make_unique<const SolidBody>(scene, plane);
-    const double room                   = 0.1 * scene.geometry.cylinder_radius;
+    result.body                         = std::make_unique<const SolidBody>(device, plane);
+    const double room                   = 0.1 * device.geometry.cylinder_radius;
     constexpr double spacing_over_depth = 0.5; // ringing adds up what the compliance leaves out
-    const auto [first, last]            = swept_contact(scene);
+    const auto [first, last]            = swept_contact(device);
     result.compliance = std::make_unique<LayeredCompliance>(*result.body, first - room, last + room, spacing_over_depth);
     result.sensors    = std::make_unique<const SensorForces>(*result.body);
-    const auto modes  = [&](const Scene &of)
+    const auto modes  = [&](const Device &of)
     { return solid_modes(*result.body, inertia_of(of), of.spring.stiffness, of.condensed.modes); };
-    result.modes = modes(scene);
-    if (swings_otherwise(scene))
-      result.swinging = modes(swinging_scene(scene));
+    result.modes = modes(device);
+    if (swings_otherwise(device))
+      result.swinging = modes(swinging_device(device));
     return result;
   }
 
-  MeshedDynamics make_solid_dynamics(const Scene &scene, const SolidInTime &lever, const double relaxation,
-                                     const unsigned int n_modes)
+  MeshedDynamics make_solid_dynamics(const Device &device, const SolidInTime &lever, const std::array<double, 2> &reach,
+                                     const double relaxation, const unsigned int n_modes)
   {
-    const auto window    = std::make_shared<const FaceWindow>(window_of_scene(scene, lever.body->friction_face()));
+    const auto window    = std::make_shared<const FaceWindow>(window_of(lever.body->friction_face(), reach[0], reach[1]));
     const auto face      = std::shared_ptr<const FrictionFace<3>>(window, &window->face);
     const auto structure = [&](const SolidModes &modes)
     {
-      const auto basis = truncated(basis_on(*window, lever, modes, scene), n_modes);
-      return std::make_unique<ModalStructure>(modal_data(basis, constants_of(scene, relaxation, basis.lever_mass)));
+      const auto basis = truncated(basis_on(*window, lever, modes, device), n_modes);
+      return std::make_unique<ModalStructure>(modal_data(basis, constants_of(device, relaxation, basis.lever_mass)));
     };
     std::vector<unsigned int> dofs;
     for (const auto &node : face->nodes)
       dofs.insert(dofs.end(), node.dofs.begin(), node.dofs.end());
     const auto contact = [&](const PortLayout &ports, const unsigned int index)
-    { return contact_of(scene, lever, *face, ports.of_one_lever(), index); };
-    MeshedDynamics result = facts(scene, lever, n_modes);
-    if (number_of_levers(scene) == 1)
+    { return contact_of(device, lever, *face, ports.of_one_lever(), index); };
+    MeshedDynamics result = facts(device, lever, n_modes);
+    if (number_of_levers(device) == 1)
     {
       auto alone                  = structure(lever.modes);
       const auto ports            = alone->ports();
       result.elastic_displacement = [&lever, dofs](const Motion &motion, unsigned int)
       { return displacement(*lever.body, lever.modes, dofs, motion); };
       result.model = std::make_unique<SolidDynamicLever<ModalStructure, SurfaceContact>>(
-          std::move(alone), contact(ports, 0), frame_of(scene, lever, ports), lever, face);
+          std::move(alone), contact(ports, 0), frame_of(device, lever, ports), lever, face);
       return result;
     }
     using Pair                  = MirroredStructure<ModalStructure>;
@@ -384,19 +376,19 @@ namespace sprag
         std::make_unique<OfPair>(std::array<std::unique_ptr<SurfaceContact>, 2>{ { contact(ports, 0), contact(ports, 1) } },
                                  ports, static_cast<unsigned int>(face->points.size()));
     result.model = std::make_unique<SolidDynamicLever<Pair, OfPair>>(std::move(pair), std::move(contacts),
-                                                                     frame_of(scene, lever, ports), lever, face);
+                                                                     frame_of(device, lever, ports), lever, face);
     return result;
   }
 
-  ContactPenalties penalties_in_time(const Scene &scene, const FrictionFace<3> &face)
+  ContactPenalties penalties_in_time(const Device &device, const FrictionFace<3> &face)
   {
     using namespace penalty_over_layer;
-    const double factor = scene.mesh.degree == 1 ? in_time_linear : in_time;
-    return contact_penalties(face, scene.contact, scene.layer.thickness, factor);
+    const double factor = device.mesh.degree == 1 ? in_time_linear : in_time;
+    return contact_penalties(face, device.contact, device.layer.thickness, factor);
   }
 
-  FrictionFace<3> reached_face(const Scene &scene, const SolidBody &body)
+  FrictionFace<3> reached_face(const std::array<double, 2> &reach, const SolidBody &body)
   {
-    return window_of_scene(scene, body.friction_face()).face;
+    return window_of(body.friction_face(), reach[0], reach[1]).face;
   }
 } // namespace sprag
