@@ -117,7 +117,8 @@ namespace sprag
       stream << boost::algorithm::join(scene.accuracy.quantities, ", ");
       if (scene.accuracy.budget > 0.)
         stream << " within " << scene.accuracy.budget << " s";
-      stream << " asked for, " << percent(choice.error) << " expected. " << choice.limit << '\n';
+      stream << " asked for, " << (choice.error > 0. ? percent(choice.error) + " expected. " : "nothing to choose. ")
+             << choice.limit << '\n';
     }
   } // namespace
 

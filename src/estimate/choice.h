@@ -45,14 +45,19 @@ namespace sprag
   /// equilibrium.
   ChosenSetting choose_dimension(const Scene &scene);
 
-  /// Called with a sentence about what a choice does next and what it costs, where that is long.
-  using Announce = std::function<void(const std::string &)>;
+  /// Called with a sentence about a dear probe and the CPU time that it is expected to take [s]; returns whether to solve it.
+  using Announce = std::function<bool(const std::string &, double)>;
+
+  /// Goes on without a word.
+  inline bool solve_silently(const std::string &, double)
+  {
+    return true;
+  }
 
   /// Chooses what the file leaves open so that Accuracy/Target is met, or of what Accuracy/Budget pays the most accurate. Makes
   /// probes: models of the scene on coarser meshes, in three dimensions too those of the plane; of the elements across these do
   /// not tell. Throws AnalysisError where probes have no equilibrium.
-  Choice choose_settings(
-      const Scene &scene, const Announce &announce = [](const std::string &) {});
+  Choice choose_settings(const Scene &scene, const Announce &announce = solve_silently);
 
   /// A scene that can be run, and what was chosen on the way.
   struct Resolved
@@ -63,16 +68,14 @@ namespace sprag
 
   /// Computes what a scene as it was read needs for a run: its leaf spring, and what it leaves open. The runs of a study are
   /// resolved one by one. Throws InputError where a scene is refused, AnalysisError as choose_settings() does.
-  Resolved resolved(
-      const Scene &given, const Announce &announce = [](const std::string &) {});
+  Resolved resolved(const Scene &given, const Announce &announce = solve_silently);
 
   /// Chooses for a run without inertia to meet a relative error `target` > 0.
   class StaticChoice
   {
   public:
     /// Solves the probes. Throws InputError where memory does not suffice.
-    explicit StaticChoice(
-        const Scene &scene, const Announce &announce = [](const std::string &) {});
+    explicit StaticChoice(const Scene &scene, const Announce &announce = solve_silently);
 
     Choice meeting(double target) const;
 

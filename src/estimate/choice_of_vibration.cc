@@ -109,7 +109,8 @@ namespace sprag
 
   bool VibrationChoice::takes_beam(const double target) const
   {
-    return scene.accuracy.is_model_open && beam_error <= share_of_model * target;
+    const double share = scene.analysis.type == AnalysisType::transient ? 1. - share_of_steps : share_of_model;
+    return scene.accuracy.is_model_open && beam_error <= share * target;
   }
 
   double VibrationChoice::add_mesh(const double target, Choice &choice) const
@@ -161,6 +162,8 @@ namespace sprag
     const bool meshed = !beam && is_meshed(scene.analysis.model);
     if (beam)
       choice.error = beam_error;
+    if (!scene.accuracy.is_model_open && !is_meshed(scene.analysis.model))
+      choice.limit = "What this model leaves out is not known; Analysis/Model = auto compares it with finite elements.";
     double size = scene.mesh.face_size;
     if (meshed && is_open(scene, "Mesh/Face size") && scene.mesh.file.empty())
       size = add_mesh(target, choice);

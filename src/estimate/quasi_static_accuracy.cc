@@ -96,8 +96,10 @@ namespace sprag
       return {};
     const auto peak =
         std::max_element(pairs.begin(), pairs.end(), [](const Pair &a, const Pair &b) { return a.run.layer < b.run.layer; });
+    // A finer mesh finds still more of a cusp, as much as this one does beyond the other.
+    const double more = std::max(0., peak->run.layer_edge - peak->other.layer_edge);
     return StressChanges{ change(&StressSample::lever), change(&StressSample::layer),
-                          peak->run.layer_edge > near_edge * peak->run.layer };
+                          peak->run.layer_edge + more > near_edge * peak->run.layer };
   }
 
   std::vector<double> times_of(const std::vector<StressSample> &samples)
@@ -227,6 +229,7 @@ namespace sprag
     }
 
     constexpr double least_faces_of_reversal = 4.;
+    constexpr double least_across            = 1e-6; ///< over the width [1 or N], below which round-off is left
 
     /// Width of the contact where its pressure is largest, in faces.
     double faces_in_contact(const Scene &scene, const std::vector<Row> &samples)
@@ -261,6 +264,42 @@ namespace sprag
       if (!probes.soft.empty() && augments(scene))
         result.parts.back().remedy = "Try twice the Contact/Tangential penalty, or leave it at auto.";
       add_reversal(scene, probes, result);
+      return result;
+    }
+
+    constexpr double least_alternation = 1e-4;
+
+    /// Adds what rows alternate by, where friction falls with speed.
+    ErrorEstimate with_alternation(ErrorEstimate estimate, const std::vector<Row> &rows)
+    {
+      const double found = alternation(rows, estimate.quantity == "P" ? Column::P : Column::Q);
+      if (!estimate.parts.empty() && found > least_alternation)
+        estimate.parts.push_back({ "alternation", found,
+                                   "Friction that falls with speed has no smooth slide without inertia: try Analysis/Type = "
+                                   "transient or a Friction/Regularisation speed." });
+      return estimate;
+    }
+
+    /// Returns the estimate of a column that three dimensions add.
+    ErrorEstimate estimate_across(const Scene &scene, const Probes &probes, const std::string &quantity)
+    {
+      const auto &columns = columns_across();
+      const auto index    = static_cast<std::size_t>(
+          std::find_if(columns.begin(), columns.end(), [&](const ColumnInfo &column) { return column.name == quantity; }) -
+          columns.begin());
+      const double peak = largest(probes.run, [&](const Row &row) { return row.across.at(index); });
+      if (!(peak > least_across * scene.lever.width))
+        return { quantity, "", {}, "No estimate: the contact is the same on both sides." };
+      const auto change = [&](const std::vector<Row> &other)
+      {
+        double result = 0.;
+        for (std::size_t i = 0; i < other.size(); ++i)
+          result = std::fmax(result, std::abs(other[i].across.at(index) - probes.run[i].across.at(index)));
+        return result / peak;
+      };
+      ErrorEstimate result{ quantity, "its peak", { mesh_part(scene, change(probes.other), order_of_forces(scene)) }, {} };
+      if (!probes.soft.empty())
+        result.parts.push_back(penalty_part(scene, change(probes.soft)));
       return result;
     }
 
@@ -346,7 +385,8 @@ namespace sprag
   std::vector<ErrorEstimate> quasi_static_accuracy(const Scene &scene, const std::vector<Row> &rows,
                                                    const std::function<Probes()> &probe)
   {
-    const auto estimate_all = [&]
+    const std::vector<std::string> across = { "centre_across", "twisting_moment" };
+    const auto estimate_all               = [&]
     {
       const Probes probes = probe();
       if (probes.run.size() < 2)
@@ -360,19 +400,24 @@ namespace sprag
         const double least = quantity == "largest_pressure" ? scatter : 0.;
         return unless_narrow(with_scatter(estimate(scene, probes, quantity, relative_to), least), faces, is_followed);
       };
-      std::vector<ErrorEstimate> result = { told("P", "its peak", forces_follow),
-                                            told("Q", "its peak", forces_follow),
+      std::vector<ErrorEstimate> result = { with_alternation(told("P", "its peak", forces_follow), rows),
+                                            with_alternation(told("Q", "its peak", forces_follow), rows),
                                             unless_narrow(loop_area(scene, probes, rows), faces, forces_follow),
                                             told("largest_pressure", "it", all_follows),
                                             told("contact_width", "the largest one", all_follows),
                                             unless_narrow(largest_stress(scene, probes), faces, all_follows) };
-      const double inertia              = left_out_inertia(scene, rows);
+      if (scene.analysis.dimension == 3)
+        for (const auto &quantity : across)
+          result.push_back(unless_narrow(estimate_across(scene, probes, quantity), faces, all_follows));
+      const double inertia = left_out_inertia(scene, rows);
       for (auto &estimate : result)
         if (estimate.quantity == "P" && !estimate.parts.empty())
           estimate.left_out = { { "inertia", inertia, "Analysis/Type = transient has it." } };
       return result;
     };
-    return estimates_or_reason(scene, { "P", "Q", "loop_area", "largest_pressure", "contact_width", "largest_stress" },
-                               estimate_all);
+    std::vector<std::string> quantities = { "P", "Q", "loop_area", "largest_pressure", "contact_width", "largest_stress" };
+    if (scene.analysis.dimension == 3)
+      append(quantities, across);
+    return estimates_or_reason(scene, quantities, estimate_all);
   }
 } // namespace sprag

@@ -85,6 +85,7 @@ namespace sprag
       const auto found        = judge(held, maker);
       const auto frequency_of = [&](const SlideStability &slide)
       { return eigenvalue_near(slide, measured).imag() / (2. * M_PI); };
+      const auto decay_of = [&](const SlideStability &slide) { return -eigenvalue_near(slide, measured).real(); };
       if (!(frequency_of(found) > 0.) || !(eigenvalue_near(found, measured).real() < 0.))
         throw NoEstimate{ "the slide behind the first reversal does not ring down." };
       const double turn  = scene.drive.reversals().front();
@@ -94,14 +95,19 @@ namespace sprag
       const double lag   = change_by_frequency(rows, turn, turned.window_end) / largest(rows, Column::P);
       const std::string step =
           scene.time.tolerance > 0. ? "Try a third of the Time/Tolerance." : "Try a Time/Step 0.7 times as large.";
-      std::vector<ErrorPart> of_frequency;
+      std::vector<ErrorPart> of_frequency, of_decay;
       if (is_meshed(scene.analysis.model))
-        of_frequency = parts_of_slide(held, found, probe_slide(held, dynamics.penalties, maker), frequency_of);
+      {
+        const auto probes = probe_slide(held, dynamics.penalties, maker);
+        of_frequency      = parts_of_slide(held, found, probes, frequency_of);
+        of_decay          = parts_of_slide(held, found, probes, decay_of);
+      }
       for (const auto &part : of_frequency)
         if (!(part.value < too_far))
           throw NoEstimate{ "with another " + part.name + (part.name == "mesh" ? ", or elsewhere between its nodes," : "") +
                             " the slide behind the first reversal has no vibration of this frequency." };
       const double between_rows = 1. - std::cos(0.5 * omega * slowing.first_step); // of a peak
+      const double by_scheme    = algorithmic_damping(scene.time.spectral_radius, omega * slowing.first_step);
       const double first_swing  = 2. * by_step(slowing.first_step) + between_rows;
       const double faces        = largest(rows, Column::contact_width) / scene.mesh.face_size;
       ErrorEstimate overshoot{ "overshoot", "it", with_step(times(of_frequency, 2.), first_swing, step), {} };
@@ -110,7 +116,7 @@ namespace sprag
       return { { "P", "its peak", with_step(times(of_frequency, lag), slowing.P / largest(rows, Column::P), step), {} },
                overshoot,
                { "frequency", "it", with_step(of_frequency, slowing.frequency, step), {} },
-               { "decay", "", {}, "No estimate: what mesh and step change is less than the scatter of the decay's fit." } };
+               { "decay", "it", with_step(of_decay, by_scheme * omega / decay_of(found), step), {} } };
     }
   } // namespace
 

@@ -38,7 +38,8 @@ namespace sprag
     std::vector<Entry> entries;
     for (const auto &estimate : estimates)
     {
-      Entry whole{ estimate.quantity, total_error(estimate), "1", "estimated error relative to " + estimate.relative_to };
+      Entry whole{ estimate.quantity, total_error(estimate), "1",
+                   estimate.parts.empty() ? "estimated error" : "estimated error relative to " + estimate.relative_to };
       if (estimate.parts.empty())
         whole.attributes = { { "unknown", estimate.unknown } };
       else

@@ -113,16 +113,25 @@ namespace sprag
       return cost;
     }
 
-    void print_line(const std::string &sentence)
+    bool print_probe(const std::string &sentence, double)
     {
       std::cout << sentence << '\n' << std::flush;
+      return true;
+    }
+
+    /// Leaves out what a check of a scene should not wait for.
+    bool print_short_probe(const std::string &sentence, const double seconds)
+    {
+      constexpr double most = 10.; // [s]
+      const bool is_short   = seconds <= most;
+      return print_probe(sentence + (is_short ? "" : ", solved in the run alone"), seconds) && is_short;
     }
   } // namespace
 
   void print_expectations(const Scene &given, const unsigned int processes, const std::string &folder)
   {
     const double since         = PhaseTimer::cpu_seconds();
-    const auto [scene, choice] = resolved(given, print_line);
+    const auto [scene, choice] = resolved(given, print_short_probe);
     if (choice)
       print_choice(std::cout, given, *choice);
     print_cost(std::cout, cost_with_probes(scene, since));
@@ -137,7 +146,7 @@ namespace sprag
       require_writable(options.folder);
     const bool is_quiet        = options.quiet || !options.is_first;
     const double since         = PhaseTimer::cpu_seconds();
-    const auto [scene, choice] = is_quiet ? resolved(given) : resolved(given, print_line);
+    const auto [scene, choice] = is_quiet ? resolved(given) : resolved(given, print_probe);
     RunOptions telling         = options;
     if (choice)
     {

@@ -17,6 +17,7 @@
 #include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -54,8 +55,25 @@ namespace sprag
       return noise.effective_rows() < least_independent * noise.rows && noise.deviation > least_deviation * largest;
     }
 
-    std::string remedy_of_another(const Identification &found)
+    /// Returns true if Q is larger on the way back than on the way out, in the mean: friction cannot give work back.
+    bool is_sign_turned(const Scene &scene, const StrokeFit &fit, const Identification &found)
     {
+      const auto &channels = scene.identification.measured.channels;
+      std::array<double, 2> sums{}, numbers{};
+      for (const auto &value : found.used)
+        if (channels[value.channel].force == MeasuredForce::drive)
+        {
+          const std::size_t way = fit.way().strokes()[value.stroke].direction > 0 ? 0 : 1;
+          sums[way] += value.value;
+          ++numbers[way];
+        }
+      return numbers[0] > 0. && numbers[1] > 0. && sums[0] / numbers[0] < sums[1] / numbers[1];
+    }
+
+    std::string remedy_of_another(const Identification &found, const bool is_turned)
+    {
+      if (is_turned)
+        return "Turn the sign of Q: as measured, friction gives work back to the drive.";
       std::vector<std::string> named;
       for (const auto &more : found.more)
         named.push_back(more.name + " (by about " + with_unit(more.change, more.unit) + ")");
@@ -174,7 +192,7 @@ namespace sprag
     }
 
     /// Returns the warnings that follow from what was found.
-    Warnings identification_warnings(const Scene &scene, const Identification &found)
+    Warnings identification_warnings(const Scene &scene, const StrokeFit &fit, const Identification &found)
     {
       Warnings warnings;
       std::vector<std::string> not_followed;
@@ -187,7 +205,7 @@ namespace sprag
         warnings.push_back({ "model_does_not_follow", boost::algorithm::join(not_followed, ", ") + ".",
                              "Residuals follow each other, as they do where the lever of the scene is another than the measured "
                              "one. The intervals count noise alone and then miss the true values by many times their width.",
-                             remedy_of_another(found) });
+                             remedy_of_another(found, is_sign_turned(scene, fit, found)) });
       const auto &indistinct = found.knowledge.indistinct;
       if (!indistinct.empty())
         warnings.push_back({ "indistinct_unknowns", boost::algorithm::join(indistinct, " "),
@@ -290,7 +308,7 @@ namespace sprag
             return void(writer.finish(status, {}, warnings));
           for (const auto &row : identification_rows(measured, fit, found))
             writer.append(row);
-          for (const auto &warning : identification_warnings(scene, found))
+          for (const auto &warning : identification_warnings(scene, fit, found))
             warnings.push_back(warning);
           if (options.in_memory == nullptr)
             no_scene = write_scene(scene, options, unknowns, found);

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iostream>
 #include <optional>
 
@@ -129,11 +130,13 @@ namespace sprag
                static_cast<double>(point.kinds[1]) };
     }
 
-    /// Share of the grid with any of the kinds.
+    /// Returns the share of the grid with any of the kinds; NaN before the whole grid is known.
     double share_of(const Group &map, const std::string &dataset, const std::vector<double> &kinds)
     {
       const auto found = std::find_if(map.datasets.begin(), map.datasets.end(),
                                       [&](const Dataset &candidate) { return candidate.info.name == dataset; });
+      if (std::any_of(found->values.begin(), found->values.end(), [](const double kind) { return std::isnan(kind); }))
+        return std::nan("");
       const auto counted =
           std::count_if(found->values.begin(), found->values.end(),
                         [&](const double kind) { return std::find(kinds.begin(), kinds.end(), kind) != kinds.end(); });

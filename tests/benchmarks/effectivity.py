@@ -84,7 +84,7 @@ class Run:
             self.cost = float(file["meta/cpu_time_accuracy"][()]) / float(file["meta/cpu_time"][()])
         turn = int(np.argmax(self.table["x"]))
         self.turning_point = self.table["x"][turn]
-        self.strokes = (slice(0, turn + 1), slice(turn + 1, None))
+        self.strokes = [slice(0, turn + 1), slice(turn + 1, None)][: 1 + (turn + 1 < len(self.table["x"]))]
 
     def at(self, name, x, stroke):
         """A column over x of a stroke by cubics through four rows: lines between rows would be further off than the run."""

@@ -2,6 +2,7 @@
 #include "analysis/accuracy/sample_changes.h"
 
 #include "results/row_statistics.h"
+#include "scene/drive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,5 +68,28 @@ namespace sprag
                                                            { "Q", Column::Q },
                                                            { "contact_width", Column::contact_width } };
     return largest_change(samples, other, columns.at(quantity));
+  }
+
+  double alternation(const std::vector<Row> &rows, const Column column)
+  {
+    const auto has_turned = friction_has_turned(rows);
+    /// Distance of a row from the line between its neighbours.
+    const auto beside = [&](const std::size_t i)
+    {
+      const Row &before = rows[i - 1], &row = rows[i], &after = rows[i + 1];
+      const double way = after[Column::x] - before[Column::x];
+      if (!has_turned[i - 1] || way == 0. || direction_of(before[Column::v]) != direction_of(after[Column::v]))
+        return 0.;
+      const double share = (row[Column::x] - before[Column::x]) / way;
+      return row[column] - (1. - share) * before[column] - share * after[column];
+    };
+    double result = 0.;
+    for (std::size_t i = 2; i + 2 < rows.size(); ++i)
+    {
+      const double before = beside(i - 1), here = beside(i), after = beside(i + 1);
+      if (before * here < 0. && here * after < 0.)
+        result = std::max(result, 0.5 * std::min({ std::abs(before), std::abs(here), std::abs(after) }));
+    }
+    return result > 0. ? result / largest(rows, column) : 0.;
   }
 } // namespace sprag

@@ -20,4 +20,8 @@ namespace sprag
   /// Returns by how much the largest P or Q behind a reversal changes between two models' rows of the same passage through stick,
   /// from where friction has turned, over the largest value of the first model; 0 for other quantities and without rows.
   double change_of_peak(const std::string &quantity, const std::vector<Row> &passage, const std::vector<Row> &other);
+
+  /// Returns by how much rows of full sliding alternate about a smooth curve, over the column's peak: where three in a row lie on
+  /// different sides of the lines through their neighbours. Friction that falls with speed makes them do so without inertia.
+  double alternation(const std::vector<Row> &rows, Column column);
 } // namespace sprag

@@ -156,6 +156,18 @@ namespace sprag
     return result;
   }
 
+  namespace
+  {
+    Row row_at(const DrivePoint &point)
+    {
+      Row row;
+      row[Column::time] = point.time;
+      row[Column::x]    = point.x;
+      row[Column::v]    = point.v;
+      return row;
+    }
+  } // namespace
+
   std::vector<Row> places_of(const Drive &drive)
   {
     std::vector<double> ends = { 0. };
@@ -167,14 +179,23 @@ namespace sprag
     std::vector<Row> result;
     for (std::size_t stroke = 1; stroke < ends.size(); ++stroke)
       for (const double share : stroke == 1 ? std::vector{ 0.3, 0.7, 0.98 } : std::vector{ 0.08, 0.4, 0.8 })
-      {
-        const auto point = drive.at(ends[stroke - 1] + share * (ends[stroke] - ends[stroke - 1]));
-        Row row;
-        row[Column::time] = point.time;
-        row[Column::x]    = point.x;
-        row[Column::v]    = point.v;
-        result.push_back(row);
-      }
+        result.push_back(row_at(drive.at(ends[stroke - 1] + share * (ends[stroke] - ends[stroke - 1]))));
+    return result;
+  }
+
+  std::vector<Row> places_behind_reversal(const Drive &drive, const double distance)
+  {
+    constexpr unsigned int number = 6;
+    std::vector<Row> result;
+    if (drive.reversals().empty())
+      return result;
+    const auto turn       = drive.at(drive.reversals().front(), Drive::Side::after);
+    const double duration = distance / drive.peak_speed();
+    if (turn.time + duration > (drive.reversals().size() > 1 ? drive.reversals()[1] : drive.duration()))
+      return result;
+    result.push_back(row_at(turn));
+    for (unsigned int i = 1; i <= number; ++i)
+      result.push_back(row_at(drive.at(turn.time + duration * i / number)));
     return result;
   }
 } // namespace sprag

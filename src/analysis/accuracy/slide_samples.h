@@ -27,4 +27,8 @@ namespace sprag
 
   /// Returns time, x and v of places in full sliding over the first two strokes of a drive, for probes before a run.
   std::vector<Row> places_of(const Drive &drive);
+
+  /// Returns the same of the first reversal and of places behind it, up to a distance [mm], over which the contact turns: where P
+  /// and Q of the way back are largest. Empty where the drive does not turn or ends before.
+  std::vector<Row> places_behind_reversal(const Drive &drive, double distance);
 } // namespace sprag
