@@ -23,7 +23,7 @@ MAX_LINES = 600
 LICENCE = "SPDX-License-Identifier: GPL-3.0-only"
 # Of a page as wc counts them. The references of all parameters and results are looked into, not read.
 MAX_WORDS = 1500
-REFERENCES = [pathlib.Path("params/README.md"), *(pathlib.Path("postprocess") / name for name in ("results.md", "summary.md", "summary-of-analyses.md"))]
+REFERENCES = [pathlib.Path("params/parameters.md"), pathlib.Path("params/warnings.md"), *(pathlib.Path("postprocess") / name for name in ("results.md", "summary.md", "summary-of-analyses.md"))]
 # In pieces, or this file would find itself.
 UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME)\b")
 
