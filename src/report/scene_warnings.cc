@@ -370,7 +370,7 @@ namespace sprag
       if (!found.empty())
         warnings.push_back(
             { "unused_columns", found, "What they hold is in no result.",
-              "Nothing, if none of them was meant; a column that is meant needs its name, see params/README.md." });
+              "Nothing, if none of them was meant; a column that is meant needs its name, see params/scene-files.md." });
     }
   } // namespace
 

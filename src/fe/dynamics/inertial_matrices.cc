@@ -77,7 +77,7 @@ namespace sprag
       FullMatrix<double> scaled;
     };
 
-    /// Of a cell or, with a mass per area, of a face.
+    /// Mass matrix of a cell or, with a mass per area, of a face.
     FullMatrix<double> local_mass(const FEValuesBase<2> &values, const double density)
     {
       const auto &fe       = values.get_fe();

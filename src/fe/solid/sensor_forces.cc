@@ -51,7 +51,7 @@ namespace sprag
     return result;
   }
 
-  /// Of a half each sensor stands for both sides.
+  /// Adds the forces of the sensors to a row. On a half of a body each sensor stands for both sides.
   void SensorForces::tell(const std::vector<double> forces, Row &row) const
   {
     row.sensor_forces.clear();

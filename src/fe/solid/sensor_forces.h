@@ -22,7 +22,7 @@ namespace sprag
       return static_cast<unsigned int>(sensors.size());
     }
 
-    /// Of each of them [N/mm].
+    /// Stiffness of each sensor [N/mm].
     double stiffness() const
     {
       return sensors.empty() ? 0. : sensors.front().stiffness;

@@ -14,7 +14,7 @@ namespace sprag
 
   namespace
   {
-    /// Of unit density, between the scalar shape functions of a cell.
+    /// Mass of unit density between the scalar shape functions of a cell.
     FullMatrix<double> unit_mass(const FEValuesBase<3> &values)
     {
       const auto &fe       = values.get_fe();

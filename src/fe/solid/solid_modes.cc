@@ -16,8 +16,8 @@ namespace sprag
 
   namespace
   {
-    /// Of |phi - omega^2 K^-1 M phi| over |phi|, times omega^2 over that of the lowest mode, by which round-off grows there.
-    /// Solves with more or fewer columns differ by some 1e-11 of the softest motion.
+    /// Admissible |phi - omega^2 K^-1 M phi| over |phi|, times omega^2 over that of the lowest mode, by which round-off grows
+    /// there. Solves with more or fewer columns differ by some 1e-11 of the softest motion.
     constexpr double largest_residual = 1e-9;
 
     constexpr double alike = 1e-6; ///< relative difference of displacements, as those of both sides in a mode that twists
@@ -120,7 +120,7 @@ namespace sprag
       }
 
     private:
-      /// Of a motion, or the moment of forces.
+      /// Rotation of the hub in a motion, or the moment of forces.
       double rotation(const double *const q) const
       {
         return q[free.size() + leaf.modes.size()];

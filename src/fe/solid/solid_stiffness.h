@@ -31,7 +31,7 @@ namespace sprag
     std::map<std::vector<long>, dealii::FullMatrix<double>> known; ///< by likeness()
   };
 
-  /// What a linear stiffness is made of.
+  /// Data from which a linear stiffness is assembled.
   struct StiffnessSource
   {
     const dealii::Mapping<3> &mapping;
