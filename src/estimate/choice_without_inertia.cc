@@ -157,7 +157,7 @@ namespace sprag
     face_size         = size;
     const Scene fine  = with_face_size(scene, size);
     const auto places = places_of(scene.drive);
-    const auto turn   = scene.accuracy.is_model_open ? places_behind_reversal(scene.drive, width) : std::vector<Row>{};
+    const auto turn   = scene.accuracy.is_model_open ? places_behind_reversal(scene.drive, 2. * width) : std::vector<Row>{};
     auto wanted       = joined(places, turn);
     std::sort(wanted.begin(), wanted.end(), [](const Row &a, const Row &b) { return a[Column::time] < b[Column::time]; });
     if (!turn.empty()) // the closed form alone jumps there

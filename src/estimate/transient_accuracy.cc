@@ -107,16 +107,23 @@ namespace sprag
           throw NoEstimate{ "with another " + part.name + (part.name == "mesh" ? ", or elsewhere between its nodes," : "") +
                             " the slide behind the first reversal has no vibration of this frequency." };
       const double between_rows = 1. - std::cos(0.5 * omega * slowing.first_step); // of a peak
-      const double by_scheme    = algorithmic_damping(scene.time.spectral_radius, omega * slowing.first_step);
       const double first_swing  = 2. * by_step(slowing.first_step) + between_rows;
       const double faces        = largest(rows, Column::contact_width) / scene.mesh.face_size;
+      ErrorEstimate decay{ "decay", "", {}, "No estimate: P does not decay in the window behind the first reversal." };
+      if (const double fitted = -turned.growth_rate; fitted > 0.)
+      {
+        const double scheme = algorithmic_damping(scene.time.spectral_radius, omega * slowing.first_step);
+        decay               = { "decay", "it", with_step(of_decay, scheme * omega / fitted, step), {} };
+        // Steps and passing elements keep the envelope up, to which the decay is fitted; the slide's own decay knows neither.
+        decay.parts.push_back({ "fit", std::abs(decay_of(found) / fitted - 1.), step });
+      }
       ErrorEstimate overshoot{ "overshoot", "it", with_step(times(of_frequency, 2.), first_swing, step), {} };
       if (is_meshed(scene.analysis.model) && faces < fewest_faces)
         overshoot.parts.push_back({ "turn", std::min(most_by_place, by_place / faces), "Try a smaller Mesh/Face size." });
       return { { "P", "its peak", with_step(times(of_frequency, lag), slowing.P / largest(rows, Column::P), step), {} },
                overshoot,
                { "frequency", "it", with_step(of_frequency, slowing.frequency, step), {} },
-               { "decay", "it", with_step(of_decay, by_scheme * omega / decay_of(found), step), {} } };
+               decay };
     }
   } // namespace
 

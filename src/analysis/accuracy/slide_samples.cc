@@ -185,7 +185,7 @@ namespace sprag
 
   std::vector<Row> places_behind_reversal(const Drive &drive, const double distance)
   {
-    constexpr unsigned int number = 6;
+    constexpr unsigned int number = 10; // each twice as far from the reversal as the one before: it is turned soon
     std::vector<Row> result;
     if (drive.reversals().empty())
       return result;
@@ -194,8 +194,8 @@ namespace sprag
     if (turn.time + duration > (drive.reversals().size() > 1 ? drive.reversals()[1] : drive.duration()))
       return result;
     result.push_back(row_at(turn));
-    for (unsigned int i = 1; i <= number; ++i)
-      result.push_back(row_at(drive.at(turn.time + duration * i / number)));
+    for (unsigned int i = number; i-- > 0;)
+      result.push_back(row_at(drive.at(turn.time + std::ldexp(duration, -static_cast<int>(i)))));
     return result;
   }
 } // namespace sprag
