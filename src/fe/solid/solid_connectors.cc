@@ -8,7 +8,7 @@ namespace sprag
 {
   namespace
   {
-    void add_guide(const PlateAndLever<3> &body, const Scene &scene, const bool is_half, std::vector<Connector> &result)
+    void add_guide(const ElasticBody<3> &body, const Scene &scene, const bool is_half, std::vector<Connector> &result)
     {
       const auto &plate      = scene.plate;
       const double half      = 0.5 * scene.lever.width;
@@ -24,7 +24,7 @@ namespace sprag
     }
   } // namespace
 
-  std::vector<Connector> find_connectors(const PlateAndLever<3> &body, const Scene &scene, const bool is_half)
+  std::vector<Connector> find_connectors(const ElasticBody<3> &body, const Scene &scene, const bool is_half)
   {
     const auto &plate = scene.plate;
     std::vector<Connector> result;
