@@ -27,7 +27,7 @@
 #include <stdexcept>
 #include <thread>
 
-// What sprag becomes where models are needed, with the libraries that they need, and what mpirun starts. It does formulas as
+// This program runs analyses with models and links their libraries; sprag executes it, or mpirun starts it. It does formulas as
 // well.
 
 namespace sprag
@@ -94,7 +94,7 @@ namespace sprag
       run(scene, options);
     }
 
-    /// Whether MPI is needed: by PETSc and meshes, or because processes share the work.
+    /// Returns true if MPI is needed: by PETSc and meshes, or because processes share the work.
     bool needs_mpi(const Scene &scene)
     {
       return needs_mesh(scene) || is_judged_by_mesh(scene) || scene.spring.type == SpringType::leaf ||

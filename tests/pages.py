@@ -6,7 +6,6 @@ the sources.
   tests/pages.py               # the quick runs
   tests/pages.py --thorough    # all runs
   tests/pages.py --page time   # those of pages with this in their path
-  tests/pages.py --sentences   # sentences over 30 words by page, without a run
 """
 
 import argparse
@@ -25,7 +24,6 @@ from runs import SOURCE, sprag  # noqa: E402
 
 LIST = SOURCE / "tests" / "pages.toml"
 LONGEST = 3600  # seconds of a run
-MANY_WORDS = 30
 
 
 def text_of(page):
@@ -120,39 +118,11 @@ def compare(thorough, page):
     return not problems and bool(entries)
 
 
-def paragraphs_of(page):
-    """Prose: no code, tables, headings, pictures; each item of a list is a paragraph."""
-    text = re.sub(r"```.*?```", "\n\n", (SOURCE / page).read_text(encoding="utf-8"), flags=re.S)
-    text = re.sub(r"^(?: {4,}(?![-*] ).*|\t.*|#.*| *\|.*|!\[.*|> .*)$", "", text, flags=re.M)
-    text = re.sub(r"^ *(?:[-*]|\d+\.) +", "\n\n", text, flags=re.M)
-    return [" ".join(part.split()) for part in re.split(r"\n\s*\n", text) if part.strip()]
-
-
-def sentences_of(page):
-    for paragraph in paragraphs_of(page):
-        plain = re.sub(r"\]\([^)]*\)", "]", paragraph)
-        plain = re.sub(r"`[^`]*`|\$[^$]*\$", "NAME", plain)
-        plain = re.sub(r"\b(e\.g|Figs?|eqs?|Proc|Inst|Mech|Eng|Res|Commun|J|Vib)\.", r"\1", plain)
-        yield from (part for part in re.split(r"(?<=[.?!])[*)]*\s+|(?<=:)[*]*\s+(?=[A-Z*\[(`])", plain) if len(part.split()) > 1)
-
-
-def print_sentences(page):
-    pages = sorted(path.relative_to(SOURCE) for path in SOURCE.glob("**/*.md") if "build" not in str(path.relative_to(SOURCE)))
-    for path in (path for path in pages if page in str(path)):
-        lengths = [len(sentence.split()) for sentence in sentences_of(path)]
-        long = sum(length > MANY_WORDS for length in lengths)
-        print(f"{str(path):45} {len(lengths):4} sentences, {long:3} over {MANY_WORDS} words, longest {max(lengths, default=0)}")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--thorough", action="store_true")
     parser.add_argument("--page", default="")
-    parser.add_argument("--sentences", action="store_true")
     options = parser.parse_args()
-    if options.sentences:
-        print_sentences(options.page)
-        return 0
     return 0 if compare(options.thorough, options.page) else 1
 
 

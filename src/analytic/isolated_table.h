@@ -7,7 +7,7 @@
 
 namespace sprag
 {
-  /// What happened at the end of a step.
+  /// Event at the end of a step.
   enum class TableEvent
   {
     none,

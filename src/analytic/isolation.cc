@@ -89,7 +89,7 @@ namespace sprag
       archive(steady.instants);
     }
 
-    /// Of one period of a harmonic base.
+    /// Peaks, means and stops of one period of a harmonic base.
     struct Period
     {
       double peak, displacement, square, cosine, sine;
@@ -127,7 +127,7 @@ namespace sprag
       return quantile_of_sections * std::sqrt((n - 1.) / n * squares);
     }
 
-    /// What a run goes on from, beside its findings and the table.
+    /// State from which an interrupted run resumes, beside its findings and the table.
     struct Course
     {
       std::size_t rows           = 1;

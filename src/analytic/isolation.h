@@ -11,8 +11,8 @@ namespace sprag
 {
   struct Scene;
 
-  /// What a run of an isolation system finds. Ratios are of the table's acceleration to that of the base: with a harmonic base
-  /// over the last periods, otherwise over the whole run. What does not apply is NaN.
+  /// Findings of a run of an isolation system. Ratios are of the table's acceleration to that of the base: with a harmonic base
+  /// over the last periods, otherwise over the whole run. A finding that does not apply is NaN.
   struct IsolationFindings
   {
     unsigned int turns     = 0;  ///< instants with z' = 0 that a motion led to, stops included
@@ -45,7 +45,7 @@ namespace sprag
   /// Takes the motion at the instants of the table; `is_before` tells that the force is still that before a turn.
   using RecordTable = std::function<void(const IsolatedTable &, bool is_before)>;
 
-  /// What keeps the progress of a run, and visits the table's part of it.
+  /// Keeper of a run's progress, with the visitor of the table's part of it.
   struct TableKeeper
   {
     ProgressKeeper &progress;

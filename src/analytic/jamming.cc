@@ -27,7 +27,7 @@ namespace sprag
       visit(drive.at(begin, Drive::Side::after));
       for (double time = begin; time < end;)
       {
-        // Where x changes little the speed may change much.
+        // The middle is visited too: near a turn the speed changes much while x changes little.
         const double far    = drive.step(time, spacing).time;
         const double middle = 0.5 * (time + far);
         visit(drive.at(middle));

@@ -10,8 +10,8 @@ namespace sprag
 {
   struct Scene;
 
-  /// How far a drive stays from jamming. Moving back a rigid lever locks where s <= mu e; a flexible one where its equilibrium
-  /// is no longer unique. The margin is P without friction over P, (s + sgn(v) mu e)/s: 1 without friction, towards 0 where
+  /// Distance of a drive from jamming. Moving back a rigid lever locks where s <= mu e; a flexible one where its equilibrium is
+  /// no longer unique. The margin is P without friction over P, (s + sgn(v) mu e)/s: 1 without friction, towards 0 where
   /// friction locks, more than 1 moving forward.
   struct JammingMargin
   {

@@ -9,7 +9,7 @@
 
 namespace sprag
 {
-  /// Where a run was and the forces there.
+  /// Position of a run and the forces there.
   struct StrokePoint
   {
     double x         = 0.; ///< [mm]
@@ -43,7 +43,7 @@ namespace sprag
     std::string meaning;
   };
 
-  /// What a run leaves for a comparison.
+  /// Results of a run that comparisons use.
   struct Comparable
   {
     std::vector<Entry> summary;

@@ -34,7 +34,7 @@ namespace sprag
       return signal;
     }
 
-    /// What lies between the first and the last value beyond the noise.
+    /// Part of the signal between its first and its last value beyond the noise.
     Signal loud_part(const Signal &signal, const double noise)
     {
       const Signal level = without_trend(signal);
@@ -90,7 +90,7 @@ namespace sprag
       return magnitudes;
     }
 
-    /// Where the parabola through the logarithms of a peak and its neighbours is highest.
+    /// Position of the maximum of the parabola through the logarithms of a peak and its neighbours.
     double interpolated_peak(const std::vector<double> &magnitudes, const std::size_t peak)
     {
       const double before = std::log(magnitudes[peak - 1]);
@@ -164,7 +164,7 @@ namespace sprag
               matrix(row, column) += gradient[row] * gradient[column];
           }
         }
-        // As long as there is no amplitude, omega and growth mean nothing: the linear unknowns first.
+        // At zero amplitude omega and growth have no gradient: the first step solves for the linear unknowns alone.
         if (parameters[0] == 0. && parameters[1] == 0.)
           matrix(4, 4) = matrix(5, 5) = 1.;
         if (dense::lu_factorize(matrix, order) != 0)
@@ -208,7 +208,7 @@ namespace sprag
       Signal wave; ///< the signal without its drift
     };
 
-    /// By the fit; from the spectrum where the fit does not stay within the spectrum's resolution of it.
+    /// Frequency by the fit, or the spectrum's if the fit leaves it by more than the spectrum's resolution.
     Refined refined(const Signal &signal, const double frequency, const double growth)
     {
       const double length = static_cast<double>(signal.values.size()) * signal.step;

@@ -72,7 +72,7 @@ namespace sprag
          "the beginning, or levers with a smaller e");
   }
 
-  /// By the extremes of a quartic through five instants of the step.
+  /// Updates the peaks. The acceleration's is the extreme of a quartic through five instants of the step.
   void TableMotion::note_peaks(const TableState &from, const double duration)
   {
     const double h         = duration;

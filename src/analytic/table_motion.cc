@@ -74,7 +74,7 @@ namespace sprag
     return side > 0 || now.z == 0. ? Range{ back, away } : Range{ -away, -back };
   }
 
-  /// How much more than friction can hold is needed to hold the table; what the errors of steps leave open moves nothing.
+  /// Holding force beyond the limit of friction at rest [N]. The error of a step is subtracted, so that it alone moves no table.
   double TableMotion::excess(const BasePoint &base) const
   {
     const auto [low, high] = friction_at_rest();

@@ -13,12 +13,12 @@ namespace sprag
   /// go lane by lane; `mask ? a : b` chooses.
   using Lanes = double __attribute__((vector_size(64), aligned(64)));
 
-  /// What comparisons of lanes tell, all bits set where true.
+  /// Result of a comparison of lanes, all bits set where it is true.
   using LaneMask = std::int64_t __attribute__((vector_size(64), aligned(64)));
 
   constexpr unsigned int n_lanes = 8;
 
-  /// Of some quantities. std::array would forget their alignment.
+  /// Lanes of n quantities. std::array would forget their alignment.
   template <unsigned int n>
   struct alignas(Lanes) SomeLanes
   {

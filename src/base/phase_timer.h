@@ -12,7 +12,7 @@ namespace sprag
   class PhaseTimer
   {
   public:
-    /// What a phase took, all its visits together [s].
+    /// Time of a phase, all its visits together [s].
     struct Phase
     {
       double wall = 0.;

@@ -30,7 +30,7 @@ namespace sprag
     constexpr unsigned int across   = 6;   ///< elements of a probe
     constexpr const char *pressure  = "largest_pressure";
 
-    /// How far the plane is off in a quantity.
+    /// Error of the plane model in a quantity, relative to three dimensions.
     struct Off
     {
       std::string quantity;

@@ -83,7 +83,8 @@ namespace sprag
       return { once, (is_table ? 2. : 1.) * 4.5e-7 * N };
     }
 
-    /// Of held slides. What a run takes once are the basis, or in space modes and one slide, and fields.
+    /// CPU times of held slides [s]: once for the basis (in three dimensions modes and one slide) and fields, and each for a
+    /// slide.
     Times times_of_slides(const Scene &scene)
     {
       const double N        = expected_size(scene).displacements;
@@ -97,7 +98,8 @@ namespace sprag
       return { basis * std::pow(N, 1.5) + (has_fields ? 1.2 : 0.), is_condensed ? 0.03 : 6e-5 * N };
     }
 
-    /// As many as a beam takes. The ripple of elements that pass shortens large steps most.
+    /// Steps that a beam takes. Finite elements need up to twice as many, as the ripple of passing elements shortens large
+    /// steps.
     double steps_in_time(const Scene &scene)
     {
       constexpr double most_steps = 2e5; // that are taken by a beam to count them

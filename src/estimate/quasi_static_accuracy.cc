@@ -264,7 +264,7 @@ namespace sprag
       return result;
     }
 
-    /// Of strokes that are one step: as of a parabola that is level at one of its ends.
+    /// Error of the work on strokes of a single step, as of a parabola that is level at one of its ends.
     double error_of_lone_steps(const std::vector<Row> &rows)
     {
       const auto turns_at = [&](const std::size_t i)
@@ -277,7 +277,7 @@ namespace sprag
       return error;
     }
 
-    /// What the trapezoidal rule adds to the work, by Richardson from steps taken two at a time.
+    /// Error of the work by the trapezoidal rule, by Richardson extrapolation from pairs of steps.
     double error_of_trapezoids(const std::vector<Row> &rows)
     {
       double error = error_of_lone_steps(rows);

@@ -14,7 +14,7 @@ namespace sprag
 {
   namespace
   {
-    /// By how much of a face the slide is moved to see how far its place between the nodes changes it.
+    /// Shifts of the slide over the length of a face element, to see how far its place between the nodes matters.
     constexpr double shares_of_face[] = { 0.25, 0.5, 0.75 };
 
     /// Modes that a lever with one alone is compared with.

@@ -26,12 +26,12 @@ namespace sprag
 
     double linear_stiffness() const;
 
-    // Of the excess over k turn.
+    // The excess is the moment above the linear k turn.
     double excess(double turn) const;           ///< [N mm]
     double excess_stiffness(double turn) const; ///< [N mm/rad]
     double excess_energy(double turn) const;    ///< from rest [N mm]
 
-    // Of all.
+    // The following include the linear part.
     double moment(double turn) const;
     double stiffness(double turn) const;
     double energy(double turn) const;

@@ -290,7 +290,7 @@ namespace sprag
   {
     using V        = Plain<N>;
     const N change = end - begin;
-    // Where the gap hardly changes Simpson's rule is exact to round-off and the quotient is not.
+    // If the gap hardly changes, Simpson's rule is exact to round-off and the quotient is not.
     const V size     = select(value(change) < 0., V(-value(change)), value(change));
     const auto small = (size < -1e-3 * begin) | (size < -1e-3 * value(end)) | (size == 0.);
     const N simpson =

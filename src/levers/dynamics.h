@@ -77,7 +77,7 @@ namespace sprag
   private:
     const bool store;
     const std::size_t kept;
-    // By body_key(), the last one used first.
+    // Meshed levers by their body_key(), the last one used first.
     std::deque<std::pair<std::string, std::shared_ptr<const MeshedLever>>> levers;
     std::pair<std::string, std::shared_ptr<const SolidInTime>> solid;
     double saved = 0.;

@@ -402,7 +402,7 @@ namespace sprag
       const bool with_friction = friction == ContactFriction::sliding;
       const auto law           = with_friction ? friction : ContactFriction::none;
       const auto *force        = slides.solve(drive, ratio, law);
-      // Where the structure answers otherwise than its compliance, by round-off, that is put right.
+      // If the structure's answer differs from its compliance by round-off, the forces are corrected.
       constexpr unsigned int most_corrections = 2;
       dealii::Vector<double> round_off(frame.ports.size());
       for (unsigned int i = 0; i < most_corrections && force != nullptr; ++i)

@@ -31,7 +31,7 @@ namespace sprag
     std::shared_ptr<const KeptTangent> tangent;  ///< of a step on the way here; null without
   };
 
-  // What a contact remembers, of a line or of a surface.
+  // Stores the memory of a contact, along a line or on a surface.
   inline void remember(std::vector<ContactMemory> memory, Motion &motion)
   {
     motion.contact = std::move(memory);

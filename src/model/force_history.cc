@@ -15,7 +15,7 @@ namespace sprag
 
     using Shares = std::array<double, most>;
 
-    /// Of the values at the first n places, which differ, in that of the polynomial through them at another, by Lagrange.
+    /// Shares of the values at the first n places, which differ, in that of the polynomial through them at another, by Lagrange.
     Shares shares_at(const double place, const std::vector<ForcesAtPlace> &places, const std::size_t n)
     {
       Shares result{};

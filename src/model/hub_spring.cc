@@ -72,7 +72,7 @@ namespace sprag
     }
   }
 
-  /// Of joined springs: an excess against opening, and a moment that swings.
+  /// Moments of joined springs: an excess against opening, and a moment that swings.
   HubSpringExcess::Moments HubSpringExcess::spread(const double excess, const double stiffness, const double moment,
                                                    const double moment_stiffness) const
   {

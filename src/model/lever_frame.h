@@ -27,8 +27,8 @@ namespace sprag
     double sensor_stiffness = 0.;    ///< of each force sensor of a friction plate [N/mm]
     bool joined             = false; ///< the springs of a pair by a joint that nothing else carries
 
-    /// Of the layer, beyond which a slide counts as jammed [mm]: half its thickness, where the pressure is half of its Young's
-    /// modulus and a run without inertia ends, too.
+    /// Indentation of the layer beyond which a slide counts as jammed [mm]: half its thickness, where the pressure is half of
+    /// its Young's modulus and a run without inertia ends, too.
     double largest_indentation = std::numeric_limits<double>::infinity();
 
     /// Tells the row of a lever the forces of its sensors [N].

@@ -24,7 +24,7 @@ namespace sprag
     static constexpr bool stands_for_layer = Contact::stands_for_layer;
     static constexpr unsigned int levers   = 2;
 
-    /// What an evaluation found.
+    /// Result of an evaluation.
     struct Evaluation
     {
       std::array<typename Contact::Evaluation, 2> of_lever;

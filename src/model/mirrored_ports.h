@@ -22,7 +22,7 @@ namespace sprag
     /// The layout of the pair.
     const PortLayout &layout() const;
 
-    /// What of a structure's motion each lever has: 1/sqrt(2), the sign of the second lever's apart.
+    /// Share of a structure's motion in each lever's: 1/sqrt(2), apart from the sign of the second lever's.
     static double share();
 
     /// Ports of a structure that ports of the pair depend on.
@@ -45,7 +45,7 @@ namespace sprag
     /// Linear forces on the ports of both structures, those of the opposite motion counted on from the number of the other's.
     PortPerturbation on_both(const PortPerturbation &of_pair) const;
 
-    /// Whether forces of on_both() couple the structures by more than round-off, as the levers' forces do not mirror.
+    /// Returns true if forces of on_both() couple the structures by more than round-off, as the levers' forces do not mirror.
     bool couples(const PortPerturbation &on_both) const;
 
     /// Linear forces on one structure, where forces mirror as the levers do. `both`: on_both() of them.

@@ -59,7 +59,8 @@ namespace sprag
       b = std::move(sums[1]);
     }
 
-    /// Of a tied pair of modes with these displacements; false where they are one mode twice.
+    /// Finds the factors that separate a tied pair of modes with these displacements; returns false where they are one mode
+    /// twice.
     bool separating(const ComplexVector &a, const ComplexVector &b, const PortLayout &layout, Factors &factors)
     {
       const auto aa = products(a, a, layout), ab = products(a, b, layout), bb = products(b, b, layout);

@@ -13,7 +13,7 @@ namespace sprag
 
   bool are_tied(const StructureMode &a, const StructureMode &b);
 
-  /// How far the levers mirror each other in a mode of a pair: 1 where they do, -1 where the second does the opposite.
+  /// Degree to which the levers mirror each other in a mode of a pair: 1 where they do, -1 where the second does the opposite.
   double mirroring_of(const ComplexVector &ports, const PortLayout &layout);
 
   /// Two modes of a pair with one eigenvalue, as levers have that feel nothing of each other, are known up to their combinations.

@@ -85,7 +85,7 @@ namespace sprag
 
     unsigned int n_modes() const;
 
-    /// What it keeps follows from the step at hand: there is nothing to visit.
+    /// There is nothing to visit, as all that it stores follows from the step at hand.
     void visit_history(Archive &)
     {
     }

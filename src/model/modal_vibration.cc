@@ -201,7 +201,7 @@ namespace sprag
         return z;
       }
 
-      /// What is out of balance in modes and static shapes over the sum of the terms' sizes, by their parts in the displacements.
+      /// Residual in modes and static shapes over the sum of the terms' sizes, by their parts in the displacements.
       double backward_error(const Complex lambda, const Eigenpair &pair, const std::vector<Complex> &f) const
       {
         double of_modes   = 0.;

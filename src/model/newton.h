@@ -7,7 +7,7 @@
 
 namespace sprag
 {
-  /// Of the overlap, see solve_by_newton().
+  /// Tolerance over the overlap, see solve_by_newton().
   constexpr double relative_tolerance = 1e-7;
 
   struct NewtonResult

@@ -75,7 +75,7 @@ namespace sprag
       return port / of_a_lever();
     }
 
-    /// Whether a port is one of the face of either lever.
+    /// Returns true if a port is one of the face of either lever.
     bool is_surface(const unsigned int port) const
     {
       return port < support() && port % of_a_lever() < surface;

@@ -135,7 +135,7 @@ namespace sprag
     std::shared_ptr<const KeptTangent> kept;
     KeptFactors factors;
 
-    /// Whether a drive goes on from the last that was followed.
+    /// Returns true if a drive goes on from the last that was followed.
     bool goes_on(const DrivePoint &drive) const
     {
       return followed.size() > 0 && (drive.x - followed.last().place) * drive.v > 0. && drive.v * followed_speed > 0.;

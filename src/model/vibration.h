@@ -10,7 +10,7 @@
 
 namespace sprag
 {
-  /// How friction acts where a slide is held.
+  /// Friction where a slide is held.
   enum class ContactFriction
   {
     sliding,

@@ -174,7 +174,8 @@ namespace sprag
       find();
   }
 
-  /// What progress means depends on the program to the last instruction.
+  /// The key includes the program's fingerprint, as the meaning of stored progress depends on the program to the last
+  /// instruction.
   std::string Checkpoint::key() const
   {
     Fingerprint sum;

@@ -16,7 +16,7 @@ namespace sprag
 {
   struct Scene;
 
-  /// What a run has recorded, in a file to which blocks with checksums are added, so that a checkpoint need not hold it.
+  /// Journal of a run's records: a file to which blocks with checksums are appended, so that a checkpoint need not hold them.
   class RowJournal
   {
   public:

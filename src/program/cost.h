@@ -8,7 +8,7 @@ namespace sprag
 {
   struct Scene;
 
-  /// What a run will cost.
+  /// Expected cost of a run.
   struct ExpectedCost
   {
     double cpu_seconds = 0.; ///< of all processes; NaN where it cannot be told

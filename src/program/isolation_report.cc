@@ -21,7 +21,7 @@ namespace sprag
       return scene.isolation.base == BaseMotionType::harmonic;
     }
 
-    /// Of the motions that the harmonic balance has the one closest to the run's.
+    /// Adds the harmonic balance's solution that is closest to the run's.
     void add_harmonic_balance(const Scene &scene, const IsolationFindings &found, std::vector<Entry> &entries)
     {
       if (!is_harmonic(scene))

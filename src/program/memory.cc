@@ -50,7 +50,7 @@ namespace sprag
       return (to - from) / size + graded(from - begin, size, largest, 1.2) + graded(end - to, size, largest, 1.2);
     }
 
-    /// Of the metal with rows of its own that carries the friction face.
+    /// Depth of the metal that carries the friction face and has rows of elements of its own [mm].
     double depth_under_face(const Scene &scene)
     {
       if (scene.plate.type == PlateType::on_sensors)
@@ -74,7 +74,7 @@ namespace sprag
       return std::max(scene.mesh.face_size, 0.15 * scene.lever.depth);
     }
 
-    /// Of a lever frame behind its front flange, along its depth.
+    /// Rows of elements of a lever frame behind its front flange, along its depth.
     double rows_behind_flange(const Scene &scene)
     {
       const double coarse = coarse_size(scene), flange = scene.frame.flange;
@@ -179,10 +179,10 @@ namespace sprag
       return 8. * (sought_in * displacements + kept * reached * reached);
     }
 
-    /// Of factors of the whole of a body in three dimensions, over displacements^(4/3).
+    /// Bytes of the factors of a whole body in three dimensions, over displacements^(4/3).
     constexpr double bytes_of_factors = 99.;
 
-    /// Of all matrices of a body in three dimensions, likewise.
+    /// Bytes of all matrices of a body in three dimensions, likewise.
     constexpr double bytes_of_solid = 215.;
 
     double bytes_of_solid_factors(const Scene &scene)
@@ -201,7 +201,7 @@ namespace sprag
       return levers * bar * (each * displacements + copies * 8. * ports * ports);
     }
 
-    // Of files with factors.
+    // Files with factors have these sizes and limits.
     constexpr double kept_in_files       = 0.9; ///< of the factors: some are in memory while they are found
     constexpr double file_room           = 1.1; ///< free on the disk, over their size
     constexpr std::size_t longest_folder = 240; ///< that the solver takes

@@ -22,7 +22,7 @@ namespace sprag
     bad_input       = 2
   };
 
-  /// What the command line asks for.
+  /// Options of the command line.
   struct Arguments
   {
     std::string file;
@@ -50,7 +50,7 @@ namespace sprag
   /// Reads the scene. Throws InputError, also where no file is named.
   Scene scene_of(const Arguments &arguments);
 
-  // How the program tells what came of it, by messages on the standard error, its exit status and what it leaves in the folder.
+  // The program reports its outcome by messages on the standard error, its exit status and the files in the folder.
 
   /// Returns the time by the clock of file systems.
   std::timespec time_of_files();

@@ -19,7 +19,7 @@ namespace sprag
 {
   namespace
   {
-    /// Where on which lever of a row something is largest.
+    /// Row, lever and place of the largest value of a quantity.
     struct Peak
     {
       const Row *row = nullptr;

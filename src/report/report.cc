@@ -40,7 +40,7 @@ namespace sprag
       return first[Column::P] > 0. && first[Column::friction_resultant] * direction_of(first) <= 0.;
     }
 
-    /// Of a table that stands still: what friction is then depends on the motion before.
+    /// Returns true if the table stands still in a row: friction then depends on the motion before.
     bool rests(const std::vector<Row> &rows, const std::size_t i)
     {
       return i > 0 && rows[i][Column::x] == rows[i - 1][Column::x] && rows[i][Column::time] > rows[i - 1][Column::time];
@@ -145,7 +145,7 @@ namespace sprag
 
   namespace
   {
-    /// Of an axis that its shaft lets yield.
+    /// Adds tilt and skew of an axis on a compliant shaft, at the largest P.
     void add_slopes(const Scene &scene, const std::vector<Row> &rows, std::vector<Entry> &entries)
     {
       if (scene.analysis.dimension != 3 || !scene.cylinder.has_free_axis())

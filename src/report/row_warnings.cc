@@ -113,7 +113,8 @@ namespace sprag
       return row[Column::largest_pressure] * row[Column::contact_width] * scene.lever.width / row[Column::P];
     }
 
-    /// Of a penalty that the scene gives: for an automatic one the mesh is to blame, see coarse_contact_warnings().
+    /// Warns of peaks of the pressure if the scene gives the penalty. With an automatic one the mesh is to blame, see
+    /// coarse_contact_warnings().
     void add_peaks(const Scene &scene, const std::vector<Row> &rows, const double largest_P, Warnings &warnings)
     {
       if (!scene.contact.penalty)

@@ -20,14 +20,14 @@ namespace sprag
     // An error of 1 % in mu, which no measurement of it undercuts, is one of 10 % in P.
     constexpr double largest_amplification = 10.;
 
-    // Of two quantities of the device that differ from model A one may be a variation of it.
+    // A device that differs from model A in one quantity may be a variation of it; from two on it is taken for another.
     constexpr unsigned int differences_of_another_device = 2;
 
     // Poisson's ratio from which a wide layer between bonded faces is twice as stiff in plane strain, (1-nu)/((1+nu)(1-2nu)) E,
     // as in plane stress, E/(1-nu^2): nu^2 + 2 nu - 1 = 0.
     const double largest_ratio_of_plane_stress = std::sqrt(2.) - 1.;
 
-    // Of hardened spring steels, whose proof stress is 1000 to 1600 MPa, less what many cycles cost: 0.4 % is 824 MPa.
+    // Hardened spring steels have a proof stress of 1000 to 1600 MPa, less what many cycles cost: 0.4 % strain is 824 MPa.
     constexpr double largest_leaf_strain = 4e-3;
 
     // With that many times the cylinder's sagitta between two points of the face P is 1 % off, with a tenth of that 10 %.
@@ -168,7 +168,7 @@ namespace sprag
             "Analysis/Model = closed form for a lever that hardly opens." });
     }
 
-    /// Whether the parameters of this section and name count in the scene.
+    /// Parameter by its full name, and whether the scene uses it.
     struct Dependent
     {
       std::string name;
@@ -200,7 +200,7 @@ namespace sprag
              (scene.map.first.name == parameter || scene.map.second.name == parameter);
     }
 
-    /// Whether the body that densities make up is another than model A's.
+    /// Returns true if the body whose mass follows from densities is not model A's.
     bool has_other_lever(const Scene &scene)
     {
       const Lever a;
@@ -370,7 +370,7 @@ namespace sprag
       if (!found.empty())
         warnings.push_back(
             { "unused_columns", found, "What they hold is in no result.",
-              "Nothing, if none of them was meant; a column that is meant needs its name, see params/README.md." });
+              "Nothing, if none of them was meant; a column that is meant needs its name, see params/scene-files.md." });
     }
   } // namespace
 

@@ -48,7 +48,7 @@ namespace sprag
       append(columns, columns_of_pages("", "swing Q_pair lateral_force"));
     }
 
-    /// What each lever has in three dimensions.
+    /// Columns of each lever in three dimensions.
     std::vector<ColumnInfo> across_a_lever(const FrictionPlate &plate, const Cylinder &cylinder)
     {
       std::vector<ColumnInfo> columns = columns_across();

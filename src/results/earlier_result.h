@@ -13,7 +13,7 @@ namespace sprag
   /// Behind the name of a result file that cannot be read yet.
   inline constexpr char result_begun_ending[] = ".new";
 
-  /// What a result file tells about its run.
+  /// Facts of an earlier run, as its result file holds them.
   struct EarlierResult
   {
     std::string parameters; ///< of the scene, in .prm form

@@ -42,7 +42,7 @@ namespace sprag
     double value;
   };
 
-  /// How frames are kept: long runs a file each, so that what is written is never touched again.
+  /// Storage of frames. Long runs write a file for each, so that written ones are never touched again.
   enum class FrameStorage
   {
     files,   ///< `name`-mesh.h5, and `name`-0000.h5, ... in the order of writing

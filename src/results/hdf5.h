@@ -46,7 +46,7 @@ namespace sprag::hdf5
   Handle write_dataset(const Handle &location, const std::string &name, const std::vector<double> &values,
                        const std::vector<std::size_t> &shape = {});
 
-  /// How many rows of create_rows() are compressed, and written, together.
+  /// Rows of create_rows() that are compressed and written together.
   constexpr std::size_t rows_together = 8192;
 
   /// Creates a dataset for `rows` rows of `width` numbers of a type of the library each, compressed.

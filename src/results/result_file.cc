@@ -251,7 +251,7 @@ namespace sprag
     }
   } // namespace
 
-  /// What is open while rows are appended.
+  /// Open handles and buffers while rows are appended.
   struct ResultFile::Writer
   {
     DiskReserve reserve; // given back after the file is closed

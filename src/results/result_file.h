@@ -73,7 +73,7 @@ namespace sprag
     std::vector<double> traction;          ///< friction on the lever along -d [MPa]
     std::vector<double> traction_across{}; ///< and along zeta; empty in a plane [MPa]
 
-    // Of a pair's second lever; empty without. Fields have them, /face does not.
+    // The second lever of a pair has its own; empty without. Field files contain them, /face does not.
     std::vector<double> pressure_2;
     std::vector<double> traction_2;
     std::vector<double> traction_across_2{};

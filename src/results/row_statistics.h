@@ -8,7 +8,7 @@
 
 namespace sprag
 {
-  // Of ranges of rows, or of whatever `value` takes. NaN does not count.
+  // Statistics of ranges of rows, or of any range that `value` accepts. NaN does not count.
 
   /// Returns the value of largest size with its sign; 0 without any.
   template <class Rows, class Value>

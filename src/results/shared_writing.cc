@@ -21,7 +21,7 @@ namespace sprag
   {
     namespace MPI = dealii::Utilities::MPI;
 
-    /// What all processes know of what is to be written.
+    /// Plan of a file that all processes write: its path and datasets.
     struct Plan
     {
       std::string path;
@@ -77,7 +77,7 @@ namespace sprag
           throw AnalysisError(named(problems[rank], rank) + (rank > 0 ? ". All of them need the folder of --output" : ""));
     }
 
-    /// What fails in one process alone, as by a disk that is suddenly full, ends all: the others wait for it inside of libraries.
+    /// Ends all processes if one fails alone, as by a full disk: the others would wait for it inside of libraries.
     template <class Work>
     void all_or_end(const std::string &path, const MPI_Comm ranks, const Work &work)
     {

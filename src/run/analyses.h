@@ -7,8 +7,8 @@ namespace sprag
 {
   struct Scene;
 
-  // What run() does for each Analysis/Type. Each writes and prints what it finds, adds the warnings that follow from it and
-  // throws what run() throws; what was finished before an AnalysisError is written.
+  // run() calls one of these functions for each Analysis/Type. Each writes and prints its findings, adds the warnings that
+  // follow from them and throws what run() throws. Results finished before an AnalysisError are written.
 
   /// Does what the Analysis/Type of a prepared scene says.
   void carry_out(const Scene &scene, const RunOptions &options, Warnings &warnings);

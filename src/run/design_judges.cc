@@ -27,7 +27,7 @@ namespace sprag
 
     constexpr double infinite = std::numeric_limits<double>::infinity();
 
-    /// Of the drive, from its smallest x: near enough to x = 0 for the slope, and far enough for a contact.
+    /// Share of the drive from its smallest x: near enough to x = 0 for the slope, and far enough for a contact.
     constexpr double share_for_slopes = 0.05;
 
     std::vector<double> places_of(const Scene &scene)
@@ -129,7 +129,7 @@ namespace sprag
       found[Q::largest_normal_force] = std::max(largest_size(out.P), largest_size(back.P));
       found[Q::largest_pressure]     = layer_pressure(scene, found[Q::largest_normal_force]);
       found[Q::jamming_margin]       = back.jamming_margin;
-      // What depends on how closely the places stand is told by its ratio to that of the closed form at the same ones.
+      // Both quantities depend on the spacing of the places: the closed form at all x is corrected by the ratio at these places.
       const auto ideal       = ideal_slides(scene, places);
       const auto whole       = lever_quantities(scene);
       found[Q::loop_area]    = whole[Q::loop_area] * opening_of(out, back) / opening_of(ideal.first, ideal.second);

@@ -10,7 +10,7 @@ namespace sprag
 {
   struct Scene;
 
-  /// What a judge found of a lever that was proposed to it.
+  /// Result of a check of a proposed lever by a dearer model.
   struct Judgement
   {
     DesignJudge judge  = DesignJudge::beam;

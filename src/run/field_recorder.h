@@ -16,7 +16,7 @@ namespace sprag
 {
   struct Scene;
 
-  /// What the displacements of a state follow from, as far as its model needs it.
+  /// Variables of a state that determine its displacements, as far as its model needs them.
   struct FieldSource
   {
     dealii::Vector<double> coordinates;

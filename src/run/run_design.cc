@@ -52,7 +52,7 @@ namespace sprag
                                                         : info_of(term.quantity).unit;
     }
 
-    /// What the last judge that tells a quantity found; by the closed form where none does.
+    /// Value by the last judge that computes the quantity, or by the closed form if none does.
     double best_known(const DesignTerm &term, const Proposal &lever, const DesignFindings &findings)
     {
       double value = value_of(term, lever);
@@ -401,7 +401,7 @@ namespace sprag
           learn_growth(judgement);
       }
 
-      /// What the judge found, or of a lever that was not followed in time what it is expected to become there.
+      /// The judge's value, scaled by the overshoot in time known from other levers if this one was not followed in time.
       double in_time(const DesignQuantity quantity, const Judgement &judgement)
       {
         if (judgement.in_time)

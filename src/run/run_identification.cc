@@ -45,7 +45,7 @@ namespace sprag
     constexpr double least_independent = 0.3;
     constexpr double least_deviation   = 1e-3; ///< of residuals over the largest force, below which they are round-off
 
-    /// Whether residuals follow each other as they do where the model is another than what was measured.
+    /// Returns true if residuals are correlated as those of a model that does not fit the measurement.
     bool is_not_followed(const ForceChannel &channel, const ChannelNoise &noise)
     {
       double largest = 0.;

@@ -203,7 +203,7 @@ namespace sprag
                             ". Try another Stability/Position or a smaller friction coefficient.");
     }
 
-    /// Whether friction at this speed is the same in the eigenvalue and in time, see FrictionDelay.
+    /// Returns true if friction at this speed is the same in the eigenvalue and in time, see FrictionDelay.
     bool linearised_exactly(const FrictionLaw &law, const double speed)
     {
       return law.regularisation_speed > 0. || friction_coefficient(law, std::abs(speed)).derivative >= 0.;
@@ -251,7 +251,8 @@ namespace sprag
         report();
       }
 
-      /// What a stable slide makes of a large kick, and an unstable one of itself.
+      /// Follows the vibration to its settled state: after a large kick if the slide is stable, from the perturbation if it is
+      /// not.
       void follow()
       {
         const auto &slide = *found.slide.slide;

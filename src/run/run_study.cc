@@ -75,7 +75,7 @@ namespace sprag
       return rule.kind != Rule::Kind::choice && rule.kind != Rule::Kind::text && rule.kind != Rule::Kind::file;
     }
 
-    /// Of a parameter that takes words: the place of each among its values.
+    /// Number of a value. A parameter that takes words has the index among its values.
     double number_of(const VariedParameter &varied, const std::size_t index, const bool numeric)
     {
       const auto number = leading_number(varied.values[index]);
@@ -179,7 +179,7 @@ namespace sprag
         }
     }
 
-    /// Where names meet the first one counts.
+    /// Drops columns whose name an earlier one has.
     template <class Column, class Name>
     void drop_repeated(std::vector<Column> &columns, const Name &name)
     {
@@ -347,7 +347,7 @@ namespace sprag
       }
     };
 
-    /// Of each size, for each measure from the least to the largest of all other settings.
+    /// Prints the observed orders over each size: for each measure their range over all other settings.
     void print_orders(std::ostream &stream, const std::vector<ObservedOrder> &orders)
     {
       std::map<std::pair<std::string, std::string>, std::pair<double, double>> ranges;

@@ -25,8 +25,8 @@ namespace sprag
 {
   namespace
   {
-    /// What grows about the slides of the run. A model of its own is asked, condensed for finite elements, which find the lowest
-    /// vibrations alone.
+    /// Finds the growing modes about the slides of the run. It uses a model of its own, condensed for finite elements, which
+    /// find the lowest vibrations alone.
     std::vector<GrowingMode> growing_modes_of(Scene scene, DynamicsMaker &maker)
     {
       if (scene.analysis.model == ModelType::finite_element)

@@ -62,7 +62,7 @@ namespace sprag
       return part.name + ' ' + four_digits(part.value);
     }
 
-    /// What feeds a mode most and what damps it most.
+    /// Names the part that feeds a mode most and the part that damps it most.
     std::array<std::string, 2> extremes(const GrowthShares &growth)
     {
       const std::vector<GrowthPart> parts = {

@@ -27,7 +27,7 @@ namespace sprag
   /// Returns Im lambda / 2 pi [Hz].
   double frequency_of(const Eigenmode &mode);
 
-  /// Whether a mode grows by more than round-off.
+  /// Returns true if a mode grows by more than round-off.
   bool grows(const Eigenmode &mode);
 
   /// Judges a mode: stable, flutter or divergence.
@@ -36,7 +36,7 @@ namespace sprag
   /// Returns whether they are of a lever in three dimensions.
   bool is_solid(const std::vector<Eigenmode> &modes);
 
-  /// Whether these are the modes of two levers.
+  /// Returns true if these are the modes of two levers.
   bool is_pair(const std::vector<Eigenmode> &modes);
 
   /// Selects the modes to report: the `number` lowest that oscillate, and every one that grows.

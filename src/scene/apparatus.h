@@ -19,7 +19,7 @@ namespace sprag
     leaf       ///< a meshed leaf spring
   };
 
-  /// What holds a leaf spring at its far end, the spring joint. Along the spring it is free or held, see LeafSpring::axial.
+  /// Support of a leaf spring at its far end, the spring joint. Along the spring it is free or held, see LeafSpring::axial.
   enum class LeafEnd
   {
     clamped, ///< neither turns nor moves across the spring
@@ -51,7 +51,7 @@ namespace sprag
     PlaneState plane      = PlaneState::stress; ///< as a beam
   };
 
-  /// What a lever feels of a leaf spring besides its stiffness. It is found by finite elements, for levers of every fidelity.
+  /// Effects of a leaf spring on a lever besides its stiffness. They are found by finite elements, for levers of every fidelity.
   struct LeafBehaviour
   {
     MomentLaw law;
@@ -139,7 +139,7 @@ namespace sprag
     full  ///< both
   };
 
-  /// What carries the spring joint of a mirrored pair.
+  /// Carrier of the spring joint of a mirrored pair.
   enum class SpringJoint
   {
     free, ///< the two springs alone: they take up what both levers open, and let them swing together
@@ -183,7 +183,7 @@ namespace sprag
     double crown_radius = 0.; ///< of the barrel along the axis [mm], >= 0; 0: straight
     double edge_radius  = 0.; ///< of the rounding at its ends [mm], >= 0; 0: sharp
 
-    /// Whether its shaft lets the axis yield to the contact.
+    /// Returns true if the shaft lets the axis yield to the contact.
     bool has_free_axis() const
     {
       return tilt_stiffness || skew_stiffness;

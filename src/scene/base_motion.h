@@ -9,7 +9,7 @@
 
 namespace sprag
 {
-  /// Where the base is at an instant.
+  /// Motion of the base at an instant.
   struct BasePoint
   {
     double x;    ///< displacement [mm]

@@ -116,7 +116,7 @@ namespace sprag
       rules.need(mistake.empty(), "Mesh/File", {}, mistake);
     }
 
-    /// What a type of analysis takes of the scene. The model counts only where the cylinder follows the drive.
+    /// Parts of the scene that a type of analysis uses. The model counts only where the cylinder follows the drive.
     struct Use
     {
       const Scene &scene;
@@ -296,7 +296,7 @@ namespace sprag
         check_calibration(scene, rules);
     }
 
-    /// Whether the lever is rigid and always on the cylinder, so that it locks where the closed form does.
+    /// Returns true if the lever is rigid and always on the cylinder, so that it locks where the closed form does.
     bool can_lock(const Scene &scene, const Use &use)
     {
       const ModelType model = scene.analysis.model;
@@ -347,7 +347,7 @@ namespace sprag
     const Use use{ scene };
     settings(scene, use, rules);
     auto of_levers = positions(scene_of_lever(scene, 0), use);
-    // Of the second lever what is not said of the first already.
+    // The second lever adds only violations of parameters that the first does not break.
     if (number_of_levers(scene) == 2)
       for (const auto &violation : positions(scene_of_lever(scene, 1), use))
         if (std::none_of(of_levers.begin(), of_levers.end(),

@@ -11,7 +11,7 @@ namespace sprag
 {
   namespace
   {
-    /// Of the part that carries the friction face [MPa].
+    /// Young's modulus of the part that carries the friction face [MPa].
     double young_modulus_of_face(const Scene &scene)
     {
       if (scene.layer.thickness > 0.)

@@ -24,7 +24,7 @@ namespace sprag
   /// then Newton's method fails, and a slide that is there is not found.
   double largest_penalty(const Scene &scene);
 
-  /// Checks that penalties are not stiffer than the friction face of a built-in mesh takes, see params/README.md.
+  /// Checks that penalties are not stiffer than the friction face of a built-in mesh takes.
   void check_penalty(const Scene &scene, Rules &rules);
 
   /// Checks whether lever frame, friction plate, force sensors and guide can be built. With a mesh of the user's own it checks

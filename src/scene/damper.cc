@@ -36,7 +36,8 @@ namespace sprag
       return dissipating([=](const double y, const double speed, int) { return constant + slope * y + viscous * speed; });
     }
 
-    /// Where the contact point begins to move against the cylinder, s cos(th) = e sin(th), or the cylinder reaches the pivot.
+    /// Largest displacement of a lever: there the contact point begins to move against the cylinder, s cos(th) = e sin(th), or
+    /// the cylinder reaches the pivot [mm].
     double reach_of_lever(const Geometry &geometry)
     {
       constexpr double margin = 1e-9; // of the normal force, which is infinite at the pivot where e = 0

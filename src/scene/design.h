@@ -7,9 +7,9 @@
 
 namespace sprag
 {
-  // What a lever must do, what of it is free, and what makes one better than another.
+  // Settings of a design: demands on the lever, its free parameters and its aims.
 
-  /// What is demanded of a lever or makes it better; names, units and definitions are in design_quantities().
+  /// Quantity of a demand or an aim; names, units and definitions are in design_quantities().
   enum class DesignQuantity
   {
     damping_slope,
@@ -73,7 +73,7 @@ namespace sprag
     std::string text;
   };
 
-  /// What computes a proposed lever again. Each is dearer than the one before it.
+  /// Model that computes a proposed lever again. Each is dearer than the one before it.
   enum class DesignJudge
   {
     table, ///< the isolated table in time on levers of the closed form
@@ -95,7 +95,7 @@ namespace sprag
     unsigned int evaluations  = 4000; ///< of the closed form in the global search
     unsigned int seed         = 1;
 
-    // What the texts say, see read_design().
+    // read_design() fills these from the texts.
     std::vector<FreeParameter> free_parameters;
     std::vector<Demand> demanded;
     std::vector<DesignAim> aims;

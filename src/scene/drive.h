@@ -15,9 +15,9 @@ namespace sprag
     table     ///< x over t from a file, monotone cubic (PCHIP)
   };
 
-  /// Where the drive is at an instant. v is two-valued at an instantaneous reversal and a at a table's samples: see `Drive::at`.
-  /// The sign of v, that of a zero included, is the direction of motion: at a turning point of the stroke that ends or begins
-  /// there, in a rest of the motion that led to it, in a rest at the beginning forward, see direction_of().
+  /// Motion of the drive at an instant. The sign of v, that of a zero included, is the direction of motion: at a turning point
+  /// of the stroke that ends or begins there, in a rest of the motion that led to it, in a rest at the beginning forward, see
+  /// direction_of().
   struct DrivePoint
   {
     double time = 0.; ///< [s]
@@ -25,7 +25,7 @@ namespace sprag
     double v    = 0.; ///< [mm/s]
     double a    = 0.; ///< [mm/s^2]; an instantaneous reversal has none on either side
 
-    /// How far the cylinder's surface has run by turning, counted as slip along the lever [mm]; a drive never turns it.
+    /// Path of the cylinder's surface by turning, counted as slip along the lever [mm]; a drive never turns it.
     double surface = 0.;
   };
 

@@ -7,9 +7,9 @@
 
 namespace sprag
 {
-  // What was measured along a stroke, and what is to be found from it.
+  // Measurements along a stroke, and the unknowns to be found from them.
 
-  /// What can be found. `stiffness`, `interface_offset` and `inclination` are k, e and th0 of the paper.
+  /// Unknown of an identification. `stiffness`, `interface_offset` and `inclination` are k, e and th0 of the paper.
   enum class Unknown
   {
     friction_constant,   ///< mu, whatever the speed
@@ -65,7 +65,7 @@ namespace sprag
     IdentificationLoss loss = IdentificationLoss::squares;
     double confidence       = 0.95; ///< of the intervals, 0 ... 1
 
-    // What texts and table say, see read_identification().
+    // read_identification() fills these from the texts and the table.
     std::vector<Unknown> sought;
     MeasuredStroke measured;
   };

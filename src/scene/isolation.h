@@ -120,7 +120,7 @@ namespace sprag
     double tolerance            = 1e-12; ///< of a step, over the amplitude, > 0
     std::optional<double> output_step;   ///< [s], > 0; none: see output_step()
 
-    // What the files hold.
+    // read_isolation_tables() fills these from the files.
     DamperLoop loop;
     Samples base_table; ///< acceleration over time [mm/s^2, s], or its spectrum over frequency [(mm/s^2)^2/Hz, Hz]
   };

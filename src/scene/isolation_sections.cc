@@ -9,9 +9,9 @@ namespace sprag
   {
     void table_and_damper(Section section, IsolationSettings &settings)
     {
-      section.number("Mass", settings.mass, above(0.), "t", "m, of the table");
-      section.number("Stiffness", settings.stiffness, above(0.), "N/mm", "K, of the restoring spring");
-      section.integer("Levers", settings.levers, { 1., 1000. }, "n, of the damper for each sign of z");
+      section.number("Mass", settings.mass, above(0.), "t", "m, mass of the table");
+      section.number("Stiffness", settings.stiffness, above(0.), "N/mm", "K, stiffness of the restoring spring");
+      section.integer("Levers", settings.levers, { 1., 1000. }, "n, number of levers of the damper for each sign of z");
       section.choice("Damper", settings.damper,
                      { { "lever", DamperType::lever },
                        { "constant friction", DamperType::constant_friction },
@@ -21,11 +21,11 @@ namespace sprag
                        { "viscous", DamperType::viscous },
                        { "loop", DamperType::loop },
                        { "none", DamperType::none } },
-                     "Levers of this scene; friction F0; friction c |z|; viscous, constant and linear friction; a friction lever "
-                     "that the restoring spring presses; viscous; Q over |z| from a file; none");
+                     "Damper of the table: the levers of this scene; friction F0; friction c |z|; viscous, constant and linear "
+                     "friction; a friction lever that the restoring spring presses; viscous; Q over |z| from a file; none");
       section.number("Friction force", settings.friction_force, at_least(0.), "N", "F0 of constant friction and Beucke");
       section.number("Friction slope", settings.friction_slope, at_least(0.), "N/mm", "c of linear friction and Beucke");
-      section.number("Viscous coefficient", settings.viscous_coefficient, at_least(0.), "N s/mm", "Of viscous and Beucke");
+      section.number("Viscous coefficient", settings.viscous_coefficient, at_least(0.), "N s/mm", "d of viscous and Beucke");
       section.number("Lever ratio", settings.lever_ratio, at_least(0.), "",
                      "r of the restoring lever: arm of the spring over arm of the normal force");
       section.number("Friction arm ratio", settings.friction_arm_ratio, at_least(0.), "",
@@ -49,24 +49,24 @@ namespace sprag
       section.length("Base amplitude", settings.base_amplitude, "X of a harmonic motion, a sweep and a shock");
       section.number("Base frequency", settings.base_frequency, above(0.), "Hz",
                      "f of a harmonic motion and a shock, which takes 1/(2 f), and at the beginning of a sweep");
-      section.number("Final frequency", settings.final_frequency, above(0.), "Hz", "At the end of a sweep");
+      section.number("Final frequency", settings.final_frequency, above(0.), "Hz", "Frequency at the end of a sweep");
       section.choice("Sweep", settings.sweep, { { "linear", SweepForm::linear }, { "logarithmic", SweepForm::logarithmic } },
-                     "Whether the frequency grows by equal differences or equal ratios in equal times");
+                     "Growth of the frequency, by equal differences or by equal ratios in equal times");
       section.choice("Shock", settings.shock, { { "half sine", ShockForm::half_sine }, { "step", ShockForm::step } },
                      "Half a sine of acceleration with the peak X (2 pi f)^2, or a rise of the displacement to X along half a "
                      "cosine");
       section.choice("Base spectrum", settings.spectrum,
                      { { "Kanai-Tajimi", BaseSpectrum::kanai_tajimi }, { "table", BaseSpectrum::table } },
-                     "Of a random acceleration: ground that filters white noise, or from Base table");
+                     "Spectrum of a random acceleration: ground that filters white noise, or from Base table");
       section.number("Base acceleration", settings.rms_acceleration, above(0.), "mm/s2",
                      "Root mean square of a Kanai-Tajimi acceleration between its lowest and highest frequency");
-      section.number("Ground frequency", settings.ground_frequency, above(0.), "Hz", "f_g of Kanai-Tajimi");
-      section.number("Ground damping", settings.ground_damping, above(0.), "", "zeta_g of Kanai-Tajimi");
-      section.number("Lowest frequency", settings.lowest_frequency, above(0.), "Hz", "Of a random acceleration");
+      section.number("Ground frequency", settings.ground_frequency, above(0.), "Hz", "f_g, ground frequency of Kanai-Tajimi");
+      section.number("Ground damping", settings.ground_damping, above(0.), "", "zeta_g, ground damping ratio of Kanai-Tajimi");
+      section.number("Lowest frequency", settings.lowest_frequency, above(0.), "Hz", "Lowest frequency of a random acceleration");
       section.number("Highest frequency", settings.highest_frequency, above(0.), "Hz",
-                     "Of a random acceleration, more than the lowest");
-      section.integer("Spectrum lines", settings.spectrum_lines, { 1., 1e5 }, "Sines that a random acceleration is made of");
-      section.integer("Seed", settings.seed, { 0., 4294967295. }, "Of the random phases; the same seed gives the same motion");
+                     "Highest frequency of a random acceleration, more than the lowest");
+      section.integer("Spectrum lines", settings.spectrum_lines, { 1., 1e5 }, "Number of sines in a random acceleration");
+      section.integer("Seed", settings.seed, { 0., 4294967295. }, "Seed of the phases; the same gives the same motion");
       section.text("Base table", settings.base_file,
                    "File with the columns time [s] and acceleration of a record, or frequency [Hz] and density, unit squared per "
                    "Hz, of a spectrum, relative to the folder of this one",
@@ -78,27 +78,26 @@ namespace sprag
             { "cm/s2", AccelerationUnit::cm_s2 },
             { "m/s2", AccelerationUnit::m_s2 },
             { "g", AccelerationUnit::g } },
-          "Of the acceleration in Base table; from file: in brackets in its header, as 'time [s], acceleration [m/s2]'");
+          "Unit of the acceleration in Base table; from file: in brackets in its header, as 'time [s], acceleration [m/s2]'");
       section.choice("Drift correction", settings.corrects_drift, { { "off", false }, { "on", true } },
-                     "on: a line is taken off the record's acceleration such that its velocity has no trend");
+                     "on: a line is subtracted from the record's acceleration so that its velocity has no trend");
     }
 
     void motion(Section section, IsolationSettings &settings)
     {
       section.number("Initial displacement", settings.initial_displacement, any_number(), "mm", "z at the beginning");
       section.number("Initial velocity", settings.initial_velocity, any_number(), "mm/s", "z' at the beginning");
-      section.number("Duration", settings.duration, above(0.), "s", "Of the run, or the longest that a steady state may take");
+      section.number("Duration", settings.duration, above(0.), "s", "Duration of the run, or longest time to a steady state");
       section.choice("End", settings.end,
                      { { "duration", IsolationEnd::duration }, { "steady state", IsolationEnd::steady_state } },
-                     "Whether a run with a harmonic base goes on to Duration or ends once periods repeat");
+                     "duration: the run goes on to Duration; steady state: with a harmonic base it ends once periods repeat");
       section.number("Periodic tolerance", settings.periodic_tolerance, { 0., 0.1, false, true }, "",
-                     "Of a steady state: what is left of the way to it, over the amplitude");
+                     "Remaining distance to the steady state, over the amplitude, at which it counts as reached");
       section.number("Tolerance", settings.tolerance, { 1e-14, 1e-3 }, "",
                      "Error of a step in time, over the amplitude; events are met to round-off whatever it is");
-      section.number_or_auto(
-          "Output step", settings.output_step, above(0.), "s",
-          "Between rows of the table, which events have too; auto: a hundredth of the natural period, or a tenth of the "
-          "base's shortest where that is less");
+      section.number_or_auto("Output step", settings.output_step, above(0.), "s",
+                             "Time between rows of the table, which events have too; auto: a hundredth of the natural period, or "
+                             "a tenth of the base's shortest where that is less");
     }
   } // namespace
 

@@ -13,7 +13,7 @@ namespace sprag
   /// Takes the full name of a parameter and the rule that it breaks.
   using ReportMistake = std::function<void(const std::string &parameter, const std::string &rule)>;
 
-  /// By the parameter that names a table, the columns of it that were not used.
+  /// Unused columns of tables, by the parameter that names the table.
   using UnusedColumns = std::map<std::string, std::vector<std::string>>;
 
   /// Reads the files that the settings use, whose paths are absolute or empty, and reports what is wrong with them.

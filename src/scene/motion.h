@@ -9,7 +9,7 @@
 
 namespace sprag
 {
-  /// How a drive moves: a row of pieces, each going one way or at rest throughout. Piece i lasts from times[i] to times[i+1].
+  /// Motion of a drive: a row of pieces, each going one way or at rest throughout. Piece i lasts from times[i] to times[i+1].
   class DriveMotion
   {
   public:

@@ -16,7 +16,7 @@ namespace sprag
       return kinematics(geometry_of_lever(scene, lever), x).theta - rest_inclination(scene);
     }
 
-    /// What the springs feel.
+    /// Rotations of a pair's lever and of its spring [rad].
     struct Turns
     {
       double opening; ///< of the lever
@@ -27,7 +27,7 @@ namespace sprag
         return spring >= 0.;
       }
 
-      /// Where it does not touch, without moment.
+      /// Rotation of the lever; out of contact it is that without moment.
       double of_lever() const
       {
         return opening - std::min(spring, 0.);

@@ -3,7 +3,7 @@
 
 namespace sprag
 {
-  /// What a part of a plane model does out of the plane.
+  /// Behaviour of a part of a plane model out of the plane.
   enum class PlaneState
   {
     stress, ///< it may contract and bears no stress there

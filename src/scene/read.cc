@@ -28,11 +28,11 @@ namespace sprag
 {
   namespace
   {
-    /// Where pressures are told. In time cells of 0.5 mm tilt under the stiffer penalty, and P is 2 % off where the contact is
-    /// 1.3 mm wide.
+    /// Automatic face size of runs that report pressures. In time cells of 0.5 mm tilt under the stiffer penalty, and P is 2 %
+    /// off where the contact is 1.3 mm wide.
     constexpr double driven_face_size = 0.25; ///< [mm]
 
-    /// Across the contact, by degree: the largest pressure is then within 1 %.
+    /// Faces across the contact, by degree, with which the largest pressure is within 1 %.
     constexpr double enough_faces[] = { 5., 4. };
 
     /// Augmentations are cheap where the lever is factorised once. Chords of degree 1 need soft contact to follow a circle.
@@ -229,7 +229,7 @@ namespace sprag
           report("Analysis/Dimension", "auto is for Analysis/Type = quasi-static, stability and transient");
       }
 
-      /// What depends on the model and on whether an accuracy is asked for is up to each run of a study.
+      /// Reads the accuracy asked for. Rules that depend on the model or on a target are left to each run of a study.
       void read_accuracy()
       {
         AccuracySettings &accuracy = input.scene.accuracy;
@@ -356,7 +356,7 @@ namespace sprag
         keep_paths("Study/Reference", study.reference, study.reference_values);
       }
 
-      /// As resolve() does.
+      /// Keeps absolute paths in the text, as resolve() does.
       void keep_paths(const std::string &parameter, std::string &text, const std::vector<VariedParameter> &read)
       {
         const auto is_file = [this](const VariedParameter &varied)

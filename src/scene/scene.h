@@ -61,10 +61,10 @@ namespace sprag
     /// was not read.
     std::shared_ptr<const std::map<std::string, std::string>> parameters;
 
-    /// As they were written, the values of parameters that were given with a unit.
+    /// Values of parameters that were given with a unit, as they were written.
     std::map<std::string, std::string> written;
 
-    /// By the parameter that names a table, the columns of it that were not used.
+    /// Unused columns of tables, by the parameter that names the table.
     std::map<std::string, std::vector<std::string>> unused_columns;
 
     std::set<std::string> given; ///< "Section/Name" of the parameters that were given rather than left at their defaults

@@ -21,7 +21,7 @@ namespace sprag
       return found == scene.parameters->end() ? std::string() : found->second;
     }
 
-    /// As it was read and as it is now: the declared default of one that is bound to the scene is its value in the scene.
+    /// Value as read and as it is now: the declared default of a parameter bound to the scene is its value in the scene.
     std::string value_of(const Parameter &parameter, const Scene &scene)
     {
       const auto as_read = value_as_read(full_name(parameter), scene);
@@ -121,12 +121,12 @@ namespace sprag
   const std::set<std::string> &spared_parameters()
   {
     static const std::set<std::string> all = {
-      // What is done with a lever, not what it is.
+      // The use of a lever does not change the lever.
       "Analysis/Type", "Analysis/Solution", "Analysis/Step", "Analysis/Minimum step", "Analysis/Maximum deviation",
       "Analysis/Maximum energy residual",
       // The drive counts by its ends, which belong to the key.
       "Drive/Speed", "Drive/Cycles", "Drive/Reversal duration",
-      // Of rigid and beam alone.
+      // Rigid levers and beams alone have these.
       "Lever/Neutral axis offset", "Contact/Type", "Contact/Stiffness", "Contact/Exponent",
       // Damping is added to mass and stiffness.
       "Lever/Modal damping", "Lever/Mass damping", "Lever/Stiffness damping", "Contact/Damping",

@@ -96,9 +96,9 @@ namespace sprag
     }
   };
 
-  /// Adds the constants of an elastic part; `of` says of which.
+  /// Adds the constants of an elastic part; `of` names it, as " of the layer".
   template <class Part>
-  void add_material(Section &section, Part &part, const std::string &of = {})
+  void add_material(Section &section, Part &part, const std::string &of)
   {
     section.number("Young's modulus", part.young_modulus, above(0.), "MPa", "E" + of);
     section.number("Poisson's ratio", part.poisson_ratio, between(-1., 0.5), "", "nu" + of);

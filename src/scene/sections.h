@@ -43,7 +43,7 @@ namespace sprag
     std::string table;
   };
 
-  /// What a parameter file fills in: a scene whose drive and friction law are still to be made.
+  /// Contents of a parameter file: a scene whose drive and friction law are still to be made.
   struct SceneSettings
   {
     Scene scene;

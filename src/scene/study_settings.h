@@ -31,7 +31,7 @@ namespace sprag
     std::vector<std::string> values;
   };
 
-  /// How a study combines the values of several parameters.
+  /// Combination of the values of several parameters.
   enum class Combination
   {
     grid, ///< each value of one with each of the others
@@ -46,7 +46,7 @@ namespace sprag
     Combination combine = Combination::grid;
     std::string reference; ///< settings of the run that the others are compared with; empty: none
 
-    // What the texts say, see variation_of().
+    // variation_of() fills these from the texts.
     std::vector<VariedParameter> varied;
     std::vector<VariedParameter> reference_values; ///< one value each
   };
@@ -57,7 +57,7 @@ namespace sprag
     tip  ///< Lever/Tip mass
   };
 
-  /// What the meshed parts are made to have.
+  /// Targets that a calibration gives the meshed parts.
   struct CalibrationSettings
   {
     std::optional<double> stiffness;         ///< k [N mm/rad] by the leaf spring's thickness; none: the leaf as it is

@@ -13,7 +13,7 @@ namespace sprag
     both ///< a single slide is the one backward then
   };
 
-  /// What holds cylinder and lever together in undamped modes.
+  /// Contact between cylinder and lever in undamped modes.
   enum class HeldContact
   {
     open,

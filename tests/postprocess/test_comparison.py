@@ -32,7 +32,7 @@ subsection Friction
   set Coefficient = {mu}  # default: 0.73
 end
 subsection Lever
-  # Of the metal, without the friction
+  # Depth of the metal, without the friction
   # layer [mm]: a number > 0.
   set Depth = {depth}
 end
@@ -72,7 +72,7 @@ class SeveralTest(PictureTest):
 class ParametersTest(unittest.TestCase):
     def test_values_and_units(self):
         found = parameters.parse(listing())
-        self.assertEqual(found["Lever/Depth"], ("20", "mm", None, "Of the metal, without the friction layer", "a number > 0"))
+        self.assertEqual(found["Lever/Depth"], ("20", "mm", None, "Depth of the metal, without the friction layer", "a number > 0"))
         self.assertEqual(found["Friction/Coefficient"][:3], ("0.73", "1", None))  # its default
         self.assertEqual(parameters.parse(listing(mu="0.7"))["Friction/Coefficient"][:3], ("0.7", "1", "0.73"))
         self.assertEqual((found["Analysis/Model"].text, found["Analysis/Model"].number), ("beam", None))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Each warning is provoked by a command line, printed, stored and counted; the table of warnings in params/README.md is that of the
+"""Each warning is provoked by a command line, printed, stored and counted; the table of warnings in params/warnings.md is that of the
 program. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 
 import re
@@ -96,9 +96,8 @@ class WarnedRunsTest(RunTest):
         self.assertEqual(done.stdout.splitlines()[-1], "failed, 1 warning: pressure_beyond_strength")
 
     def test_the_table_is_that_of_the_program(self):
-        text = (SOURCE / "params/README.md").read_text(encoding="utf-8")
-        section = text.partition("\n## Warnings\n")[2].partition("\n## ")[0]
-        table = re.findall(r"^\| `(\w+)` \|", section, re.MULTILINE)
+        text = (SOURCE / "params/warnings.md").read_text(encoding="utf-8")
+        table = re.findall(r"^\| `(\w+)` \|", text, re.MULTILINE)
         self.assertEqual(len(table), len(set(table)))
         program = set()
         for path in (SOURCE / "src").rglob("*.cc"):

@@ -2,17 +2,13 @@
 #include "scene/read.h"
 #include "laws/friction.h"
 
-#include "base/parameters.h"
 #include "scene/messages.h"
 #include "scene/scene.h"
-#include "scene/sections.h"
 #include "support/params_folder.h"
 
 #include <array>
 #include <cmath>
 #include <hdf5.h>
-#include <regex>
-#include <sstream>
 
 using namespace sprag;
 
@@ -39,13 +35,6 @@ namespace
   std::filesystem::path scenes()
   {
     return params_folder();
-  }
-
-  std::string content(const std::filesystem::path &file)
-  {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
   }
 } // namespace
 
@@ -209,19 +198,6 @@ TEST(ReadScene, ScenesOfTheProgramAreFaultless)
       EXPECT_NO_THROW(read_scene(entry.path().string())) << entry.path();
     }
   EXPECT_GE(n_scenes, 12u);
-}
-
-TEST(ReadScene, EveryParameterStandsInTheReadme)
-{
-  const std::string readme = content(scenes() / "README.md");
-  SceneSettings defaults;
-  for (const auto &parameter : scene_parameters(defaults))
-  {
-    const std::string rule = std::regex_replace(description(parameter.rule), std::regex("\\|"), "\\|");
-    const std::string row  = "| " + parameter.section + " | " + parameter.name + " | " + parameter.default_value + " | " +
-                            parameter.rule.unit + " | " + rule + " | " + parameter.meaning + " |";
-    EXPECT_NE(readme.find(row), std::string::npos) << row;
-  }
 }
 
 TEST(ReadScene, AllMistakesAreFoundAtOnce)

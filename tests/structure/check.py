@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Holds the shape of the sources: include directions, the bound on the dimension, file lengths, scenes all described, pages
-whose links hold and that are not too long."""
+"""Holds the shape of the sources: include directions, the bound on the dimension, file lengths, comments that are no
+fragments, scenes all described, pages whose links hold and that are not too long."""
 
 import os
 import pathlib
@@ -23,9 +23,12 @@ MAX_LINES = 600
 LICENCE = "SPDX-License-Identifier: GPL-3.0-only"
 # Of a page as wc counts them. The references of all parameters and results are looked into, not read.
 MAX_WORDS = 1500
-REFERENCES = [pathlib.Path("params/README.md"), *(pathlib.Path("postprocess") / name for name in ("results.md", "summary.md", "summary-of-analyses.md"))]
+REFERENCES = [pathlib.Path("params/parameters.md"), pathlib.Path("params/warnings.md"), *(pathlib.Path("postprocess") / name for name in ("results.md", "summary.md", "summary-of-analyses.md"))]
 # In pieces, or this file would find itself.
 UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME)\b")
+
+# A comment is a sentence with a verb, or names the thing itself: no fragment.
+FRAGMENT = re.compile(r"\s*///?<? (Of|What|Whether|Where|How|By|As)\b")
 
 problems = []
 
@@ -68,6 +71,15 @@ def check_includes(path, lines):
             report(path, number, "`int dim` belongs in src/fe")
 
 
+def check_comments(path, lines):
+    """Reports comments that begin as fragments; lines that go on with a comment count with its first."""
+    goes_on = False
+    for number, line in enumerate(lines, 1):
+        if not goes_on and (found := FRAGMENT.match(line)):
+            report(path, number, f"the comment begins as a fragment, with {found[1]}")
+        goes_on = line.lstrip().startswith("//")
+
+
 n_sources = 0
 for path in own_files():
     try:
@@ -84,6 +96,7 @@ for path in own_files():
     if path.is_relative_to(ROOT / "src") and path.suffix in (".cc", ".h"):
         n_sources += 1
         check_includes(path, lines)
+        check_comments(path, lines)
 
 scenes = sorted((ROOT / "params").glob("*.prm"))
 readme = ROOT / "params" / "README.md"

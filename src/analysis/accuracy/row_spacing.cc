@@ -42,7 +42,7 @@ namespace sprag
       return result / largest(rows, column);
     }
 
-    /// Of rows `step` apart.
+    /// Error of forces and, if asked for, of the loop area, relative, where rows are `step` apart [mm].
     double error_of(const Scene &scene, const double step, const bool wants_loop)
     {
       const auto halves  = closed_form_rows(scene, 0.5 * step);

@@ -42,7 +42,7 @@ namespace sprag
       return std::exp(0.5 * (root.first + root.second));
     }
 
-    /// What is to be added to the hub or the tip.
+    /// Added mass that gives the lever the target inertia: at the tip [t] or as inertia of the hub [t mm^2].
     double calibrated_mass(Scene scene, const double target)
     {
       const bool at_tip      = scene.calibration.mass == AddedMass::tip;

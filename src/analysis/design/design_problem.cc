@@ -411,7 +411,7 @@ namespace sprag
 
   namespace
   {
-    /// What a violation of a demand with the target 0 is measured by.
+    /// Scale of a violation: the size of the target, or for a target of 0 the tolerance. Growth rates have 100/s.
     double scale_of(const Demand &demand)
     {
       if (demand.term.quantity == DesignQuantity::growth_rate)
@@ -564,7 +564,8 @@ namespace sprag
       const auto lever            = at(place);
       BoxProblem::Evaluation result{ most_counted, { counted(lever.rule.violation + least_room) } };
       const bool is_possible = lever.rule.violation < 0.;
-      // What breaks a rule is farther away than what misses a demand, the more so the more it breaks it.
+      // A lever that breaks a rule violates every demand, by more the more it breaks it, so that the search leads back to
+      // possible ones.
       const auto take = [&](const Demand &demand)
       {
         const double missed = violation_of(demand, value_of(demand.term, lever)) + room_of(demand, room);

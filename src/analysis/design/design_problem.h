@@ -142,8 +142,8 @@ namespace sprag
     /// Returns a quantity without the corrections.
     double uncorrected(DesignQuantity quantity, double corrected) const;
 
-    /// By how much demands are to be kept, over their targets: more where corrections are known to first order alone. Of a demand
-    /// with a tolerance it is at most a quarter of that.
+    /// Margin by which demands are met, over their targets. It is larger where corrections are known to first order alone, and
+    /// at most a quarter of a demand's tolerance.
     double room = 1e-7;
 
     /// Counted with every lever from now on; empty: nothing.

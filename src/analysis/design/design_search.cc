@@ -27,7 +27,7 @@ namespace sprag
       return { problem.at(optimum.place), optimum.violation <= 0., std::max(0., optimum.violation) };
     }
 
-    /// What is demanded of a quantity becomes what is aimed at.
+    /// Turns a demand into an aim: the quantity is to come from `value` towards the target.
     DesignAim towards(const Demand &demand, const double value)
     {
       return { demand.term, value < demand.target, {} };

@@ -16,7 +16,7 @@ namespace sprag
     Proposal lever;    ///< that has it
   };
 
-  /// What a search within the bounds found.
+  /// Result of a search within the bounds.
   struct Found
   {
     Proposal lever;          ///< the best, or the one that misses the demands least

@@ -301,7 +301,7 @@ namespace sprag
         return largest > 0. ? largest : 1.;
       }
 
-      /// By second differences, which what is smooth hardly has.
+      /// Standard deviation of the noise, estimated from second differences, which a smooth signal hardly has.
       static double deviation_of_neighbours(const std::vector<double> &values)
       {
         double squares = 0., count = 0., largest = 0.;
@@ -346,7 +346,7 @@ namespace sprag
         return fit.residuals(scaled, result.used, deviations, result.correction);
       }
 
-      /// Of all rows, those within the window too.
+      /// Residuals of all rows, those within the reversal windows included.
       std::vector<std::pair<UsedValue, double>> all_residuals() const
       {
         std::vector<std::pair<UsedValue, double>> all;

@@ -27,7 +27,7 @@ namespace sprag
     double share;  ///< of the squares of the residuals beyond noise that it explains
   };
 
-  /// What a measured stroke says.
+  /// Result of identifying a lever from a measured stroke.
   struct Identification
   {
     std::vector<FoundNumber> found;

@@ -99,7 +99,7 @@ namespace sprag
     std::vector<double> result;
     for (std::size_t row = stroke.first; row <= stroke.last; ++row)
     {
-      // As many rows each way: the line's slope is then good to second order where the speed changes.
+      // The window has as many rows before as after: the line's slope is then of second order where the speed changes.
       const auto room = std::max<std::size_t>(1, std::min({ each_way, row - stroke.first, stroke.last - row }));
       const auto from = std::max(row, stroke.first + room) - room;
       const auto to   = std::min(row + room, stroke.last) + 1;

@@ -13,7 +13,7 @@ namespace sprag
 {
   struct Scene;
 
-  /// How the cylinder moved at the rows of a measurement: strokes one way, between turns of at least 2 % of the whole range.
+  /// Motion of the cylinder at the rows of a measurement: strokes one way, between turns of at least 2 % of the whole range.
   class MeasuredMotion
   {
   public:

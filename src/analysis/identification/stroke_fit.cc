@@ -208,7 +208,7 @@ namespace sprag
         last = found;
         rate = distance == 1 ? found : rate;
       }
-      // What follows decays as from the first row to the second.
+      // The rest of the sum is a geometric series with the ratio of the first distance.
       return sum + 2. * last * rate / (1. - std::min(rate, slowest_decay));
     }
 

@@ -13,7 +13,7 @@ namespace sprag
 {
   struct Scene;
 
-  /// What a model's steady slide has above the closed form, P and Q [N].
+  /// Forces of a model's steady slide less those of the closed form, P and Q [N].
   struct ForceDifference
   {
     double P = 0.;
@@ -82,7 +82,7 @@ namespace sprag
     const double inertia; ///< J, which a steady speed already turns unevenly [t mm^2]; 0 for the closed form
   };
 
-  /// What the residuals of a channel say about its noise.
+  /// Noise of a channel, estimated from its residuals.
   struct ChannelNoise
   {
     double deviation   = 0.; ///< standard deviation [N]
@@ -104,7 +104,7 @@ namespace sprag
   std::vector<ChannelNoise> noise_of(const std::vector<UsedValue> &values, const std::vector<double> &residuals,
                                      const std::vector<double> &deviations, IdentificationLoss loss, std::size_t unknowns);
 
-  /// How well the unknowns are known. Everything about scaled ones.
+  /// Uncertainty of the unknowns. All entries refer to scaled unknowns.
   struct Knowledge
   {
     std::vector<double> deviations;      ///< standard deviations

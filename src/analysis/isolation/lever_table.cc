@@ -33,7 +33,7 @@ namespace sprag
       return std::min(2. * M_PI * std::sqrt(m / K), base.shortest_period);
     }
 
-    /// Whether anything is in contact, along a line or on a surface.
+    /// Returns true if any point is in contact, along a line or on a surface.
     bool touches(const Motion &motion)
     {
       return !motion.contact.empty() || !motion.surface_contact.empty();
@@ -126,7 +126,8 @@ namespace sprag
     return x < out_of_contact ? DrivePoint{ time, out_of_contact, 0., 0. } : DrivePoint{ time, x, side.sign * rate, 0. };
   }
 
-  /// What a lever that touches nothing did in the trial before holds for this one as well where both end at the same place.
+  /// Steps both levers to the table's place z + way_of_table. A lever out of contact keeps its result of the trial before if
+  /// both trials end at the same place.
   std::optional<LeverTable::Trial> LeverTable::tried(const double h, const double way_of_table, std::optional<Trial> before)
   {
     auto weights        = generalised_alpha(settings.time.spectral_radius, h);
@@ -197,7 +198,8 @@ namespace sprag
     return {};
   }
 
-  /// Of levers that touch: swinging out of contact the others move nothing.
+  /// Largest error of the levers in contact, over the tolerance of a step. Levers that swing free of the cylinder do not move
+  /// the table.
   double LeverTable::error_of(const Trial &trial) const
   {
     double largest = 0.;
@@ -342,7 +344,7 @@ namespace sprag
     }
     catch (const AnalysisError &)
     {
-      // Where their way ends there is what was found until then.
+      // The run stops where a lever's way ends; findings until then are filled in.
     }
     const double needed = std::ceil(1.1 * std::max(std::abs(now.z), by_closed_form.largest_displacement));
     return "At t = " + rounded_text(now.time) + " s, z = " + mm(now.z) + ": the levers are made for a way of " + mm(largest_z) +

@@ -95,7 +95,7 @@ namespace sprag
       std::array<StepOutcome, 2> levers;
     };
 
-    /// What changes from step to step, apart from state and levers.
+    /// Variables that change from step to step, apart from states and levers.
     struct Course
     {
       StepGrid grid;
@@ -139,7 +139,7 @@ namespace sprag
       return std::pow(0.5 * settings.time.tolerance, 1.5);
     }
 
-    /// Whether a lever touches nothing in a step.
+    /// Returns true if a lever is out of contact over a whole step.
     static bool is_free(const Side &side, const StepOutcome &outcome);
 
     double force_of(const Side &side, const Motion &motion) const;

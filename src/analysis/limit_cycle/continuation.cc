@@ -93,7 +93,7 @@ namespace sprag
       return sum;
     }
 
-    /// What the windows so far amount to; undecided while they do not.
+    /// Judges the windows so far: a slide, a cycle, or undecided as long as the last ones differ.
     Settling judged(const std::vector<CycleWindow> &windows, const double P)
     {
       const std::size_t n = windows.size();

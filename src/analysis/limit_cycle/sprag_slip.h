@@ -11,7 +11,7 @@ namespace sprag
   /// Called with every row of a run, right after its step.
   using RowSink = std::function<void(const Row &row)>;
 
-  /// How a small perturbation of a held slide grows or decays in time, beside its eigenvalue.
+  /// Measured growth or decay of a small perturbation of a held slide, beside its eigenvalue.
   ///
   /// The eigenvalue is that of the contact that slides on without stick, which is the contact in time as long as it slides; only
   /// where mu falls with speed the spring of stick, in series with friction then, is left out of the eigenvalue.

@@ -8,7 +8,7 @@
 
 namespace sprag
 {
-  // Where the kind of a result changes over two parameters, found by refinement near those places. The kinds are numbers without
+  // Refinement of a map over two parameters near the places where the kind of the result changes. The kinds are numbers without
   // order; each point has one for each direction of motion.
 
   using MapKinds = std::array<unsigned int, 2>;

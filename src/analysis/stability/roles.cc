@@ -9,7 +9,7 @@ namespace sprag
 {
   namespace
   {
-    /// By which Young's modulus of the lever is multiplied to leave out its flexure.
+    /// Factor on the lever's Young's modulus that makes its flexure negligible.
     constexpr double rigid_factor = 1e4;
 
     Role judged(const std::string &name, const std::string &meaning, const Scene &scene, DynamicsMaker &maker)

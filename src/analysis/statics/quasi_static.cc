@@ -60,7 +60,7 @@ namespace sprag
     {
       while (found && model.penetration(*found) > settings.penetration_tolerance)
       {
-        // Where the edge of the contact flips between two nodes the overlap stalls; it is small then, and reported.
+        // If the contact's edge flips between two nodes, the overlap stalls. It is small then, and reported.
         if (++cost.augmentations > settings.maximum_augmentations)
           return model.penetration(*found) <= stalled_overlap * settings.penetration_tolerance ? std::move(found) : std::nullopt;
         model.augment(*found, step.trial);
@@ -129,7 +129,7 @@ namespace sprag
       return point.time == 0. && point.x > 0. && direction_of(point.v) < 0;
     }
 
-    /// Where the contact goes from sliding one way to sliding the other [mm].
+    /// Part of the path after a reversal over which the contact goes from sliding one way to sliding the other [mm].
     struct Passage
     {
       double begin  = 0.;

@@ -20,7 +20,7 @@ namespace sprag
       return false;
     }
 
-    /// As if the study's scene had been read with these overrides, without fields.
+    /// Scene of a run: the study's scene read with these overrides, without fields.
     Scene scene_of_run(const Scene &study, const std::vector<std::string> &settings)
     {
       auto overrides = joined({ "Analysis/Type=" + study.parameters->at("Study/Type") }, settings);

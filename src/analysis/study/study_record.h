@@ -18,7 +18,7 @@ namespace sprag
   /// Returns "completed", "failed" or "refused".
   std::string outcome_name(RunOutcome outcome);
 
-  /// What a study keeps of a run.
+  /// Result of a run that a study keeps.
   struct StudyRecord
   {
     std::size_t run    = 0; ///< index among the points of the study; their number for the reference

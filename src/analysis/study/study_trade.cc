@@ -37,7 +37,7 @@ namespace sprag
       return largest;
     }
 
-    /// Whether a run has sizes that are at most those of another and all else alike.
+    /// Returns true if a run has sizes of at most those of another and equal other settings.
     bool is_as_fine(const StudySettings &study, const StudyPoint &run, const StudyPoint &other)
     {
       for (std::size_t i = 0; i < run.size(); ++i)
@@ -95,7 +95,7 @@ namespace sprag
       std::vector<double> sizes, errors;
     };
 
-    /// Of each measure over one parameter, for each combination of the others.
+    /// Adds the order of each measure's error over one parameter, for each combination of the others.
     void add_orders(const StudySettings &study, const std::vector<StudyPoint> &rows, const std::size_t parameter,
                     StudyTrade &trade)
     {

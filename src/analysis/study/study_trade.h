@@ -18,7 +18,7 @@ namespace sprag
   /// Accuracies for which settings are recommended, relative.
   constexpr std::array<double, 4> recommended_accuracies = { { 0.1, 1e-2, 1e-3, 1e-4 } };
 
-  /// How exact the runs of a study are by one measure.
+  /// Errors of a study's runs by one measure.
   struct MeasuredErrors
   {
     Measure measure;
@@ -38,7 +38,7 @@ namespace sprag
     double order;
   };
 
-  /// What the accuracy of a study's runs costs.
+  /// Errors, recommended settings and observed orders of a study's runs.
   struct StudyTrade
   {
     std::vector<MeasuredErrors> measured; ///< each measure, and as the last one their largest, "all", where there are several

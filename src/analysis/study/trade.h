@@ -6,7 +6,7 @@
 
 namespace sprag
 {
-  // What accuracy costs: runs with a cost and an error each, NaN where there is none.
+  // Trade between cost and error of runs; NaN stands for an unknown cost or error.
 
   /// Returns for each run whether nobody is better: no other costs at most as much and is at most as far off, one of them less. A
   /// run without cost or error is none of these.

@@ -27,7 +27,7 @@ namespace sprag
         throw AnalysisError(path + " cannot be written: " + std::strerror(errno));
     }
 
-    /// Of a line's content, in the journal of a scene.
+    /// Checksum of a line's content, in the journal of a scene.
     std::string checksum(const std::string &header, const std::string &content)
     {
       Fingerprint sum;

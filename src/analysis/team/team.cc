@@ -18,7 +18,7 @@ namespace sprag
 {
   namespace
   {
-    /// How long a rank keeps finished lines before it writes them.
+    /// Time for which a rank collects finished lines before it writes them.
     constexpr std::chrono::milliseconds batch_duration(500);
     constexpr std::chrono::milliseconds pause(20);
   } // namespace

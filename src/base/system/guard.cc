@@ -35,7 +35,7 @@ namespace sprag
       return signal < 0 || signal == SIGCHLD ? 0 : signal;
     }
 
-    /// What a wish for an end has led to so far.
+    /// Course of the end of a process after the user has asked for it.
     struct Ending
     {
       const pid_t process;

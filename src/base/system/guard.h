@@ -5,7 +5,7 @@
 
 namespace sprag
 {
-  /// How a process that was looked after came to its end.
+  /// End of a supervised process.
   struct WorkEnd
   {
     int status = 0;     ///< exit status, if it ended by itself

@@ -43,7 +43,7 @@ namespace sprag
       gemm("N", "T", &rows, &columns, &of_a, &factor, a.data(), &rows, &c(0, 0), &columns, &once, b.data(), &rows);
     }
 
-    /// By pieces, whose sums round off less than one of all.
+    /// Product of two vectors by pieces, whose sums have less round-off than one sum of all.
     double product(const double *a, const double *b, const std::size_t n)
     {
       constexpr std::size_t piece = 256;
@@ -123,7 +123,8 @@ namespace sprag
           const unsigned int place = ritz.values.size() - 1 - k;
           for (unsigned int i = 0; i < vectors.m(); ++i)
             vectors(i, k) = ritz.vectors[place][i];
-          // What they become by the last block, that one's own columns tell, as the operator is symmetric.
+          // The Ritz value alone is stored: the last block's own columns hold the coupling with it, as the operator is
+          // symmetric.
           kept_operator.emplace_back(number, 0.)[k] = ritz.values[place];
         }
         for (auto *const columns : { &basis, &inertia })

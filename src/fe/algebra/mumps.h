@@ -12,7 +12,7 @@
 
 namespace sprag
 {
-  /// What a matrix is known to be.
+  /// Known property of a matrix, by which its factorisation is chosen.
   enum class MatrixKind
   {
     general,           ///< LU

@@ -18,7 +18,8 @@ namespace sprag
 
   namespace
   {
-    /// Of the unbalanced over all forces. Of a body that bends by hundreds of times its thickness round-off leaves more.
+    /// Residual over all forces at which iterations end. A body that bends by hundreds of times its thickness leaves more, by
+    /// round-off.
     constexpr double tolerance = 1e-9;
 
     constexpr unsigned int most_iterations = 20;

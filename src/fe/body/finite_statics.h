@@ -21,7 +21,7 @@ namespace sprag
     /// given. Those that follow others must begin so. Throws AnalysisError where the iteration finds none.
     void balance(dealii::Vector<double> &displacement, const dealii::Vector<double> &loads);
 
-    // Of all degrees of freedom at the displacement last balanced.
+    // The following are of all degrees of freedom at the displacement last balanced.
 
     /// Returns the internal forces [N]; those of held degrees of freedom are what holds them.
     const dealii::Vector<double> &forces() const

@@ -39,7 +39,7 @@ namespace sprag
       return last - first;
     }
 
-    /// Whether the first direction of the face's own coordinates goes along the first axis.
+    /// Returns true if the first direction of the face's own coordinates goes along the first axis.
     template <int dim, class Face>
     bool goes_along(const Face &face)
     {

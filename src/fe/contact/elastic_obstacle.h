@@ -64,17 +64,17 @@ namespace sprag
     StepPlaces places{};
     Side end;
 
-    // Where the forces of a step are those between its ends.
+    // State at the balance, if the forces of a step are those between its ends.
     Side of_balance;
     dealii::Vector<double> between; ///< displacements at the balance
 
-    // Where the step begins, the same in all its iterations.
+    // State at the begin of the step, the same in all its iterations.
     Side of_begin;
     dealii::Vector<double> known_begin;
     FacePatches<2>::Indices near_begin;
     std::map<unsigned int, PatchFacets> begin_facets; ///< by patches
 
-    // Of the patch.
+    // State of the patch at hand.
     unsigned int patch = 0;
     unsigned int first = 0;        ///< of its points
     FacePatches<2>::Nodal nodal{}; ///< its displacements at the end

@@ -138,7 +138,7 @@ namespace sprag
     FacePatches<2> face;
     const FaceView<2> view;
 
-    // What evaluations work with; nothing of it is a result.
+    // Workspace of evaluations; nothing of it is a result.
     mutable std::variant<RigidObstacle, ElasticObstacle> obstacle; ///< looks at one patch after the other
     mutable std::vector<unsigned int> place_of_port;               ///< among those summed
 

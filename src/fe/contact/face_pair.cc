@@ -170,7 +170,7 @@ namespace sprag
       set();
       const double change = apart * slope / (slope * slope - apart * bend);
       place.along         = std::clamp(place.along + change, -1., 2.);
-      // As convergence is quadratic, what is left is round-off.
+      // Convergence is quadratic, so that the remaining error is round-off.
       if (std::abs(change) < 1e-6)
         break;
     }

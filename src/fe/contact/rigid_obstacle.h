@@ -88,14 +88,14 @@ namespace sprag
     LeverPoint last_place{};       ///< of the point placed last
     ContactKinematics<4> placed{}; ///< of it, once step() or slide() need it
 
-    // Where the step begins, the same in all its iterations.
+    // State at the begin of the step, the same in all its iterations.
     FaceConfiguration of_begin{};
     PlacedObstacle begin;
     dealii::Vector<double> known_begin;
     FacePatches<2>::Indices near_begin;
     std::map<unsigned int, std::vector<BeginPoint>> begin_points; ///< by patches
 
-    // Of the patch.
+    // State of the patch at hand.
     const std::vector<BeginPoint> *begin_of_patch = nullptr; ///< none where beginning and end are one
     bool touched                                  = false;
     Local values;

@@ -143,7 +143,7 @@ namespace sprag
       return arrays;
     }
 
-    /// Of each array its name, a zero, the number of values and these.
+    /// Bytes of the arrays: of each its name, a zero, the number of values and these.
     std::string packed(const std::optional<StoredArrays> &arrays)
     {
       std::string bytes;

@@ -15,7 +15,7 @@ namespace sprag
 
   namespace
   {
-    /// Of the content of stored files and of the numbers in them.
+    /// Version of the content of stored files and of the numbers in them.
     constexpr double format_version = 5.;
 
     void add_mesh(const Triangulation<2> &triangulation, Fingerprint &key)

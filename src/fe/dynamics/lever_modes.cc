@@ -117,7 +117,7 @@ namespace sprag
       }
 
     private:
-      /// Of a motion, or the moment of forces.
+      /// Rotation of the hub in a motion, or the moment of forces.
       double rotation(const double *const q) const
       {
         return q[free.size() + leaf.modes.size()];

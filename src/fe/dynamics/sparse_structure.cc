@@ -456,7 +456,7 @@ namespace sprag
              lever_ports.displacements(q.acceleration) };
   }
 
-  /// What is out of balance at the drifted position without force: the effective matrix times the way from there to the free
+  /// Residual of the motion at the drifted position without force: the effective matrix times the way from there to the free
   /// one. That way is short, so that round-off does not grow with the lever's rotation.
   Vector<double> SparseStructure::load_of_motion(const Kinematic &start, const Products &of, const StepWeights &w) const
   {
@@ -481,7 +481,7 @@ namespace sprag
     return load;
   }
 
-  /// Of lever, layer and rotational spring at the weighted mean of begin and drifted position.
+  /// Adds the forces of lever, layer and rotational spring at the weighted mean of begin and drifted position.
   void SparseStructure::add_spring_forces(const Kinematic &start, const StepWeights &w, Vector<double> &load) const
   {
     const Share drifted = drifted_position(w);

@@ -314,7 +314,7 @@ namespace sprag
         return n;
       }
 
-      /// Whether it cannot grow.
+      /// Returns true if the subspace cannot grow.
       bool is_full() const
       {
         return exhausted || n == most;
@@ -339,7 +339,7 @@ namespace sprag
           exhausted = !start();
       }
 
-      /// By decreasing size. Of a complex pair one stands for both.
+      /// Ritz pairs by decreasing size. One of a complex pair stands for both.
       std::vector<RitzPair> pairs() const
       {
         FullMatrix<double> square(n, n);

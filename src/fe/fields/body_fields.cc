@@ -126,7 +126,8 @@ namespace sprag
       return lame.lambda * (0.5 * (F.norm_square() - 2.)) / J; // by the trace of the strain
     }
 
-    /// Where the dilatation is projected, so is the pressure [MPa]: at each point by itself it would swing within the element.
+    /// Stress at a point [MPa]. If the dilatation is projected, the pressure is too: at each point by itself it would swing
+    /// within the element.
     template <int dim>
     SymmetricTensor<2, 3> stress_at(const BodyProperties &properties, const types::material_id material,
                                     const Tensor<2, dim> &gradient, const std::optional<double> &pressure)
@@ -168,7 +169,7 @@ namespace sprag
       return result;
     }
 
-    /// Of the nodes in the unit element, along the first axis, then the second, then the third.
+    /// Places of the nodes in the unit element, along the first axis, then the second, then the third.
     template <int dim>
     Quadrature<dim> places_of(const BodyProperties &properties)
     {
@@ -349,7 +350,7 @@ namespace sprag
     sums_of_stress(Vector<double>(n_displacements));
   }
 
-  /// By the displacement that the first rank has. Returns to it the sums over the elements that meet in a node.
+  /// Sums the stresses of the elements that meet in a node, by the first rank's displacement, and returns them to it.
   BodyFields::StressSums BodyFields::sums_of_stress(Vector<double> displacement) const
   {
     MPI_Bcast(displacement.begin(), static_cast<int>(displacement.size()), MPI_DOUBLE, 0, ranks);

@@ -126,7 +126,7 @@ namespace sprag
       return in_space;
     }
 
-    /// Whether it is a half of one in space, whose other half is its mirror image.
+    /// Returns true if the body is a half in space, whose other half is its mirror image.
     bool is_half() const
     {
       return of_half;

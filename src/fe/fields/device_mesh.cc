@@ -97,7 +97,7 @@ namespace sprag
       return number_of_levers(scene) == 2 ? scene.pair.cylinder_offset : 0.;
     }
 
-    /// Whether an element of a body belongs to a block.
+    /// Returns true if an element of a body belongs to a block.
     bool is_of_block(const Scene &scene, const BodyFields &fields, const unsigned int element, const DeviceBlock &block)
     {
       const unsigned int n    = fields.nodes_per_element();

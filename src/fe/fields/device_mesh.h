@@ -60,7 +60,7 @@ namespace sprag
 
   struct Scene;
 
-  /// Where the parts of the apparatus stand, see WorldAxes.
+  /// Pose of the parts of the apparatus, see WorldAxes.
   struct DevicePose
   {
     double x       = 0.;           ///< of the cylinder [mm]

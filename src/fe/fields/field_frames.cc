@@ -94,7 +94,7 @@ namespace sprag
     }
   }
 
-  /// Where the joint lets both levers of a pair swing, a leaf spring bends by what they turn on the mean and swings with its
+  /// Adds a leaf spring. If the joint lets both levers of a pair swing, the spring bends by their mean turn and swings with its
   /// lever.
   void FieldFrames::add_leaf(const DeviceState &state, const DeviceBlock &block, Bodies &values)
   {
@@ -120,7 +120,7 @@ namespace sprag
     }
   }
 
-  /// Of the levers, and of the half that is mirrored. Their nodes are points of the face.
+  /// Faces of the levers, and of the mirrored half. Their nodes are points of the face.
   std::vector<DeviceBlock> FieldFrames::faces() const
   {
     std::vector<DeviceBlock> result;

@@ -62,7 +62,7 @@ namespace sprag
   {
     using State = LeafBody::State;
 
-    /// Of the largest moment, by which the law may err between samples.
+    /// Admissible error of the law between samples, over the largest moment.
     constexpr double precision = 1e-8;
 
     /// Over the leaf's length: the arm at which the forces that round-off leaves err in moments between samples. They balance

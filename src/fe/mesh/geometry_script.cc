@@ -44,7 +44,7 @@ namespace sprag
     /// Names a shorter time for tests [s].
     constexpr char patience_variable[] = "SPRAG_SCRIPT_SECONDS";
 
-    /// What the process that runs gmsh hands back.
+    /// Result of the process that runs gmsh.
     struct Answer
     {
       std::vector<std::string> mistakes;            ///< or, without any, what follows
@@ -416,7 +416,7 @@ namespace sprag
       }
     }
 
-    /// Of cells whose corners are damaged deal.II makes what it can.
+    /// Refuses cells with inverted corners, of which deal.II would make a wrong mesh without a message.
     template <int dim>
     void refuse_inverted_cells(const std::string &file, const Triangulation<dim> &triangulation)
     {
@@ -463,7 +463,7 @@ namespace sprag
       return given == nullptr ? patience_of_scripts : std::atof(given);
     }
 
-    /// Of a process of its own that opens the file and does something with the model.
+    /// Runs a process of its own that opens the file and calls `work` with the model, and returns its answer.
     Answer answer_of_gmsh(const std::string &file, const MeshConstants &constants, const std::function<Answer()> &work)
     {
       if (const auto reason = reason_unreadable(file, largest_mesh); !reason.empty())

@@ -15,8 +15,8 @@ namespace sprag
   /// Values by the names that a script's DefineConstant gives them.
   using MeshConstants = std::vector<std::pair<std::string, double>>;
 
-  /// What the physical groups of a mesh mean: of a plane one surfaces and the curves about them, of one in three dimensions
-  /// volumes and surfaces.
+  /// Meaning of the physical groups of a mesh: surfaces and the curves about them in a plane, volumes and surfaces in three
+  /// dimensions.
   struct MeshGroups
   {
     std::map<std::string, dealii::types::material_id> parts;

@@ -18,7 +18,7 @@ namespace sprag
       std::string meaning;
     };
 
-    /// What there is of one kind.
+    /// Groups of one kind that a mesh has.
     struct Found
     {
       std::string kind; ///< "surface"

@@ -34,7 +34,7 @@ namespace sprag
       return result;
     }
 
-    /// Where the corners of the sides lie along an axis, in steps of a nanometre.
+    /// Positions of the corners of the sides along an axis, in steps of a nanometre.
     std::set<long> places_along(const unsigned int axis, const std::vector<Side> &sides)
     {
       std::set<long> result;
@@ -100,7 +100,7 @@ namespace sprag
         mistakes.push_back("Cylinder/Length = " + rounded_text(scene.cylinder.length) + " " + too_short);
     }
 
-    /// Whether a side is a rectangle with its sides along x and z.
+    /// Returns true if a side is a rectangle with its sides along x and z.
     bool is_straight(const Side &side)
     {
       return places_along(0, { side }).size() == 2 && places_along(2, { side }).size() == 2;

@@ -23,7 +23,7 @@ namespace sprag
     write_rows       ///< of a file with fields
   };
 
-  /// What the first rank calls the others to. Made of numbers alone.
+  /// Call of the first rank to the others. It is made of numbers alone.
   struct SharedCall
   {
     SharedTask task;
@@ -36,7 +36,7 @@ namespace sprag
   /// Waits for the first rank's next call, without taking the processor meanwhile. To be called by the others.
   SharedCall next_call(MPI_Comm ranks);
 
-  /// As long as it stands, bodies of this process, the first, are shared with the others, which await its calls.
+  /// Shares bodies of this process, the first, with the others during its lifetime; these await its calls.
   class RanksAtHand
   {
   public:
@@ -52,10 +52,10 @@ namespace sprag
   class BodyCalls
   {
   public:
-    /// Of the first rank.
+    /// Makes the calls of the first rank.
     BodyCalls();
 
-    /// Of another, which was called to it.
+    /// Makes those of another rank, which was called to a task.
     explicit BodyCalls(MPI_Comm ranks_)
         : ranks(ranks_)
     {

@@ -333,7 +333,7 @@ namespace sprag
     return found != known.end() ? found->second : known.emplace(tile, find_near_columns(tile)).first->second;
   }
 
-  /// Whether the columns of the tile that a column's is like serve for it: where the row lies about both alike.
+  /// Returns true if the columns of the like tile serve for a column's tile: the row then lies in the same place about both.
   bool LayeredCompliance::is_like(const unsigned int row_tile, const unsigned int column_tile) const
   {
     const unsigned int like = tiles[column_tile].like;
@@ -456,7 +456,7 @@ namespace sprag
     return result;
   }
 
-  /// Where other tiles' columns do not serve, a row costs less than all columns.
+  /// Displacement of a port by the loads near it. If the columns of other tiles do not serve, a row costs less than all columns.
   double LayeredCompliance::near_displacement(const unsigned int port, const PortLoads &forces)
   {
     const unsigned int to = tile_of(port);

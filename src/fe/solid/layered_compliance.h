@@ -80,7 +80,7 @@ namespace sprag
     std::map<unsigned int, std::vector<double>> known_rows;
     dealii::FullMatrix<double> basis; ///< Z, a row a port
 
-    // What was found last, most of which the next one holds too, and before, whose room the next one takes.
+    // The last matrix, most of which the next one contains too, and the one before, whose memory the next one takes.
     PortSelection last_ports;
     std::shared_ptr<dealii::FullMatrix<double>> last_matrix, spare_matrix;
   };

@@ -8,8 +8,8 @@
 
 namespace sprag
 {
-  /// How much nearer to the cylinder the points of a patch may have come on all of their way: a bound that only grows, so that a
-  /// point whose gap is known at some place of the way touches nothing until it has grown by as much.
+  /// Bound on the approach of a patch's points to the cylinder over all of their way. It only grows: a point whose gap is known
+  /// at some place touches nothing until the bound has grown by as much.
   class PatchTravel
   {
   public:

@@ -126,7 +126,7 @@ namespace sprag
 
     Pose pose(double x, double theta, const AxisSlopes &turned = {}) const;
 
-    /// What gaps and slips of points follow from, beside the pose.
+    /// Constants that determine gaps and slips of points, beside the pose.
     struct Shape
     {
       double pivot_distance, pivot_height; ///< of the lever [mm]
@@ -148,7 +148,7 @@ namespace sprag
       return of;
     }
 
-    /// Of the scene.
+    /// Returns the slopes of the axis in the scene.
     const AxisSlopes &slopes() const
     {
       return at_rest;
@@ -168,7 +168,7 @@ namespace sprag
     std::array<double, 3> changes(const Pose &pose, const dealii::Point<3> &point, const dealii::Tensor<1, 3> &moved, double x,
                                   double theta, const AxisSlopes &turned) const;
 
-    /// Whether its shaft lets the axis yield.
+    /// Returns true if the shaft lets the axis yield.
     bool has_free_axis() const
     {
       return is_free;

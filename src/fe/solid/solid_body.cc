@@ -91,7 +91,7 @@ namespace sprag
       return scene.layer.thickness + over_radius * scene.geometry.cylinder_radius;
     }
 
-    /// Whether the side of a cell away from the friction face is free.
+    /// Returns true if the side of a cell away from the friction face is free.
     bool has_free_back(const DoFHandler<3>::active_cell_iterator &cell)
     {
       const auto is_back = [&](const auto &face)

@@ -68,7 +68,7 @@ namespace sprag
   /// Receives what the first rank makes.
   bool receive_solid_mesh(SolidMesh &mesh);
 
-  /// What all ranks must know of a body in three dimensions besides its mesh.
+  /// Properties of a body in three dimensions that all ranks know besides its mesh.
   struct SolidProperties
   {
     BodyProperties body;
@@ -106,14 +106,14 @@ namespace sprag
     SolidBody &operator=(SolidBody &&) = delete;
     ~SolidBody();
 
-    /// Whether it is a half, which is the same on both sides of the middle.
+    /// Returns true if the body is a half, which is the same on both sides of the middle.
     bool is_half() const
     {
       return half;
     }
 
-    /// How far the skin reaches from the friction face [mm]: beyond the layer as far as the pressure of a contact is more than
-    /// its resultant, or less where there is too little behind it.
+    /// Depth of the skin from the friction face [mm]: beyond the layer as far as the pressure of a contact is more than its
+    /// resultant, or less where there is too little behind it.
     double skin() const
     {
       return depth_of_skin;
@@ -122,7 +122,7 @@ namespace sprag
     /// Returns whether a cell is of the skin: the friction layer and a strip of what is behind it.
     bool is_skin(const dealii::DoFHandler<3>::active_cell_iterator &cell) const;
 
-    /// Whether there is a skin and something behind it.
+    /// Returns true if there is a skin and something behind it.
     bool has_skin() const
     {
       return !number_in_skin.empty();

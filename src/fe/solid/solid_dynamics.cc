@@ -152,7 +152,7 @@ namespace sprag
       return result;
     }
 
-    /// Of the window, the sensors, the cylinder's axis, the hub and its momentum.
+    /// Layout of the ports of the window, the sensors, the cylinder's axis, the hub and its momentum.
     PortLayout layout_of(const FaceWindow &window, const SolidInTime &lever, const Scene &scene)
     {
       PortLayout result{ static_cast<unsigned int>(3 * window.face.nodes.size()), true, lever.sensors->number() };

@@ -139,7 +139,7 @@ namespace sprag
       return { vertices, cells, boundary.boundary_quads };
     }
 
-    /// What the first rank hands to all: the mesh, or what is wrong with it.
+    /// Message of the first rank to all: the mesh, or its mistakes.
     struct Handed
     {
       Description description;
@@ -167,7 +167,7 @@ namespace sprag
       }
     }
 
-    /// What counts is that of the first rank. Returns whether it is a half.
+    /// Makes the mesh of the first rank's description on all ranks. Returns whether it is a half.
     bool create(Handed of_first, SolidMesh &mesh)
     {
       auto handed = broadcast(mesh.get_communicator(), std::move(of_first));

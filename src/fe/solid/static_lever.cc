@@ -52,7 +52,7 @@ namespace sprag
     /// Slopes of the cylinder's axis that a scene may have.
     constexpr double largest_slope = 0.1;
 
-    // What differs between plane and space in making a lever.
+    // The following functions differ between plane and space.
 
     ElasticBody<2> body_of(const Triangulation<2> &triangulation, const LeverProperties &properties)
     {

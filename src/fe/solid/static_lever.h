@@ -18,8 +18,8 @@ namespace sprag
 {
   struct Scene;
 
-  /// What a lever without inertia is made of: the body, from its mesh or from one that is shared with others, its answer to
-  /// forces, its contact and how results show that.
+  /// Parts of a lever without inertia: the body, from its mesh or from one that is shared with others, its answer to forces, its
+  /// contact and how results show that.
   template <int dim>
   struct LeverParts;
 

@@ -25,7 +25,7 @@ namespace sprag
     /// Generalised forces of a patch: along each axis those of its nodes, then of theta, x and the slopes.
     using Forces = std::array<double, n_coordinates>;
 
-    /// What the step is.
+    /// Kind of the step.
     enum class Kind
     {
       in_time,
@@ -53,7 +53,7 @@ namespace sprag
       friction_rate
     };
 
-    /// What all points of a step have in common.
+    /// Constants that all points of a step have in common.
     struct Constants
     {
       RigidCylinder::Pose begin, balance, end; ///< `balance`: where forces are balanced

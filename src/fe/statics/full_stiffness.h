@@ -63,7 +63,7 @@ namespace sprag
     std::vector<std::shared_ptr<dealii::PETScWrappers::SparseMatrix>> matrices; ///< with room for a tangent each
     std::vector<std::size_t> places; ///< of the entries of each lever's body in such a matrix
 
-    // Where the first tangent was found, which the factors are ordered for.
+    // State of the first tangent, for which the factors are ordered.
     bool is_ordered = false;
     dealii::Vector<double> first_coordinates;
     PortForces first_forces;

@@ -18,7 +18,7 @@ namespace sprag
     double slope_arm = 0.;          ///< length that turns its slopes into movements [mm], > 0
   };
 
-  /// By how much coordinates are out of balance.
+  /// Residual of the coordinates.
   struct Residual
   {
     dealii::Vector<double> values;
