@@ -4,7 +4,7 @@
 #include "base/text.h"
 #include "scene/analysis_use.h"
 #include "scene/closed_form.h"
-#include "scene/scene.h"
+#include "scene/device.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,17 +55,17 @@ namespace sprag
     }
   } // namespace
 
-  JammingMargin rigid_jamming_margin(const Scene &scene)
+  JammingMargin rigid_jamming_margin(const Device &device)
   {
-    const double e = scene.geometry.interface_offset;
+    const double e = device.geometry.interface_offset;
     JammingMargin margin;
     // Without an offset the margin is 1 everywhere; then the shortest s moving back is told.
     const auto rank  = [](const JammingMargin &at) { return std::make_tuple(at.margin(), at.s, direction_of(at.v)); };
     bool begins      = true;
     const auto visit = [&](const DrivePoint &point)
     {
-      const double s  = kinematics(scene.geometry, point.x).s;
-      const double mu = sliding_friction(scene, point.x, point.v).coefficient;
+      const double s  = kinematics(device.geometry, point.x).s;
+      const double mu = sliding_friction(device, point.x, point.v).coefficient;
       const JammingMargin here{
         point.x, point.v, s, mu, mu * e, e > 0. ? s / e : std::numeric_limits<double>::infinity(), {}, {}
       };
@@ -73,10 +73,10 @@ namespace sprag
         margin = here;
       begins = false;
     };
-    if (holds_slide(scene.analysis.type) || scene.analysis.type == AnalysisType::calibration)
-      visit_held(scene.drive, visit);
+    if (holds_slide(device.analysis.type) || device.analysis.type == AnalysisType::calibration)
+      visit_held(device.drive, visit);
     else
-      follow(scene.drive, visit);
+      follow(device.drive, visit);
     return margin;
   }
 

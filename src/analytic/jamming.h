@@ -8,7 +8,7 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   /// Distance of a drive from jamming. Moving back a rigid lever locks where s <= mu e; a flexible one where its equilibrium is
   /// no longer unique. The margin is P without friction over P, (s + sgn(v) mu e)/s: 1 without friction, towards 0 where
@@ -35,10 +35,10 @@ namespace sprag
 
   /// Finds the least margin on the way of the drive with mu at its speed there; where a slide is held, of all x of the drive and
   /// both directions at its peak speed. The lever's flexure is not asked for.
-  JammingMargin rigid_jamming_margin(const Scene &scene);
+  JammingMargin rigid_jamming_margin(const Device &device);
 
   /// Finds the same margin; `flexible`: whether the lever's flexure is counted, by a beam.
-  JammingMargin jamming_margin(const Scene &scene, bool flexible);
+  JammingMargin jamming_margin(const Device &device, bool flexible);
 
   /// Tells the margin in a line.
   std::string jamming_text(const JammingMargin &margin);

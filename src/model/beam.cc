@@ -3,7 +3,7 @@
 
 #include "model/lever_frame.h"
 #include "scene/contact_reference.h"
-#include "scene/scene.h"
+#include "scene/device.h"
 
 #include <cmath>
 
@@ -79,10 +79,10 @@ namespace sprag
     }
 
     /// Inertia of what turns with the hub, and the leaf spring's own vibrations in the last coordinates.
-    void attach_hub(const Scene &scene, const unsigned int first, BeamMatrices &m)
+    void attach_hub(const Device &device, const unsigned int first, BeamMatrices &m)
     {
-      const auto &leaf = scene.spring.behaviour;
-      m.mass(0, 0) += scene.lever.hub_inertia + leaf.inertia;
+      const auto &leaf = device.spring.behaviour;
+      m.mass(0, 0) += device.lever.hub_inertia + leaf.inertia;
       for (unsigned int i = 0; i < leaf.modes.size(); ++i)
       {
         const unsigned int a = first + i;
@@ -92,13 +92,13 @@ namespace sprag
       }
     }
 
-    BeamMatrices make_matrices(const Scene &scene, const BeamMesh &mesh)
+    BeamMatrices make_matrices(const Device &device, const BeamMesh &mesh)
     {
-      const Lever &lever   = scene.lever;
-      const unsigned int n = 1 + mesh.ports() + static_cast<unsigned int>(scene.spring.behaviour.modes.size());
-      const double rho     = mass_per_length(scene);
-      const double e_a     = neutral_axis_offset(scene);
-      const double modulus = scene.analysis.plane == PlaneState::stress
+      const Lever &lever   = device.lever;
+      const unsigned int n = 1 + mesh.ports() + static_cast<unsigned int>(device.spring.behaviour.modes.size());
+      const double rho     = mass_per_length(device);
+      const double e_a     = neutral_axis_offset(device);
+      const double modulus = device.analysis.plane == PlaneState::stress
                                  ? lever.young_modulus
                                  : lever.young_modulus / (1. - lever.poisson_ratio * lever.poisson_ratio);
       const double bending = modulus * lever.width * std::pow(lever.depth, 3) / 12.;
@@ -108,10 +108,10 @@ namespace sprag
       m.mass      = 0.;
       if (mesh.elements == 0)
       {
-        m.mass(0, 0)      = moment_of_inertia(scene) - lever.hub_inertia - scene.spring.behaviour.inertia;
+        m.mass(0, 0)      = moment_of_inertia(device) - lever.hub_inertia - device.spring.behaviour.inertia;
         m.momentum[0]     = 0.5 * rho * lever.length * lever.length + lever.tip_mass * lever.length;
-        m.stiffness(0, 0) = scene.spring.stiffness;
-        attach_hub(scene, 1, m);
+        m.stiffness(0, 0) = device.spring.stiffness;
+        attach_hub(device, 1, m);
         return m;
       }
       for (unsigned int element = 0; element < mesh.elements; ++element)
@@ -120,8 +120,8 @@ namespace sprag
       m.mass(0, 0) += (rho * lever.length + lever.tip_mass) * e_a * e_a;
       m.mass(tip, tip) += lever.tip_mass;
       m.momentum[tip] += lever.tip_mass;
-      attach_hub(scene, 1 + mesh.ports(), m);
-      use_turning_axes(mesh, scene.spring.stiffness, m);
+      attach_hub(device, 1 + mesh.ports(), m);
+      use_turning_axes(mesh, device.spring.stiffness, m);
       return m;
     }
 
@@ -182,16 +182,16 @@ namespace sprag
       return modes;
     }
 
-    double lever_mass(const Scene &scene)
+    double lever_mass(const Device &device)
     {
-      return mass_per_length(scene) * scene.lever.length + scene.lever.tip_mass;
+      return mass_per_length(device) * device.lever.length + device.lever.tip_mass;
     }
 
     /// Momentum of the leaf spring along xi (0) or eta (1) in a mode of the lever.
-    double leaf_momentum(const Scene &scene, const BeamMesh &mesh, const FullMatrix<double> &modes, const unsigned int mode,
+    double leaf_momentum(const Device &device, const BeamMesh &mesh, const FullMatrix<double> &modes, const unsigned int mode,
                          const unsigned int axis)
     {
-      const auto &leaf = scene.spring.behaviour;
+      const auto &leaf = device.spring.behaviour;
       double sum       = leaf.momentum[axis] * modes(0, mode);
       for (unsigned int i = 0; i < leaf.modes.size(); ++i)
         sum += leaf.modes[i].momentum[axis] * modes(1 + mesh.ports() + i, mode);
@@ -199,7 +199,7 @@ namespace sprag
     }
 
     /// Port rows: deflections and slopes in lever axes, rotation, momentum.
-    void set_shapes(const Scene &scene, const BeamMesh &mesh, const BeamMatrices &m, const FullMatrix<double> &modes,
+    void set_shapes(const Device &device, const BeamMesh &mesh, const BeamMatrices &m, const FullMatrix<double> &modes,
                     ModalData &data)
     {
       for (unsigned int i = 0; i < modes.n(); ++i)
@@ -212,30 +212,30 @@ namespace sprag
           continue;
         for (unsigned int a = 0; a < modes.m(); ++a)
           data.shapes(data.ports.momentum_eta(), i) += m.momentum[a] * modes(a, i);
-        data.shapes(data.ports.momentum_eta(), i) += leaf_momentum(scene, mesh, modes, i, 1);
+        data.shapes(data.ports.momentum_eta(), i) += leaf_momentum(device, mesh, modes, i, 1);
         data.shapes(data.ports.momentum_xi(), i) =
-            leaf_momentum(scene, mesh, modes, i, 0) - neutral_axis_offset(scene) * lever_mass(scene) * rotation;
+            leaf_momentum(device, mesh, modes, i, 0) - neutral_axis_offset(device) * lever_mass(device) * rotation;
       }
     }
 
-    void set_damping(const Scene &scene, const FullMatrix<double> &modes, ModalData &data)
+    void set_damping(const Device &device, const FullMatrix<double> &modes, ModalData &data)
     {
-      const Lever &lever = scene.lever;
+      const Lever &lever = device.lever;
       for (unsigned int i = 0; i < modes.n(); ++i)
       {
         if (i > 0)
           data.damping(i, i) += 2. * lever.modal_damping * std::sqrt(data.stiffness[i]);
         data.damping(i, i) += lever.mass_damping + lever.stiffness_damping * data.stiffness[i];
         for (unsigned int j = 0; j < modes.n(); ++j)
-          data.damping(i, j) -= lever.stiffness_damping * scene.spring.stiffness * modes(0, i) * modes(0, j);
+          data.damping(i, j) -= lever.stiffness_damping * device.spring.stiffness * modes(0, i) * modes(0, j);
       }
     }
 
-    void append_support(const Scene &scene, ModalData &data)
+    void append_support(const Device &device, ModalData &data)
     {
-      const Support &support = scene.support;
+      const Support &support = device.support;
       const unsigned int i   = static_cast<unsigned int>(data.stiffness.size());
-      const double on_frame  = carried_mass(scene);
+      const double on_frame  = carried_mass(device);
       const double mass      = support.mass + on_frame;
       data.support           = i;
       data.stiffness.push_back(support.stiffness / mass);
@@ -244,32 +244,32 @@ namespace sprag
     }
   } // namespace
 
-  double carried_mass(const Scene &scene)
+  double carried_mass(const Device &device)
   {
-    return lever_mass(scene) + scene.spring.behaviour.mass;
+    return lever_mass(device) + device.spring.behaviour.mass;
   }
 
-  ModalData beam_modes(const Scene &scene, const BeamMesh &mesh)
+  ModalData beam_modes(const Device &device, const BeamMesh &mesh)
   {
-    const auto matrices = make_matrices(scene, mesh);
+    const auto matrices = make_matrices(device, mesh);
     const auto modes    = solve_modes(matrices);
     ModalData data;
-    data.ports            = { mesh.ports(), scene.support.type == SupportType::sprung };
+    data.ports            = { mesh.ports(), device.support.type == SupportType::sprung };
     data.stiffness        = modes.stiffness;
-    data.spring_stiffness = scene.spring.stiffness;
+    data.spring_stiffness = device.spring.stiffness;
     const auto all        = modes.shapes.n() + (data.ports.sprung ? 1 : 0);
     data.shapes.reinit(data.ports.size(), all);
     data.damping.reinit(all, all);
-    set_shapes(scene, mesh, matrices, modes.shapes, data);
-    set_damping(scene, modes.shapes, data);
+    set_shapes(device, mesh, matrices, modes.shapes, data);
+    set_damping(device, modes.shapes, data);
     if (data.ports.sprung)
-      append_support(scene, data);
+      append_support(device, data);
     return data;
   }
 
-  std::vector<double> free_frequencies(const Scene &scene, const BeamMesh &mesh)
+  std::vector<double> free_frequencies(const Device &device, const BeamMesh &mesh)
   {
-    auto result = solve_modes(make_matrices(scene, mesh)).stiffness;
+    auto result = solve_modes(make_matrices(device, mesh)).stiffness;
     for (auto &value : result)
       value = std::sqrt(value);
     return result;

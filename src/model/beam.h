@@ -5,7 +5,7 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   /// Hermite elements of equal length along a lever's axis, from the pivot to the tip. No elements: a rigid lever.
   struct BeamMesh
@@ -27,11 +27,11 @@ namespace sprag
   /// Euler-Bernoulli lever at the neutral axis' offset on its rotational spring, in all modes of its elements; mass by
   /// mass_per_length(), modal damping on each bending mode, Rayleigh damping, tip mass, the leaf spring's
   /// own vibrations, and the support if it is sprung.
-  ModalData beam_modes(const Scene &scene, const BeamMesh &mesh);
+  ModalData beam_modes(const Device &device, const BeamMesh &mesh);
 
   /// Mass of lever and leaf spring, which moves with a sprung support [t].
-  double carried_mass(const Scene &scene);
+  double carried_mass(const Device &device);
 
   /// Circular frequencies of the free lever without support, increasing [rad/s].
-  std::vector<double> free_frequencies(const Scene &scene, const BeamMesh &mesh);
+  std::vector<double> free_frequencies(const Device &device, const BeamMesh &mesh);
 } // namespace sprag

@@ -12,7 +12,7 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   /// Constants that a lever, or a mirrored pair, has from the scene it stands in.
   struct LeverFrame
@@ -38,7 +38,7 @@ namespace sprag
 
   /// The frame of a scene, with lengths 1 but for the hubs' rotations. `lever_mass` [t], of one lever, moves with a sprung
   /// support.
-  LeverFrame lever_frame(const Scene &scene, const PortLayout &ports, double lever_mass);
+  LeverFrame lever_frame(const Device &device, const PortLayout &ports, double lever_mass);
 
   /// c_f [N s/mm]: Support/Damping of critical of the frame with the lever on k_f.
   double support_damping(const Support &support, double lever_mass);

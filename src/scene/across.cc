@@ -3,7 +3,7 @@
 
 #include "base/text.h"
 #include "scene/analysis_use.h"
-#include "scene/scene.h"
+#include "scene/device.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,15 +11,15 @@
 
 namespace sprag
 {
-  double sensors_across(const Scene &scene)
+  double sensors_across(const Device &device)
   {
-    return scene.plate.sensors_across.value_or(0.5 * (scene.lever.width - scene.plate.sensor_width));
+    return device.plate.sensors_across.value_or(0.5 * (device.lever.width - device.plate.sensor_width));
   }
 
-  bool is_symmetric_across(const Scene &scene)
+  bool is_symmetric_across(const Device &device)
   {
-    return !holds_slide(scene.analysis.type) && scene.cylinder.tilt == 0. && scene.cylinder.skew == 0. &&
-           scene.cylinder.position == 0.;
+    return !holds_slide(device.analysis.type) && device.cylinder.tilt == 0. && device.cylinder.skew == 0. &&
+           device.cylinder.position == 0.;
   }
 
   std::array<double, 2> slope_compliances(const Cylinder &cylinder)
@@ -28,19 +28,19 @@ namespace sprag
     return { { of(cylinder.tilt_stiffness), of(cylinder.skew_stiffness) } };
   }
 
-  std::vector<double> planes_across(const Scene &scene)
+  std::vector<double> planes_across(const Device &device)
   {
-    const unsigned int n = scene.mesh.elements_across;
-    const double width   = scene.lever.width;
+    const unsigned int n = device.mesh.elements_across;
+    const double width   = device.lever.width;
     std::vector<double> sizes(n);
     double sum = 0.;
     for (unsigned int i = 0; i < n; ++i)
-      sum += sizes[i] = std::pow(scene.mesh.growth_across, std::min(i, n - 1 - i));
+      sum += sizes[i] = std::pow(device.mesh.growth_across, std::min(i, n - 1 - i));
     std::vector<double> result{ -0.5 * width };
     for (const double size : sizes)
       result.push_back(result.back() + size / sum * width);
     result.back() = 0.5 * width;
-    if (!is_symmetric_across(scene))
+    if (!is_symmetric_across(device))
       return result;
     const double round_off = 1e-9 * width;
     std::vector<double> half{ 0. };
@@ -48,11 +48,11 @@ namespace sprag
     return half;
   }
 
-  std::string cylinder_too_short(const Scene &scene, const std::vector<double> &planes)
+  std::string cylinder_too_short(const Device &device, const std::vector<double> &planes)
   {
     constexpr double least_elements = 2.; // with one a single line of nodes may carry all, whatever the length
-    const auto &cylinder            = scene.cylinder;
-    const double half               = 0.5 * scene.lever.width;
+    const auto &cylinder            = device.cylinder;
+    const double half               = 0.5 * device.lever.width;
     const double begin              = std::max(-half, cylinder.position - 0.5 * cylinder.length);
     const double end                = std::min(half, cylinder.position + 0.5 * cylinder.length);
     if (cylinder.length == 0. || (begin == -half && end == half) || begin >= end) // the last is told as a wrong position

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/closed_form.h"
 #include "laws/friction.h"
-#include "scene/scene.h"
+#include "scene/device.h"
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
@@ -59,17 +59,17 @@ namespace sprag
     }
 
     /// s - mu e while moving back at v < 0, positive where the lever slides [mm].
-    double locking_margin(const Scene &scene, const DrivePoint &point)
+    double locking_margin(const Device &device, const DrivePoint &point)
     {
-      const auto contact = kinematics(scene.geometry, point.x);
-      const double mu    = sliding_friction(scene, point.x, point.v).coefficient;
-      return contact.s - mu * scene.geometry.interface_offset;
+      const auto contact = kinematics(device.geometry, point.x);
+      const double mu    = sliding_friction(device, point.x, point.v).coefficient;
+      return contact.s - mu * device.geometry.interface_offset;
     }
 
-    std::optional<Locking> locking_between(const Scene &scene, const double from, const double to)
+    std::optional<Locking> locking_between(const Device &device, const double from, const double to)
     {
       const double search_step = 0.1;
-      const auto &drive        = scene.drive;
+      const auto &drive        = device.drive;
       for (DrivePoint point = drive.at(from, Drive::Side::after); point.time < to;)
       {
         const double begin = point.time;
@@ -79,8 +79,8 @@ namespace sprag
         for (const double time : { begin, point.time })
         {
           const auto at = drive.at(time, time == begin ? Drive::Side::after : Drive::Side::before);
-          if (locking_margin(scene, at) <= 0.)
-            return Locking{ at.x, kinematics(scene.geometry, at.x).s, sliding_friction(scene, at.x, at.v).coefficient };
+          if (locking_margin(device, at) <= 0.)
+            return Locking{ at.x, kinematics(device.geometry, at.x).s, sliding_friction(device, at.x, at.v).coefficient };
         }
       }
       return {};
@@ -101,9 +101,9 @@ namespace sprag
     return sliding_speed(geometry, kinematics(geometry, x), v);
   }
 
-  FrictionValue sliding_friction(const Scene &scene, const double x, const double v)
+  FrictionValue sliding_friction(const Device &device, const double x, const double v)
   {
-    return sliding_friction(scene.friction, v, sliding_speed(scene.geometry, x, v));
+    return sliding_friction(device.friction, v, sliding_speed(device.geometry, x, v));
   }
 
   ClosedFormState closed_form(const Geometry &geometry, const FrictionLaw &friction, const double moment, const double x,
@@ -126,10 +126,10 @@ namespace sprag
     return state;
   }
 
-  ClosedFormState closed_form(const Scene &scene, const double x, const double v)
+  ClosedFormState closed_form(const Device &device, const double x, const double v)
   {
-    const double turn = kinematics(scene.geometry, x).theta - kinematics(scene.geometry, 0.).theta;
-    return closed_form(scene.geometry, scene.friction, moment_law(scene.spring).moment(turn), x, v);
+    const double turn = kinematics(device.geometry, x).theta - kinematics(device.geometry, 0.).theta;
+    return closed_form(device.geometry, device.friction, moment_law(device.spring).moment(turn), x, v);
   }
 
   double representative_slope(const Geometry &geometry, const double spring_stiffness, const double coefficient, const int sign)
@@ -149,21 +149,21 @@ namespace sprag
     return geometry.pivot_distance - std::sqrt(std::max(0., R * R - h * h));
   }
 
-  std::optional<Locking> locking(const Scene &scene)
+  std::optional<Locking> locking(const Device &device)
   {
     // Strokes of a periodic drive are alike but for its first and last.
-    const auto &turns = scene.drive.reversals();
-    const double end  = scene.drive.duration();
-    if (scene.drive.profile() == DriveProfile::table || turns.size() <= 3)
-      return locking_between(scene, 0., end);
-    const auto found = locking_between(scene, 0., turns[2]);
-    return found ? found : locking_between(scene, turns.back(), end);
+    const auto &turns = device.drive.reversals();
+    const double end  = device.drive.duration();
+    if (device.drive.profile() == DriveProfile::table || turns.size() <= 3)
+      return locking_between(device, 0., end);
+    const auto found = locking_between(device, 0., turns[2]);
+    return found ? found : locking_between(device, turns.back(), end);
   }
 
-  Work work_between(const Scene &scene, const double begin, const double end)
+  Work work_between(const Device &device, const double begin, const double end)
   {
     return work_between(
-        scene.drive, [&](const DrivePoint &point) { return closed_form(scene, point.x, point.v); }, begin, end);
+        device.drive, [&](const DrivePoint &point) { return closed_form(device, point.x, point.v); }, begin, end);
   }
 
   Work work_between(const Drive &drive, const std::function<ClosedFormState(const DrivePoint &)> &state_at, const double begin,

@@ -10,7 +10,7 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   // The damper with a massless rigid lever and ideal contact: Yamaguchi & Yoshida eqs. 4-12 and 20-25.
 
@@ -29,7 +29,7 @@ namespace sprag
   double sliding_speed(const Geometry &geometry, double x, double v);
 
   /// Returns mu at x while moving at v, by the speed that the scene's law refers to.
-  FrictionValue sliding_friction(const Scene &scene, double x, double v);
+  FrictionValue sliding_friction(const Device &device, double x, double v);
 
   struct ClosedFormState
   {
@@ -43,7 +43,7 @@ namespace sprag
 
   /// Returns the state at x while moving at v [mm/s]; of a zero the sign is the direction. Forces are infinite or negative where
   /// s + sgn(v) mu e <= 0.
-  ClosedFormState closed_form(const Scene &scene, double x, double v);
+  ClosedFormState closed_form(const Device &device, double x, double v);
 
   /// Returns the state of any lever, which a moment presses on the cylinder [N mm].
   ClosedFormState closed_form(const Geometry &geometry, const FrictionLaw &friction, double moment, double x, double v);
@@ -72,7 +72,7 @@ namespace sprag
   };
 
   /// Finds the first instant of the drive at which the lever locks, to 0.1 mm; none if the whole drive is free of it.
-  std::optional<Locking> locking(const Scene &scene);
+  std::optional<Locking> locking(const Device &device);
 
   struct Work
   {
@@ -82,7 +82,7 @@ namespace sprag
 
   /// Integrates the work done from one instant of the drive to another, to 1e-11 where mu(v) is smooth and 1e-8 across its
   /// joints, or to the rounding of the time over the time between them.
-  Work work_between(const Scene &scene, double begin, double end);
+  Work work_between(const Device &device, double begin, double end);
 
   /// Integrates the work of any lever by its state over time.
   Work work_between(const Drive &drive, const std::function<ClosedFormState(const DrivePoint &)> &state_at, double begin,

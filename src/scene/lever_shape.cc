@@ -2,20 +2,20 @@
 #include "scene/lever_shape.h"
 
 #include "scene/closed_form.h"
-#include "scene/scene.h"
+#include "scene/device.h"
 
 namespace sprag
 {
-  std::array<double, 2> swept_contact(const Scene &scene)
+  std::array<double, 2> swept_contact(const Device &device)
   {
-    return { { kinematics(scene.geometry, scene.drive.maximum()).s, kinematics(scene.geometry, scene.drive.minimum()).s } };
+    return { { kinematics(device.geometry, device.drive.maximum()).s, kinematics(device.geometry, device.drive.minimum()).s } };
   }
 
-  std::array<double, 2> friction_face(const Scene &scene)
+  std::array<double, 2> friction_face(const Device &device)
   {
-    if (scene.plate.type == PlateType::on_sensors)
-      return { { scene.plate.begin, scene.plate.end } };
-    const double begin = scene.lever.outline == LeverOutline::frame ? scene.frame.root + scene.frame.rib : 0.;
-    return { { begin, scene.lever.length } };
+    if (device.plate.type == PlateType::on_sensors)
+      return { { device.plate.begin, device.plate.end } };
+    const double begin = device.lever.outline == LeverOutline::frame ? device.frame.root + device.frame.rib : 0.;
+    return { { begin, device.lever.length } };
   }
 } // namespace sprag

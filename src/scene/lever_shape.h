@@ -5,7 +5,7 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   // Dimensions that follow from those of the scene, in lever axes [mm].
 
@@ -16,8 +16,8 @@ namespace sprag
   inline constexpr double frame_wall = 5.;
 
   /// Returns the first and last xi that the contact of a rigid lever sweeps in the drive.
-  std::array<double, 2> swept_contact(const Scene &scene);
+  std::array<double, 2> swept_contact(const Device &device);
 
   /// Returns the first and last xi of the part of lever or plate that carries the friction layer.
-  std::array<double, 2> friction_face(const Scene &scene);
+  std::array<double, 2> friction_face(const Device &device);
 } // namespace sprag

@@ -6,32 +6,32 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   /// Returns 2 for a full pair, else 1.
-  unsigned int number_of_levers(const Scene &scene);
+  unsigned int number_of_levers(const Device &device);
 
   /// Returns the scene that a lever of a full pair stands in, in axes mirrored for the second (lever = 1): an offset of the
   /// cylinder is an offset of the pivot the other way, a tilt of its axis towards the first lever is one away from the second,
   /// and friction is the lever's own. A single lever stands in the scene itself.
-  Scene scene_of_lever(const Scene &scene, unsigned int lever);
+  Device device_of_lever(const Device &device, unsigned int lever);
 
   // These two parts are what differs in it, beside the tilt.
-  Geometry geometry_of_lever(const Scene &scene, unsigned int lever);
-  FrictionLaw friction_of_lever(const Scene &scene, unsigned int lever);
+  Geometry geometry_of_lever(const Device &device, unsigned int lever);
+  FrictionLaw friction_of_lever(const Device &device, unsigned int lever);
 
   /// Returns the inclination of a lever without moment, which is that of ideal contact at x = 0 with the cylinder in the mirror
   /// plane [rad].
-  double rest_inclination(const Scene &scene);
+  double rest_inclination(const Device &device);
 
   /// Returns whether the levers of a full pair can swing together without a moment of their springs.
-  bool swings(const Scene &scene);
+  bool swings(const Device &device);
 
   /// Returns whether that is another motion of springs and joint, with inertia of its own, than the one in which the levers
   /// mirror each other.
-  bool swings_otherwise(const Scene &scene);
+  bool swings_otherwise(const Device &device);
 
   /// Returns the scene of a lever while both swing together. It has the inertia of leaf springs and joint in that motion, and the
   /// stiffness of the spring as it is, which the joint takes back.
-  Scene swinging_scene(const Scene &scene);
+  Device swinging_device(const Device &device);
 } // namespace sprag

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/pair_closed_form.h"
 
+#include "scene/device.h"
 #include "scene/mirrored_pair.h"
-#include "scene/scene.h"
 
 #include <algorithm>
 
@@ -11,9 +11,9 @@ namespace sprag
   namespace
   {
     /// Turn of a lever from rest that keeps it on the cylinder; < 0 where it would have to be pulled.
-    double opening(const Scene &scene, const unsigned int lever, const double x)
+    double opening(const Device &device, const unsigned int lever, const double x)
     {
-      return kinematics(geometry_of_lever(scene, lever), x).theta - rest_inclination(scene);
+      return kinematics(geometry_of_lever(device, lever), x).theta - rest_inclination(device);
     }
 
     /// Rotations of a pair's lever and of its spring [rad].
@@ -34,46 +34,46 @@ namespace sprag
       }
     };
 
-    std::array<Turns, 2> turns(const Scene &scene, const double x)
+    std::array<Turns, 2> turns(const Device &device, const double x)
     {
-      const double first  = opening(scene, 0, x);
-      const double second = opening(scene, 1, x);
-      if (!swings(scene))
+      const double first  = opening(device, 0, x);
+      const double second = opening(device, 1, x);
+      if (!swings(device))
         return { { { first, first }, { second, second } } };
       const double mean = 0.5 * (first + second);
       return { { { first, mean }, { second, mean } } };
     }
 
-    PairedLever lever_at(const Scene &scene, const unsigned int lever, const Turns &turn, const double x, const double v)
+    PairedLever lever_at(const Device &device, const unsigned int lever, const Turns &turn, const double x, const double v)
     {
       if (!turn.touches())
-        return { { { rest_inclination(scene) + turn.of_lever(), 0., 0. }, 0., 0., 0., 0., 0. }, false, 0. };
-      const auto law = moment_law(scene.spring);
-      return { closed_form(geometry_of_lever(scene, lever), friction_of_lever(scene, lever), law.moment(turn.spring), x, v), true,
-               law.energy(turn.spring) };
+        return { { { rest_inclination(device) + turn.of_lever(), 0., 0. }, 0., 0., 0., 0., 0. }, false, 0. };
+      const auto law = moment_law(device.spring);
+      return { closed_form(geometry_of_lever(device, lever), friction_of_lever(device, lever), law.moment(turn.spring), x, v),
+               true, law.energy(turn.spring) };
     }
   } // namespace
 
-  std::array<double, 2> pair_inclinations(const Scene &scene, const double x)
+  std::array<double, 2> pair_inclinations(const Device &device, const double x)
   {
-    const auto [first, second] = turns(scene, x);
-    const double rest          = rest_inclination(scene);
+    const auto [first, second] = turns(device, x);
+    const double rest          = rest_inclination(device);
     return { { rest + first.of_lever(), rest + second.of_lever() } };
   }
 
-  std::array<PairedLever, 2> pair_closed_form(const Scene &scene, const double x, const double v)
+  std::array<PairedLever, 2> pair_closed_form(const Device &device, const double x, const double v)
   {
-    const auto [first, second] = turns(scene, x);
-    return { { lever_at(scene, 0, first, x, v), lever_at(scene, 1, second, x, v) } };
+    const auto [first, second] = turns(device, x);
+    return { { lever_at(device, 0, first, x, v), lever_at(device, 1, second, x, v) } };
   }
 
-  std::array<Work, 2> pair_work_between(const Scene &scene, const double begin, const double end)
+  std::array<Work, 2> pair_work_between(const Device &device, const double begin, const double end)
   {
     const auto of_lever = [&](const unsigned int lever)
     {
       return work_between(
-          scene.drive,
-          [&](const DrivePoint &point) { return lever_at(scene, lever, turns(scene, point.x)[lever], point.x, point.v).state; },
+          device.drive,
+          [&](const DrivePoint &point) { return lever_at(device, lever, turns(device, point.x)[lever], point.x, point.v).state; },
           begin, end);
     };
     return { { of_lever(0), of_lever(1) } };

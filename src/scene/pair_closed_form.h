@@ -7,7 +7,7 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   // The closed form of a full mirrored pair: both levers massless and rigid, each with eqs. 4-9 of Yamaguchi & Yoshida in its own
   // (for the second: mirrored) axes, geometry_of_lever() and friction_of_lever(). Both turn from rest_inclination(). With a joint
@@ -16,7 +16,7 @@ namespace sprag
   // does not reach it: held it rests; free neither reaches, and both stay as far from it as they share what is missing.
 
   /// Returns the inclinations of both levers at x, with or without contact [rad].
-  std::array<double, 2> pair_inclinations(const Scene &scene, double x);
+  std::array<double, 2> pair_inclinations(const Device &device, double x);
 
   struct PairedLever
   {
@@ -27,8 +27,8 @@ namespace sprag
 
   /// Returns both levers at x while the cylinder moves at v; of a zero the sign is the direction. Forces are infinite or negative
   /// as in closed_form().
-  std::array<PairedLever, 2> pair_closed_form(const Scene &scene, double x, double v);
+  std::array<PairedLever, 2> pair_closed_form(const Device &device, double x, double v);
 
   /// Integrates the work on each lever from one instant of the drive to another, as accurate as that of a single one.
-  std::array<Work, 2> pair_work_between(const Scene &scene, double begin, double end);
+  std::array<Work, 2> pair_work_between(const Device &device, double begin, double end);
 } // namespace sprag

@@ -3,7 +3,7 @@
 
 #include "base/errors.h"
 #include "base/text.h"
-#include "scene/scene.h"
+#include "scene/device.h"
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
@@ -16,9 +16,9 @@ namespace sprag
   /// The frame follows with Q: the cylinder passes it at v / (1 + Q_x / k_f).
   ClosedFormState SprungClosedForm::sliding(const double at, const double v) const
   {
-    const double h     = 1e-4 * scene.geometry.cylinder_radius;
-    const double slope = (closed_form(scene, at + h, v).Q - closed_form(scene, at - h, v).Q) / (2. * h);
-    return closed_form(scene, at, v / (1. + slope / stiffness));
+    const double h     = 1e-4 * device.geometry.cylinder_radius;
+    const double slope = (closed_form(device, at + h, v).Q - closed_form(device, at - h, v).Q) / (2. * h);
+    return closed_form(device, at, v / (1. + slope / stiffness));
   }
 
   double SprungClosedForm::sliding_position(const double x, const double v) const
@@ -44,10 +44,10 @@ namespace sprag
   /// P and F from the moment about the pivot, M = P s + F e, and Q = P sin theta + F cos theta = k_f (x - relative).
   ClosedFormState SprungClosedForm::sticking(const double x, const double at) const
   {
-    const auto &geometry  = scene.geometry;
-    ClosedFormState lever = closed_form(scene, at, 0.);
+    const auto &geometry  = device.geometry;
+    ClosedFormState lever = closed_form(device, at, 0.);
     const double theta    = lever.contact.theta;
-    const double moment   = moment_law(scene.spring).moment(theta - kinematics(geometry, 0.).theta);
+    const double moment   = moment_law(device.spring).moment(theta - kinematics(geometry, 0.).theta);
     const double e        = geometry.interface_offset;
     lever.v_rel           = 0.;
     lever.Q               = stiffness * (x - at);
@@ -98,7 +98,7 @@ namespace sprag
     state.work.drive += integral([](const ClosedFormState &at) { return at.Q; });
     state.work.friction +=
         integral([&](const ClosedFormState &at)
-                 { return at.F * (std::cos(at.contact.theta) - scene.geometry.interface_offset * at.contact.theta_x); });
+                 { return at.F * (std::cos(at.contact.theta) - device.geometry.interface_offset * at.contact.theta_x); });
     set(x, slid, sliding(slid, v));
     state.work.drive += state.support_energy - before;
     return state;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scene/closed_form.h"
-#include "scene/scene.h"
+#include "scene/device.h"
 
 namespace sprag
 {
@@ -13,8 +13,8 @@ namespace sprag
   {
   public:
     /// Begins without a state. `scene` must outlive the object.
-    explicit SprungClosedForm(const Scene &the_scene)
-        : scene(the_scene)
+    explicit SprungClosedForm(const Device &the_scene)
+        : device(the_scene)
         , stiffness(the_scene.support.stiffness)
     {
     }
@@ -41,7 +41,7 @@ namespace sprag
     ClosedFormState sticking(double x, double relative) const;
     void set(double x, double relative, const ClosedFormState &lever);
 
-    const Scene &scene;
+    const Device &device;
     const double stiffness; ///< k_f [N/mm]
     double relative = 0.;   ///< x - u
     double speed    = 0.;

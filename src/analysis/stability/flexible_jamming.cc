@@ -3,7 +3,7 @@
 #include "base/errors.h"
 #include "model/reduced_lever.h"
 #include "scene/contact_reference.h"
-#include "scene/scene.h"
+#include "scene/device.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +13,10 @@ namespace sprag
   namespace
   {
     /// The scene as a beam moving at x with a constant mu; none where it has no equilibrium, or not a unique one.
-    std::optional<HeldSlide> beam_slide(const Scene &scene, const JammingMargin &at, const double mu)
+    std::optional<HeldSlide> beam_slide(const Device &device, const JammingMargin &at, const double mu)
     {
-      const auto law         = law_of_face(scene);
-      Scene beam             = scene;
+      const auto law         = law_of_face(device);
+      Device beam            = device;
       beam.contact.stiffness = law.stiffness;
       beam.contact.exponent  = law.exponent;
       beam.analysis.model    = ModelType::beam;
@@ -24,7 +24,7 @@ namespace sprag
       beam.friction.law      = CoulombFriction{ mu };
       beam.support.type      = SupportType::rigid;
       beam.contact.type      = ContactType::compliant;
-      const double v         = std::copysign(scene.drive.peak_speed(), at.v);
+      const double v         = std::copysign(device.drive.peak_speed(), at.v);
       try
       {
         auto slide = make_reduced_lever(beam)->hold({ 0., at.x, v, 0. }, ContactFriction::sliding);
@@ -39,9 +39,9 @@ namespace sprag
     }
 
     /// Bisection between a mu at which the equilibrium is unique and one at which it is not.
-    std::optional<double> critical_mu(const Scene &scene, const JammingMargin &at, double unique, double jammed)
+    std::optional<double> critical_mu(const Device &device, const JammingMargin &at, double unique, double jammed)
     {
-      const auto is_unique = [&](const double mu) { return beam_slide(scene, at, mu).has_value(); };
+      const auto is_unique = [&](const double mu) { return beam_slide(device, at, mu).has_value(); };
       if (!is_unique(unique) || is_unique(jammed))
         return {};
       while (jammed - unique > 1e-4 * jammed)
@@ -52,20 +52,20 @@ namespace sprag
       return 0.5 * (unique + jammed);
     }
 
-    void add_flexure(const Scene &scene, JammingMargin &margin)
+    void add_flexure(const Device &device, JammingMargin &margin)
     {
       constexpr double largest_mu = 5.;
-      if (const auto slide = beam_slide(scene, margin, margin.mu))
+      if (const auto slide = beam_slide(device, margin, margin.mu))
         margin.flexible = slide->margin;
-      margin.flexible_critical_mu = critical_mu(scene, margin, 0., std::min(3. * margin.critical_mu, largest_mu));
+      margin.flexible_critical_mu = critical_mu(device, margin, 0., std::min(3. * margin.critical_mu, largest_mu));
     }
   } // namespace
 
-  JammingMargin jamming_margin(const Scene &scene, const bool flexible)
+  JammingMargin jamming_margin(const Device &device, const bool flexible)
   {
-    JammingMargin margin = rigid_jamming_margin(scene);
+    JammingMargin margin = rigid_jamming_margin(device);
     if (flexible)
-      add_flexure(scene, margin);
+      add_flexure(device, margin);
     return margin;
   }
 } // namespace sprag

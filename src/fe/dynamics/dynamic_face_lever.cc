@@ -4,8 +4,8 @@
 #include "fe/dynamics/lever_constants.h"
 #include "fe/statics/contact_penalties.h"
 #include "model/assemble_lever.h"
+#include "scene/device.h"
 #include "scene/mirrored_pair.h"
-#include "scene/scene.h"
 #include "scene/scene_key.h"
 
 #include <algorithm>
@@ -15,96 +15,96 @@ namespace sprag
 {
   namespace
   {
-    BasisSettings basis_settings(const Scene &scene)
+    BasisSettings basis_settings(const Device &device)
     {
-      return { scene.condensed.modes, scene.spring.stiffness, inertia_of(scene), scene.condensed.cache, body_key(scene) };
+      return { device.condensed.modes, device.spring.stiffness, inertia_of(device), device.condensed.cache, body_key(device) };
     }
 
-    FaceContactProperties contact_of(const Scene &scene, const PortLayout &ports, const ContactPenalties &penalties,
+    FaceContactProperties contact_of(const Device &device, const PortLayout &ports, const ContactPenalties &penalties,
                                      const unsigned int lever)
     {
-      const Scene own = scene_of_lever(scene, lever);
+      const Device own = device_of_lever(device, lever);
       FaceContactProperties result;
       set_cylinder(own.geometry, result);
       result.ports            = ports;
-      result.rest_inclination = rest_inclination(scene);
+      result.rest_inclination = rest_inclination(device);
       result.penalties        = penalties;
       result.friction         = own.friction;
-      result.layer_thickness  = scene.layer.thickness;
+      result.layer_thickness  = device.layer.thickness;
       return result;
     }
 
-    MeshedDynamics facts(const Scene &scene, const ElasticBody<2> &body, const std::vector<double> &omega_squared,
+    MeshedDynamics facts(const Device &device, const ElasticBody<2> &body, const std::vector<double> &omega_squared,
                          const MassSums &mass)
     {
       using namespace penalty_over_layer;
       MeshedDynamics result;
       static_cast<MassSums &>(result) = mass;
-      const double factor             = scene.mesh.degree == 1 ? in_time_linear : in_time;
-      result.penalties                = contact_penalties(body, scene.contact, scene.layer.thickness, factor);
+      const double factor             = device.mesh.degree == 1 ? in_time_linear : in_time;
+      result.penalties                = contact_penalties(body, device.contact, device.layer.thickness, factor);
       for (const double stiffness : omega_squared)
         result.frequencies.push_back(0.5 * std::sqrt(stiffness) / M_PI);
       return result;
     }
 
     template <class Structure>
-    std::unique_ptr<DynamicModel> assemble(const Scene &scene, const ElasticBody<2> &body, std::unique_ptr<Structure> structure,
+    std::unique_ptr<DynamicModel> assemble(const Device &device, const ElasticBody<2> &body, std::unique_ptr<Structure> structure,
                                            const MeshedDynamics &facts)
     {
       const PortLayout ports = structure->ports();
       const auto contact     = [&](const unsigned int lever)
-      { return std::make_unique<FaceContact>(body, contact_of(scene, ports.of_one_lever(), facts.penalties, lever)); };
-      return assemble_lever(std::move(structure), lever_frame(scene, ports, facts.total_mass), contact,
+      { return std::make_unique<FaceContact>(body, contact_of(device, ports.of_one_lever(), facts.penalties, lever)); };
+      return assemble_lever(std::move(structure), lever_frame(device, ports, facts.total_mass), contact,
                             static_cast<unsigned int>(body.friction_face().points.size()));
     }
   } // namespace
 
-  double mesh_inertia(const Scene &scene, const ElasticBody<2> &body)
+  double mesh_inertia(const Device &device, const ElasticBody<2> &body)
   {
-    return BodyMass<2>(body, inertia_of(scene)).moment_of_inertia;
+    return BodyMass<2>(body, inertia_of(device)).moment_of_inertia;
   }
 
-  FiniteElementBasis make_finite_element_basis(const Scene &scene, const ElasticBody<2> &body)
+  FiniteElementBasis make_finite_element_basis(const Device &device, const ElasticBody<2> &body)
   {
-    const auto inertia = inertia_of(scene);
+    const auto inertia = inertia_of(device);
     FiniteElementBasis basis{ std::make_shared<InertialMatrices>(body, inertia),
-                              lever_modes(body, response_of(body), inertia, scene.spring.stiffness, scene.condensed.modes),
+                              lever_modes(body, response_of(body), inertia, device.spring.stiffness, device.condensed.modes),
                               {} };
-    if (swings_otherwise(scene))
-      basis.swinging = std::make_shared<const FiniteElementBasis>(make_finite_element_basis(swinging_scene(scene), body));
+    if (swings_otherwise(device))
+      basis.swinging = std::make_shared<const FiniteElementBasis>(make_finite_element_basis(swinging_device(device), body));
     return basis;
   }
 
-  CondensedBases make_condensed_basis(const Scene &scene, const ElasticBody<2> &body, const bool store)
+  CondensedBases make_condensed_basis(const Device &device, const ElasticBody<2> &body, const bool store)
   {
-    const auto make = [&](const Scene &of)
+    const auto make = [&](const Device &of)
     {
       const auto settings = basis_settings(of);
       return std::make_shared<const CondensedBasis>(store ? condensed_basis(body, settings) : make_basis(body, settings));
     };
-    CondensedBases bases{ make(scene), {} };
-    if (swings_otherwise(scene))
-      bases.swinging = make(swinging_scene(scene));
+    CondensedBases bases{ make(device), {} };
+    if (swings_otherwise(device))
+      bases.swinging = make(swinging_device(device));
     return bases;
   }
 
-  MeshedDynamics make_finite_element_dynamics(const Scene &scene, const ElasticBody<2> &body, const FiniteElementBasis &basis,
+  MeshedDynamics make_finite_element_dynamics(const Device &device, const ElasticBody<2> &body, const FiniteElementBasis &basis,
                                               const double relaxation)
   {
     const auto &matrices = *basis.matrices;
-    const auto constants = constants_of(scene, relaxation, matrices.total_mass);
+    const auto constants = constants_of(device, relaxation, matrices.total_mass);
     const auto structure = [&](const FiniteElementBasis &of)
     { return std::make_unique<SparseStructure>(body, of.matrices, of.modes, constants); };
 
-    MeshedDynamics result = facts(scene, body, basis.modes.stiffness, matrices);
-    result.n_coordinates  = number_of_levers(scene) * matrices.coordinates.size();
+    MeshedDynamics result = facts(device, body, basis.modes.stiffness, matrices);
+    result.n_coordinates  = number_of_levers(device) * matrices.coordinates.size();
     const auto complete   = [&](auto lever)
     {
       result.elastic_displacement = [of = lever.get()](const Motion &motion, const unsigned int index)
       { return of->elastic_displacement(motion, index); };
-      result.model = assemble(scene, body, std::move(lever), result);
+      result.model = assemble(device, body, std::move(lever), result);
     };
-    if (number_of_levers(scene) == 1)
+    if (number_of_levers(device) == 1)
       complete(structure(basis));
     else
       complete(std::make_unique<MirroredStructure<SparseStructure>>(
@@ -112,15 +112,15 @@ namespace sprag
     return result;
   }
 
-  MeshedDynamics make_condensed_dynamics(const Scene &scene, const ElasticBody<2> &body, const CondensedBases &bases,
+  MeshedDynamics make_condensed_dynamics(const Device &device, const ElasticBody<2> &body, const CondensedBases &bases,
                                          const double relaxation)
   {
     const auto &basis = bases.lever;
     const std::array<std::shared_ptr<const CondensedBasis>, 2> parts{ { basis, bases.swinging ? bases.swinging : basis } };
-    const auto constants = constants_of(scene, relaxation, basis->total_mass);
+    const auto constants = constants_of(device, relaxation, basis->total_mass);
 
-    MeshedDynamics result    = facts(scene, body, basis->stiffness, *basis);
-    result.n_coordinates     = number_of_levers(scene) * static_cast<unsigned int>(basis->stiffness.size()) + constants.sprung;
+    MeshedDynamics result    = facts(device, body, basis->stiffness, *basis);
+    result.n_coordinates     = number_of_levers(device) * static_cast<unsigned int>(basis->stiffness.size()) + constants.sprung;
     result.basis_from_cache  = basis->from_cache && parts[1]->from_cache;
     result.basis_cpu_seconds = basis->cpu_seconds + (bases.swinging ? bases.swinging->cpu_seconds : 0.);
     result.message           = basis->message;
@@ -134,8 +134,8 @@ namespace sprag
       return condensed_displacement(body, *parts[part], surface_dofs(body), *response, motion);
     };
     complete_condensed(
-        number_of_levers(scene), !bases.swinging, structure, displacement,
-        [&](auto lever) { return assemble(scene, body, std::move(lever), result); }, result);
+        number_of_levers(device), !bases.swinging, structure, displacement,
+        [&](auto lever) { return assemble(device, body, std::move(lever), result); }, result);
     return result;
   }
 } // namespace sprag

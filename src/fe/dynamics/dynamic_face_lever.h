@@ -12,7 +12,7 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   /// A meshed lever in time, and what there is to tell about it.
   struct MeshedDynamics : MassSums
@@ -76,18 +76,18 @@ namespace sprag
   }
 
   /// J about the pivot of all that turns with the hub, by the mesh [t mm^2].
-  double mesh_inertia(const Scene &scene, const ElasticBody<2> &body);
+  double mesh_inertia(const Device &device, const ElasticBody<2> &body);
 
-  FiniteElementBasis make_finite_element_basis(const Scene &scene, const ElasticBody<2> &body);
+  FiniteElementBasis make_finite_element_basis(const Device &device, const ElasticBody<2> &body);
 
   /// Takes the bases from the scene's cache if they are there. If not, makes them and, if `store`, stores them there.
-  CondensedBases make_condensed_basis(const Scene &scene, const ElasticBody<2> &body, bool store);
+  CondensedBases make_condensed_basis(const Device &device, const ElasticBody<2> &body, bool store);
 
   /// All degrees of freedom. `relaxation`: damping over stiffness of the friction layer [s]. The body must outlive the model.
-  MeshedDynamics make_finite_element_dynamics(const Scene &scene, const ElasticBody<2> &body, const FiniteElementBasis &basis,
+  MeshedDynamics make_finite_element_dynamics(const Device &device, const ElasticBody<2> &body, const FiniteElementBasis &basis,
                                               double relaxation);
 
   /// Modes and static face shapes, see CondensedBasis.
-  MeshedDynamics make_condensed_dynamics(const Scene &scene, const ElasticBody<2> &body, const CondensedBases &bases,
+  MeshedDynamics make_condensed_dynamics(const Device &device, const ElasticBody<2> &body, const CondensedBases &bases,
                                          double relaxation);
 } // namespace sprag

@@ -6,12 +6,12 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   /// The masses of a scene's meshed lever.
-  LeverInertia inertia_of(const Scene &scene);
+  LeverInertia inertia_of(const Device &device);
 
   /// Spring, damping and support of a scene's meshed lever. `relaxation`: damping over stiffness of the friction layer [s];
   /// `lever_mass`: what moves with a sprung support [t].
-  LeverDynamics constants_of(const Scene &scene, double relaxation, double lever_mass);
+  LeverDynamics constants_of(const Device &device, double relaxation, double lever_mass);
 } // namespace sprag

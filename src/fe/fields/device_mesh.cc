@@ -2,8 +2,8 @@
 #include "fe/fields/device_mesh.h"
 
 #include "fe/solid/rigid_cylinder.h"
+#include "scene/device.h"
 #include "scene/mirrored_pair.h"
-#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace sprag
 {
   using namespace dealii;
-  struct Scene;
+  struct Device;
 
   namespace
   {
@@ -33,10 +33,10 @@ namespace sprag
     }
 
     /// Places along the axis, from one end to the other, at which the profile is drawn.
-    std::vector<double> sections_of(const Scene &scene)
+    std::vector<double> sections_of(const Device &device)
     {
-      const auto &cylinder = scene.cylinder;
-      const double half    = 0.5 * (cylinder.length > 0. ? cylinder.length : drawn_over_width * scene.lever.width);
+      const auto &cylinder = device.cylinder;
+      const double half    = 0.5 * (cylinder.length > 0. ? cylinder.length : drawn_over_width * device.lever.width);
       const double inner   = half - cylinder.edge_radius;
       std::vector<double> result;
       for (unsigned int i = 0; cylinder.edge_radius > 0. && i < of_rounding; ++i)
@@ -53,10 +53,10 @@ namespace sprag
 
   /// A rigid cylinder in a plane: kites between its middle and its rim. Positions are from its middle, along the axes of the
   /// world.
-  DeviceBlock rigid_disc(const Scene &scene)
+  DeviceBlock rigid_disc(const Device &device)
   {
     DeviceBlock result{ DevicePart::rigid_cylinder, 0 };
-    const double radius = scene.geometry.cylinder_radius;
+    const double radius = device.geometry.cylinder_radius;
     result.positions.emplace_back();
     for (unsigned int i = 0; i < rim_nodes; ++i)
       result.positions.emplace_back(radius * std::cos(angle_of(i)), radius * std::sin(angle_of(i)), 0.);
@@ -67,11 +67,11 @@ namespace sprag
 
   /// A rigid cylinder in space, with tilt, skew, barrel and rounded ends: hexahedra over kites. One whose length is not given is
   /// drawn half as long again as the lever is wide.
-  DeviceBlock rigid_tube(const Scene &scene)
+  DeviceBlock rigid_tube(const Device &device)
   {
     DeviceBlock result{ DevicePart::rigid_cylinder, 0 };
-    const RigidCylinder cylinder(scene.geometry, scene.cylinder);
-    const auto sections = sections_of(scene);
+    const RigidCylinder cylinder(device.geometry, device.cylinder);
+    const auto sections = sections_of(device);
     for (const double along : sections)
     {
       result.positions.push_back(cylinder.on_axis(along));
@@ -92,33 +92,33 @@ namespace sprag
       return lever == 0 ? 1. : -1.;
     }
 
-    double cylinder_height(const Scene &scene)
+    double cylinder_height(const Device &device)
     {
-      return number_of_levers(scene) == 2 ? scene.pair.cylinder_offset : 0.;
+      return number_of_levers(device) == 2 ? device.pair.cylinder_offset : 0.;
     }
 
     /// Returns true if an element of a body belongs to a block.
-    bool is_of_block(const Scene &scene, const BodyFields &fields, const unsigned int element, const DeviceBlock &block)
+    bool is_of_block(const Device &device, const BodyFields &fields, const unsigned int element, const DeviceBlock &block)
     {
       const unsigned int n    = fields.nodes_per_element();
       const auto *const nodes = &fields.elements()[n * element];
       const bool cylinder     = fields.nodes()[nodes[0]].part == material_id::cylinder;
-      if (block.part != DevicePart::cylinder || !cylinder || number_of_levers(scene) == 1)
+      if (block.part != DevicePart::cylinder || !cylinder || number_of_levers(device) == 1)
         return cylinder == (block.part == DevicePart::cylinder);
       Tensor<1, 3> middle;
       for (unsigned int i = 0; i < n; ++i)
         middle += fields.nodes()[nodes[i]].position / n;
-      return cylinder_axes(scene, rest_pose(scene), block.lever).turned(middle)[1] * side_of(block.lever) > 0.;
+      return cylinder_axes(device, rest_pose(device), block.lever).turned(middle)[1] * side_of(block.lever) > 0.;
     }
 
-    DeviceBlock block_of(const Scene &scene, const BodyFields &fields, DeviceBlock result)
+    DeviceBlock block_of(const Device &device, const BodyFields &fields, DeviceBlock result)
     {
       constexpr unsigned int unknown = numbers::invalid_unsigned_int;
       const unsigned int n           = fields.nodes_per_element();
       std::vector<unsigned int> number(fields.nodes().size(), unknown);
       for (unsigned int element = 0; element < fields.elements().size() / n; ++element)
       {
-        if (!is_of_block(scene, fields, element, result))
+        if (!is_of_block(device, fields, element, result))
           continue;
         const auto *const nodes = &fields.elements()[n * element];
         for (unsigned int i = 0; i < n; ++i)
@@ -144,9 +144,9 @@ namespace sprag
     }
   } // namespace
 
-  DevicePose rest_pose(const Scene &scene)
+  DevicePose rest_pose(const Device &device)
   {
-    const double theta = rest_inclination(scene);
+    const double theta = rest_inclination(device);
     return { 0., 0., { { theta, theta } } };
   }
 
@@ -158,53 +158,53 @@ namespace sprag
     return { row[Column::x], std::isnan(moved) ? 0. : moved, { { first, second } } };
   }
 
-  WorldAxes lever_axes(const Scene &scene, const DevicePose &pose, const unsigned int lever)
+  WorldAxes lever_axes(const Device &device, const DevicePose &pose, const unsigned int lever)
   {
-    const Point<2> pivot(scene.geometry.pivot_distance + pose.support, scene.geometry.pivot_height);
+    const Point<2> pivot(device.geometry.pivot_distance + pose.support, device.geometry.pivot_height);
     return world_axes(pivot, pose.theta[lever], side_of(lever));
   }
 
-  WorldAxes cylinder_axes(const Scene &scene, const DevicePose &pose, const unsigned int lever)
+  WorldAxes cylinder_axes(const Device &device, const DevicePose &pose, const unsigned int lever)
   {
-    return world_axes(Point<2>(pose.x, side_of(lever) * cylinder_height(scene)), pose.theta[lever], side_of(lever));
+    return world_axes(Point<2>(pose.x, side_of(lever) * cylinder_height(device)), pose.theta[lever], side_of(lever));
   }
 
-  std::vector<DeviceBlock> device_blocks(const Scene &scene, const BodyFields &body, const BodyFields *const leaf)
+  std::vector<DeviceBlock> device_blocks(const Device &device, const BodyFields &body, const BodyFields *const leaf)
   {
     std::vector<DeviceBlock> result;
-    for (unsigned int lever = 0; lever < number_of_levers(scene); ++lever)
+    for (unsigned int lever = 0; lever < number_of_levers(device); ++lever)
     {
-      result.push_back(block_of(scene, body, { DevicePart::lever, lever }));
+      result.push_back(block_of(device, body, { DevicePart::lever, lever }));
       if (body.is_half())
       {
         result.push_back(result.back());
         result.back().is_mirrored = true;
       }
-      if (scene.cylinder.type != CylinderType::rigid)
-        result.push_back(block_of(scene, body, { DevicePart::cylinder, lever }));
+      if (device.cylinder.type != CylinderType::rigid)
+        result.push_back(block_of(device, body, { DevicePart::cylinder, lever }));
       if (leaf != nullptr)
-        result.push_back(block_of(scene, *leaf, { DevicePart::leaf, lever }));
+        result.push_back(block_of(device, *leaf, { DevicePart::leaf, lever }));
     }
-    if (scene.cylinder.type == CylinderType::rigid)
-      result.push_back(body.is_in_space() ? rigid_tube(scene) : rigid_disc(scene));
+    if (device.cylinder.type == CylinderType::rigid)
+      result.push_back(body.is_in_space() ? rigid_tube(device) : rigid_disc(device));
     return result;
   }
 
-  WorldAxes axes_of(const Scene &scene, const DevicePose &pose, const DeviceBlock &block)
+  WorldAxes axes_of(const Device &device, const DevicePose &pose, const DeviceBlock &block)
   {
     if (block.part == DevicePart::rigid_cylinder)
     {
-      const Point<3> origin(pose.x, cylinder_height(scene), 0.);
+      const Point<3> origin(pose.x, cylinder_height(device), 0.);
       return { origin, Tensor<1, 3>({ 1., 0., 0. }), Tensor<1, 3>({ 0., 1., 0. }), Tensor<1, 3>({ 0., 0., 1. }) };
     }
     auto result =
-        block.part == DevicePart::cylinder ? cylinder_axes(scene, pose, block.lever) : lever_axes(scene, pose, block.lever);
+        block.part == DevicePart::cylinder ? cylinder_axes(device, pose, block.lever) : lever_axes(device, pose, block.lever);
     if (block.is_mirrored)
       result.sideways *= -1.;
     return result;
   }
 
-  FieldMesh device_mesh(const Scene &scene, const DevicePose &pose, const std::vector<DeviceBlock> &blocks,
+  FieldMesh device_mesh(const Device &device, const DevicePose &pose, const std::vector<DeviceBlock> &blocks,
                         const BodyFields &body, const BodyFields *const leaf)
   {
     FieldMesh mesh;
@@ -216,7 +216,7 @@ namespace sprag
       const auto first   = static_cast<unsigned int>(mesh.n_nodes());
       const bool rigid   = block.part == DevicePart::rigid_cylinder;
       const auto &fields = block.part == DevicePart::leaf ? *leaf : body;
-      const auto axes    = axes_of(scene, pose, block);
+      const auto axes    = axes_of(device, pose, block);
       for (unsigned int i = 0; i < block.positions.size(); ++i)
       {
         const auto place = axes.place(block.positions[i]);

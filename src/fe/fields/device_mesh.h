@@ -58,7 +58,7 @@ namespace sprag
     return result;
   }
 
-  struct Scene;
+  struct Device;
 
   /// Pose of the parts of the apparatus, see WorldAxes.
   struct DevicePose
@@ -69,16 +69,16 @@ namespace sprag
   };
 
   /// Returns the pose at rest: x = 0, no lever turned, the pivot frame where it is without force.
-  DevicePose rest_pose(const Scene &scene);
+  DevicePose rest_pose(const Device &device);
 
   DevicePose pose_of(const Row &row);
 
   /// Returns the axes of a lever (0, of a pair also 1) on its pivot.
-  WorldAxes lever_axes(const Scene &scene, const DevicePose &pose, unsigned int lever);
+  WorldAxes lever_axes(const Device &device, const DevicePose &pose, unsigned int lever);
 
   /// Returns the axes of an elastic cylinder's mesh: at the cylinder's centre, parallel to those of the lever that presses on it,
   /// through which its material passes.
-  WorldAxes cylinder_axes(const Scene &scene, const DevicePose &pose, unsigned int lever);
+  WorldAxes cylinder_axes(const Device &device, const DevicePose &pose, unsigned int lever);
 
   /// The parts of the apparatus in pictures.
   enum class DevicePart
@@ -104,13 +104,13 @@ namespace sprag
   /// Returns lever, cylinder and, where one is given, leaf spring, each for every lever of the scene, as blocks of one mesh. Of
   /// an elastic cylinder between two levers, which is meshed for each of them, each has the half that faces it. A lever of which
   /// a half is solved is there with its mirror image.
-  std::vector<DeviceBlock> device_blocks(const Scene &scene, const BodyFields &body, const BodyFields *leaf);
+  std::vector<DeviceBlock> device_blocks(const Device &device, const BodyFields &body, const BodyFields *leaf);
 
   /// Returns the axes of a block. A leaf spring's are those of the lever.
-  WorldAxes axes_of(const Scene &scene, const DevicePose &pose, const DeviceBlock &block);
+  WorldAxes axes_of(const Device &device, const DevicePose &pose, const DeviceBlock &block);
 
   /// Returns the mesh of the blocks in a pose, with `part` (material_id) and `lever` (1 or 2, 0 of a rigid cylinder).
-  FieldMesh device_mesh(const Scene &scene, const DevicePose &pose, const std::vector<DeviceBlock> &blocks,
+  FieldMesh device_mesh(const Device &device, const DevicePose &pose, const std::vector<DeviceBlock> &blocks,
                         const BodyFields &body, const BodyFields *leaf);
 
   void append(const dealii::Tensor<1, 3> &vector, std::vector<float> &values);

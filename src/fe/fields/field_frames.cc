@@ -2,8 +2,8 @@
 #include "fe/fields/field_frames.h"
 
 #include "fe/fields/help_first_rank.h"
+#include "scene/device.h"
 #include "scene/mirrored_pair.h"
-#include "scene/scene.h"
 
 #include <cmath>
 #include <limits>
@@ -49,14 +49,14 @@ namespace sprag
     }
   };
 
-  FieldFrames::FieldFrames(const Scene &of_scene, const BodyFields &of_body, const std::string &folder)
-      : scene(of_scene)
+  FieldFrames::FieldFrames(const Device &of_scene, const BodyFields &of_body, const std::string &folder)
+      : device(of_scene)
       , fields(of_body)
-      , rest(rest_pose(scene))
-      , leaf(scene.spring.type == SpringType::leaf ? std::make_unique<LeafShapes>(scene) : nullptr)
-      , blocks(device_blocks(scene, fields, fields_of(leaf)))
+      , rest(rest_pose(device))
+      , leaf(device.spring.type == SpringType::leaf ? std::make_unique<LeafShapes>(device) : nullptr)
+      , blocks(device_blocks(device, fields, fields_of(leaf)))
   {
-    auto mesh = device_mesh(scene, rest, blocks, fields, fields_of(leaf));
+    auto mesh = device_mesh(device, rest, blocks, fields, fields_of(leaf));
     mesh.name = "fields";
     files     = std::make_unique<FieldFiles>(folder, "fields", std::vector<FieldMesh>{ std::move(mesh), face_mesh() },
                                          FrameStorage::files, writers_at_hand());
@@ -83,8 +83,8 @@ namespace sprag
 
   void FieldFrames::add_meshed(const DeviceState &state, const DeviceBlock &block, Bodies &values) const
   {
-    const auto before = axes_of(scene, rest, block);
-    const auto now    = axes_of(scene, state.pose, block);
+    const auto before = axes_of(device, rest, block);
+    const auto now    = axes_of(device, state.pose, block);
     const bool rigid  = block.part == DevicePart::rigid_cylinder;
     for (unsigned int i = 0; i < block.positions.size(); ++i)
     {
@@ -99,13 +99,13 @@ namespace sprag
   void FieldFrames::add_leaf(const DeviceState &state, const DeviceBlock &block, Bodies &values)
   {
     const auto &theta = state.pose.theta;
-    const double bent = swings(scene) ? 0.5 * (theta[0] + theta[1]) : theta[block.lever];
+    const double bent = swings(device) ? 0.5 * (theta[0] + theta[1]) : theta[block.lever];
     auto frame        = rest; // of the leaf at rest, as the pivot frame and the swing move it
     frame.support     = state.pose.support;
     frame.theta[block.lever] += theta[block.lever] - bent;
-    const auto before = axes_of(scene, rest, block);
-    const auto at     = axes_of(scene, frame, block);
-    const auto hub    = axes_of(scene, state.pose, block);
+    const auto before = axes_of(device, rest, block);
+    const auto at     = axes_of(device, frame, block);
+    const auto hub    = axes_of(device, state.pose, block);
     const auto found  = leaf->displacement(bent - rest.theta[block.lever]);
     const auto nodal  = found ? leaf->fields().at(*found) : std::vector<NodalField>(leaf->fields().nodes().size());
     for (unsigned int i = 0; i < block.positions.size(); ++i)
@@ -140,7 +140,7 @@ namespace sprag
     Field of_lever{ "lever", "1", "whose face it is", 1, {} };
     for (const auto &block : faces())
     {
-      const auto axes  = axes_of(scene, rest, block);
+      const auto axes  = axes_of(device, rest, block);
       const auto first = static_cast<unsigned int>(mesh.n_nodes());
       for (const auto &point : block.positions)
       {
@@ -170,8 +170,8 @@ namespace sprag
     Field traction{ "traction", "MPa", "pressure and friction on the lever as a vector", 3, {} };
     for (const auto &block : faces())
     {
-      const auto before   = axes_of(scene, rest, block);
-      const auto now      = axes_of(scene, state.pose, block);
+      const auto before   = axes_of(device, rest, block);
+      const auto now      = axes_of(device, state.pose, block);
       const auto &p       = block.lever == 0 ? state.face.pressure : state.face.pressure_2;
       const auto &t       = block.lever == 0 ? state.face.traction : state.face.traction_2;
       const auto &t_aside = block.lever == 0 ? state.face.traction_across : state.face.traction_across_2;

@@ -7,7 +7,7 @@
 #include "fe/fields/device_mesh.h"
 #include "fe/leaf/leaf_body.h"
 #include "results/result_file.h"
-#include "scene/scene.h"
+#include "scene/device.h"
 
 #include <cmath>
 #include <memory>
@@ -15,15 +15,15 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   /// Shapes of a scene's leaf spring, in the axes of the lever at rest: in equilibrium at a turn of the hub, its vibrations left
   /// out.
   class LeafShapes
   {
   public:
-    explicit LeafShapes(const Scene &scene)
-        : leaf(scene.spring.leaf, scene.spring.leaf.plane)
+    explicit LeafShapes(const Device &device)
+        : leaf(device.spring.leaf, device.spring.leaf.plane)
         , of_body(leaf.body())
         , rest(leaf.rest())
     {
@@ -75,7 +75,7 @@ namespace sprag
   {
   public:
     /// Scene and fields, which serve both levers of a pair, must outlive them.
-    FieldFrames(const Scene &scene, const BodyFields &fields, const std::string &folder);
+    FieldFrames(const Device &device, const BodyFields &fields, const std::string &folder);
 
     /// Adds a frame, of another time than those before.
     void write(const DeviceState &state);
@@ -96,7 +96,7 @@ namespace sprag
     void add_leaf(const DeviceState &state, const DeviceBlock &block, Bodies &values);
     std::vector<Field> face_fields(const DeviceState &state) const;
 
-    const Scene &scene;
+    const Device &device;
     const BodyFields &fields;
     const DevicePose rest;
     std::unique_ptr<LeafShapes> leaf;

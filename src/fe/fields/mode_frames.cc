@@ -2,7 +2,7 @@
 #include "fe/fields/mode_frames.h"
 
 #include "fe/fields/help_first_rank.h"
-#include "scene/scene.h"
+#include "scene/device.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,13 +28,13 @@ namespace sprag
       return part == 0 ? value.real() : value.imag();
     }
 
-    Shape shape_of(const Scene &scene, const BodyFields &body, const DevicePose &held, const std::vector<DeviceBlock> &blocks,
+    Shape shape_of(const Device &device, const BodyFields &body, const DevicePose &held, const std::vector<DeviceBlock> &blocks,
                    const DeviceMode &mode, const unsigned int part)
     {
       Shape result;
       for (const auto &block : blocks)
       {
-        const auto axes   = axes_of(scene, held, block);
+        const auto axes   = axes_of(device, held, block);
         const bool meshed = block.part != DevicePart::rigid_cylinder;
         const bool turns  = block.part == DevicePart::lever;
         const auto nodal  = meshed ? body.moved(mode.levers.at(block.lever).elastic[part]) : std::vector<Tensor<1, 3>>();
@@ -71,18 +71,18 @@ namespace sprag
     }
   } // namespace
 
-  void write_mode(const Scene &scene, const BodyFields &body, const DevicePose &held, const DeviceMode &mode,
+  void write_mode(const Device &device, const BodyFields &body, const DevicePose &held, const DeviceMode &mode,
                   const unsigned int number, const std::string &folder)
   {
-    const auto blocks = device_blocks(scene, body, nullptr);
-    const std::array<Shape, 2> parts{ { shape_of(scene, body, held, blocks, mode, 0),
-                                        shape_of(scene, body, held, blocks, mode, 1) } };
+    const auto blocks = device_blocks(device, body, nullptr);
+    const std::array<Shape, 2> parts{ { shape_of(device, body, held, blocks, mode, 0),
+                                        shape_of(device, body, held, blocks, mode, 1) } };
     const double size  = largest(parts);
-    const double scale = size > 0. ? largest_over_span * scene.lever.length / size : 1.;
+    const double scale = size > 0. ? largest_over_span * device.lever.length / size : 1.;
 
     char name[16];
     std::snprintf(name, sizeof(name), "mode-%02u", number);
-    auto mesh = device_mesh(scene, held, blocks, body, nullptr);
+    auto mesh = device_mesh(device, held, blocks, body, nullptr);
     mesh.name = name;
     for (const auto &[text, part] : { std::pair("real", 0u), std::pair("imaginary", 1u) })
     {

@@ -9,7 +9,7 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   /// A vibration exp(lambda t) of the apparatus about a held slide.
   struct DeviceMode
@@ -31,6 +31,6 @@ namespace sprag
   /// hub's rotation. Its largest value is a twentieth of the lever's length; `displacement_real` and `displacement_imaginary` are
   /// phi in that scale, `elastic_real` and `elastic_imaginary` its elastic part, frequency and growth rate are data of each
   /// frame. Leaf springs are left out.
-  void write_mode(const Scene &scene, const BodyFields &body, const DevicePose &held, const DeviceMode &mode, unsigned int number,
-                  const std::string &folder);
+  void write_mode(const Device &device, const BodyFields &body, const DevicePose &held, const DeviceMode &mode,
+                  unsigned int number, const std::string &folder);
 } // namespace sprag

@@ -6,8 +6,8 @@
 #include "fe/body/body_mass.h"
 #include "fe/leaf/leaf_body.h"
 #include "scene/closed_form.h"
+#include "scene/device.h"
 #include "scene/mirrored_pair.h"
-#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -179,20 +179,20 @@ namespace sprag
     return behaviour;
   }
 
-  Scene with_leaf_spring(Scene scene)
+  Device with_leaf_spring(Device device)
   {
-    if (scene.spring.type != SpringType::leaf)
-      return scene;
-    const double rest       = kinematics(scene.geometry, 0.).theta;
-    const double smallest   = std::min(0., kinematics(scene.geometry, scene.drive.minimum()).theta - rest);
-    const double largest    = std::max(0., kinematics(scene.geometry, scene.drive.maximum()).theta - rest);
+    if (device.spring.type != SpringType::leaf)
+      return device;
+    const double rest       = kinematics(device.geometry, 0.).theta;
+    const double smallest   = std::min(0., kinematics(device.geometry, device.drive.minimum()).theta - rest);
+    const double largest    = std::max(0., kinematics(device.geometry, device.drive.maximum()).theta - rest);
     const double room       = std::max(0.02, 0.5 * std::max(-smallest, largest));
-    const double joint_mass = 0.5 * scene.pair.joint_mass; // the mirrored lever's leaf carries the other half
-    const auto plane        = scene.spring.leaf.plane;
-    scene.spring.behaviour  = leaf_behaviour(scene.spring.leaf, plane, smallest - room, largest + room, joint_mass);
-    scene.spring.stiffness  = scene.spring.behaviour.law.linear_stiffness();
-    if (swings(scene))
-      scene.spring.swing = swinging_leaf(scene.spring.leaf, plane, joint_mass);
-    return scene;
+    const double joint_mass = 0.5 * device.pair.joint_mass; // the mirrored lever's leaf carries the other half
+    const auto plane        = device.spring.leaf.plane;
+    device.spring.behaviour = leaf_behaviour(device.spring.leaf, plane, smallest - room, largest + room, joint_mass);
+    device.spring.stiffness = device.spring.behaviour.law.linear_stiffness();
+    if (swings(device))
+      device.spring.swing = swinging_leaf(device.spring.leaf, plane, joint_mass);
+    return device;
   }
 } // namespace sprag

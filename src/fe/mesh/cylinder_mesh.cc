@@ -4,7 +4,7 @@
 #include "fe/body/body_properties.h"
 #include "fe/mesh/geometry_script.h"
 #include "fe/mesh/mesh.h"
-#include "scene/scene.h"
+#include "scene/device.h"
 
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold_lib.h>
@@ -20,15 +20,15 @@ namespace sprag
     constexpr types::manifold_id circle = 1;
 
     /// A facetted circle would tilt friction and pressure with each of its sides.
-    void check(const Scene &scene)
+    void check(const Device &device)
     {
       std::vector<std::string> mistakes;
-      if (scene.mesh.degree != 2)
-        mistakes.push_back("Mesh/Degree = " + std::to_string(scene.mesh.degree) +
+      if (device.mesh.degree != 2)
+        mistakes.push_back("Mesh/Degree = " + std::to_string(device.mesh.degree) +
                            ": an elastic cylinder (Cylinder/Type) needs elements of degree 2, which follow its surface");
-      if (scene.cylinder.inner_radius >= scene.geometry.cylinder_radius)
-        mistakes.push_back("Cylinder/Inner radius = " + mm(scene.cylinder.inner_radius) +
-                           " must be smaller than the cylinder's radius R = " + mm(scene.geometry.cylinder_radius));
+      if (device.cylinder.inner_radius >= device.geometry.cylinder_radius)
+        mistakes.push_back("Cylinder/Inner radius = " + mm(device.cylinder.inner_radius) +
+                           " must be smaller than the cylinder's radius R = " + mm(device.geometry.cylinder_radius));
       if (!mistakes.empty())
         throw InputError(mistakes);
     }
@@ -54,20 +54,20 @@ namespace sprag
     }
   } // namespace
 
-  void add_cylinder(const Scene &scene, Triangulation<2> &triangulation)
+  void add_cylinder(const Device &device, Triangulation<2> &triangulation)
   {
-    check(scene);
-    const double radius     = scene.geometry.cylinder_radius;
-    const double face_width = 2. * (0.1 * radius + scene.layer.thickness);
+    check(device);
+    const double radius     = device.geometry.cylinder_radius;
+    const double face_width = 2. * (0.1 * radius + device.layer.thickness);
     const MeshGroups groups{ { { "cylinder", material_id::cylinder } },
                              { { "core", boundary_id::core }, { "cylinder face", boundary_id::cylinder_face } },
                              "'cylinder'" };
     Triangulation<2> cylinder;
     read_gmsh(mesh_script("cylinder.geo"),
               { { "radius", radius },
-                { "inner_radius", scene.cylinder.inner_radius },
+                { "inner_radius", device.cylinder.inner_radius },
                 { "face_width", face_width },
-                { "face_size", scene.cylinder.face_size } },
+                { "face_size", device.cylinder.face_size } },
               groups, cylinder);
     cylinder.set_all_manifold_ids(circle);
 

@@ -3,7 +3,7 @@
 
 #include "base/text.h"
 #include "fe/body/body_properties.h"
-#include "scene/scene.h"
+#include "scene/device.h"
 
 namespace sprag
 {
@@ -40,16 +40,16 @@ namespace sprag
                          did_you_mean(nearest(name, { found.names.begin(), found.names.end() })));
     }
 
-    Messages missing_groups(const Scene &scene, const Found &parts, const Found &sides)
+    Messages missing_groups(const Device &device, const Found &parts, const Found &sides)
     {
       Messages result;
       need({ "friction face", "where the cylinder slides" }, sides, result);
       need({ "lever", "the metal" }, parts, result);
       if (!parts.has("hub"))
         need({ "hub", "which carries the lever on its pivot, nor a " + parts.kind + " 'hub'" }, sides, result);
-      if (parts.has("web") && scene.frame.web == 0.)
+      if (parts.has("web") && device.frame.web == 0.)
         result.push_back("has a " + parts.kind + " 'web', which must be wider than Lever frame/Web = 0");
-      if (scene.plate.type == PlateType::none)
+      if (device.plate.type == PlateType::none)
       {
         if (parts.has("plate"))
           result.push_back("has a " + parts.kind + " 'plate', but Friction plate/Type = none");
@@ -63,7 +63,7 @@ namespace sprag
     }
   } // namespace
 
-  MeshGroups lever_groups(const Scene &scene, const int dimension)
+  MeshGroups lever_groups(const Device &device, const int dimension)
   {
     const bool plane = dimension == 2; // in which a web is a part of its own width
     MeshGroups result;
@@ -79,8 +79,8 @@ namespace sprag
                      { "sensor lever", boundary_id::sensor_lever } };
     result.part_names =
         std::string("'lever', ") + (plane ? "'web', " : "") + "'plate', 'layer' and 'hub' (all but 'lever' optional)";
-    result.missing = [&scene, plane](const Names &parts, const Names &sides) {
-      return missing_groups(scene, Found{ plane ? "surface" : "volume", parts }, Found{ plane ? "curve" : "surface", sides });
+    result.missing = [&device, plane](const Names &parts, const Names &sides) {
+      return missing_groups(device, Found{ plane ? "surface" : "volume", parts }, Found{ plane ? "curve" : "surface", sides });
     };
     return result;
   }

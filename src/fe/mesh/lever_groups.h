@@ -5,9 +5,9 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   /// The physical groups of a lever's mesh, in a plane (dimension 2) surfaces and curves, in three dimensions volumes and
   /// surfaces. The scene must outlive them.
-  MeshGroups lever_groups(const Scene &scene, int dimension);
+  MeshGroups lever_groups(const Device &device, int dimension);
 } // namespace sprag

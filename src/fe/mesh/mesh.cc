@@ -11,8 +11,8 @@
 #include "fe/mesh/solid_file.h"
 #include "scene/across.h"
 #include "scene/contact_width.h"
+#include "scene/device.h"
 #include "scene/lever_shape.h"
-#include "scene/scene.h"
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/grid/grid_generator.h>
@@ -27,53 +27,53 @@ namespace sprag
   namespace
   {
     /// Part of the friction face under the cylinder during the drive, with room for the contact's width [mm].
-    std::array<double, 2> swept_face(const Scene &scene)
+    std::array<double, 2> swept_face(const Device &device)
     {
-      const double room        = 0.1 * scene.geometry.cylinder_radius;
-      const auto [first, last] = swept_contact(scene);
-      const auto [begin, end]  = friction_face(scene);
-      const double size        = scene.mesh.face_size;
+      const double room        = 0.1 * device.geometry.cylinder_radius;
+      const auto [first, last] = swept_contact(device);
+      const auto [begin, end]  = friction_face(device);
+      const double size        = device.mesh.face_size;
       return { { std::max(first - room, std::min(begin + size, first)), std::min(last + room, std::max(end - size, last)) } };
     }
 
-    MeshConstants common_constants(const Scene &scene)
+    MeshConstants common_constants(const Device &device)
     {
-      const auto sweep = swept_face(scene);
-      return { { "lever_length", scene.lever.length },
-               { "offset", scene.geometry.interface_offset },
-               { "layer_thickness", scene.layer.thickness },
-               { "plate_thickness", scene.plate.type == PlateType::none ? 0. : scene.plate.thickness },
-               { "plate_begin", scene.plate.begin },
-               { "plate_end", scene.plate.end },
-               { "spacer", scene.plate.spacer },
-               { "largest", 0.15 * scene.lever.depth },
-               { "face_size", scene.mesh.face_size },
+      const auto sweep = swept_face(device);
+      return { { "lever_length", device.lever.length },
+               { "offset", device.geometry.interface_offset },
+               { "layer_thickness", device.layer.thickness },
+               { "plate_thickness", device.plate.type == PlateType::none ? 0. : device.plate.thickness },
+               { "plate_begin", device.plate.begin },
+               { "plate_end", device.plate.end },
+               { "spacer", device.plate.spacer },
+               { "largest", 0.15 * device.lever.depth },
+               { "face_size", device.mesh.face_size },
                { "sweep_begin", sweep[0] },
                { "sweep_end", sweep[1] } };
     }
 
-    MeshConstants bar_constants(const Scene &scene)
+    MeshConstants bar_constants(const Device &device)
     {
-      const auto grading = face_grading(scene).value_or(FaceGrading{});
-      return joined(common_constants(scene), { { "lever_depth", scene.lever.depth },
-                                               { "hub_length", 0.5 * scene.lever.depth },
-                                               { "graded_from", grading.begin },
-                                               { "graded_to", grading.end },
-                                               { "longest", grading.longest },
-                                               { "shortest", grading.shortest } });
+      const auto grading = face_grading(device).value_or(FaceGrading{});
+      return joined(common_constants(device), { { "lever_depth", device.lever.depth },
+                                                { "hub_length", 0.5 * device.lever.depth },
+                                                { "graded_from", grading.begin },
+                                                { "graded_to", grading.end },
+                                                { "longest", grading.longest },
+                                                { "shortest", grading.shortest } });
     }
 
-    MeshConstants frame_constants(const Scene &scene)
+    MeshConstants frame_constants(const Device &device)
     {
-      return joined(common_constants(scene), { { "root_depth", scene.lever.depth },
-                                               { "tip_depth", scene.frame.tip_depth },
-                                               { "flange", scene.frame.flange },
-                                               { "web", scene.frame.web },
-                                               { "pockets", scene.frame.pockets },
-                                               { "rib", scene.frame.rib },
-                                               { "root", scene.frame.root },
-                                               { "hub_radius", frame_hub_radius },
-                                               { "wall", frame_wall } });
+      return joined(common_constants(device), { { "root_depth", device.lever.depth },
+                                                { "tip_depth", device.frame.tip_depth },
+                                                { "flange", device.frame.flange },
+                                                { "web", device.frame.web },
+                                                { "pockets", device.frame.pockets },
+                                                { "rib", device.frame.rib },
+                                                { "root", device.frame.root },
+                                                { "hub_radius", frame_hub_radius },
+                                                { "wall", frame_wall } });
     }
 
     /// Ends of the sides on the friction face, from the pivot on.
@@ -106,11 +106,11 @@ namespace sprag
     }
 
     /// The face must lie where the scene's geometry has it, or the cylinder would miss it.
-    std::vector<std::string> mistakes_of_face(const Scene &scene, const Triangulation<2> &triangulation)
+    std::vector<std::string> mistakes_of_face(const Device &device, const Triangulation<2> &triangulation)
     {
       const auto sides     = sides_of_friction_face(triangulation);
-      const auto &geometry = scene.geometry;
-      const auto &file     = scene.mesh.file;
+      const auto &geometry = device.geometry;
+      const auto &file     = device.mesh.file;
       const double e       = geometry.interface_offset;
       const double small   = 1e-6 * geometry.cylinder_radius;
       if (sides.empty())
@@ -124,7 +124,7 @@ namespace sprag
       if (lower[1] < e - small || upper[1] > e + small)
         mistakes.push_back(file + ": the curve 'friction face' lies " + rounded_text(lower[1]) + " to " + mm(upper[1]) +
                            " off the pivot, but Geometry/Interface offset = " + rounded_text(e));
-      const auto [first, last] = swept_contact(scene);
+      const auto [first, last] = swept_contact(device);
       if (lower[0] > first || upper[0] < last)
         mistakes.push_back(file + ": the curve 'friction face' spans " + rounded_text(lower[0]) + " to " + mm(upper[0]) +
                            " from the pivot, but the contact sweeps " + rounded_text(first) + " to " + mm(last));
@@ -143,31 +143,31 @@ namespace sprag
     }
   } // namespace
 
-  void make_mesh(const Scene &scene, Triangulation<2> &triangulation)
+  void make_mesh(const Device &device, Triangulation<2> &triangulation)
   {
-    if (has_solid_file(scene))
+    if (has_solid_file(device))
       return;
-    const auto groups = lever_groups(scene, 2);
+    const auto groups = lever_groups(device, 2);
     std::vector<std::string> mistakes;
-    if (!scene.mesh.file.empty())
+    if (!device.mesh.file.empty())
     {
-      read_gmsh(scene.mesh.file, {}, groups, triangulation);
+      read_gmsh(device.mesh.file, {}, groups, triangulation);
       for (const auto &mistake : mesh_mistakes(groups, triangulation))
-        mistakes.push_back(scene.mesh.file + ": " + mistake);
-      if (scene.analysis.dimension == 3)
-        if (const auto too_short = cylinder_too_short(scene, planes_across(scene)); !too_short.empty())
-          mistakes.push_back(scene.mesh.file + ": Cylinder/Length = " + rounded_text(scene.cylinder.length) + " " + too_short);
-      for (unsigned int i = 0; i < scene.mesh.halvings; ++i)
-        halve_elements(scene.mesh.file, triangulation);
+        mistakes.push_back(device.mesh.file + ": " + mistake);
+      if (device.analysis.dimension == 3)
+        if (const auto too_short = cylinder_too_short(device, planes_across(device)); !too_short.empty())
+          mistakes.push_back(device.mesh.file + ": Cylinder/Length = " + rounded_text(device.cylinder.length) + " " + too_short);
+      for (unsigned int i = 0; i < device.mesh.halvings; ++i)
+        halve_elements(device.mesh.file, triangulation);
     }
-    else if (scene.lever.outline == LeverOutline::bar)
-      read_gmsh(mesh_script("lever.geo"), bar_constants(scene), groups, triangulation);
+    else if (device.lever.outline == LeverOutline::bar)
+      read_gmsh(mesh_script("lever.geo"), bar_constants(device), groups, triangulation);
     else
-      read_gmsh(mesh_script("frame.geo"), frame_constants(scene), groups, triangulation);
-    append(mistakes, mistakes_of_face(scene, triangulation));
+      read_gmsh(mesh_script("frame.geo"), frame_constants(device), groups, triangulation);
+    append(mistakes, mistakes_of_face(device, triangulation));
     if (!mistakes.empty())
       throw InputError(mistakes);
-    if (scene.cylinder.type != CylinderType::rigid)
-      add_cylinder(scene, triangulation);
+    if (device.cylinder.type != CylinderType::rigid)
+      add_cylinder(device, triangulation);
   }
 } // namespace sprag

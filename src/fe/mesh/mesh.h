@@ -5,7 +5,7 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   /// Fills `triangulation` with the scene's lever in lever axes (first axis along the lever from the pivot at the origin, second
   /// from the friction interface into the lever): the built-in `meshes/lever.geo` or `meshes/frame.geo` with the scene's
@@ -14,11 +14,11 @@ namespace sprag
   /// a friction plate on sensors surface "plate" and curves "sensor plate" and "sensor lever". Ids as in body_properties.h.
   /// An elastic cylinder is added, see add_cylinder(). A Mesh/File of three dimensions leaves it empty, see read_solid_file().
   /// Throws InputError naming the file and what is missing or wrong in it.
-  void make_mesh(const Scene &scene, Mesh &triangulation);
+  void make_mesh(const Device &device, Mesh &triangulation);
 
   /// Adds the scene's elastic cylinder, of `meshes/cylinder.geo`, to a lever's triangulation as a part of its own: about its own
   /// centre, in axes parallel to the lever's, on a SphericalManifold. Fine where it can touch the lever: as wide as a contact
   /// and the change of its direction by bending ask for. BodyProperties::curved keeps the nodes on the circle.
   /// Throws InputError for elements of degree 1 and for an inner radius that leaves no cylinder.
-  void add_cylinder(const Scene &scene, Mesh &triangulation);
+  void add_cylinder(const Device &device, Mesh &triangulation);
 } // namespace sprag

@@ -9,8 +9,8 @@
 #include "fe/mesh/mesh.h"
 #include "fe/mesh/mesh_look.h"
 #include "scene/across.h"
+#include "scene/device.h"
 #include "scene/lever_shape.h"
-#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,10 +54,10 @@ namespace sprag
       return rounded_text(ends[0]) + " to " + mm(ends[1]);
     }
 
-    void check_height(const Scene &scene, const std::vector<Side> &sides, Messages &mistakes)
+    void check_height(const Device &device, const std::vector<Side> &sides, Messages &mistakes)
     {
-      const double e     = scene.geometry.interface_offset;
-      const double small = 1e-6 * scene.geometry.cylinder_radius;
+      const double e     = device.geometry.interface_offset;
+      const double small = 1e-6 * device.geometry.cylinder_radius;
       const auto heights = range(places_along(1, sides));
       if (heights[1] - heights[0] > small)
         mistakes.push_back("the surface 'friction face' is not flat: its nodes lie at y = " + from_to(heights) + ", " +
@@ -67,37 +67,37 @@ namespace sprag
                            ", but Geometry/Interface offset = " + rounded_text(e));
     }
 
-    void check_width(const Scene &scene, const std::vector<Side> &sides, Messages &mistakes)
+    void check_width(const Device &device, const std::vector<Side> &sides, Messages &mistakes)
     {
-      const double half  = 0.5 * scene.lever.width;
+      const double half  = 0.5 * device.lever.width;
       const double small = 1e-6 * half;
       const auto ends    = range(places_along(2, sides));
       if (std::abs(ends[0] + half) < small && std::abs(ends[1] - half) < small)
         return;
       std::string line = "the surface 'friction face' spans z = " + from_to(ends) +
-                         ", but z counts from the middle of Lever/Width = " + rounded_text(scene.lever.width) + ": " +
+                         ", but z counts from the middle of Lever/Width = " + rounded_text(device.lever.width) + ": " +
                          from_to({ { -half, half } });
       if (std::abs(ends[0]) < small)
         line += "; give the whole lever: of a mesh of one's own no half is solved";
       mistakes.push_back(line);
     }
 
-    void check_sweep(const Scene &scene, const std::vector<Side> &sides, Messages &mistakes)
+    void check_sweep(const Device &device, const std::vector<Side> &sides, Messages &mistakes)
     {
       const auto ends          = range(places_along(0, sides));
-      const auto [first, last] = swept_contact(scene);
+      const auto [first, last] = swept_contact(device);
       if (ends[0] > first || ends[1] < last)
         mistakes.push_back("the surface 'friction face' spans " + from_to(ends) + " from the pivot, but the contact sweeps " +
                            rounded_text(first) + " to " + mm(last));
     }
 
-    void check_cylinder(const Scene &scene, const std::vector<Side> &sides, Messages &mistakes)
+    void check_cylinder(const Device &device, const std::vector<Side> &sides, Messages &mistakes)
     {
       std::vector<double> planes;
       for (const long place : places_along(2, sides))
         planes.push_back(1e-6 * static_cast<double>(place));
-      if (const auto too_short = cylinder_too_short(scene, planes); !too_short.empty())
-        mistakes.push_back("Cylinder/Length = " + rounded_text(scene.cylinder.length) + " " + too_short);
+      if (const auto too_short = cylinder_too_short(device, planes); !too_short.empty())
+        mistakes.push_back("Cylinder/Length = " + rounded_text(device.cylinder.length) + " " + too_short);
     }
 
     /// Returns true if a side is a rectangle with its sides along x and z.
@@ -121,55 +121,55 @@ namespace sprag
                            " where all lines cross");
     }
 
-    void check_face(const Scene &scene, const Triangulation<3> &triangulation, Messages mistakes)
+    void check_face(const Device &device, const Triangulation<3> &triangulation, Messages mistakes)
     {
       const auto sides = sides_of_face(triangulation);
       if (sides.empty())
         mistakes.push_back("no side of 'lever', 'plate' or 'layer' lies on the surface 'friction face'");
       else
       {
-        check_height(scene, sides, mistakes);
-        check_width(scene, sides, mistakes);
-        check_sweep(scene, sides, mistakes);
+        check_height(device, sides, mistakes);
+        check_width(device, sides, mistakes);
+        check_sweep(device, sides, mistakes);
         check_lines(sides, mistakes);
-        check_cylinder(scene, sides, mistakes);
+        check_cylinder(device, sides, mistakes);
       }
       for (auto &line : mistakes)
-        line = scene.mesh.file + ": " + line;
+        line = device.mesh.file + ": " + line;
       if (!mistakes.empty())
         throw InputError(mistakes);
     }
   } // namespace
 
-  bool has_solid_file(const Scene &scene)
+  bool has_solid_file(const Device &device)
   {
-    return scene.analysis.dimension == 3 && !scene.mesh.file.empty() && has_volumes(scene.mesh.file);
+    return device.analysis.dimension == 3 && !device.mesh.file.empty() && has_volumes(device.mesh.file);
   }
 
-  void read_solid_file(const Scene &scene, Triangulation<3> &triangulation)
+  void read_solid_file(const Device &device, Triangulation<3> &triangulation)
   {
-    const auto groups = lever_groups(scene, 3);
-    read_gmsh(scene.mesh.file, {}, groups, triangulation);
-    check_face(scene, triangulation, mesh_mistakes(groups, triangulation));
+    const auto groups = lever_groups(device, 3);
+    read_gmsh(device.mesh.file, {}, groups, triangulation);
+    check_face(device, triangulation, mesh_mistakes(groups, triangulation));
   }
 
-  void check_solid_file(const Scene &scene)
+  void check_solid_file(const Device &device)
   {
     Triangulation<3> triangulation;
-    read_solid_file(scene, triangulation);
+    read_solid_file(device, triangulation);
   }
 
-  double own_face_size(const Scene &scene)
+  double own_face_size(const Device &device)
   {
-    const auto [first, last] = swept_contact(scene);
-    if (has_solid_file(scene))
+    const auto [first, last] = swept_contact(device);
+    if (has_solid_file(device))
     {
       Triangulation<3> triangulation;
-      read_solid_file(scene, triangulation);
+      read_solid_file(device, triangulation);
       return longest_face_side(triangulation, first, last);
     }
     Mesh triangulation;
-    make_mesh(scene, triangulation);
+    make_mesh(device, triangulation);
     return longest_face_side(triangulation, first, last);
   }
 } // namespace sprag

@@ -8,7 +8,7 @@
 #include "fe/statics/lever_properties.h"
 #include "scene/across.h"
 #include "scene/analysis_use.h"
-#include "scene/scene.h"
+#include "scene/device.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,26 +69,26 @@ namespace sprag
 
   namespace
   {
-    BodyProperties solid_properties(const Scene &scene)
+    BodyProperties solid_properties(const Device &device)
     {
-      auto result  = lever_properties(scene).body;
+      auto result  = lever_properties(device).body;
       result.plane = PlaneState::strain; // its constants are those of the body
       result.planes.clear();
       result.width = 1.;
       result.widths.clear();
       result.connectors.clear(); // has its own
       result.curved = false;
-      if (scene.analysis.type != AnalysisType::quasi_static)
-        result.point_spacing = scene.geometry.cylinder_radius / 1000.; // as of levers in a plane in time
+      if (device.analysis.type != AnalysisType::quasi_static)
+        result.point_spacing = device.geometry.cylinder_radius / 1000.; // as of levers in a plane in time
       return result;
     }
 
     /// Returns how far the skin of a lever reaches from its friction face where nothing forbids it [mm]: beyond the layer as far
     /// as the pressure of a contact is more than its resultant.
-    double skin_depth(const Scene &scene)
+    double skin_depth(const Device &device)
     {
       constexpr double over_radius = 0.08;
-      return scene.layer.thickness + over_radius * scene.geometry.cylinder_radius;
+      return device.layer.thickness + over_radius * device.geometry.cylinder_radius;
     }
 
     /// Returns true if the side of a cell away from the friction face is free.
@@ -103,9 +103,9 @@ namespace sprag
       return std::any_of(faces.begin(), faces.end(), [&](const auto &face) { return face->at_boundary() && is_back(face); });
     }
 
-    SolidProperties properties_of(const Scene &scene, const std::string &folder)
+    SolidProperties properties_of(const Device &device, const std::string &folder)
     {
-      return { solid_properties(scene), scene.geometry.interface_offset, scene.layer.thickness, skin_depth(scene), folder };
+      return { solid_properties(device), device.geometry.interface_offset, device.layer.thickness, skin_depth(device), folder };
     }
 
     /// Returns those that the first rank has, which calls the others to build the body.
@@ -123,18 +123,18 @@ namespace sprag
     }
   } // namespace
 
-  SharedSolid::SharedSolid(const BodyCalls &calls, SolidProperties of_first, const Scene *const scene, const Mesh *const plane)
+  SharedSolid::SharedSolid(const BodyCalls &calls, SolidProperties of_first, const Device *const device, const Mesh *const plane)
       : call_others(calls)
       , given(shared(calls, std::move(of_first)))
       , mesh(calls.ranks, SolidMesh::none, false, SolidMesh::Settings::partition_zorder)
-      , half(scene != nullptr ? make_solid_mesh(*scene, *plane, mesh) : receive_solid_mesh(mesh))
+      , half(device != nullptr ? make_solid_mesh(*device, *plane, mesh) : receive_solid_mesh(mesh))
   {
   }
 
-  SolidBody::SolidBody(const Scene &scene, const Mesh &plane, const std::string &folder)
-      : SolidBody(BodyCalls(), properties_of(scene, folder), &scene, &plane)
+  SolidBody::SolidBody(const Device &device, const Mesh &plane, const std::string &folder)
+      : SolidBody(BodyCalls(), properties_of(device, folder), &device, &plane)
   {
-    use_connectors(find_connectors(*this, scene, half));
+    use_connectors(find_connectors(*this, device, half));
     call_others(SharedTask::factorise);
     factorise();
   }
@@ -144,8 +144,8 @@ namespace sprag
   {
   }
 
-  SolidBody::SolidBody(const BodyCalls &calls, SolidProperties of_first, const Scene *const scene, const Mesh *const plane)
-      : SharedSolid(calls, std::move(of_first), scene, plane)
+  SolidBody::SolidBody(const BodyCalls &calls, SolidProperties of_first, const Device *const device, const Mesh *const plane)
+      : SharedSolid(calls, std::move(of_first), device, plane)
       , ElasticBody<3>(mesh, of_whole(given.body, half))
       , depth_of_skin(given.skin)
       , factors(*this, all, SharedTask::solve_whole, call_others)

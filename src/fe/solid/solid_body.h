@@ -13,7 +13,7 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   /// Factors of the stiffness of a body or of a part of it, by which all ranks solve together.
   class BodyFactors
@@ -63,7 +63,7 @@ namespace sprag
   /// without cells stands for a Mesh/File of three dimensions, which is read as it is. Returns whether the mesh is a half. To be
   /// called by the first rank, while the others receive_solid_mesh(). All throw InputError for a file that cannot serve, see
   /// read_solid_file().
-  bool make_solid_mesh(const Scene &scene, const Mesh &plane, SolidMesh &mesh);
+  bool make_solid_mesh(const Device &device, const Mesh &plane, SolidMesh &mesh);
 
   /// Receives what the first rank makes.
   bool receive_solid_mesh(SolidMesh &mesh);
@@ -82,7 +82,7 @@ namespace sprag
   struct SharedSolid
   {
     /// The first rank builds from the scene's plane mesh, see make_solid_mesh(), the others without a scene help.
-    SharedSolid(const BodyCalls &calls, SolidProperties of_first, const Scene *scene, const Mesh *plane);
+    SharedSolid(const BodyCalls &calls, SolidProperties of_first, const Device *device, const Mesh *plane);
 
     const BodyCalls call_others;
     const SolidProperties given;
@@ -99,7 +99,7 @@ namespace sprag
     /// Builds and factorises it from the scene's plane mesh, see make_solid_mesh(); the factors of the whole body are kept in
     /// files in a folder, or without one in memory. Throws AnalysisError where the factorisation
     /// fails, InputError for a Mesh/File that cannot serve.
-    SolidBody(const Scene &scene, const Mesh &plane, const std::string &folder = {});
+    SolidBody(const Device &device, const Mesh &plane, const std::string &folder = {});
 
     /// Helps the first rank to build one.
     explicit SolidBody(MPI_Comm ranks);
@@ -157,7 +157,7 @@ namespace sprag
     }
 
   private:
-    SolidBody(const BodyCalls &calls, SolidProperties of_first, const Scene *scene, const Mesh *plane);
+    SolidBody(const BodyCalls &calls, SolidProperties of_first, const Device *device, const Mesh *plane);
     void factorise();
     void release();
     void find_ends();

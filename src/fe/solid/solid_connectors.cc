@@ -2,16 +2,16 @@
 #include "fe/solid/solid_connectors.h"
 
 #include "scene/across.h"
-#include "scene/scene.h"
+#include "scene/device.h"
 
 namespace sprag
 {
   namespace
   {
-    void add_guide(const ElasticBody<3> &body, const Scene &scene, const bool is_half, std::vector<Connector> &result)
+    void add_guide(const ElasticBody<3> &body, const Device &device, const bool is_half, std::vector<Connector> &result)
     {
-      const auto &plate      = scene.plate;
-      const double half      = 0.5 * scene.lever.width;
+      const auto &plate      = device.plate;
+      const double half      = 0.5 * device.lever.width;
       const double xi        = 0.5 * plate.sensor_length;
       const double stiffness = plate.guide_stiffness;
       const FacingPads<3> pads(ConnectorType::guide,
@@ -24,13 +24,13 @@ namespace sprag
     }
   } // namespace
 
-  std::vector<Connector> find_connectors(const ElasticBody<3> &body, const Scene &scene, const bool is_half)
+  std::vector<Connector> find_connectors(const ElasticBody<3> &body, const Device &device, const bool is_half)
   {
-    const auto &plate = scene.plate;
+    const auto &plate = device.plate;
     std::vector<Connector> result;
     if (plate.type == PlateType::none)
       return result;
-    const double middle = sensors_across(scene), xi = 0.5 * plate.sensor_length, zeta = 0.5 * plate.sensor_width;
+    const double middle = sensors_across(device), xi = 0.5 * plate.sensor_length, zeta = 0.5 * plate.sensor_width;
     for (const double place : plate.sensors)
       for (const double side : { -1., 1. })
       {
@@ -41,7 +41,7 @@ namespace sprag
         const double share = is_half ? 1. : 0.5;
         result.push_back(connector(ConnectorType::sensor, share * plate.sensor_stiffness, pads.approach()));
       }
-    add_guide(body, scene, is_half, result);
+    add_guide(body, device, is_half, result);
     return result;
   }
 

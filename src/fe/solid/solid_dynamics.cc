@@ -12,10 +12,10 @@
 #include "model/assemble_lever.h"
 #include "scene/across.h"
 #include "scene/analysis_use.h"
+#include "scene/device.h"
 #include "scene/held_slide.h"
 #include "scene/lever_shape.h"
 #include "scene/mirrored_pair.h"
-#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -138,9 +138,9 @@ namespace sprag
       return result;
     }
 
-    FaceWindow window_of_scene(const Scene &scene, const FrictionFace<3> &face)
+    FaceWindow window_of_scene(const Device &device, const FrictionFace<3> &face)
     {
-      const auto [begin, end] = reachable_contact(scene);
+      const auto [begin, end] = reachable_contact(device);
       return window_of(face, begin, end);
     }
 
@@ -153,41 +153,41 @@ namespace sprag
     }
 
     /// Layout of the ports of the window, the sensors, the cylinder's axis, the hub and its momentum.
-    PortLayout layout_of(const FaceWindow &window, const SolidInTime &lever, const Scene &scene)
+    PortLayout layout_of(const FaceWindow &window, const SolidInTime &lever, const Device &device)
     {
       PortLayout result{ static_cast<unsigned int>(3 * window.face.nodes.size()), true, lever.sensors->number() };
-      result.slopes = lever.body->is_half() || !scene.cylinder.has_free_axis() ? 0 : 2;
+      result.slopes = lever.body->is_half() || !device.cylinder.has_free_axis() ? 0 : 2;
       return result;
     }
 
-    std::unique_ptr<SurfaceContact> contact_of(const Scene &scene, const SolidInTime &lever, const FrictionFace<3> &face,
+    std::unique_ptr<SurfaceContact> contact_of(const Device &device, const SolidInTime &lever, const FrictionFace<3> &face,
                                                const PortLayout &ports, const unsigned int index)
     {
-      const Scene own = scene_of_lever(scene, index);
+      const Device own = device_of_lever(device, index);
       return std::make_unique<SurfaceContact>(
           face, SurfaceContactProperties{ RigidCylinder(own.geometry, own.cylinder),
                                           [geometry = own.geometry](const double x, const double theta)
                                           { return cylinder_centre(geometry, x, theta); },
-                                          own.geometry.cylinder_radius, ports, rest_inclination(scene),
+                                          own.geometry.cylinder_radius, ports, rest_inclination(device),
                                           penalties_in_time(own, lever.body->friction_face()), lever.body->is_half(),
-                                          own.friction, scene.layer.thickness });
+                                          own.friction, device.layer.thickness });
     }
 
-    LeverFrame frame_of(const Scene &scene, const SolidInTime &lever, const PortLayout &ports)
+    LeverFrame frame_of(const Device &device, const SolidInTime &lever, const PortLayout &ports)
     {
-      LeverFrame result       = lever_frame(scene, ports, lever.modes.total_mass);
+      LeverFrame result       = lever_frame(device, ports, lever.modes.total_mass);
       result.sensor_stiffness = lever.sensors->stiffness();
       result.tell_sensors     = [is_half = lever.body->is_half()](const std::vector<double> &forces, Row &row)
       { tell_sides(forces, is_half, row); };
       return result;
     }
 
-    MeshedDynamics facts(const Scene &scene, const SolidInTime &lever, const unsigned int n_modes)
+    MeshedDynamics facts(const Device &device, const SolidInTime &lever, const unsigned int n_modes)
     {
       MeshedDynamics result;
       static_cast<MassSums &>(result) = lever.modes;
-      result.n_coordinates            = number_of_levers(scene) * n_modes + (scene.support.type == SupportType::sprung ? 1 : 0);
-      result.penalties                = penalties_in_time(scene, lever.body->friction_face());
+      result.n_coordinates            = number_of_levers(device) * n_modes + (device.support.type == SupportType::sprung ? 1 : 0);
+      result.penalties                = penalties_in_time(device, lever.body->friction_face());
       return result;
     }
   } // namespace
@@ -199,48 +199,48 @@ namespace sprag
     return { &lever.modes, lever.swinging ? &*lever.swinging : &lever.modes };
   }
 
-  SolidInTime make_solid_in_time(const Scene &scene, const Mesh &plane)
+  SolidInTime make_solid_in_time(const Device &device, const Mesh &plane)
   {
     SolidInTime result;
-    result.body                         = std::make_unique<const SolidBody>(scene, plane);
-    const double room                   = 0.1 * scene.geometry.cylinder_radius;
+    result.body                         = std::make_unique<const SolidBody>(device, plane);
+    const double room                   = 0.1 * device.geometry.cylinder_radius;
     constexpr double spacing_over_depth = 0.5; // ringing adds up what the compliance leaves out
-    const auto [first, last]            = swept_contact(scene);
+    const auto [first, last]            = swept_contact(device);
     result.compliance = std::make_unique<LayeredCompliance>(*result.body, first - room, last + room, spacing_over_depth);
     result.sensors    = std::make_unique<const SensorForces>(*result.body, response_of(*result.body));
-    const auto modes  = [&](const Scene &of)
+    const auto modes  = [&](const Device &of)
     { return lever_modes(*result.body, response_of(*result.body), inertia_of(of), of.spring.stiffness, of.condensed.modes); };
-    result.modes = modes(scene);
-    if (swings_otherwise(scene))
-      result.swinging = modes(swinging_scene(scene));
+    result.modes = modes(device);
+    if (swings_otherwise(device))
+      result.swinging = modes(swinging_device(device));
     return result;
   }
 
-  MeshedDynamics make_solid_dynamics(const Scene &scene, const SolidInTime &lever, const double relaxation,
+  MeshedDynamics make_solid_dynamics(const Device &device, const SolidInTime &lever, const double relaxation,
                                      const unsigned int n_modes)
   {
-    const auto window     = std::make_shared<const FaceWindow>(window_of_scene(scene, lever.body->friction_face()));
+    const auto window     = std::make_shared<const FaceWindow>(window_of_scene(device, lever.body->friction_face()));
     const auto &face      = window->face;
-    const auto levers     = number_of_levers(scene);
+    const auto levers     = number_of_levers(device);
     const auto structures = modes_of_structures(lever, levers);
     const auto structure  = [&](const unsigned int part)
     {
-      const auto basis = basis_on(layout_of(*window, lever, scene), *structures[part], face_dofs(face),
+      const auto basis = basis_on(layout_of(*window, lever, device), *structures[part], face_dofs(face),
                                   *lever.compliance->among(ports_of(*window)), *lever.sensors, 3 * window->first_node,
-                                  slope_compliances(scene.cylinder), scene.spring.stiffness);
+                                  slope_compliances(device.cylinder), device.spring.stiffness);
       return std::make_unique<ModalStructure>(
-          modal_data(truncated(basis, n_modes), constants_of(scene, relaxation, basis.total_mass)));
+          modal_data(truncated(basis, n_modes), constants_of(device, relaxation, basis.total_mass)));
     };
     const auto displacement = [&lever, structures, dofs = face_dofs(face)](const unsigned int part, const Motion &motion)
     { return condensed_displacement(*lever.body, *structures[part], dofs, response_of(*lever.body), motion); };
     const auto assemble = [&](auto all)
     {
       const PortLayout ports = all->ports();
-      const auto contact = [&](const unsigned int index) { return contact_of(scene, lever, face, ports.of_one_lever(), index); };
-      return assemble_lever(std::move(all), frame_of(scene, lever, ports), contact,
+      const auto contact = [&](const unsigned int index) { return contact_of(device, lever, face, ports.of_one_lever(), index); };
+      return assemble_lever(std::move(all), frame_of(device, lever, ports), contact,
                             static_cast<unsigned int>(face.points.size()));
     };
-    MeshedDynamics result = facts(scene, lever, n_modes);
+    MeshedDynamics result = facts(device, lever, n_modes);
     result.face           = std::shared_ptr<const FrictionFace<3>>(window, &face);
     result.follow_edge    = [&lever, structures](const Eigenmode &mode, ModeShape &shape)
     { follow_edge(lever.body->friction_face(), structures, mode, shape); };
@@ -248,15 +248,15 @@ namespace sprag
     return result;
   }
 
-  ContactPenalties penalties_in_time(const Scene &scene, const FrictionFace<3> &face)
+  ContactPenalties penalties_in_time(const Device &device, const FrictionFace<3> &face)
   {
     using namespace penalty_over_layer;
-    const double factor = scene.mesh.degree == 1 ? in_time_linear : in_time;
-    return contact_penalties(face, scene.contact, scene.layer.thickness, factor);
+    const double factor = device.mesh.degree == 1 ? in_time_linear : in_time;
+    return contact_penalties(face, device.contact, device.layer.thickness, factor);
   }
 
-  FrictionFace<3> reached_face(const Scene &scene, const SolidBody &body)
+  FrictionFace<3> reached_face(const Device &device, const SolidBody &body)
   {
-    return window_of_scene(scene, body.friction_face()).face;
+    return window_of_scene(device, body.friction_face()).face;
   }
 } // namespace sprag

@@ -12,7 +12,7 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   /// A lever in three dimensions at rest, to be shared by models that differ in friction, damping, drive and contact. Both of a
   /// pair are alike.
@@ -30,16 +30,16 @@ namespace sprag
   std::vector<const LeverModes *> modes_of_structures(const SolidInTime &lever, unsigned int levers);
 
   /// Makes body, compliance and the scene's number of modes from the plane mesh. Throws AnalysisError if a factorisation fails.
-  SolidInTime make_solid_in_time(const Scene &scene, const Mesh &plane);
+  SolidInTime make_solid_in_time(const Device &device, const Mesh &plane);
 
   /// The condensed model of a scene, of a lever or both of its full pair: the lowest `n_modes` of a lever's modes, and the static
   /// answer of the part of the face that the contact can reach. Displacements are found by a back-substitution with the whole
   /// body. `relaxation`: damping over stiffness of the friction layer [s]. The lever must outlive it.
-  MeshedDynamics make_solid_dynamics(const Scene &scene, const SolidInTime &lever, double relaxation, unsigned int n_modes);
+  MeshedDynamics make_solid_dynamics(const Device &device, const SolidInTime &lever, double relaxation, unsigned int n_modes);
 
   /// Returns the penalties that this model has.
-  ContactPenalties penalties_in_time(const Scene &scene, const FrictionFace<3> &face);
+  ContactPenalties penalties_in_time(const Device &device, const FrictionFace<3> &face);
 
   /// Returns the part of the face that this model looks at: where the contact may come.
-  FrictionFace<3> reached_face(const Scene &scene, const SolidBody &body);
+  FrictionFace<3> reached_face(const Device &device, const SolidBody &body);
 } // namespace sprag

@@ -6,7 +6,7 @@
 #include "fe/body/body_properties.h"
 #include "fe/mesh/solid_file.h"
 #include "scene/across.h"
-#include "scene/scene.h"
+#include "scene/device.h"
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -121,20 +121,20 @@ namespace sprag
       }
     };
 
-    Description extruded(const Scene &scene, const Mesh &plane)
+    Description extruded(const Device &device, const Mesh &plane)
     {
       const auto [vertices, cells, boundary] = GridTools::get_coarse_mesh_description(plane);
       const auto is_web                      = [](const CellData<2> &cell) { return cell.material_id == material_id::web; };
       const bool has_web                     = std::any_of(cells.begin(), cells.end(), is_web);
-      const double web                       = scene.frame.web;
-      const auto planes                      = planes_across(scene);
+      const double web                       = device.frame.web;
+      const auto planes                      = planes_across(device);
       return Extrusion{ has_web ? with_sides_of(web, planes) : planes, web, vertices, cells, boundary.boundary_lines }();
     }
 
-    Description read(const Scene &scene)
+    Description read(const Device &device)
     {
       Triangulation<3> triangulation;
-      read_solid_file(scene, triangulation);
+      read_solid_file(device, triangulation);
       const auto [vertices, cells, boundary] = GridTools::get_coarse_mesh_description(triangulation);
       return { vertices, cells, boundary.boundary_quads };
     }
@@ -153,13 +153,13 @@ namespace sprag
       archive(vertices, cells, sides, handed.is_half, handed.mistakes);
     }
 
-    Handed made(const Scene &scene, const Mesh &plane)
+    Handed made(const Device &device, const Mesh &plane)
     {
       if (plane.n_active_cells() > 0)
-        return { extruded(scene, plane), is_symmetric_across(scene), {} };
+        return { extruded(device, plane), is_symmetric_across(device), {} };
       try
       {
-        return { read(scene), false, {} };
+        return { read(device), false, {} };
       }
       catch (const InputError &error)
       {
@@ -182,9 +182,9 @@ namespace sprag
     }
   } // namespace
 
-  bool make_solid_mesh(const Scene &scene, const Mesh &plane, SolidMesh &mesh)
+  bool make_solid_mesh(const Device &device, const Mesh &plane, SolidMesh &mesh)
   {
-    return create(made(scene, plane), mesh);
+    return create(made(device, plane), mesh);
   }
 
   bool receive_solid_mesh(SolidMesh &mesh)

@@ -9,9 +9,9 @@
 #include "model/joined_ports.h"
 #include "scene/across.h"
 #include "scene/closed_form.h"
+#include "scene/device.h"
 #include "scene/lever_shape.h"
 #include "scene/mirrored_pair.h"
-#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -156,8 +156,9 @@ namespace sprag
   }
 
   template <int dim>
-  StaticLever<dim>::StaticLever(const typename Parts::Source &source, const Scene &scene)
-      : StaticLever(source, properties_of_levers(scene), swings(scene), dim == 3 ? swept_contact(scene) : std::array<double, 2>{})
+  StaticLever<dim>::StaticLever(const typename Parts::Source &source, const Device &device)
+      : StaticLever(source, properties_of_levers(device), swings(device),
+                    dim == 3 ? swept_contact(device) : std::array<double, 2>{})
   {
   }
 

@@ -16,7 +16,7 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   /// Parts of a lever without inertia: the body, from its mesh or from one that is shared with others, its answer to forces, its
   /// contact and how results show that.
@@ -62,7 +62,7 @@ namespace sprag
     using Structure = typename Parts::Structure;
 
     /// The scene's lever or pair. `source` must outlive it. Throws InputError for properties that exclude each other.
-    StaticLever(const typename Parts::Source &source, const Scene &scene);
+    StaticLever(const typename Parts::Source &source, const Device &device);
 
     /// A single lever in a plane.
     StaticLever(const typename Parts::Source &source, LeverProperties properties);

@@ -4,9 +4,9 @@
 #include "base/text.h"
 #include "scene/closed_form.h"
 #include "scene/contact_width.h"
+#include "scene/device.h"
 #include "scene/mirrored_pair.h"
 #include "scene/pair_closed_form.h"
-#include "scene/scene.h"
 
 namespace sprag
 {
@@ -24,60 +24,60 @@ namespace sprag
     }
   } // namespace
 
-  LeverProperties lever_properties(const Scene &scene)
+  LeverProperties lever_properties(const Device &device)
   {
     LeverProperties result;
-    result.body.degree   = scene.mesh.degree;
-    result.body.plane    = scene.analysis.plane;
-    result.body.material = scene.lever.material;
-    result.body.width    = scene.lever.width;
-    const ElasticConstants metal{ scene.lever.young_modulus, scene.lever.poisson_ratio };
+    result.body.degree   = device.mesh.degree;
+    result.body.plane    = device.analysis.plane;
+    result.body.material = device.lever.material;
+    result.body.width    = device.lever.width;
+    const ElasticConstants metal{ device.lever.young_modulus, device.lever.poisson_ratio };
     result.body.constants  = { { material_id::lever, metal },
                                { material_id::web, metal },
-                               { material_id::plate, { scene.plate.young_modulus, scene.plate.poisson_ratio } },
-                               { material_id::layer, { scene.layer.young_modulus, scene.layer.poisson_ratio } } };
-    result.body.planes     = { { material_id::layer, scene.layer.plane }, { material_id::cylinder, scene.cylinder.plane } };
-    result.body.widths     = { { material_id::web, scene.frame.web } };
-    result.body.connectors = plate_connectors(scene.plate);
+                               { material_id::plate, { device.plate.young_modulus, device.plate.poisson_ratio } },
+                               { material_id::layer, { device.layer.young_modulus, device.layer.poisson_ratio } } };
+    result.body.planes     = { { material_id::layer, device.layer.plane }, { material_id::cylinder, device.cylinder.plane } };
+    result.body.widths     = { { material_id::web, device.frame.web } };
+    result.body.connectors = plate_connectors(device.plate);
 
-    if (scene.cylinder.type != CylinderType::rigid)
-      result.body.constants[material_id::cylinder] = { scene.cylinder.young_modulus, scene.cylinder.poisson_ratio };
-    result.body.curved = scene.cylinder.type != CylinderType::rigid;
+    if (device.cylinder.type != CylinderType::rigid)
+      result.body.constants[material_id::cylinder] = { device.cylinder.young_modulus, device.cylinder.poisson_ratio };
+    result.body.curved = device.cylinder.type != CylinderType::rigid;
 
     // Half a spacing off, the direction of a contact narrower than it is wrong by 1/8000 at most.
-    result.body.point_spacing = scene.geometry.cylinder_radius / 4000.;
+    result.body.point_spacing = device.geometry.cylinder_radius / 4000.;
 
-    const Geometry geometry = scene.geometry;
+    const Geometry geometry = device.geometry;
     result.obstacle         = cylinder(geometry);
     result.centre           = [geometry](double x, double theta) { return cylinder_centre(geometry, x, theta); };
     result.radius           = geometry.cylinder_radius;
     result.ideal_theta      = [geometry](double x) { return kinematics(geometry, x).theta; };
-    const auto &law         = scene.spring.behaviour.law;
-    result.spring           = { law.is_linear() ? MomentLaw(scene.spring.stiffness) : law, kinematics(geometry, 0.).theta,
+    const auto &law         = device.spring.behaviour.law;
+    result.spring           = { law.is_linear() ? MomentLaw(device.spring.stiffness) : law, kinematics(geometry, 0.).theta,
                       geometry.pivot_distance };
-    if (scene.support.type == SupportType::sprung)
-      result.support_stiffness = scene.support.stiffness;
-    result.friction         = scene.friction;
-    result.contact          = scene.contact;
-    result.longest_face     = face_grading(scene).value_or(FaceGrading{}).longest;
-    result.solution         = scene.analysis.solution;
-    result.layer_thickness  = scene.layer.thickness;
+    if (device.support.type == SupportType::sprung)
+      result.support_stiffness = device.support.stiffness;
+    result.friction         = device.friction;
+    result.contact          = device.contact;
+    result.longest_face     = face_grading(device).value_or(FaceGrading{}).longest;
+    result.solution         = device.analysis.solution;
+    result.layer_thickness  = device.layer.thickness;
     result.interface_offset = geometry.interface_offset;
-    result.cylinder         = scene.cylinder;
+    result.cylinder         = device.cylinder;
     result.geometry         = geometry;
     return result;
   }
 
-  std::vector<LeverProperties> properties_of_levers(const Scene &scene)
+  std::vector<LeverProperties> properties_of_levers(const Device &device)
   {
-    if (number_of_levers(scene) == 1)
-      return { lever_properties(scene) };
+    if (number_of_levers(device) == 1)
+      return { lever_properties(device) };
     std::vector<LeverProperties> result;
     for (const unsigned int lever : { 0, 1 })
     {
-      result.push_back(lever_properties(scene_of_lever(scene, lever)));
-      result.back().spring.rest = rest_inclination(scene);
-      result.back().ideal_theta = [scene, lever](const double x) { return pair_inclinations(scene, x)[lever]; };
+      result.push_back(lever_properties(device_of_lever(device, lever)));
+      result.back().spring.rest = rest_inclination(device);
+      result.back().ideal_theta = [device, lever](const double x) { return pair_inclinations(device, x)[lever]; };
     }
     return result;
   }

@@ -16,7 +16,7 @@
 
 namespace sprag
 {
-  struct Scene;
+  struct Device;
 
   /// The rotational spring at the hub.
   struct HubSpring
@@ -48,10 +48,10 @@ namespace sprag
   };
 
   /// Returns the properties of a single lever, or of the first of a pair as if it were alone.
-  LeverProperties lever_properties(const Scene &scene);
+  LeverProperties lever_properties(const Device &device);
 
   /// Returns the properties of the scene's lever, or of both of its full pair, each in its own (the second in mirrored) axes.
-  std::vector<LeverProperties> properties_of_levers(const Scene &scene);
+  std::vector<LeverProperties> properties_of_levers(const Device &device);
 
   /// Returns that the lever locks where it moves back with s <= mu e; empty elsewhere. The row holds s, mu and F.
   std::string locking_objection(const Row &row, double interface_offset, const DrivePoint &drive);
