@@ -3,7 +3,7 @@
 
 namespace sprag
 {
-  // The size of the block Krylov space in which lowest_eigenpairs() seeks modes; the memory of a run is estimated from it.
+  // The size of the block Krylov space in which normal_modes() seeks modes; the memory of a run is estimated from it.
 
   constexpr unsigned int krylov_block_width = 4;
 

@@ -36,6 +36,14 @@ namespace sprag
     {
       return reduced ? *reduced : *meshed.model;
     }
+
+    ModeShape mode_shape(const Eigenmode &mode) const
+    {
+      auto result = model().mode_shape(mode);
+      if (meshed.follow_edge)
+        meshed.follow_edge(mode, result);
+      return result;
+    }
   };
 
   /// Returns whether one mesh, with its matrices and bases, serves the models of both scenes.

@@ -55,7 +55,7 @@ namespace sprag
                                      { "tangential_penalty", lever.penalties.tangential },
                                      { "density_factor", lever.density_factor },
                                      { "moment_of_inertia", lever.moment_of_inertia },
-                                     { "lever_mass", lever.lever_mass },
+                                     { "lever_mass", lever.total_mass },
                                      { "basis_from_cache", lever.basis_from_cache ? 1. : 0. },
                                      { "basis_cpu_time", lever.basis_cpu_seconds } };
       for (std::size_t i = 0; i < std::min<std::size_t>(5, lever.frequencies.size()); ++i)

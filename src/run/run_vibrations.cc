@@ -182,7 +182,7 @@ namespace sprag
       for (const auto &mode : modes)
       {
         const auto lambda = mode.mode.eigenvalue;
-        const auto shape  = dynamics.model().mode_shape(mode);
+        const auto shape  = dynamics.mode_shape(mode);
         DeviceMode told{ lambda.imag() / (2. * M_PI), lambda.real(), {}, shape.support };
         for (unsigned int lever = 0; lever < shape.levers.size(); ++lever)
         {
@@ -216,7 +216,7 @@ namespace sprag
       result.meta = meshed_entries(dynamics);
       for (std::size_t i = 0; i < modes.size(); ++i)
         result.summary.push_back({ "frequency_" + std::to_string(i + 1), frequency_of(modes[i]) });
-      result.groups = { mode_group(modes, model) };
+      result.groups = { mode_group(modes, dynamics) };
       write_fields(scene, dynamics, pose_of_slide(scene, model, *slide), modes, options);
       return result;
     }
@@ -242,7 +242,7 @@ namespace sprag
         auto modes          = reported(found.modes, scene.stability.modes);
         if (dynamics.solid)
           tell_motion(modes_of_structures(*dynamics.solid, number_of_levers(held)), modes);
-        result.groups = { mode_group(modes, dynamics.model()) };
+        result.groups = { mode_group(modes, dynamics) };
         if (found.slide)
         {
           write_fields(scene, dynamics, pose_of_slide(scene, dynamics.model(), *found.slide), modes, options);

@@ -225,14 +225,14 @@ namespace sprag
       growth("structure_damping", &GrowthShares::structure_damping, "damping of lever, layer and support");
     }
 
-    void append_shapes(const std::vector<Eigenmode> &modes, const DynamicModel &model, Group &group)
+    void append_shapes(const std::vector<Eigenmode> &modes, const Dynamics &dynamics, Group &group)
     {
       std::vector<double> xi;
       std::map<std::string, std::vector<double>> values;
       const std::array<std::string, 2> part = { { "real", "imaginary" } };
       for (const auto &mode : modes)
       {
-        const auto shape = model.mode_shape(mode);
+        const auto shape = dynamics.mode_shape(mode);
         xi               = shape.xi;
         for (unsigned int i = 0; i < 2; ++i)
         {
@@ -338,12 +338,12 @@ namespace sprag
     return result;
   }
 
-  Group mode_group(const std::vector<Eigenmode> &modes, const DynamicModel &model)
+  Group mode_group(const std::vector<Eigenmode> &modes, const Dynamics &dynamics)
   {
     Group group{ "modes", {} };
     append_numbers(modes, group);
     if (!modes.empty())
-      append_shapes(modes, model, group);
+      append_shapes(modes, dynamics, group);
     return group;
   }
 

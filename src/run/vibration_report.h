@@ -3,6 +3,7 @@
 
 #include "analysis/stability/roles.h"
 #include "analysis/stability/sweep.h"
+#include "levers/dynamics.h"
 #include "results/result_file.h"
 
 #include <iosfwd>
@@ -42,7 +43,7 @@ namespace sprag
   std::vector<Eigenmode> reported(const std::vector<Eigenmode> &modes, unsigned int number);
 
   /// Returns the group /modes: eigenvalues, shares of energy and growth, and shapes of modes.
-  Group mode_group(const std::vector<Eigenmode> &modes, const DynamicModel &model);
+  Group mode_group(const std::vector<Eigenmode> &modes, const Dynamics &dynamics);
 
   // Entries of /summary.
   /// `is_decided`: the slide does not grow by less than the error of that.

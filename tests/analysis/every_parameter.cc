@@ -209,10 +209,11 @@ namespace
       if (basis)
       {
         result.insert(result.end(), basis->stiffness.begin(), basis->stiffness.end());
-        result.insert(result.end(), { basis->density_factor, basis->lever_mass, basis->moment_of_inertia });
-        for (const auto *const matrix :
-             { &basis->shapes, &basis->layer_stiffness, &basis->face_compliance, &basis->coordinate_shapes })
+        result.insert(result.end(), { basis->density_factor, basis->total_mass, basis->moment_of_inertia });
+        for (const auto *const matrix : { &basis->shapes, &basis->layer_stiffness, &basis->face_compliance })
           add(*matrix);
+        for (const auto &displacement : basis->displacements)
+          result.insert(result.end(), displacement.begin(), displacement.end());
       }
     return result;
   }

@@ -31,7 +31,7 @@ namespace sprag
   {
     FaceContactProperties result;
     set_cylinder(cylinder_below_bar(), result);
-    result.ports            = { number_of_surface_ports(body), sprung };
+    result.ports            = { static_cast<unsigned int>(surface_dofs(body).size()), sprung };
     result.rest_inclination = rest_inclination;
     result.penalties        = { 240., 120. };
     result.friction         = { CorkOnAluminium{}, FrictionSpeed::sliding, regularisation_speed };

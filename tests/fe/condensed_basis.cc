@@ -103,6 +103,31 @@ TEST(CondensedBasis, WithFewModesHasTheStaticsOfTheFiniteElements)
   }
 }
 
+// However soft the spring is, by which round-off in axes that do not turn with the hub grows: there a force on the tip moves it
+// by 400 mm/N.
+TEST(CondensedBasis, WithASoftSpringHasTheComplianceOfTheHeldBody)
+{
+  const MeshedBar bar({});
+  const auto basis   = make_basis(*bar, { 3, 1., bar_inertia(1e-3, 1e-7), {}, {} });
+  const auto surface = surface_dofs(*bar);
+  for (const unsigned int loaded : { 1u, static_cast<unsigned int>(surface.size()) - 1 })
+  {
+    std::vector<double> unit((*bar).n_dofs(), 0.);
+    unit[surface[loaded]] = 1.;
+    const auto expected   = response_of(*bar)(unit);
+    double largest = 0., difference = 0.;
+    for (unsigned int i = 0; i < surface.size(); ++i)
+    {
+      double found = basis.face_compliance(i, loaded);
+      for (unsigned int j = 0; j < basis.stiffness.size(); ++j)
+        found += basis.shapes(i, j) * basis.shapes(loaded, j) / basis.stiffness[j];
+      largest    = std::max(largest, std::abs(expected[surface[i]]));
+      difference = std::max(difference, std::abs(found - expected[surface[i]]));
+    }
+    EXPECT_LT(difference, 1e-10 * largest) << loaded;
+  }
+}
+
 TEST(CondensedBasis, TruncatedIsAsIfMadeWithFewerModes)
 {
   const MeshedBar bar({});
@@ -115,7 +140,7 @@ TEST(CondensedBasis, TruncatedIsAsIfMadeWithFewerModes)
     EXPECT_NEAR(cut.layer_stiffness(i, i), made.layer_stiffness(i, i), 1e-6 * made.layer_stiffness.linfty_norm());
   }
   EXPECT_EQ(cut.shapes.n(), 3u);
-  EXPECT_EQ(cut.coordinate_shapes.m(), 3u);
+  EXPECT_EQ(cut.displacements.size(), 3u);
   auto difference = cut.face_compliance;
   difference.add(-1., made.face_compliance);
   EXPECT_LE(difference.linfty_norm(), 1e-8 * made.face_compliance.linfty_norm());
@@ -132,7 +157,7 @@ TEST(CondensedBasis, ItsElasticDisplacementIsThatOfTheFiniteElements)
   condensed.use_statics();
   const auto forces   = forces_on(whole.ports());
   const auto expected = whole.elastic_displacement(whole.deform(forces));
-  Vector difference   = CondensedDisplacement(*bar, settings, basis)(condensed.deform(forces));
+  Vector difference   = condensed_displacement(*bar, basis, surface_dofs(*bar), response_of(*bar), condensed.deform(forces));
   difference -= expected;
   EXPECT_LE(difference.linfty_norm(), 1e-9 * expected.linfty_norm());
 }
@@ -150,9 +175,10 @@ TEST(CondensedBasis, IsFoundAgain)
   EXPECT_TRUE(found.shapes == made.shapes);
   EXPECT_TRUE(found.layer_stiffness == made.layer_stiffness);
   EXPECT_TRUE(found.face_compliance == made.face_compliance);
-  EXPECT_TRUE(found.coordinate_shapes == made.coordinate_shapes);
+  EXPECT_TRUE(found.displacements == made.displacements);
+  EXPECT_EQ(found.rotation, made.rotation);
   EXPECT_EQ(found.density_factor, made.density_factor);
-  EXPECT_EQ(found.lever_mass, made.lever_mass);
+  EXPECT_EQ(found.total_mass, made.total_mass);
   only_file(folder.path);
 }
 

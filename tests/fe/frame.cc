@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "fe/algebra/free_modes.h"
-#include "fe/dynamics/inertial_matrices.h"
+#include "fe/dynamics/condensed_basis.h"
 #include "fe/mesh/mesh.h"
 #include "fe/statics/lever_properties.h"
 #include "mpi_environment.h"
@@ -41,10 +40,8 @@ namespace
                           { material_id::web, scene.lever.density },
                           { material_id::layer, scene.layer.density } };
     inertia.source    = InertiaSource::as_built;
-    const InertialMatrices matrices(body, inertia);
-    dealii::PETScWrappers::SparseMatrix stiffness;
-    matrices.sum({ 0., 1., 0., scene.spring.stiffness }, stiffness);
-    return { free_modes(stiffness, matrices.mass, 5).stiffness, matrices.total_mass, matrices.moment_of_inertia };
+    const auto modes  = lever_modes(body, response_of(body), inertia, scene.spring.stiffness, 5);
+    return { modes.stiffness, modes.total_mass, modes.moment_of_inertia };
   }
 } // namespace
 

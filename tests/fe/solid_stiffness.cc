@@ -6,10 +6,7 @@
 #include <deal.II/base/function.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/fe/mapping_q1.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
@@ -17,6 +14,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <optional>
 
 using namespace sprag;
 using namespace dealii;
@@ -30,7 +28,6 @@ namespace
   {
   public:
     SkewedCube(const unsigned int n, const unsigned int degree, const bool held)
-        : fe(FE_Q<3>(degree), 3)
     {
       GridGenerator::subdivided_hyper_cube(triangulation, n);
       const auto bump = [](const double a, const double b, const double c)
@@ -41,27 +38,23 @@ namespace
           triangulation);
       for (const auto &cell : triangulation.active_cell_iterators())
         cell->set_material_id(material_id::lever);
-      dofs.reinit(triangulation);
-      dofs.distribute_dofs(fe);
-      if (held)
-        VectorTools::interpolate_boundary_values(mapping, dofs, 0, Functions::ZeroFunction<3>(3), constraints);
-      constraints.close();
+      for (const auto &face : triangulation.active_face_iterators())
+        if (held && face->at_boundary())
+          face->set_boundary_id(boundary_id::hub);
+      BodyProperties properties;
       properties.plane     = PlaneState::strain;
       properties.degree    = degree;
       properties.constants = { { material_id::lever, elastic } };
+      body.emplace(triangulation, properties);
     }
 
     SymmetricEntries stiffness() const
     {
-      return assemble_stiffness({ mapping, dofs, constraints, properties }, {});
+      return assemble_stiffness(*body, {});
     }
 
     Triangulation<3> triangulation;
-    const FESystem<3> fe;
-    const MappingQ1<3> mapping;
-    DoFHandler<3> dofs;
-    AffineConstraints<double> constraints;
-    BodyProperties properties;
+    std::optional<ElasticBody<3>> body;
   };
 
   Vector<double> product(const SymmetricEntries &matrix, const Vector<double> &vector)
@@ -138,11 +131,11 @@ namespace
   {
     const SkewedCube cube(n, degree, true);
     const Manufactured exact;
-    FEValues<3> values(cube.mapping, cube.fe, QGauss<3>(degree + 2),
+    FEValues<3> values(cube.body->cell_mapping(), cube.body->dofs().get_fe(), QGauss<3>(degree + 2),
                        update_values | update_quadrature_points | update_JxW_values);
-    std::vector<double> solution(cube.dofs.n_dofs());
-    std::vector<types::global_dof_index> indices(cube.fe.n_dofs_per_cell());
-    for (const auto &cell : cube.dofs.active_cell_iterators())
+    std::vector<double> solution(cube.body->dofs().n_dofs());
+    std::vector<types::global_dof_index> indices(cube.body->dofs().get_fe().n_dofs_per_cell());
+    for (const auto &cell : cube.body->dofs().active_cell_iterators())
     {
       values.reinit(cell);
       cell->get_dof_indices(indices);
@@ -150,8 +143,9 @@ namespace
       {
         const auto force = exact.force(values.quadrature_point(q));
         for (unsigned int i = 0; i < indices.size(); ++i)
-          if (!cube.constraints.is_constrained(indices[i]))
-            solution[indices[i]] += values.shape_value(i, q) * force[cube.fe.system_to_component_index(i).first] * values.JxW(q);
+          if (!cube.body->is_held(static_cast<unsigned int>(indices[i])))
+            solution[indices[i]] +=
+                values.shape_value(i, q) * force[cube.body->dofs().get_fe().system_to_component_index(i).first] * values.JxW(q);
       }
     }
     SharedFactors factors(MPI_COMM_SELF);
@@ -161,7 +155,8 @@ namespace
     const auto error = [&](const VectorTools::NormType norm)
     {
       Vector<double> of_cells(cube.triangulation.n_active_cells());
-      VectorTools::integrate_difference(cube.mapping, cube.dofs, found, exact, of_cells, QGauss<3>(degree + 2), norm);
+      VectorTools::integrate_difference(cube.body->cell_mapping(), cube.body->dofs(), found, exact, of_cells,
+                                        QGauss<3>(degree + 2), norm);
       return of_cells.l2_norm();
     };
     return { { error(VectorTools::L2_norm), error(VectorTools::H1_seminorm) } };
@@ -176,11 +171,12 @@ TEST(SolidStiffness, PatchOfSkewedCellsCarriesAnyUniformStrain)
   for (const unsigned int degree : { 1u, 2u })
   {
     const SkewedCube cube(3, degree, false);
-    std::vector<Point<3>> place(cube.dofs.n_dofs());
-    DoFTools::map_dofs_to_support_points(cube.mapping, cube.dofs, place);
-    Vector<double> displacement(cube.dofs.n_dofs());
+    std::vector<Point<3>> place(cube.body->dofs().n_dofs());
+    DoFTools::map_dofs_to_support_points(cube.body->cell_mapping(), cube.body->dofs(), place);
+    Vector<double> displacement(cube.body->dofs().n_dofs());
     for (unsigned int component = 0; component < 3; ++component)
-      for (const auto dof : DoFTools::extract_dofs(cube.dofs, cube.fe.component_mask(FEValuesExtractors::Scalar(component))))
+      for (const auto dof : DoFTools::extract_dofs(
+               cube.body->dofs(), cube.body->dofs().get_fe().component_mask(FEValuesExtractors::Scalar(component))))
         displacement[dof] = gradient[component] * place[dof];
     const auto forces   = product(cube.stiffness(), displacement);
     const auto traction = stress(gradient);
@@ -189,7 +185,8 @@ TEST(SolidStiffness, PatchOfSkewedCellsCarriesAnyUniformStrain)
     std::array<Tensor<1, 3>, 3> on_side; // on the side x_d = 1
     unsigned int inside = 0;
     for (unsigned int component = 0; component < 3; ++component)
-      for (const auto dof : DoFTools::extract_dofs(cube.dofs, cube.fe.component_mask(FEValuesExtractors::Scalar(component))))
+      for (const auto dof : DoFTools::extract_dofs(
+               cube.body->dofs(), cube.body->dofs().get_fe().component_mask(FEValuesExtractors::Scalar(component))))
       {
         unsigned int sides = 0;
         for (unsigned int d = 0; d < 3; ++d)

@@ -5,6 +5,7 @@
 #include "base/eigenvalues.h"
 #include "fe/dynamics/condensed_basis.h"
 #include "mpi_environment.h"
+#include "support/lever_in_time.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +56,7 @@ namespace
         : constants(lever_constants)
         , matrices(std::make_shared<InertialMatrices>(*bar, bar_inertia(1e-3, 1e-7)))
         , ports(*bar, *matrices, constants.sprung)
-        , modes(find_modes(n_modes))
+        , modes(modes_on_spring(*bar, bar_inertia(1e-3, 1e-7), n_modes, spring_stiffness))
         , structure(*bar, matrices, modes, constants)
     {
       const unsigned int n_lever = matrices->coordinates.size();
@@ -85,13 +86,6 @@ namespace
     }
 
   private:
-    FreeModes find_modes(const unsigned int number) const
-    {
-      dealii::PETScWrappers::SparseMatrix with_spring;
-      matrices->sum({ 0., 1., 0., spring_stiffness }, with_spring);
-      return free_modes(with_spring, matrices->mass, number);
-    }
-
     Full dense(const dealii::PETScWrappers::SparseMatrix &matrix) const
     {
       Full result(n(), n());
@@ -107,7 +101,7 @@ namespace
     const LeverDynamics constants;
     const std::shared_ptr<const InertialMatrices> matrices;
     const LeverPorts ports;
-    const FreeModes modes;
+    const LeverModes modes;
     SparseStructure structure;
     Full mass, damping, stiffness;
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "fe/dynamics/condensed_basis.h"
 #include "fe/dynamics/sparse_structure.h"
 
 namespace sprag
@@ -31,17 +32,16 @@ namespace sprag
   }
 
   /// Vibrations of a lever out of contact on its spring.
-  inline FreeModes modes_on_spring(const InertialMatrices &matrices, const unsigned int number)
+  inline LeverModes modes_on_spring(const ElasticBody<2> &body, const LeverInertia &inertia, const unsigned int number,
+                                    const double spring = spring_of_bar)
   {
-    dealii::PETScWrappers::SparseMatrix stiffness;
-    matrices.sum({ 0., 1., 0., spring_of_bar }, stiffness);
-    return free_modes(stiffness, matrices.mass, number);
+    return lever_modes(body, response_of(body), inertia, spring, number);
   }
 
   inline SparseStructure sparse_structure(const ElasticBody<2> &body, const LeverInertia &inertia, const unsigned int modes,
                                           const LeverDynamics &constants)
   {
     const auto matrices = std::make_shared<InertialMatrices>(body, inertia);
-    return SparseStructure(body, matrices, modes_on_spring(*matrices, modes), constants);
+    return SparseStructure(body, matrices, modes_on_spring(body, inertia, modes), constants);
   }
 } // namespace sprag

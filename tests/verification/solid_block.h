@@ -7,14 +7,12 @@
 #include "model/newton.h"
 #include "verification/block.h"
 
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_q1.h>
 #include <deal.II/numerics/vector_tools.h>
 
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <optional>
 
 namespace sprag
 {
@@ -31,25 +29,27 @@ namespace sprag
     };
 
     SolidBlock(const Planes &planes, const ElasticConstants &constants, const unsigned int degree = 2)
-        : fe(dealii::FE_Q<3>(degree), 3)
-        , factors(MPI_COMM_SELF)
+        : factors(MPI_COMM_SELF)
     {
       make_cells(planes);
-      dofs.reinit(triangulation);
-      dofs.distribute_dofs(fe);
+      BodyProperties properties;
       properties.plane         = PlaneState::strain;
       properties.degree        = degree;
       properties.constants     = { { material_id::lever, constants } };
       properties.point_spacing = 1e-6; // as dense as can be
-      properties.width         = 1.;
-      hold(boundary_id::hub, dealii::ComponentMask(3, true));
-      if (planes.xi.front() == 0.)
-        mirror(0);
-      if (planes.zeta.front() == 0.)
-        mirror(2);
-      constraints.close();
-      face = find_friction_face(mapping, dofs, dealii::AffineConstraints<double>(), properties, boundary_id::friction_face);
-      factors.factorise(assemble_stiffness({ mapping, dofs, constraints, properties }, {}));
+      properties.width         = (planes.xi.front() == 0. ? 2. : 1.) * (planes.zeta.front() == 0. ? 2. : 1.);
+      body.emplace(triangulation, properties,
+                   [&](const dealii::DoFHandler<3> &dofs, dealii::AffineConstraints<double> &constraints)
+                   {
+                     for (const unsigned int direction : { 0u, 2u })
+                       if ((direction == 0 ? planes.xi : planes.zeta).front() == 0.)
+                         dealii::VectorTools::interpolate_boundary_values(
+                             dofs, symmetry_of(direction), dealii::Functions::ZeroFunction<3>(3), constraints,
+                             dofs.get_fe().component_mask(dealii::FEValuesExtractors::Scalar(direction)));
+                   });
+      face = find_friction_face(body->cell_mapping(), body->dofs(), dealii::AffineConstraints<double>(), body->body_properties(),
+                                boundary_id::friction_face);
+      factors.factorise(assemble_stiffness(*body, {}));
     }
 
     const FrictionFace<3> &friction_face() const
@@ -59,7 +59,7 @@ namespace sprag
 
     unsigned int n_dofs() const
     {
-      return dofs.n_dofs();
+      return body->n_dofs();
     }
 
     unsigned int dof_of(const unsigned int port) const
@@ -80,7 +80,7 @@ namespace sprag
       SparseColumns unit;
       for (const unsigned int dof : of_dofs)
       {
-        if (!constraints.is_constrained(dof))
+        if (!is_held(dof))
           unit.add(dof, 1.);
         unit.end_column();
       }
@@ -89,7 +89,7 @@ namespace sprag
 
     bool is_held(const unsigned int dof) const
     {
-      return constraints.is_constrained(dof);
+      return body->is_held(dof);
     }
 
   private:
@@ -127,24 +127,8 @@ namespace sprag
       }
     }
 
-    void hold(const dealii::types::boundary_id boundary, const dealii::ComponentMask &mask)
-    {
-      dealii::VectorTools::interpolate_boundary_values(mapping, dofs, boundary, dealii::Functions::ZeroFunction<3>(3),
-                                                       constraints, mask);
-    }
-
-    void mirror(const unsigned int direction)
-    {
-      properties.width *= 2.;
-      hold(symmetry_of(direction), fe.component_mask(dealii::FEValuesExtractors::Scalar(direction)));
-    }
-
     dealii::Triangulation<3> triangulation;
-    const dealii::FESystem<3> fe;
-    const dealii::MappingQ1<3> mapping;
-    dealii::DoFHandler<3> dofs;
-    dealii::AffineConstraints<double> constraints;
-    BodyProperties properties;
+    std::optional<ElasticBody<3>> body;
     FrictionFace<3> face;
     SharedFactors factors;
   };

@@ -74,12 +74,7 @@ namespace
     Mesh plane;
     make_mesh(scene, plane);
     const SolidBody body(scene, plane);
-    dealii::AffineConstraints<double> held;
-    for (unsigned int dof = 0; dof < body.n_dofs(); ++dof)
-      if (body.is_held(dof))
-        held.add_line(dof);
-    held.close();
-    const StiffnessProduct stiffness({ body.cell_mapping(), body.dofs(), held, body.body_properties() }, {}, {});
+    const StiffnessProduct stiffness(body, {}, {});
     std::vector<double> left(body.n_dofs(), 0.);
     left[body.friction_face().nodes.front().dofs[0]] = 1.;
     auto displacements                               = left;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
+#include "fe/body/body_mass.h"
 #include "fe/dynamics/inertial_matrices.h"
 #include "fe/dynamics/lever_constants.h"
-#include "fe/solid/solid_mass.h"
 #include "scene/scene.h"
 #include "verification/solid_run.h"
 
@@ -66,7 +66,7 @@ TEST(SolidFrame, MassAndMomentOfInertiaAreThePlanes)
     const ElasticBody<2> of_plane(plane, lever_properties(scene).body);
     const InertialMatrices expected(of_plane, inertia_of(scene));
     const SolidBody body(scene, plane);
-    const SolidMass mass(body, inertia_of(scene));
+    const BodyMass<3> mass(body, inertia_of(scene));
     EXPECT_NEAR(mass.total_mass, expected.total_mass, 1e-10 * expected.total_mass) << web;
     EXPECT_NEAR(mass.moment_of_inertia, expected.moment_of_inertia, 1e-10 * expected.moment_of_inertia) << web;
   }

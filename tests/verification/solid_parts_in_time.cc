@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/errors.h"
+#include "fe/body/body_mass.h"
 #include "fe/dynamics/lever_constants.h"
 #include "fe/leaf/leaf_spring.h"
-#include "fe/solid/solid_mass.h"
 #include "levers/dynamics.h"
 #include "scene/scene.h"
 #include "verification/held_slides.h"
@@ -125,7 +125,7 @@ TEST(SolidPartsInTime, MassAndMomentOfInertiaAreThePlanes)
         const ElasticBody<2> of_plane(plane, lever_properties(scene).body);
         const InertialMatrices expected(of_plane, inertia_of(scene));
         const SolidBody body(scene, plane);
-        const SolidMass mass(body, inertia_of(scene));
+        const BodyMass<3> mass(body, inertia_of(scene));
         EXPECT_EQ(body.is_half(), tilt == 0.);
         EXPECT_NEAR(mass.total_mass, expected.total_mass, 1e-10 * expected.total_mass);
         EXPECT_NEAR(mass.moment_of_inertia, expected.moment_of_inertia, 1e-10 * expected.moment_of_inertia);
@@ -140,7 +140,7 @@ TEST(SolidPartsInTime, PartsAloneMustNotHaveMoreThanTheMomentOfInertia)
   Mesh plane;
   make_mesh(scene, plane);
   const SolidBody body(scene, plane);
-  EXPECT_THROW(SolidMass(body, inertia_of(scene)), InputError);
+  EXPECT_THROW(BodyMass<3>(body, inertia_of(scene)), InputError);
 }
 
 // What the solver leaves of the lowest frequency grows with the square of the ratio to those of the mesh.

@@ -2,6 +2,7 @@
 #include "fe/algebra/block_krylov.h"
 
 #include "base/errors.h"
+#include "base/text.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/lapack_templates.h>
@@ -227,36 +228,114 @@ namespace sprag
         return made_of;
       }
     };
+
+    std::vector<NormalMode> lowest_pairs(const Pencil &pencil, const unsigned int wanted)
+    {
+      constexpr unsigned int most_restarts = 100;
+      const unsigned int most              = most_columns(wanted);
+      BlockSpace space(pencil, most);
+      for (unsigned int restarts = 0;;)
+      {
+        space.grow();
+        const auto ritz          = space.ritz();
+        const auto &values       = ritz.values;
+        const unsigned int found = values.size();
+        unsigned int first       = found; // of those that are wanted, which have the largest values
+        while (first > 0 && found - first < wanted &&
+               ritz.residuals[first - 1] < converged * values[first - 1] + round_off * values[found - 1])
+          --first;
+        if (found - first == wanted)
+        {
+          std::vector<NormalMode> result;
+          for (unsigned int i = found; i-- > first;)
+            result.push_back({ 1. / values[i], space.combination(ritz.vectors[i]) });
+          return result;
+        }
+        if (space.dimension() < most)
+          continue;
+        if (++restarts > most_restarts)
+          throw AnalysisError("only " + std::to_string(found - first) + " of " + std::to_string(wanted) +
+                              " vibration modes were found");
+        space.keep(ritz, kept_columns(wanted));
+      }
+    }
+
+    /// All pairs, of K^-1 M phi = phi/lambda with dense matrices.
+    std::vector<NormalMode> all_pairs(const Pencil &pencil)
+    {
+      const int n = static_cast<int>(pencil.size), kind = 2, size_of_work = 40 * n; // kind: A B x = lambda x
+      Columns unit(pencil.size * pencil.size, 0.), values(pencil.size), work(static_cast<std::size_t>(size_of_work));
+      for (std::size_t i = 0; i < pencil.size; ++i)
+        unit[i * (pencil.size + 1)] = 1.;
+      auto vectors = pencil.inverse_stiffness(unit), mass = pencil.mass(std::move(unit));
+      int info = 0;
+      sygv(&kind, "V", "U", &n, vectors.data(), &n, mass.data(), &n, values.data(), work.data(), &size_of_work, &info);
+      if (info != 0)
+        throw AnalysisError("LAPACK does not find the vibration modes");
+      std::vector<NormalMode> result;
+      for (std::size_t i = pencil.size; i-- > 0;)
+        result.push_back({ 1. / values[i], Columns(&vectors[i * pencil.size], &vectors[i * pencil.size] + n) });
+      return result;
+    }
+
+    void orient(std::vector<double> &mode)
+    {
+      constexpr double alike = 1e-6; // relative difference of displacements, as those of both sides in a mode that twists
+      double largest         = 0.;
+      for (const double value : mode)
+        if (std::abs(value) > (1. + alike) * std::abs(largest))
+          largest = value;
+      if ((std::abs(mode.back()) < 1e-8 * std::abs(largest) ? largest : mode.back()) < 0.)
+        for (double &value : mode)
+          value = -value;
+    }
+
+    /// Throws AnalysisError where |phi - lambda K^-1 M phi| over |phi| is too large.
+    void require_residuals(const Pencil &pencil, const std::vector<NormalMode> &modes)
+    {
+      // Times lambda over the lowest, by which round-off grows there. Solves with more or fewer columns differ by some 1e-11 of
+      // the softest motion.
+      constexpr double largest_residual = 1e-9;
+      Columns images;
+      for (const auto &mode : modes)
+        images.insert(images.end(), mode.vector.begin(), mode.vector.end());
+      images = pencil.inverse_stiffness(pencil.mass(std::move(images)));
+      for (std::size_t j = 0; j < modes.size(); ++j)
+      {
+        const auto &[value, mode] = modes[j];
+        double difference = 0., size = 0.;
+        for (std::size_t i = 0; i < mode.size(); ++i)
+        {
+          difference = std::max(difference, std::abs(value * images[j * mode.size() + i] - mode[i]));
+          size       = std::max(size, std::abs(mode[i]));
+        }
+        if (!(difference < largest_residual * value / modes.front().value * size))
+          throw AnalysisError("vibration mode " + std::to_string(j + 1) + " was found with a residual of only " +
+                              number_text(difference / size));
+      }
+    }
   } // namespace
 
-  std::vector<NormalMode> lowest_eigenpairs(const Pencil &pencil, const unsigned int wanted)
+  Pencil::Product column_by_column(const std::size_t size, std::function<Vector<double>(const Vector<double> &)> product)
   {
-    constexpr unsigned int most_restarts = 100;
-    const unsigned int most              = most_columns(wanted);
-    BlockSpace space(pencil, most);
-    for (unsigned int restarts = 0;;)
+    return [size, product = std::move(product)](Columns columns)
     {
-      space.grow();
-      const auto ritz          = space.ritz();
-      const auto &values       = ritz.values;
-      const unsigned int found = values.size();
-      unsigned int first       = found; // of those that are wanted, which have the largest values
-      while (first > 0 && found - first < wanted &&
-             ritz.residuals[first - 1] < converged * values[first - 1] + round_off * values[found - 1])
-        --first;
-      if (found - first == wanted)
+      for (auto column = columns.begin(); column != columns.end(); column += static_cast<std::ptrdiff_t>(size))
       {
-        std::vector<NormalMode> result;
-        for (unsigned int i = found; i-- > first;)
-          result.push_back({ 1. / values[i], space.combination(ritz.vectors[i]) });
-        return result;
+        const auto image = product(Vector<double>(column, column + static_cast<std::ptrdiff_t>(size)));
+        std::copy(image.begin(), image.end(), column);
       }
-      if (space.dimension() < most)
-        continue;
-      if (++restarts > most_restarts)
-        throw AnalysisError("only " + std::to_string(found - first) + " of " + std::to_string(wanted) +
-                            " vibration modes were found");
-      space.keep(ritz, kept_columns(wanted));
-    }
+      return columns;
+    };
+  }
+
+  std::vector<NormalMode> normal_modes(const Pencil &pencil, const unsigned int wanted)
+  {
+    auto modes = most_columns(wanted) < pencil.size ? lowest_pairs(pencil, wanted) : all_pairs(pencil);
+    modes.resize(std::min<std::size_t>(wanted, modes.size()));
+    for (auto &mode : modes)
+      orient(mode.vector);
+    require_residuals(pencil, modes);
+    return modes;
   }
 } // namespace sprag

@@ -3,6 +3,8 @@
 
 #include "base/errors.h"
 
+#include <algorithm>
+
 namespace sprag
 {
   Mumps::Mumps(const MatrixKind kind_)
@@ -105,6 +107,19 @@ namespace sprag
     check_factor("a solve");
     check(VecDestroy(&b), "a solve");
     check(VecDestroy(&x), "a solve");
+  }
+
+  std::vector<double> Mumps::solve(std::vector<double> columns) const
+  {
+    PetscInt n = 0;
+    check(MatGetSize(factor, &n, nullptr), "a solve");
+    dealii::Vector<double> solution;
+    for (auto column = columns.begin(); column != columns.end(); column += n)
+    {
+      solve(dealii::Vector<double>(column, column + n), solution);
+      std::copy(solution.begin(), solution.end(), column);
+    }
+    return columns;
   }
 
   std::vector<double> Mumps::entries_of_inverse(const std::map<unsigned int, std::vector<unsigned int>> &wanted) const

@@ -38,6 +38,9 @@ namespace sprag
 
     void solve(const dealii::Vector<double> &right_hand_side, dealii::Vector<double> &solution) const;
 
+    /// Solves with some columns, one after another.
+    std::vector<double> solve(std::vector<double> columns) const;
+
     /// Finds entries of the inverse of a symmetric matrix, in the order asked for: `wanted` holds increasing columns by their
     /// row. Only the parts of the factors between rows and columns are visited.
     std::vector<double> entries_of_inverse(const std::map<unsigned int, std::vector<unsigned int>> &wanted) const;

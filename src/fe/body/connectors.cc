@@ -3,6 +3,7 @@
 
 #include "base/errors.h"
 #include "base/text.h"
+#include "fe/body/elastic_body.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -110,7 +111,7 @@ namespace sprag
   template <int dim>
   struct FacingPads<dim>::Collector
   {
-    const PlateAndLever<dim> &body;
+    const ElasticBody<dim> &body;
     const PadRange<dim> range;
     Pad pad = {};
 
@@ -120,15 +121,15 @@ namespace sprag
       const auto piece   = outline.within(range);
       if (piece.measure() <= 1e-9 * outline.measure())
         return;
-      const auto &fe = body.dof_handler.get_fe();
+      const auto &fe = body.dofs().get_fe();
       const QGauss<dim - 1> rule(fe.degree + 1);
       std::vector<Point<dim>> places, in_cell;
       for (const auto &point : rule.get_points())
       {
         places.push_back(place_on<dim>(cell->face(f), outline, piece, point));
-        in_cell.push_back(body.mapping.transform_real_to_unit_cell(cell, places.back()));
+        in_cell.push_back(body.cell_mapping().transform_real_to_unit_cell(cell, places.back()));
       }
-      FEValues<dim> values(body.mapping, fe, Quadrature<dim>(in_cell), update_values | update_gradients);
+      FEValues<dim> values(body.cell_mapping(), fe, Quadrature<dim>(in_cell), update_values | update_gradients);
       values.reinit(cell);
       std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
       cell->get_dof_indices(dofs);
@@ -138,7 +139,7 @@ namespace sprag
         pad.measure += rule.weight(q) * piece.measure();
         pad.height += share * places[q][1];
         for (unsigned int i = 0; i < dofs.size(); ++i)
-          if (const auto dof = static_cast<unsigned int>(dofs[i]); !body.constraints.is_constrained(dof))
+          if (const auto dof = static_cast<unsigned int>(dofs[i]); !body.held().is_constrained(dof))
             add(dof, fe.system_to_component_index(i).first, values.shape_value(i, q), values.shape_grad(i, q), share, places[q]);
       }
     }
@@ -161,7 +162,7 @@ namespace sprag
   };
 
   template <int dim>
-  FacingPads<dim>::FacingPads(const ConnectorType type, const PadRange<dim> &range, const PlateAndLever<dim> &body)
+  FacingPads<dim>::FacingPads(const ConnectorType type, const PadRange<dim> &range, const ElasticBody<dim> &body)
       : plate(pad_on(boundary_id::sensor_plate, "sensor plate", type, range, body))
       , lever(pad_on(boundary_id::sensor_lever, "sensor lever", type, range, body))
   {
@@ -170,10 +171,10 @@ namespace sprag
   template <int dim>
   typename FacingPads<dim>::Pad FacingPads<dim>::pad_on(const types::boundary_id side, const std::string &name,
                                                         const ConnectorType type, const PadRange<dim> &range,
-                                                        const PlateAndLever<dim> &body)
+                                                        const ElasticBody<dim> &body)
   {
     Collector collector{ body, range };
-    for (const auto &cell : body.dof_handler.active_cell_iterators())
+    for (const auto &cell : body.dofs().active_cell_iterators())
       for (const unsigned int f : cell->face_indices())
         if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == side)
         {
@@ -220,7 +221,7 @@ namespace sprag
     return result;
   }
 
-  std::vector<Connector> find_connectors(const PlateAndLever<2> &body, const std::vector<ConnectorSettings> &settings)
+  std::vector<Connector> find_connectors(const ElasticBody<2> &body, const std::vector<ConnectorSettings> &settings)
   {
     std::vector<Connector> result;
     for (const auto &[type, middle, length, stiffness] : settings)

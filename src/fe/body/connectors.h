@@ -2,10 +2,7 @@
 #pragma once
 
 #include "fe/body/body_properties.h"
-
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/mapping.h>
-#include <deal.II/lac/affine_constraints.h>
+#include "fe/body/dimension.h"
 
 #include <array>
 #include <map>
@@ -34,15 +31,6 @@ namespace sprag
     }
   };
 
-  /// A body that a friction plate may belong to.
-  template <int dim>
-  struct PlateAndLever
-  {
-    const dealii::Mapping<dim> &mapping;
-    const dealii::DoFHandler<dim> &dof_handler;
-    const dealii::AffineConstraints<double> &constraints;
-  };
-
   /// A range along xi and, in three dimensions, one along zeta [mm].
   template <int dim>
   struct PadRange
@@ -66,7 +54,7 @@ namespace sprag
   public:
     /// Throws InputError if the sides do not reach as far or, in three dimensions, are not made of rectangles along xi and
     /// zeta.
-    FacingPads(ConnectorType type, const PadRange<dim> &range, const PlateAndLever<dim> &body);
+    FacingPads(ConnectorType type, const PadRange<dim> &range, const ElasticBody<dim> &body);
 
     /// Returns the mean normal displacement of the plate's pad less that of the lever's.
     DofWeights approach() const;
@@ -91,7 +79,7 @@ namespace sprag
     struct Collector;
 
     static Pad pad_on(dealii::types::boundary_id side, const std::string &name, ConnectorType type, const PadRange<dim> &range,
-                      const PlateAndLever<dim> &body);
+                      const ElasticBody<dim> &body);
 
     const Pad plate, lever;
   };
@@ -100,5 +88,5 @@ namespace sprag
 
   /// Finds the connectors of the settings in a plane, in their order: a sensor takes the approach of its pads, a guide their
   /// shift.
-  std::vector<Connector> find_connectors(const PlateAndLever<2> &body, const std::vector<ConnectorSettings> &settings);
+  std::vector<Connector> find_connectors(const ElasticBody<2> &body, const std::vector<ConnectorSettings> &settings);
 } // namespace sprag

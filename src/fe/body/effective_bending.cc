@@ -3,7 +3,6 @@
 
 #include "base/errors.h"
 #include "base/least_squares.h"
-#include "fe/algebra/mumps.h"
 #include "fe/body/end_face.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -41,13 +40,8 @@ namespace sprag
     const auto faces = end_face(body.dofs());
     if (faces.empty())
       throw InputError("the mesh has no straight end face across the lever, at which its bending could be told");
-    PETScWrappers::SparseMatrix stiffness;
-    Vector<double> displacement(body.n_dofs());
-    body.reinit(stiffness);
-    body.assemble(Vector<double>(body.n_dofs()), stiffness, displacement);
-    Mumps factors;
-    factors.factorise(stiffness);
-    factors.solve(unit_load(body, faces), displacement);
+    Vector<double> displacement;
+    body.factorised()->solve(unit_load(body, faces), displacement);
 
     const double L = faces.front().first->face(faces.front().second)->center()[0];
     std::vector<double> across_shape, across, along_shape, along;

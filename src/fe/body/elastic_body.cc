@@ -30,7 +30,7 @@ namespace sprag
     face             = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::friction_face);
     face_of_cylinder = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::cylinder_face);
     if constexpr (dim == 2)
-      springs = find_connectors({ mapping, dof_handler, constraints }, properties.connectors);
+      springs = find_connectors(*this, properties.connectors);
   }
 
   template <int dim>
@@ -105,6 +105,18 @@ namespace sprag
       forces[line.index] = 0.;
     }
     matrix.compress(VectorOperation::add);
+  }
+
+  template <int dim>
+  std::shared_ptr<const Mumps> ElasticBody<dim>::factorised() const
+  {
+    const auto factors = std::make_shared<Mumps>(MatrixKind::positive_definite);
+    PETScWrappers::SparseMatrix stiffness;
+    Vector<double> forces(n_dofs());
+    reinit(stiffness);
+    assemble(Vector<double>(n_dofs()), stiffness, forces);
+    factors->factorise(stiffness);
+    return factors;
   }
 
   template <int dim>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "fe/algebra/mumps.h"
 #include "fe/body/connectors.h"
 #include "fe/body/dimension.h"
 #include "fe/body/friction_face.h"
@@ -18,6 +19,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace sprag
@@ -81,6 +83,9 @@ namespace sprag
     void assemble(const dealii::Vector<double> &displacement, dealii::PETScWrappers::SparseMatrix &matrix,
                   dealii::Vector<double> &forces) const;
 
+    /// Returns factors of the stiffness without load.
+    std::shared_ptr<const Mumps> factorised() const;
+
     /// Returns the elastic energy [mJ].
     double energy(const dealii::Vector<double> &displacement) const;
 
@@ -124,4 +129,17 @@ namespace sprag
     FrictionFace<dim> face_of_cylinder;
     std::vector<Connector> springs;
   };
+
+  /// Returns the degrees of freedom of the ports of the friction face, then of an elastic cylinder's face.
+  template <int dim>
+  std::vector<unsigned int> surface_dofs(const ElasticBody<dim> &body)
+  {
+    auto result         = face_dofs(body.friction_face());
+    const auto cylinder = face_dofs(body.cylinder_face());
+    result.insert(result.end(), cylinder.begin(), cylinder.end());
+    return result;
+  }
+
+  /// Returns displacements [mm] by forces on all degrees of freedom of a body that its hub holds [N], one column after another.
+  using Response = std::function<std::vector<double>(std::vector<double> columns)>;
 } // namespace sprag

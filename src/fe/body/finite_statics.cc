@@ -87,20 +87,6 @@ namespace sprag
         });
   }
 
-  void FiniteStatics::reduce(const Matrix &of_body, Matrix &reduced) const
-  {
-    const MatrixRows rows(of_body);
-    DynamicSparsityPattern pattern(n, n);
-    for_all_couplings(rows, movers,
-                      [&](std::size_t, const Mover &row, const Mover &column)
-                      { pattern.add(row.coordinate, column.coordinate); });
-    reduced.reinit(pattern);
-    for_all_couplings(rows, movers,
-                      [&](const std::size_t a, const Mover &row, const Mover &column)
-                      { reduced.add(row.coordinate, column.coordinate, row.share * column.share * rows[a]); });
-    reduced.compress(VectorOperation::add);
-  }
-
   Vector<double> FiniteStatics::collect(const Vector<double> &forces_on_dofs) const
   {
     Vector<double> result(n);
@@ -110,6 +96,7 @@ namespace sprag
     return result;
   }
 
+  /// Returns the displacement of all degrees of freedom, 0 where held, that belongs to the coordinates.
   Vector<double> FiniteStatics::expand(const Vector<double> &coordinates) const
   {
     Vector<double> result(body.n_dofs());

@@ -17,11 +17,6 @@ namespace sprag
     /// coordinates.
     FiniteStatics(const ElasticBody<2> &body, const dealii::AffineConstraints<double> &held);
 
-    unsigned int n_coordinates() const
-    {
-      return n;
-    }
-
     /// Brings `displacement` of all degrees of freedom into equilibrium with dead `loads` [N] on them, the held ones as they are
     /// given. Those that follow others must begin so. Throws AnalysisError where the iteration finds none.
     void balance(dealii::Vector<double> &displacement, const dealii::Vector<double> &loads);
@@ -51,18 +46,6 @@ namespace sprag
       return negative_pivots == 0;
     }
 
-    /// Returns the tangent stiffness of the body, without regard to what holds it.
-    const dealii::PETScWrappers::SparseMatrix &stiffness() const
-    {
-      return tangent;
-    }
-
-    /// Reduces a matrix of the body to the coordinates.
-    void reduce(const dealii::PETScWrappers::SparseMatrix &of_body, dealii::PETScWrappers::SparseMatrix &reduced) const;
-
-    /// Returns the displacement of all degrees of freedom, 0 where held, that belongs to the coordinates.
-    dealii::Vector<double> expand(const dealii::Vector<double> &coordinates) const;
-
   private:
     /// A coordinate that moves a degree of freedom, and by how much a unit of it does.
     struct Mover
@@ -82,6 +65,7 @@ namespace sprag
     void number_coordinates(const dealii::AffineConstraints<double> &held);
     void arrange_band();
     dealii::Vector<double> collect(const dealii::Vector<double> &forces) const;
+    dealii::Vector<double> expand(const dealii::Vector<double> &coordinates) const;
     void linearise(const dealii::Vector<double> &displacement);
 
     const ElasticBody<2> &body;

@@ -66,6 +66,16 @@ namespace sprag
     double depth         = 0.;        ///< largest size of its cells normal to the face [mm]
   };
 
+  /// Returns the degrees of freedom of the ports of a face, one a direction for each node.
+  template <int dim>
+  std::vector<unsigned int> face_dofs(const FrictionFace<dim> &face)
+  {
+    std::vector<unsigned int> result;
+    for (const auto &node : face.nodes)
+      result.insert(result.end(), node.dofs.begin(), node.dofs.end());
+    return result;
+  }
+
   /// Reads the faces marked `boundary`. The integration points are denser than the nodes, about
   /// `BodyProperties::point_spacing` apart, so that a contact narrower than a cell has its resultant in the right place and
   /// direction; at most 48 a cell.

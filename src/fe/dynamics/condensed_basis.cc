@@ -5,6 +5,7 @@
 #include "fe/dynamics/basis_file.h"
 
 #include <deal.II/base/timer.h>
+#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <cmath>
 
@@ -15,7 +16,7 @@ namespace sprag
   namespace
   {
     /// Version of the content of stored files and of the numbers in them.
-    constexpr double format_version = 4.;
+    constexpr double format_version = 5.;
 
     void add_mesh(const Triangulation<2> &triangulation, Fingerprint &key)
     {
@@ -100,6 +101,14 @@ namespace sprag
       return result;
     }
 
+    std::vector<double> flat(const std::vector<Vector<double>> &columns)
+    {
+      std::vector<double> result;
+      for (const auto &column : columns)
+        result.insert(result.end(), column.begin(), column.end());
+      return result;
+    }
+
     std::vector<double> upper_triangle(const FullMatrix<double> &matrix)
     {
       std::vector<double> result;
@@ -137,11 +146,11 @@ namespace sprag
                { "shapes", flat(basis.shapes) },
                { "layer_stiffness", flat(basis.layer_stiffness) },
                { "face_compliance", upper_triangle(basis.face_compliance) },
-               { "coordinate_shapes", flat(basis.coordinate_shapes) },
-               { "scalars", { basis.density_factor, basis.lever_mass, basis.moment_of_inertia, basis.cpu_seconds } } };
+               { "displacements", flat(basis.displacements) },
+               { "scalars", { basis.density_factor, basis.total_mass, basis.moment_of_inertia, basis.cpu_seconds } } };
     }
 
-    std::optional<CondensedBasis> basis_of(StoredArrays arrays, const unsigned int n_face, const unsigned int n_coordinates)
+    std::optional<CondensedBasis> basis_of(StoredArrays arrays, const unsigned int n_face, const unsigned int n_dofs)
     {
       CondensedBasis basis;
       basis.stiffness     = arrays["stiffness"];
@@ -150,82 +159,102 @@ namespace sprag
       if (m == 0 || scalars.size() != 4 || !unpack(arrays["shapes"], n_face + 2, m, basis.shapes) ||
           !unpack(arrays["layer_stiffness"], m, m, basis.layer_stiffness) ||
           !unpack_symmetric(arrays["face_compliance"], n_face, basis.face_compliance) ||
-          !unpack(arrays["coordinate_shapes"], m, n_coordinates, basis.coordinate_shapes))
+          arrays["displacements"].size() != std::size_t(m) * n_dofs)
         return {};
+      for (unsigned int j = 0; j < m; ++j)
+      {
+        const auto first = arrays["displacements"].begin() + std::ptrdiff_t(j) * n_dofs;
+        basis.displacements.emplace_back(first, first + n_dofs);
+        basis.rotation.push_back(basis.shapes(n_face - 1, j));
+      }
       basis.density_factor    = scalars[0];
-      basis.lever_mass        = scalars[1];
+      basis.total_mass        = scalars[1];
       basis.moment_of_inertia = scalars[2];
       basis.cpu_seconds       = scalars[3];
       basis.from_cache        = true;
       return basis;
     }
 
-    void set_modes(const FreeModes &modes, const InertialMatrices &matrices, const LeverPorts &ports, CondensedBasis &basis)
+    /// Compliance of the ports of the surface with the hub held [mm/N].
+    FullMatrix<double> surface_compliance(const ElasticBody<2> &body, const std::vector<unsigned int> &surface)
     {
-      const auto m         = static_cast<unsigned int>(modes.shapes.size());
-      const unsigned int n = matrices.coordinates.size();
-      const CompressedRows layer(matrices.layer_stiffness);
-      basis.stiffness = modes.stiffness;
-      basis.shapes.reinit(ports.layout().support(), m);
-      basis.layer_stiffness.reinit(m, m);
-      basis.coordinate_shapes.reinit(m, n);
-      for (unsigned int j = 0; j < m; ++j)
-      {
-        Vector<double> with_support(ports.n_coordinates());
-        Vector<double> layer_forces(n);
-        std::copy(modes.shapes[j].begin(), modes.shapes[j].end(), with_support.begin());
-        std::copy(modes.shapes[j].begin(), modes.shapes[j].end(), &basis.coordinate_shapes(j, 0));
-        const auto displacements = ports.displacements(with_support);
-        for (unsigned int i = 0; i < basis.shapes.m(); ++i)
-          basis.shapes(i, j) = displacements[i];
-        layer.multiply<1>({ { &modes.shapes[j] } }, { { &layer_forces } });
-        for (unsigned int i = 0; i < m; ++i)
-          basis.layer_stiffness(i, j) = modes.shapes[i] * layer_forces;
-      }
-    }
-
-    /// Static compliance less that of the modes kept.
-    void set_face_compliance(const InertialMatrices &matrices, const LeverPorts &ports, const double spring_stiffness,
-                             CondensedBasis &basis)
-    {
-      const ModalDamping none;
-      const EffectiveSystem statics(matrices, ports, none, { 0., 1., 0., spring_stiffness }, 0.);
-      const auto whole     = statics.port_compliance();
-      const unsigned int n = ports.layout().rotation() + 1;
-      const auto m         = static_cast<unsigned int>(basis.stiffness.size());
-      FullMatrix<double> at_face(n, m), scaled(n, m);
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < m; ++j)
-        {
-          at_face(i, j) = basis.shapes(i, j);
-          scaled(i, j)  = basis.shapes(i, j) / basis.stiffness[j];
-        }
-      basis.face_compliance.reinit(n, n);
-      scaled.mTmult(basis.face_compliance, at_face);
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = i; j < n; ++j)
-        {
-          const double of_modes       = 0.5 * (basis.face_compliance(i, j) + basis.face_compliance(j, i));
-          basis.face_compliance(i, j) = basis.face_compliance(j, i) = whole(i, j) - of_modes;
-        }
+      PETScWrappers::SparseMatrix stiffness;
+      Vector<double> forces(body.n_dofs());
+      body.reinit(stiffness);
+      body.assemble(Vector<double>(body.n_dofs()), stiffness, forces);
+      LAPACKFullMatrix<double> inverse(static_cast<unsigned int>(surface.size()));
+      inverse = Mumps().factorise_with_schur_complement(stiffness, surface);
+      inverse.set_property(LAPACKSupport::symmetric);
+      inverse.invert();
+      FullMatrix<double> result(surface.size());
+      result = inverse;
+      return result;
     }
   } // namespace
+
+  Response response_of(const ElasticBody<2> &body)
+  {
+    return [factors = body.factorised()](std::vector<double> columns) { return factors->solve(std::move(columns)); };
+  }
+
+  CondensedBasis basis_on(const PortLayout &ports, const LeverModes &modes, const std::vector<unsigned int> &surface,
+                          const FullMatrix<double> &of_surface, const SensorForces &sensors, const unsigned int first_of_surface,
+                          const std::array<double, 2> &slope_compliances, const double spring_stiffness)
+  {
+    const auto m = static_cast<unsigned int>(modes.stiffness.size()), n = ports.rotation() + 1;
+    CondensedBasis result;
+    result.sensors                  = ports.sensors;
+    result.slopes                   = ports.slopes;
+    result.stiffness                = modes.stiffness;
+    result.layer_stiffness          = modes.layer_stiffness;
+    static_cast<MassSums &>(result) = modes;
+
+    auto &shapes = result.shapes;
+    shapes.reinit(ports.of_a_lever(), m);
+    for (unsigned int j = 0; j < m; ++j)
+    {
+      for (unsigned int i = 0; i < ports.surface; ++i)
+        shapes(i, j) = modes.displacements[j][surface[i]];
+      const auto compressions = sensors.compressions(modes.displacements[j]);
+      for (unsigned int i = 0; i < ports.sensors; ++i)
+        shapes(ports.sensor(i), j) = compressions[i];
+      shapes(ports.rotation(), j)     = modes.rotation[j];
+      shapes(ports.momentum_eta(), j) = modes.momentum[j][1];
+      shapes(ports.momentum_xi(), j)  = modes.momentum[j][0];
+    }
+
+    // The static compliance less that of the modes.
+    auto &compliance = result.face_compliance;
+    compliance.reinit(n, n);
+    compliance.fill(of_surface);
+    sensors.add_compliance(ports, first_of_surface, compliance);
+    for (unsigned int i = 0; i < ports.slopes; ++i)
+      compliance(ports.slope(i), ports.slope(i)) = slope_compliances[i];
+    compliance(ports.rotation(), ports.rotation()) = 1. / spring_stiffness;
+    FullMatrix<double> at_ports(n, m), scaled(n, m);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < m; ++j)
+      {
+        at_ports(i, j) = shapes(i, j);
+        scaled(i, j)   = -shapes(i, j) / modes.stiffness[j];
+      }
+    scaled.mTmult(compliance, at_ports, true);
+    compliance.symmetrize();
+    return result;
+  }
 
   CondensedBasis make_basis(const ElasticBody<2> &body, const BasisSettings &settings)
   {
     const Timer timer;
-    CondensedBasis basis;
-    const InertialMatrices matrices(body, settings.inertia);
-    const LeverPorts ports(body, matrices, true);
-    PETScWrappers::SparseMatrix stiffness;
-    matrices.sum({ 0., 1., 0., settings.spring_stiffness }, stiffness);
-    set_modes(free_modes(stiffness, matrices.mass, settings.modes), matrices, ports, basis);
-    set_face_compliance(matrices, ports, settings.spring_stiffness, basis);
-    basis.density_factor    = matrices.density_factor;
-    basis.lever_mass        = matrices.total_mass;
-    basis.moment_of_inertia = matrices.moment_of_inertia;
-    basis.sensors           = ports.layout().sensors;
-    basis.cpu_seconds       = timer.cpu_time();
+    const auto response = response_of(body);
+    const auto surface  = surface_dofs(body);
+    auto modes          = lever_modes(body, response, settings.inertia, settings.spring_stiffness, settings.modes);
+    const SensorForces sensors(body, response);
+    const PortLayout ports{ static_cast<unsigned int>(surface.size()), true, sensors.number() };
+    auto basis = basis_on(ports, modes, surface, surface_compliance(body, surface), sensors, 0, {}, settings.spring_stiffness);
+    basis.displacements = std::move(modes.displacements);
+    basis.rotation      = std::move(modes.rotation);
+    basis.cpu_seconds   = timer.cpu_time();
     return basis;
   }
 
@@ -236,10 +265,9 @@ namespace sprag
     remove_abandoned(folder);
     if (auto stored = load_arrays(folder, key))
     {
-      const auto n_attached = static_cast<unsigned int>(settings.inertia.leaf.modes.size());
-      const auto n_sensors  = static_cast<unsigned int>(body.sensors().size());
-      const auto n_face     = number_of_surface_ports(body) + n_sensors + 1;
-      if (auto basis = basis_of(std::move(*stored), n_face, TotalCoordinates(body, n_attached).size()))
+      const auto n_sensors = static_cast<unsigned int>(body.sensors().size());
+      const auto n_face    = static_cast<unsigned int>(surface_dofs(body).size()) + n_sensors + 1;
+      if (auto basis = basis_of(std::move(*stored), n_face, body.n_dofs()))
       {
         basis->sensors = n_sensors;
         return *basis;
@@ -269,9 +297,10 @@ namespace sprag
         result.fill(matrix);
       return result;
     };
-    basis.shapes            = corner(basis.shapes, basis.shapes.m(), modes);
-    basis.layer_stiffness   = corner(basis.layer_stiffness, modes, modes);
-    basis.coordinate_shapes = corner(basis.coordinate_shapes, modes, basis.coordinate_shapes.n());
+    basis.shapes          = corner(basis.shapes, basis.shapes.m(), modes);
+    basis.layer_stiffness = corner(basis.layer_stiffness, modes, modes);
+    basis.displacements.resize(std::min<std::size_t>(modes, basis.displacements.size()));
+    basis.rotation.resize(basis.displacements.size());
     return basis;
   }
 
@@ -315,33 +344,32 @@ namespace sprag
     return data;
   }
 
-  CondensedDisplacement::CondensedDisplacement(const ElasticBody<2> &body, const BasisSettings &settings,
-                                               const CondensedBasis &basis_)
-      : basis(basis_)
-      , matrices(body, settings.inertia)
-      , ports(body, matrices, false)
+  template <int dim>
+  Vector<double> condensed_displacement(const ElasticBody<dim> &body, const ModeShapes &modes,
+                                        const std::vector<unsigned int> &surface, const Response &response, const Motion &motion)
   {
-    PETScWrappers::SparseMatrix stiffness;
-    matrices.sum({ 0., 1., 0., settings.spring_stiffness }, stiffness);
-    factors.factorise(stiffness);
+    // On the ports of the surface, on those of sensors and of the cylinder's axis, which are not loaded or move no mode, and last
+    // on the hub's rotation.
+    const auto &forces  = motion.face_force;
+    const bool has_face = forces.size() > 0;
+    std::vector<double> loads(body.n_dofs(), 0.);
+    for (unsigned int port = 0; port < surface.size() && has_face; ++port)
+      if (!body.is_held(surface[port]))
+        loads[surface[port]] = forces[port];
+    loads = response(std::move(loads));
+    Vector<double> result(loads.begin(), loads.end());
+    for (unsigned int j = 0; j < modes.stiffness.size(); ++j)
+    {
+      double work = has_face ? forces[forces.size() - 1] * modes.rotation[j] : 0.;
+      for (unsigned int port = 0; port < surface.size() && has_face; ++port)
+        work += forces[port] * modes.displacements[j][surface[port]];
+      result.add(motion.coordinates.position[j] - work / modes.stiffness[j], modes.displacements[j]);
+    }
+    return result;
   }
 
-  Vector<double> CondensedDisplacement::operator()(const Motion &motion) const
-  {
-    Vector<double> load(matrices.coordinates.size()), total;
-    for (unsigned int port = 0; port < motion.face_force.size(); ++port)
-      if (motion.face_force[port] != 0.)
-        ports.add_force(port, motion.face_force[port], load);
-    factors.solve(load, total);
-    for (unsigned int i = 0; i < basis.stiffness.size(); ++i)
-    {
-      double force = 0.;
-      for (unsigned int port = 0; port < motion.face_force.size(); ++port)
-        force += basis.shapes(port, i) * motion.face_force[port];
-      const double amount = motion.coordinates.position[i] - force / basis.stiffness[i];
-      for (unsigned int a = 0; a < total.size(); ++a)
-        total[a] += amount * basis.coordinate_shapes(i, a);
-    }
-    return matrices.coordinates.elastic_displacement(total);
-  }
+  template Vector<double> condensed_displacement(const ElasticBody<2> &, const ModeShapes &, const std::vector<unsigned int> &,
+                                                 const Response &, const Motion &);
+  template Vector<double> condensed_displacement(const ElasticBody<3> &, const ModeShapes &, const std::vector<unsigned int> &,
+                                                 const Response &, const Motion &);
 } // namespace sprag

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/algebra/free_modes.h"
-#include "fe/dynamics/lever_ports.h"
-#include "fe/dynamics/sparse_structure.h"
+#include "fe/dynamics/lever_constants.h"
+#include "fe/dynamics/lever_modes.h"
+#include "fe/statics/sensor_forces.h"
 #include "model/modal_structure.h"
 
 #include <string>
@@ -12,22 +12,23 @@ namespace sprag
 {
   /// Vibration modes of the free lever on its spring, and static shapes for what the modes left out answer to forces on the face:
   /// a residual compliance (MacNeal 1971, Rubin 1975), so that static deflections are those of the finite elements.
-  struct CondensedBasis
+  struct CondensedBasis : ModeShapes, MassSums
   {
-    std::vector<double> stiffness;              ///< omega^2 of the modes [1/s^2]
     dealii::FullMatrix<double> shapes;          ///< a row a port, momentum included and support not; a column a mode
     dealii::FullMatrix<double> layer_stiffness; ///< of the friction layer, in the modes
     dealii::FullMatrix<double> face_compliance; ///< residual, of face, sensors, slopes and rotation [mm/N]
     unsigned int sensors = 0;
-    unsigned int slopes  = 0;                     ///< of the cylinder's axis, which no mode moves
-    dealii::FullMatrix<double> coordinate_shapes; ///< a row a mode, a column a total coordinate
-    double density_factor    = 1.;
-    double lever_mass        = 0.; ///< [t]
-    double moment_of_inertia = 0.; ///< about the pivot [t mm^2]
-    double cpu_seconds       = 0.; ///< that it took to make
-    bool from_cache          = false;
+    unsigned int slopes  = 0;  ///< of the cylinder's axis, which no mode moves
+    double cpu_seconds   = 0.; ///< that it took to make
+    bool from_cache      = false;
     std::string message; ///< why it was not stored, empty if it was
   };
+
+  /// Returns the basis of modes on the ports of a layout, without displacements. `surface`: degrees of freedom of its ports,
+  /// which begin at `first_of_surface` of the body's. `of_surface`: their static compliance with the hub held [mm/N].
+  CondensedBasis basis_on(const PortLayout &ports, const LeverModes &modes, const std::vector<unsigned int> &surface,
+                          const dealii::FullMatrix<double> &of_surface, const SensorForces &sensors,
+                          unsigned int first_of_surface, const std::array<double, 2> &slope_compliances, double spring_stiffness);
 
   struct BasisSettings
   {
@@ -51,19 +52,13 @@ namespace sprag
   /// The basis as the modes of a structure, with damping and support.
   ModalData modal_data(const CondensedBasis &basis, const LeverDynamics &constants);
 
-  /// Elastic displacement of all degrees of freedom of a motion in a condensed basis.
-  class CondensedDisplacement
-  {
-  public:
-    /// All arguments must outlive it. Factorises the lever's stiffness.
-    CondensedDisplacement(const ElasticBody<2> &body, const BasisSettings &settings, const CondensedBasis &basis);
+  /// Returns the elastic displacement of all degrees of freedom of a body in a motion of a condensed lever, by its modes and the
+  /// answer to forces on its surface, whose ports have the degrees of freedom `surface` [mm].
+  template <int dim>
+  dealii::Vector<double> condensed_displacement(const ElasticBody<dim> &body, const ModeShapes &modes,
+                                                const std::vector<unsigned int> &surface, const Response &response,
+                                                const Motion &motion);
 
-    dealii::Vector<double> operator()(const Motion &motion) const;
-
-  private:
-    const CondensedBasis &basis;
-    const InertialMatrices matrices;
-    const LeverPorts ports;
-    Mumps factors;
-  };
+  /// Returns the answer of a body in a plane by its factors.
+  Response response_of(const ElasticBody<2> &body);
 } // namespace sprag

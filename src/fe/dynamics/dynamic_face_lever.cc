@@ -33,12 +33,14 @@ namespace sprag
       return result;
     }
 
-    MeshedDynamics facts(const Device &device, const ElasticBody<2> &body, const std::vector<double> &omega_squared)
+    MeshedDynamics facts(const Device &device, const ElasticBody<2> &body, const std::vector<double> &omega_squared,
+                         const MassSums &mass)
     {
       using namespace penalty_over_layer;
       MeshedDynamics result;
-      const double factor = device.mesh.degree == 1 ? in_time_linear : in_time;
-      result.penalties    = contact_penalties(body, device.contact, device.layer.thickness, factor);
+      static_cast<MassSums &>(result) = mass;
+      const double factor             = device.mesh.degree == 1 ? in_time_linear : in_time;
+      result.penalties                = contact_penalties(body, device.contact, device.layer.thickness, factor);
       for (const double stiffness : omega_squared)
         result.frequencies.push_back(0.5 * std::sqrt(stiffness) / M_PI);
       return result;
@@ -51,22 +53,22 @@ namespace sprag
       const PortLayout ports = structure->ports();
       const auto contact     = [&](const unsigned int lever)
       { return std::make_unique<FaceContact>(body, contact_of(device, ports.of_one_lever(), facts.penalties, lever)); };
-      return assemble_lever(std::move(structure), lever_frame(device, ports, facts.lever_mass), contact,
+      return assemble_lever(std::move(structure), lever_frame(device, ports, facts.total_mass), contact,
                             static_cast<unsigned int>(body.friction_face().points.size()));
     }
   } // namespace
 
   double mesh_inertia(const Device &device, const ElasticBody<2> &body)
   {
-    return InertialMatrices(body, inertia_of(device)).moment_of_inertia;
+    return BodyMass<2>(body, inertia_of(device)).moment_of_inertia;
   }
 
   FiniteElementBasis make_finite_element_basis(const Device &device, const ElasticBody<2> &body)
   {
-    const auto matrices = std::make_shared<InertialMatrices>(body, inertia_of(device));
-    dealii::PETScWrappers::SparseMatrix stiffness;
-    matrices->sum({ 0., 1., 0., device.spring.stiffness }, stiffness);
-    FiniteElementBasis basis{ matrices, free_modes(stiffness, matrices->mass, device.condensed.modes), {} };
+    const auto inertia = inertia_of(device);
+    FiniteElementBasis basis{ std::make_shared<InertialMatrices>(body, inertia),
+                              lever_modes(body, response_of(body), inertia, device.spring.stiffness, device.condensed.modes),
+                              {} };
     if (swings_otherwise(device))
       basis.swinging = std::make_shared<const FiniteElementBasis>(make_finite_element_basis(swinging_device(device), body));
     return basis;
@@ -94,12 +96,9 @@ namespace sprag
     const auto structure = [&](const FiniteElementBasis &of)
     { return std::make_unique<SparseStructure>(body, of.matrices, of.modes, constants); };
 
-    MeshedDynamics result    = facts(device, body, basis.modes.stiffness);
-    result.n_coordinates     = number_of_levers(device) * matrices.coordinates.size();
-    result.density_factor    = matrices.density_factor;
-    result.lever_mass        = matrices.total_mass;
-    result.moment_of_inertia = matrices.moment_of_inertia;
-    const auto complete      = [&](auto lever)
+    MeshedDynamics result = facts(device, body, basis.modes.stiffness, matrices);
+    result.n_coordinates  = number_of_levers(device) * matrices.coordinates.size();
+    const auto complete   = [&](auto lever)
     {
       result.elastic_displacement = [of = lever.get()](const Motion &motion, const unsigned int index)
       { return of->elastic_displacement(motion, index); };
@@ -116,49 +115,27 @@ namespace sprag
   MeshedDynamics make_condensed_dynamics(const Device &device, const ElasticBody<2> &body, const CondensedBases &bases,
                                          const double relaxation)
   {
-    const auto &basis    = bases.lever;
-    const auto &swinging = bases.swinging ? bases.swinging : bases.lever;
-    const auto constants = constants_of(device, relaxation, basis->lever_mass);
-    const auto structure = [&](const CondensedBasis &of) { return std::make_unique<ModalStructure>(modal_data(of, constants)); };
+    const auto &basis = bases.lever;
+    const std::array<std::shared_ptr<const CondensedBasis>, 2> parts{ { basis, bases.swinging ? bases.swinging : basis } };
+    const auto constants = constants_of(device, relaxation, basis->total_mass);
 
-    MeshedDynamics result    = facts(device, body, basis->stiffness);
+    MeshedDynamics result    = facts(device, body, basis->stiffness, *basis);
     result.n_coordinates     = number_of_levers(device) * static_cast<unsigned int>(basis->stiffness.size()) + constants.sprung;
-    result.density_factor    = basis->density_factor;
-    result.lever_mass        = basis->lever_mass;
-    result.moment_of_inertia = basis->moment_of_inertia;
-    result.basis_from_cache  = basis->from_cache && swinging->from_cache;
-    result.basis_cpu_seconds = basis->cpu_seconds + (bases.swinging ? swinging->cpu_seconds : 0.);
+    result.basis_from_cache  = basis->from_cache && parts[1]->from_cache;
+    result.basis_cpu_seconds = basis->cpu_seconds + (bases.swinging ? bases.swinging->cpu_seconds : 0.);
     result.message           = basis->message;
-    // Made when the first field is wanted.
-    const auto displacement = [&body](const Device &of, const std::shared_ptr<const CondensedBasis> &own)
+    const auto structure     = [&](const unsigned int part)
+    { return std::make_unique<ModalStructure>(modal_data(*parts[part], constants)); };
+    const auto displacement =
+        [&body, parts, response = std::make_shared<Response>()](const unsigned int part, const Motion &motion)
     {
-      return [&body, settings = basis_settings(of), own,
-              made = std::shared_ptr<CondensedDisplacement>()](const Motion &motion) mutable
-      {
-        if (!made)
-          made = std::make_shared<CondensedDisplacement>(body, settings, *own);
-        return (*made)(motion);
-      };
+      if (!*response) // the first field
+        *response = response_of(body);
+      return condensed_displacement(body, *parts[part], surface_dofs(body), *response, motion);
     };
-    if (number_of_levers(device) == 1)
-    {
-      result.elastic_displacement = [of_lever = displacement(device, basis)](const Motion &motion, unsigned int) mutable
-      { return of_lever(motion); };
-      result.model = assemble(device, body, structure(*basis), result);
-    }
-    else
-    {
-      auto pair = std::make_unique<MirroredStructure<ModalStructure>>(structure(*basis), structure(*swinging), !bases.swinging);
-      result.elastic_displacement =
-          [of = pair.get(), mirroring = displacement(device, basis),
-           opposite = displacement(swinging_device(device), swinging)](const Motion &motion, const unsigned int lever) mutable
-      {
-        return of->of_lever(motion, lever,
-                            [&](const unsigned int part, const Motion &of_part)
-                            { return part == 0 ? mirroring(of_part) : opposite(of_part); });
-      };
-      result.model = assemble(device, body, std::move(pair), result);
-    }
+    complete_condensed(
+        number_of_levers(device), !bases.swinging, structure, displacement,
+        [&](auto lever) { return assemble(device, body, std::move(lever), result); }, result);
     return result;
   }
 } // namespace sprag

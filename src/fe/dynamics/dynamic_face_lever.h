@@ -3,7 +3,9 @@
 
 #include "fe/contact/face_contact.h"
 #include "fe/dynamics/condensed_basis.h"
+#include "fe/dynamics/sparse_structure.h"
 #include "model/dynamic_model.h"
+#include "model/mirrored_structure.h"
 
 #include <functional>
 #include <memory>
@@ -13,18 +15,19 @@ namespace sprag
   struct Device;
 
   /// A meshed lever in time, and what there is to tell about it.
-  struct MeshedDynamics
+  struct MeshedDynamics : MassSums
   {
+    std::shared_ptr<const FrictionFace<3>> face; ///< in space, of the contact
     std::unique_ptr<DynamicModel> model;
+
+    /// In space, turns the shape of a mode at the ports into that along an edge of the whole face.
+    std::function<void(const Eigenmode &, ModeShape &)> follow_edge;
 
     /// Elastic displacement of all degrees of freedom of the body in the axes of a lever, 0 or of a pair 1 [mm]; the model must
     /// live.
     std::function<dealii::Vector<double>(const Motion &, unsigned int lever)> elastic_displacement;
 
     unsigned int n_coordinates = 0;
-    double density_factor      = 1.; ///< by which the densities were scaled to meet the moment of inertia
-    double lever_mass          = 0.; ///< [t]
-    double moment_of_inertia   = 0.; ///< about the pivot [t mm^2]
     std::vector<double> frequencies; ///< of the lever on its spring out of contact [Hz]
     ContactPenalties penalties{};
 
@@ -39,7 +42,7 @@ namespace sprag
   struct FiniteElementBasis
   {
     std::shared_ptr<const InertialMatrices> matrices;
-    FreeModes modes;
+    LeverModes modes;
     std::shared_ptr<const FiniteElementBasis> swinging; ///< of a pair's levers that swing together, where it is another
   };
 
@@ -49,6 +52,28 @@ namespace sprag
     std::shared_ptr<const CondensedBasis> lever;
     std::shared_ptr<const CondensedBasis> swinging;
   };
+
+  /// Completes the condensed model of a lever or a pair. `structure(part)` and `displacement(part, motion)`: structure and
+  /// elastic displacement of the lever, or of the mirrored (0) and the opposite (1) motions of a pair, whose structures may be
+  /// `alike`; `assemble(structure)` makes the model.
+  template <class Structure, class Displacement, class Assemble>
+  void complete_condensed(const unsigned int levers, const bool alike, const Structure &structure,
+                          const Displacement &displacement, const Assemble &assemble, MeshedDynamics &result)
+  {
+    if (levers == 1)
+    {
+      result.elastic_displacement = [displacement](const Motion &motion, unsigned int) { return displacement(0, motion); };
+      result.model                = assemble(structure(0));
+      return;
+    }
+    auto pair                   = std::make_unique<MirroredStructure<ModalStructure>>(structure(0), structure(1), alike);
+    result.elastic_displacement = [of = pair.get(), displacement](const Motion &motion, const unsigned int lever)
+    {
+      return of->of_lever(motion, lever,
+                          [&](const unsigned int part, const Motion &of_part) { return displacement(part, of_part); });
+    };
+    result.model = assemble(std::move(pair));
+  }
 
   /// J about the pivot of all that turns with the hub, by the mesh [t mm^2].
   double mesh_inertia(const Device &device, const ElasticBody<2> &body);

@@ -2,144 +2,19 @@
 #include "fe/dynamics/inertial_matrices.h"
 
 #include "base/errors.h"
-#include "base/text.h"
 #include "fe/body/cell_elasticity.h"
-#include "fe/body/end_face.h"
-
-#include <deal.II/base/quadrature_lib.h>
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_values.h>
-#include <deal.II/fe/mapping_q1.h>
-
-#include <algorithm>
 
 namespace sprag
 {
   using namespace dealii;
 
-  namespace
-  {
-    using PETScMatrix = PETScWrappers::SparseMatrix;
+  using PETScMatrix = PETScWrappers::SparseMatrix;
 
-    /// Adds matrices of cells and faces, given for degrees of freedom of the body, in total coordinates.
-    class Scatter
-    {
-    public:
-      Scatter(const TotalCoordinates &coordinates_, const unsigned int n)
-          : coordinates(coordinates_)
-          , dofs(n)
-          , indices(n)
-          , shares(n)
-          , scaled(n, n)
-      {
-      }
-
-      template <class Cell>
-      void reinit(const Cell &cell)
-      {
-        cell->get_dof_indices(dofs);
-        for (unsigned int i = 0; i < dofs.size(); ++i)
-        {
-          const auto &mover = coordinates.mover(static_cast<unsigned int>(dofs[i]));
-          indices[i]        = mover.coordinate;
-          shares[i]         = mover.share;
-        }
-      }
-
-      void add(const FullMatrix<double> &local, PETScMatrix &matrix)
-      {
-        for (unsigned int i = 0; i < dofs.size(); ++i)
-          for (unsigned int j = 0; j < dofs.size(); ++j)
-            scaled(i, j) = shares[i] * shares[j] * local(i, j);
-        matrix.add(indices, indices, scaled, false);
-      }
-
-      /// Adds the rows whose products with the coordinates are the mass times the displacement along each axis. Returns the mass.
-      double add_momentum(const FullMatrix<double> &local, const FiniteElement<2> &fe,
-                          std::array<Vector<double>, 2> &momentum) const
-      {
-        double along_first = 0.;
-        for (unsigned int i = 0; i < dofs.size(); ++i)
-          for (unsigned int j = 0; j < dofs.size(); ++j)
-          {
-            const unsigned int component = fe.system_to_component_index(j).first;
-            momentum[component][indices[i]] += shares[i] * local(i, j);
-            along_first += component == 0 ? local(i, j) : 0.;
-          }
-        return along_first;
-      }
-
-    private:
-      const TotalCoordinates &coordinates;
-      std::vector<types::global_dof_index> dofs;
-      std::vector<types::global_dof_index> indices;
-      std::vector<double> shares;
-      FullMatrix<double> scaled;
-    };
-
-    /// Mass matrix of a cell or, with a mass per area, of a face.
-    FullMatrix<double> local_mass(const FEValuesBase<2> &values, const double density)
-    {
-      const auto &fe       = values.get_fe();
-      const unsigned int n = fe.n_dofs_per_cell();
-      FullMatrix<double> result(n, n);
-      for (const unsigned int q : values.quadrature_point_indices())
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
-            if (fe.system_to_component_index(i).first == fe.system_to_component_index(j).first)
-              result(i, j) += density * values.JxW(q) * values.shape_value(i, q) * values.shape_value(j, q);
-      return result;
-    }
-    double inertia_of_cells(const ElasticBody<2> &body, const std::map<types::material_id, double> &densities)
-    {
-      const auto &properties = body.body_properties();
-      FEValues<2> values(body.dofs().get_fe(), QGauss<2>(properties.degree + 1), update_quadrature_points | update_JxW_values);
-      double sum = 0.;
-      for (const auto &cell : body.dofs().active_cell_iterators())
-        if (cell->material_id() != material_id::hub && material_id::turns(cell->material_id()))
-        {
-          values.reinit(cell);
-          for (const unsigned int q : values.quadrature_point_indices())
-            sum += densities.at(cell->material_id()) * properties.width_of(cell->material_id()) * values.JxW(q) *
-                   values.quadrature_point(q).square();
-        }
-      return sum;
-    }
-    double inertia_of_tip(const ElasticBody<2> &body, const double tip_mass)
-    {
-      const auto faces    = faces_of_tip(body.dofs());
-      const double length = total_measure<2>(faces);
-      FEFaceValues<2> values(body.dofs().get_fe(), QGauss<1>(2), update_quadrature_points | update_JxW_values);
-      double sum = 0.;
-      for (const auto &[cell, f] : faces)
-      {
-        values.reinit(cell, f);
-        for (const unsigned int q : values.quadrature_point_indices())
-          sum += tip_mass / length * values.JxW(q) * values.quadrature_point(q).square();
-      }
-      return sum;
-    }
-  } // namespace
   TotalCoordinates::TotalCoordinates(const ElasticBody<2> &body, const unsigned int attached_coordinates)
       : movers(body.n_dofs())
-      , arms(body.n_dofs())
+      , arms(rotation_arms(body))
       , n_attached(attached_coordinates)
   {
-    std::vector<Point<2>> positions(body.n_dofs());
-    DoFTools::map_dofs_to_support_points(MappingQ1<2>(), body.dofs(), positions);
-    const auto &fe = body.dofs().get_fe();
-    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-    for (const auto &cell : body.dofs().active_cell_iterators())
-    {
-      if (!material_id::turns(cell->material_id()))
-        continue;
-      cell->get_dof_indices(dofs);
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-      {
-        const unsigned int component = fe.system_to_component_index(i).first;
-        arms[dofs[i]]                = component == 0 ? -positions[dofs[i]][1] : component == 1 ? positions[dofs[i]][0] : 0.;
-      }
-    }
     for (unsigned int dof = 0; dof < body.n_dofs(); ++dof)
       if (!body.is_held(dof))
         movers[dof] = { n_free++, 1. };
@@ -187,6 +62,36 @@ namespace sprag
     result[rotation()] = 1.;
     return result;
   }
+  Vector<double> TotalCoordinates::collect(const Vector<double> &of_dofs) const
+  {
+    Vector<double> result(size());
+    for (unsigned int dof = 0; dof < movers.size(); ++dof)
+      result[movers[dof].coordinate] += movers[dof].share * of_dofs[dof];
+    return result;
+  }
+  void TotalCoordinates::scatter(const std::vector<types::global_dof_index> &dofs, const FullMatrix<double> &local,
+                                 PETScMatrix &matrix) const
+  {
+    std::vector<types::global_dof_index> indices;
+    for (const auto dof : dofs)
+      indices.push_back(movers[dof].coordinate);
+    FullMatrix<double> scaled = local;
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      for (unsigned int j = 0; j < dofs.size(); ++j)
+        scaled(i, j) *= movers[dofs[i]].share * movers[dofs[j]].share;
+    matrix.add(indices, scaled, false);
+  }
+  Vector<double> TotalCoordinates::total(const Vector<double> &elastic, const std::vector<double> &attached_values,
+                                         const double rotation_value) const
+  {
+    Vector<double> result(size());
+    for (unsigned int dof = 0; dof < movers.size(); ++dof)
+      if (movers[dof].coordinate != rotation())
+        result[movers[dof].coordinate] = elastic[dof] + arms[dof] * rotation_value;
+    std::copy(attached_values.begin(), attached_values.end(), result.begin() + n_free);
+    result[rotation()] = rotation_value;
+    return result;
+  }
   Vector<double> TotalCoordinates::elastic_displacement(const Vector<double> &total) const
   {
     Vector<double> result(static_cast<unsigned int>(movers.size()));
@@ -196,38 +101,22 @@ namespace sprag
     return result;
   }
 
-  double scaling_of_densities(const LeverInertia &inertia, const double of_cells, const double added)
-  {
-    if (inertia.source != InertiaSource::scaled)
-      return 1.;
-    if (inertia.moment_of_inertia <= added)
-      throw InputError("tip mass, hub and leaf spring alone have a moment of inertia of " + rounded_text(added) +
-                       " t mm^2 about the pivot: Lever/Moment of inertia = " + rounded_text(inertia.moment_of_inertia) +
-                       " must be larger");
-    return (inertia.moment_of_inertia - added) / of_cells;
-  }
   InertialMatrices::InertialMatrices(const ElasticBody<2> &body, const LeverInertia &inertia)
-      : coordinates(body, static_cast<unsigned int>(inertia.leaf.modes.size()))
+      : InertialMatrices(body, BodyMass<2>(body, inertia), inertia.leaf)
   {
-    const double of_cells = inertia_of_cells(body, inertia.densities);
-    const double of_tip   = inertia.tip_mass > 0. ? inertia_of_tip(body, inertia.tip_mass) : 0.;
-    const double added    = of_tip + inertia.hub + inertia.leaf.inertia;
-    density_factor        = scaling_of_densities(inertia, of_cells, added);
-    moment_of_inertia     = density_factor * of_cells + added;
-
-    auto densities = inertia.densities;
-    for (auto &[material, density] : densities)
-      density *= material_id::turns(material) ? density_factor : 1.;
+  }
+  InertialMatrices::InertialMatrices(const ElasticBody<2> &body, const BodyMass<2> &of_body, const LeafBehaviour &leaf)
+      : MassSums(of_body)
+      , coordinates(body, static_cast<unsigned int>(leaf.modes.size()))
+  {
     find_pattern(body);
     for (auto *const matrix : { &mass, &stiffness, &layer_stiffness })
       matrix->reinit(pattern);
-    for (auto &row : momentum)
-      row.reinit(coordinates.size());
-    assemble_cells(body, densities);
-    assemble_connectors(body);
-    if (inertia.tip_mass > 0.)
-      assemble_tip(body, inertia.tip_mass);
-    attach_hub(inertia.hub, inertia.leaf);
+    for (unsigned int axis = 0; axis < 2; ++axis)
+      momentum[axis] = coordinates.collect(of_body(of_body.translation(axis)));
+    assemble_mass(of_body);
+    assemble_stiffness(body);
+    attach(of_body.hub, leaf);
     for (auto *const matrix : { &mass, &stiffness, &layer_stiffness })
       matrix->compress(VectorOperation::add);
   }
@@ -273,37 +162,41 @@ namespace sprag
     result.add(coordinates.rotation(), coordinates.rotation(), weights.rotation);
     result.compress(VectorOperation::add);
   }
-  void InertialMatrices::assemble_cells(const ElasticBody<2> &body, const std::map<types::material_id, double> &densities)
+  void InertialMatrices::assemble_mass(const BodyMass<2> &of_body)
   {
-    const auto &properties = body.body_properties();
-    const auto &fe         = body.dofs().get_fe();
-    FEValues<2> values(body.cell_mapping(), fe, QGauss<2>(properties.degree + 1), update_values | update_JxW_values);
-    CellElasticity<2> elasticity(body.cell_mapping(), fe, properties);
+    for (const auto &[unit, density, dofs] : of_body.cells())
+    {
+      FullMatrix<double> local = *unit;
+      local *= density;
+      for (unsigned int axis = 0; axis < 2; ++axis)
+      {
+        std::vector<types::global_dof_index> along;
+        for (const auto &of_node : dofs)
+          along.push_back(of_node[axis]);
+        coordinates.scatter(along, local, mass);
+      }
+    }
+  }
+  void InertialMatrices::assemble_stiffness(const ElasticBody<2> &body)
+  {
+    const auto &fe = body.dofs().get_fe();
+    CellElasticity<2> elasticity(body.cell_mapping(), fe, body.body_properties());
     const unsigned int n = fe.n_dofs_per_cell();
     const Vector<double> at_rest(n);
     FullMatrix<double> of_cell(n, n);
     Vector<double> forces(n);
-    Scatter scatter(coordinates, n);
+    std::vector<types::global_dof_index> dofs(n);
     for (const auto &cell : body.dofs().active_cell_iterators())
     {
-      const auto material = cell->material_id();
-      if (material == material_id::hub)
+      if (cell->material_id() == material_id::hub)
         continue;
-      values.reinit(cell);
       elasticity.reinit(cell, at_rest);
       elasticity.assemble(of_cell, forces);
-      scatter.reinit(cell);
-      const auto cell_mass = local_mass(values, densities.at(material) * properties.width_of(material));
-      scatter.add(of_cell, stiffness);
-      scatter.add(cell_mass, mass);
-      if (material == material_id::layer)
-        scatter.add(of_cell, layer_stiffness);
-      if (material_id::turns(material))
-        total_mass += scatter.add_momentum(cell_mass, fe, momentum);
+      cell->get_dof_indices(dofs);
+      coordinates.scatter(dofs, of_cell, stiffness);
+      if (cell->material_id() == material_id::layer)
+        coordinates.scatter(dofs, of_cell, layer_stiffness);
     }
-  }
-  void InertialMatrices::assemble_connectors(const ElasticBody<2> &body)
-  {
     for (const auto &connector : body.connectors())
     {
       const auto row = coordinates.row(connector);
@@ -312,23 +205,7 @@ namespace sprag
           stiffness.add(i, j, connector.stiffness * weight_i * weight_j);
     }
   }
-  void InertialMatrices::assemble_tip(const ElasticBody<2> &body, const double tip_mass)
-  {
-    const auto &fe      = body.dofs().get_fe();
-    const auto faces    = faces_of_tip(body.dofs());
-    const double length = total_measure<2>(faces);
-    FEFaceValues<2> values(fe, QGauss<1>(body.body_properties().degree + 1), update_values | update_JxW_values);
-    Scatter scatter(coordinates, fe.n_dofs_per_cell());
-    for (const auto &[cell, f] : faces)
-    {
-      values.reinit(cell, f);
-      scatter.reinit(cell);
-      const auto face_mass = local_mass(values, tip_mass / length);
-      scatter.add(face_mass, mass);
-      total_mass += scatter.add_momentum(face_mass, fe, momentum);
-    }
-  }
-  void InertialMatrices::attach_hub(const double of_hub, const LeafBehaviour &leaf)
+  void InertialMatrices::attach(const double hub_inertia, const LeafBehaviour &leaf)
   {
     const unsigned int hub  = coordinates.rotation();
     const auto add_momentum = [&](const unsigned int coordinate, const std::array<double, 2> &of_unit_rate)
@@ -336,9 +213,8 @@ namespace sprag
       for (unsigned int axis = 0; axis < 2; ++axis)
         momentum[axis][coordinate] += of_unit_rate[axis];
     };
-    mass.add(hub, hub, of_hub + leaf.inertia);
+    mass.add(hub, hub, hub_inertia);
     add_momentum(hub, leaf.momentum);
-    total_mass += leaf.mass;
     for (unsigned int i = 0; i < leaf.modes.size(); ++i)
     {
       const auto &mode              = leaf.modes[i];

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/body/elastic_body.h"
-#include "scene/apparatus.h"
-#include "scene/lever.h"
+#include "fe/body/body_mass.h"
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <array>
-#include <map>
 #include <vector>
 
 namespace sprag
@@ -48,36 +45,33 @@ namespace sprag
     /// A unit of rigid rotation, in these coordinates.
     dealii::Vector<double> rigid_rotation() const;
 
+    /// Returns what forces on all degrees of freedom of the body are on the coordinates.
+    dealii::Vector<double> collect(const dealii::Vector<double> &of_dofs) const;
+
+    /// Adds a symmetric matrix of some degrees of freedom of the body to that of the coordinates.
+    void scatter(const std::vector<dealii::types::global_dof_index> &dofs, const dealii::FullMatrix<double> &local,
+                 dealii::PETScWrappers::SparseMatrix &matrix) const;
+
+    /// Returns the coordinates of an elastic displacement of all degrees of freedom in the axes of the hub, with attached ones
+    /// and a rotation.
+    dealii::Vector<double> total(const dealii::Vector<double> &elastic, const std::vector<double> &attached,
+                                 double rotation) const;
+
     /// Elastic displacement of all degrees of freedom of the body, in the axes of its hub.
     dealii::Vector<double> elastic_displacement(const dealii::Vector<double> &total) const;
 
   private:
     std::vector<Mover> movers;
-    std::vector<double> arms;
+    const dealii::Vector<double> arms;
     unsigned int n_free     = 0;
     unsigned int n_attached = 0;
   };
 
-  /// Masses of a lever. A hub in the mesh is massless.
-  struct LeverInertia
-  {
-    std::map<dealii::types::material_id, double> densities; ///< before scaling [t/mm^3]
-    double tip_mass          = 0.;                          ///< spread over the lever's end face [t]
-    double moment_of_inertia = 0.; ///< about the pivot, what the densities are scaled to; all below included [t mm^2]
-    InertiaSource source     = InertiaSource::scaled;
-    double hub               = 0.; ///< of what turns with the hub besides [t mm^2]
-    LeafBehaviour leaf       = {}; ///< its vibrations are attached coordinates
-  };
-
-  /// Returns by what the densities of cells are scaled to the moment of inertia, 1 as built. `of_cells`: theirs before, `added`:
-  /// that of tip mass, hub and leaf spring [t mm^2]. Throws InputError if these alone have more than there is.
-  double scaling_of_densities(const LeverInertia &inertia, double of_cells, double added);
-
   /// Matrices of small vibrations in total coordinates, without the hub's spring.
-  class InertialMatrices
+  class InertialMatrices : public MassSums
   {
   public:
-    /// Throws InputError if tip mass and hub alone have more than the moment of inertia, or there is no end face for the tip.
+    /// Throws InputError as BodyMass.
     InertialMatrices(const ElasticBody<2> &body, const LeverInertia &inertia);
 
     const TotalCoordinates coordinates;
@@ -85,9 +79,6 @@ namespace sprag
     dealii::PETScWrappers::SparseMatrix stiffness;       ///< of lever, friction layer and connectors
     dealii::PETScWrappers::SparseMatrix layer_stiffness; ///< the layer's part of it
     std::array<dealii::Vector<double>, 2> momentum;      ///< integral of rho u along each axis = row times coordinates [t]
-    double moment_of_inertia = 0.;                       ///< about the pivot, of all that turns with the hub [t mm^2]
-    double density_factor    = 1.;                       ///< by which the densities were scaled
-    double total_mass        = 0.;                       ///< of lever, tip and leaf spring [t]
 
     /// Factors of a sum of mass, stiffness, the layer's stiffness and a unit on the hub's rotation.
     struct Weights
@@ -101,11 +92,11 @@ namespace sprag
     void sum(const Weights &weights, dealii::PETScWrappers::SparseMatrix &result) const;
 
   private:
+    InertialMatrices(const ElasticBody<2> &body, const BodyMass<2> &of_body, const LeafBehaviour &leaf);
     void find_pattern(const ElasticBody<2> &body);
-    void assemble_cells(const ElasticBody<2> &body, const std::map<dealii::types::material_id, double> &densities);
-    void assemble_connectors(const ElasticBody<2> &body);
-    void assemble_tip(const ElasticBody<2> &body, double tip_mass);
-    void attach_hub(double of_hub, const LeafBehaviour &leaf);
+    void assemble_mass(const BodyMass<2> &of_body);
+    void assemble_stiffness(const ElasticBody<2> &body);
+    void attach(double hub_inertia, const LeafBehaviour &leaf);
 
     dealii::DynamicSparsityPattern pattern;
   };

@@ -5,23 +5,16 @@ namespace sprag
 {
   using namespace dealii;
 
-  unsigned int number_of_surface_ports(const ElasticBody<2> &body)
-  {
-    return 2 * static_cast<unsigned int>(body.friction_face().nodes.size() + body.cylinder_face().nodes.size());
-  }
-
   LeverPorts::LeverPorts(const ElasticBody<2> &body, const InertialMatrices &matrices, const bool sprung)
-      : ports{ number_of_surface_ports(body), sprung, static_cast<unsigned int>(body.sensors().size()) }
+      : ports{ static_cast<unsigned int>(surface_dofs(body).size()), sprung, static_cast<unsigned int>(body.sensors().size()) }
       , n_lever(matrices.coordinates.size())
       , arms(ports.surface)
   {
-    for (const auto *const face : { &body.friction_face(), &body.cylinder_face() })
-      for (const auto &node : face->nodes)
-        for (const unsigned int dof : node.dofs)
-        {
-          arms[static_cast<unsigned int>(coordinates.size())] = matrices.coordinates.arm(dof);
-          coordinates.push_back(matrices.coordinates.mover(dof).coordinate);
-        }
+    for (const unsigned int dof : surface_dofs(body))
+    {
+      arms[static_cast<unsigned int>(coordinates.size())] = matrices.coordinates.arm(dof);
+      coordinates.push_back(matrices.coordinates.mover(dof).coordinate);
+    }
     for (const auto &sensor : body.sensors())
       sensors.push_back(matrices.coordinates.row(sensor));
     if (sprung)

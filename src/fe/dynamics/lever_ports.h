@@ -8,9 +8,6 @@
 
 namespace sprag
 {
-  /// Number of the ports of the friction face and of an elastic cylinder's face, two a node.
-  unsigned int number_of_surface_ports(const ElasticBody<2> &body);
-
   /// Ports of a meshed lever in total coordinates: elastic displacements of those nodes (two entries a node), compressions of
   /// the force sensors, the hub's rotation and, on a sprung support, the momentum. The support's displacement follows the
   /// coordinates of the lever.

@@ -265,7 +265,7 @@ namespace sprag
   } // namespace
 
   SparseStructure::SparseStructure(const ElasticBody<2> &body, std::shared_ptr<const InertialMatrices> matrices_,
-                                   const FreeModes &modes, const LeverDynamics &constants_)
+                                   const LeverModes &modes, const LeverDynamics &constants_)
       : matrices(std::move(matrices_))
       , constants(constants_)
       , lever_ports(body, *matrices, constants.sprung)
@@ -275,11 +275,11 @@ namespace sprag
       , stiffness(matrices->stiffness)
       , layer(matrices->layer_stiffness)
   {
-    for (unsigned int i = 0; i < modes.shapes.size(); ++i)
+    for (unsigned int i = 0; i < modes.stiffness.size(); ++i)
     {
       Vector<double> momentum(n_lever);
-      Vector<double> shape(lever_ports.n_coordinates());
-      std::copy(modes.shapes[i].begin(), modes.shapes[i].end(), shape.begin());
+      auto shape = matrices->coordinates.total(modes.displacements[i], modes.leaf[i], modes.rotation[i]);
+      shape.grow_or_shrink(lever_ports.n_coordinates());
       mass.multiply<1>({ { &shape } }, { { &momentum } });
       if (i > 0 && constants.modal_damping > 0.)
       {

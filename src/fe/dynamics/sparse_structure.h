@@ -2,8 +2,8 @@
 #pragma once
 
 #include "fe/algebra/compressed_rows.h"
-#include "fe/algebra/free_modes.h"
 #include "fe/dynamics/effective_system.h"
+#include "fe/dynamics/lever_modes.h"
 #include "model/dynamic_model.h"
 #include "model/linearisation.h"
 
@@ -34,7 +34,7 @@ namespace sprag
     static constexpr bool is_small       = false; ///< see ModalStructure
 
     /// `modes` are those of the free lever on its spring; all but the first are damped. The matrices are kept.
-    SparseStructure(const ElasticBody<2> &body, std::shared_ptr<const InertialMatrices> matrices, const FreeModes &modes,
+    SparseStructure(const ElasticBody<2> &body, std::shared_ptr<const InertialMatrices> matrices, const LeverModes &modes,
                     const LeverDynamics &constants);
 
     const PortLayout &ports() const;

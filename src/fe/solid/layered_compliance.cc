@@ -188,6 +188,7 @@ namespace sprag
   LayeredCompliance::LayeredCompliance(const SolidBody &body_, const double begin, const double end,
                                        const double spacing_over_depth)
       : body(body_)
+      , dofs(surface_dofs(body))
   {
     find_tiles(surroundings_over_depth * body.skin());
     if (body.has_skin())
@@ -197,8 +198,6 @@ namespace sprag
   void LayeredCompliance::find_tiles(const double surroundings)
   {
     const auto &nodes = body.friction_face().nodes;
-    for (const auto &node : nodes)
-      dofs.insert(dofs.end(), node.dofs.begin(), node.dofs.end());
     for (unsigned int i = 0; i < nodes.size(); ++i)
     {
       const double xi = nodes[i].position[0];

@@ -27,7 +27,7 @@ namespace sprag
     LayeredCompliance(const SolidBody &body, double begin, double end, double spacing_over_depth = 1.);
 
     /// The columns of nodes that hold the given ports, as increasing ports. A port is a number among the face's displacements,
-    /// sorted by the columns: see dof_of_port().
+    /// sorted by the columns, see surface_dofs().
     PortSelection whole_tiles(const PortSelection &ports) const;
 
     /// The compliance between some ports, which make up whole columns.
@@ -74,7 +74,7 @@ namespace sprag
     std::vector<unsigned int> tiles_of(const PortSelection &whole_tiles) const;
 
     const SolidBody &body;
-    std::vector<unsigned int> dofs; ///< of the ports
+    const std::vector<unsigned int> dofs; ///< of the ports
     std::vector<Tile> tiles;
     std::map<unsigned int, NearColumns> known; ///< by the tile
     std::map<unsigned int, std::vector<double>> known_rows;

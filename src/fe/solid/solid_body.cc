@@ -25,9 +25,9 @@ namespace sprag
             properties.interface_offset, properties.layer, properties.skin, properties.folder);
   }
 
-  BodyFactors::BodyFactors(const StiffnessSource &of_body, const std::vector<int> &numbers, const SharedTask solve,
+  BodyFactors::BodyFactors(const ElasticBody<3> &of_body, const std::vector<int> &numbers, const SharedTask solve,
                            const BodyCalls &calls)
-      : source(of_body)
+      : body(of_body)
       , number_in_part(numbers)
       , task(solve)
       , call_others(calls)
@@ -37,8 +37,8 @@ namespace sprag
   void BodyFactors::factorise(const std::vector<Connector> &connectors, const std::string &folder)
   {
     release();
-    n            = size_of_part(source, number_in_part);
-    auto entries = assemble_stiffness(source, number_in_part);
+    n            = size_of_part(body, number_in_part);
+    auto entries = assemble_stiffness(body, number_in_part);
     for (const auto &connector : connectors)
       add(connector, entries);
     factors = std::make_unique<SharedFactors>(call_others.ranks, folder);
@@ -134,7 +134,7 @@ namespace sprag
   SolidBody::SolidBody(const Device &device, const Mesh &plane, const std::string &folder)
       : SolidBody(BodyCalls(), properties_of(device, folder), &device, &plane)
   {
-    use_connectors(find_connectors({ cell_mapping(), dofs(), held() }, device, half));
+    use_connectors(find_connectors(*this, device, half));
     call_others(SharedTask::factorise);
     factorise();
   }
@@ -148,16 +148,11 @@ namespace sprag
       : SharedSolid(calls, std::move(of_first), device, plane)
       , ElasticBody<3>(mesh, of_whole(given.body, half))
       , depth_of_skin(given.skin)
-      , factors(stiffness_source(), all, SharedTask::solve_whole, call_others)
-      , factors_of_skin(stiffness_source(), number_in_skin, SharedTask::solve_near, call_others)
+      , factors(*this, all, SharedTask::solve_whole, call_others)
+      , factors_of_skin(*this, number_in_skin, SharedTask::solve_near, call_others)
   {
     find_ends();
     find_skin();
-  }
-
-  StiffnessSource SolidBody::stiffness_source() const
-  {
-    return { cell_mapping(), dofs(), held(), body_properties() };
   }
 
   /// Factors of the whole come first: nothing else takes memory then.

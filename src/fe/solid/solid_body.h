@@ -19,9 +19,9 @@ namespace sprag
   class BodyFactors
   {
   public:
-    /// The first rank calls the others to `task` for each solve. What the source refers to must outlive this, and so must
-    /// `number_in_part`, see assemble_stiffness(), and the calls.
-    BodyFactors(const StiffnessSource &source, const std::vector<int> &number_in_part, SharedTask task, const BodyCalls &calls);
+    /// The first rank calls the others to `task` for each solve. Body, `number_in_part`, see assemble_stiffness(), and calls must
+    /// outlive this.
+    BodyFactors(const ElasticBody<3> &body, const std::vector<int> &number_in_part, SharedTask task, const BodyCalls &calls);
 
     /// Factorises, with connectors of the whole body, which the first rank gives. With a folder the factors are kept in files
     /// there, else in memory. To be called by all ranks. Throws AnalysisError.
@@ -46,7 +46,7 @@ namespace sprag
     }
 
   private:
-    const StiffnessSource source;
+    const ElasticBody<3> &body;
     const std::vector<int> &number_in_part;
     const SharedTask task;
     const BodyCalls &call_others;
@@ -158,7 +158,6 @@ namespace sprag
 
   private:
     SolidBody(const BodyCalls &calls, SolidProperties of_first, const Device *device, const Mesh *plane);
-    StiffnessSource stiffness_source() const;
     void factorise();
     void release();
     void find_ends();
@@ -173,4 +172,14 @@ namespace sprag
     BodyFactors factors;
     BodyFactors factors_of_skin;
   };
+
+  /// Returns the answer by the factors of a body, which must outlive it.
+  inline Response response_of(const SolidBody &body)
+  {
+    return [&body](std::vector<double> columns)
+    {
+      body.respond(columns);
+      return columns;
+    };
+  }
 } // namespace sprag

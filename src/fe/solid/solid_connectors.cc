@@ -8,7 +8,7 @@ namespace sprag
 {
   namespace
   {
-    void add_guide(const PlateAndLever<3> &body, const Device &device, const bool is_half, std::vector<Connector> &result)
+    void add_guide(const ElasticBody<3> &body, const Device &device, const bool is_half, std::vector<Connector> &result)
     {
       const auto &plate      = device.plate;
       const double half      = 0.5 * device.lever.width;
@@ -24,7 +24,7 @@ namespace sprag
     }
   } // namespace
 
-  std::vector<Connector> find_connectors(const PlateAndLever<3> &body, const Device &device, const bool is_half)
+  std::vector<Connector> find_connectors(const ElasticBody<3> &body, const Device &device, const bool is_half)
   {
     const auto &plate = device.plate;
     std::vector<Connector> result;

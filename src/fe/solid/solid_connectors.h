@@ -13,7 +13,7 @@ namespace sprag
   /// both sides of the middle and has zeta >= 0, the right one alone, which stands for both. Then comes the guide, over the
   /// whole width: a spring along the lever, and of a whole also one across it, as stiff, and one against turning about eta, as
   /// of springs along the lever spread over the width [N mm]. Throws InputError as FacingPads.
-  std::vector<Connector> find_connectors(const PlateAndLever<3> &body, const Device &device, bool is_half);
+  std::vector<Connector> find_connectors(const ElasticBody<3> &body, const Device &device, bool is_half);
 
   /// Adds the stiffness of a connector to that of its body.
   void add(const Connector &connector, SymmetricEntries &stiffness);

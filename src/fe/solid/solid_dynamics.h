@@ -4,8 +4,8 @@
 #include "fe/contact/face_contact_point.h"
 #include "fe/dynamics/dynamic_face_lever.h"
 #include "fe/solid/layered_compliance.h"
-#include "fe/solid/sensor_forces.h"
-#include "fe/solid/solid_modes.h"
+#include "fe/solid/solid_body.h"
+#include "fe/statics/sensor_forces.h"
 
 #include <memory>
 #include <optional>
@@ -21,13 +21,13 @@ namespace sprag
     std::unique_ptr<const SolidBody> body;
     std::unique_ptr<LayeredCompliance> compliance; ///< remembers what it found
     std::unique_ptr<const SensorForces> sensors;
-    SolidModes modes;
-    std::optional<SolidModes> swinging; ///< of a pair's levers that swing together, where they are others
+    LeverModes modes;
+    std::optional<LeverModes> swinging; ///< of a pair's levers that swing together, where they are others
   };
 
   /// Returns the modes of each structure that such levers make: of a pair those of the motions in which the levers mirror each
   /// other, and of those in which the second does the opposite.
-  std::vector<const SolidModes *> modes_of_structures(const SolidInTime &lever, unsigned int levers);
+  std::vector<const LeverModes *> modes_of_structures(const SolidInTime &lever, unsigned int levers);
 
   /// Makes body, compliance and the scene's number of modes from the plane mesh. Throws AnalysisError if a factorisation fails.
   SolidInTime make_solid_in_time(const Device &device, const Mesh &plane);

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/solid/solid_stiffness.h"
 
+#include "fe/body/cell_stiffness.h"
+
 #include <algorithm>
-#include <cmath>
 
 namespace sprag
 {
   using namespace dealii;
-
-  std::vector<long> likeness(const DoFHandler<3>::active_cell_iterator &cell)
-  {
-    std::vector<long> result{ static_cast<long>(cell->material_id()) };
-    for (const unsigned int v : cell->vertex_indices())
-      for (unsigned int d = 0; d < 3; ++d)
-        result.push_back(std::lround(1e6 * (cell->vertex(v)[d] - cell->vertex(0)[d])));
-    return result;
-  }
 
   namespace
   {
@@ -44,64 +36,44 @@ namespace sprag
     }
   } // namespace
 
-  CellStiffness::CellStiffness(const Mapping<3> &mapping, const FiniteElement<3> &fe, const BodyProperties &properties)
-      : elasticity(mapping, fe, properties)
-      , at_rest(fe.n_dofs_per_cell())
-      , no_forces(fe.n_dofs_per_cell())
+  unsigned int size_of_part(const ElasticBody<3> &body, const std::vector<int> &number_in_part)
   {
+    return number_in_part.empty() ? body.n_dofs() : 1 + *std::max_element(number_in_part.begin(), number_in_part.end());
   }
 
-  const FullMatrix<double> &CellStiffness::operator()(const DoFHandler<3>::active_cell_iterator &cell)
-  {
-    const unsigned int n       = at_rest.size();
-    const auto [found, is_new] = known.try_emplace(likeness(cell), n, n);
-    if (is_new)
-    {
-      elasticity.reinit(cell, at_rest);
-      elasticity.assemble(found->second, no_forces);
-    }
-    return found->second;
-  }
-
-  unsigned int size_of_part(const StiffnessSource &source, const std::vector<int> &number_in_part)
-  {
-    return number_in_part.empty() ? source.dof_handler.n_dofs()
-                                  : 1 + *std::max_element(number_in_part.begin(), number_in_part.end());
-  }
-
-  std::vector<int> numbers_of(const DoFHandler<3>::active_cell_iterator &cell, const StiffnessSource &source,
+  std::vector<int> numbers_of(const DoFHandler<3>::active_cell_iterator &cell, const ElasticBody<3> &body,
                               const std::vector<int> &number_in_part)
   {
     std::vector<types::global_dof_index> indices(cell->get_fe().n_dofs_per_cell());
     cell->get_dof_indices(indices);
     std::vector<int> result(indices.size(), -1);
     for (unsigned int i = 0; i < indices.size(); ++i)
-      if (!source.constraints.is_constrained(indices[i]))
+      if (!body.is_held(static_cast<unsigned int>(indices[i])))
         result[i] = number_in_part.empty() ? static_cast<int>(indices[i]) : number_in_part[indices[i]];
     return result;
   }
 
-  SymmetricEntries assemble_stiffness(const StiffnessSource &source, const std::vector<int> &number_in_part)
+  SymmetricEntries assemble_stiffness(const ElasticBody<3> &body, const std::vector<int> &number_in_part)
   {
     std::vector<std::pair<DoFHandler<3>::active_cell_iterator, std::vector<int>>> cells;
-    for (const auto &cell : source.dof_handler.active_cell_iterators())
+    for (const auto &cell : body.dofs().active_cell_iterators())
       if (cell->is_locally_owned() && cell->material_id() != material_id::hub)
       {
-        auto numbers = numbers_of(cell, source, number_in_part);
+        auto numbers = numbers_of(cell, body, number_in_part);
         if (std::any_of(numbers.begin(), numbers.end(), [](const int number) { return number >= 0; }))
           cells.emplace_back(cell, std::move(numbers));
       }
 
     SymmetricEntries result;
-    result.size         = size_of_part(source, number_in_part);
-    const std::size_t n = source.dof_handler.get_fe().n_dofs_per_cell();
-    reserve(cells.size() * n * (n + 1) / 2 + source.constraints.n_constraints(), result);
-    CellStiffness stiffness(source.mapping, source.dof_handler.get_fe(), source.properties);
+    result.size         = size_of_part(body, number_in_part);
+    const std::size_t n = body.dofs().get_fe().n_dofs_per_cell();
+    reserve(cells.size() * n * (n + 1) / 2 + body.held().n_constraints(), result);
+    CellStiffness<3> stiffness(body);
     for (const auto &[cell, numbers] : cells)
       add(stiffness(cell), numbers, result);
-    for (const auto index : source.dof_handler.locally_owned_dofs())
+    for (const auto index : body.dofs().locally_owned_dofs())
       if (const int number = number_in_part.empty() ? static_cast<int>(index) : number_in_part[index];
-          number >= 0 && source.constraints.is_constrained(index))
+          number >= 0 && body.held().is_constrained(index))
         add(number, number, 1., result);
     return result;
   }

@@ -11,7 +11,8 @@ namespace sprag
 
   FiniteStrain::FiniteStrain(const SolidBody &body_)
       : body(body_)
-      , stiffness({ body.cell_mapping(), body.dofs(), body.held(), body.body_properties() }, {}, {})
+      , surface(surface_dofs(body))
+      , stiffness(body, {}, {})
       , elasticity(body.cell_mapping(), body.dofs().get_fe(), body.body_properties())
       , of_cell(body.dofs().get_fe().n_dofs_per_cell())
   {
@@ -34,7 +35,7 @@ namespace sprag
   void FiniteStrain::add(const PortLoads &on_face, std::vector<double> &loads) const
   {
     for (unsigned int i = 0; i < on_face.ports.size(); ++i)
-      if (const unsigned int dof = dof_of_port(body, on_face.ports[i]); !body.is_held(dof))
+      if (const unsigned int dof = surface[on_face.ports[i]]; !body.is_held(dof))
         loads[dof] += on_face.values[i];
   }
 
@@ -91,9 +92,10 @@ namespace sprag
                        [this](const PortSelection &tiles) { return compliance.among(tiles); } } })
       , body(body_)
       , ports(ports_)
+      , surface(surface_dofs(body))
       , compliance(body, begin, end)
       , node_lines(lines_along(body.friction_face()))
-      , sensors(body)
+      , sensors(body, response_of(body))
   {
     if (body.body_properties().material != MaterialModel::linear)
       finite.emplace(body);
@@ -122,7 +124,7 @@ namespace sprag
       return PortWindow::set_faces(forces, near, coordinates);
     for (unsigned int i = 0; i < ports.levers; ++i)
       for (unsigned int port = 0; port < ports.surface; ++port)
-        coordinates[ports.first(i) + port] = coordinates[first_of_body(i) + dof_of_port(body, port)];
+        coordinates[ports.first(i) + port] = coordinates[first_of_body(i) + surface[port]];
   }
 
   Residual SolidStructure::residual(const Vector<double> &coordinates, const PortForces &forces, const PortSelection &near)
@@ -133,10 +135,10 @@ namespace sprag
     for (unsigned int i = 0; i < ports.levers; ++i)
     {
       const auto displacement = of_body(coordinates, i);
-      const auto of_strain    = finite->unbalance(displacement, on_face({ forces.ports, forces.values }, i));
+      const auto of_strain    = finite->unbalance(displacement, on_surface({ forces.ports, forces.values }, i));
       std::copy(of_strain.begin(), of_strain.end(), of_strains.begin() + first_of_body(i));
       for (unsigned int port = 0; port < ports.surface; ++port)
-        of_faces[ports.first(i) + port] = displacement[dof_of_port(body, port)] + of_strain[dof_of_port(body, port)];
+        of_faces[ports.first(i) + port] = displacement[surface[port]] + of_strain[surface[port]];
     }
     auto result = PortWindow::residual(coordinates, forces, near, &of_faces);
     result.norm = std::hypot(result.norm, of_strains.l2_norm());
@@ -157,30 +159,17 @@ namespace sprag
     result.grow_or_shrink(n_coordinates());
     for (unsigned int i = 0; i < ports.levers; ++i)
     {
-      const auto of_strain = finite->correction(of_body(residual.values, i), on_face(change, i));
+      const auto of_strain = finite->correction(of_body(residual.values, i), on_surface(change, i));
       std::copy(of_strain.begin(), of_strain.end(), result.begin() + first_of_body(i));
     }
-    return result;
-  }
-
-  /// With the numbers that its ports have alone.
-  PortLoads SolidStructure::on_face(const PortLoads &acting, const unsigned int lever) const
-  {
-    const auto &all  = acting.ports;
-    const auto begin = std::lower_bound(all.begin(), all.end(), ports.first(lever));
-    const auto end   = std::lower_bound(begin, all.end(), ports.first(lever) + ports.surface);
-    PortLoads result{
-      { begin, end }, Vector<double>(acting.values.begin() + (begin - all.begin()), acting.values.begin() + (end - all.begin()))
-    };
-    for (auto &port : result.ports)
-      port -= ports.first(lever);
     return result;
   }
 
   void SolidStructure::tell_sensors(const unsigned int lever, const Vector<double> &coordinates, const PortLoads &forces,
                                     Row &row) const
   {
-    sensors.tell(finite ? body.sensor_forces(of_body(coordinates, lever)) : sensors(on_face(forces, lever)), row);
+    tell_sides(finite ? body.sensor_forces(of_body(coordinates, lever)) : sensors(on_surface(forces, lever)), body.is_half(),
+               row);
   }
 
   const std::vector<unsigned int> &SolidStructure::line_at(const double zeta) const
@@ -215,7 +204,7 @@ namespace sprag
   double SolidStructure::indentation(const unsigned int lever, const double thickness, const Vector<double> &coordinates,
                                      const PortLoads &forces, const Row &row) const
   {
-    const auto acting = on_face(forces, lever);
+    const auto acting = on_surface(forces, lever);
     if (thickness == 0. || acting.ports.empty() || node_lines.empty())
       return 0.;
     const auto displacements = [&](const PortSelection &some)
@@ -224,7 +213,7 @@ namespace sprag
         return compliance.displacements(some, acting);
       Vector<double> result(static_cast<unsigned int>(some.size()));
       for (unsigned int i = 0; i < result.size(); ++i)
-        result[i] = coordinates[first_of_body(lever) + dof_of_port(body, some[i])];
+        result[i] = coordinates[first_of_body(lever) + surface[some[i]]];
       return result;
     };
     const auto &line   = line_at(row.across[4]);
@@ -249,7 +238,7 @@ namespace sprag
     }
     std::vector<PortLoads> loads;
     for (unsigned int i = 0; i < ports.levers; ++i)
-      loads.push_back(on_face(forces, i));
+      loads.push_back(on_surface(forces, i));
     const auto of_levers = responses(loads);
     for (auto column = of_levers.begin(); column != of_levers.end(); column += body.n_dofs())
       result.emplace_back(column, column + body.n_dofs());
@@ -263,7 +252,7 @@ namespace sprag
     for (const auto &acting : on_faces)
     {
       for (unsigned int i = 0; i < acting.ports.size(); ++i)
-        if (const unsigned int dof = dof_of_port(body, acting.ports[i]); !body.is_held(dof))
+        if (const unsigned int dof = surface[acting.ports[i]]; !body.is_held(dof))
           loads.add(dof, acting.values[i]);
       loads.end_column();
     }
@@ -275,7 +264,7 @@ namespace sprag
     std::vector<FaceSample> result;
     for (unsigned int lever = 0; lever < ports.levers; ++lever)
     {
-      result.push_back({ on_face(forces, lever), {} });
+      result.push_back({ on_surface(forces, lever), {} });
       auto &[acting, displacements] = result.back();
       displacements.reinit(static_cast<unsigned int>(acting.ports.size()));
       for (unsigned int i = 0; i < displacements.size(); ++i)
@@ -298,7 +287,7 @@ namespace sprag
       double difference = 0., largest = 0., missed = 0., work = 0.;
       for (unsigned int i = 0; i < acting.ports.size(); ++i)
       {
-        const double exact = of_whole[k * body.n_dofs() + dof_of_port(body, acting.ports[i])];
+        const double exact = of_whole[k * body.n_dofs() + surface[acting.ports[i]]];
         difference         = std::max(difference, std::abs(exact - displacements[i]));
         largest            = std::max(largest, std::abs(exact));
         missed += (exact - displacements[i]) * acting.values[i];

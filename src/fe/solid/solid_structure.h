@@ -2,22 +2,16 @@
 #pragma once
 
 #include "fe/solid/layered_compliance.h"
-#include "fe/solid/sensor_forces.h"
 #include "fe/solid/solid_body.h"
 #include "fe/solid/stiffness_product.h"
 #include "fe/statics/port_window.h"
+#include "fe/statics/sensor_forces.h"
 #include "model/port_forces.h"
 
 #include <optional>
 
 namespace sprag
 {
-  /// Returns the degree of freedom of a port of the body's face, three ports a node.
-  inline unsigned int dof_of_port(const SolidBody &body, const unsigned int port)
-  {
-    return body.friction_face().nodes[port / 3].dofs[port % 3];
-  }
-
   /// A body at finite strain under forces f on its friction face, by the factors of its stiffness K without load: what its
   /// internal forces R differ from K u by are loads,
   ///   u = K^-1 (f + K u - R(u)).
@@ -46,7 +40,8 @@ namespace sprag
     void add(const PortLoads &on_face, std::vector<double> &loads) const;
 
     const SolidBody &body;
-    const StiffnessProduct stiffness; ///< of the cells, without load
+    const std::vector<unsigned int> surface; ///< degrees of freedom of the ports
+    const StiffnessProduct stiffness;        ///< of the cells, without load
     CellElasticity<3> elasticity;
     std::vector<Cell> cells;
     dealii::Vector<double> of_cell;
@@ -112,13 +107,13 @@ namespace sprag
   private:
     unsigned int first_of_body(unsigned int lever) const;
     dealii::Vector<double> of_body(const dealii::Vector<double> &coordinates, unsigned int lever) const;
-    PortLoads on_face(const PortLoads &forces, unsigned int lever) const;
     std::vector<double> responses(const std::vector<PortLoads> &on_faces) const;
     const std::vector<unsigned int> &line_at(double zeta) const;
     PortLoads interpolation(const std::vector<unsigned int> &line, double xi) const;
 
     const SolidBody &body;
     const PortLayout ports;
+    const std::vector<unsigned int> surface;           ///< degrees of freedom of a lever's ports
     mutable LayeredCompliance compliance;              ///< of a face; remembers what it found
     std::vector<std::vector<unsigned int>> node_lines; ///< nodes of the face with the same zeta, along xi; three and more
     const SensorForces sensors;

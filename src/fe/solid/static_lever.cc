@@ -64,16 +64,6 @@ namespace sprag
       return body;
     }
 
-    unsigned int n_surface_ports(const ElasticBody<2> &body)
-    {
-      return static_cast<unsigned int>(surface_dofs(body).size());
-    }
-
-    unsigned int n_surface_ports(const SolidBody &body)
-    {
-      return 3 * static_cast<unsigned int>(body.friction_face().nodes.size());
-    }
-
     unsigned int n_slopes(const ElasticBody<2> &, const LeverProperties &)
     {
       return 0;
@@ -87,7 +77,7 @@ namespace sprag
     template <class Body>
     PortLayout ports_of(const Body &body, const std::vector<LeverProperties> &levers)
     {
-      PortLayout result{ n_surface_ports(body), levers.front().support_stiffness.has_value() };
+      PortLayout result{ static_cast<unsigned int>(surface_dofs(body).size()), levers.front().support_stiffness.has_value() };
       result.levers      = static_cast<unsigned int>(levers.size());
       result.has_inertia = false;
       result.slopes      = n_slopes(body, levers.front());

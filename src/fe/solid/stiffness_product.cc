@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/solid/stiffness_product.h"
 
+#include "fe/solid/solid_stiffness.h"
+
 #include <algorithm>
 
 namespace sprag
@@ -12,16 +14,16 @@ namespace sprag
     constexpr std::size_t together = 16; ///< columns: pages of more are too many for a processor to find at once
   }
 
-  StiffnessProduct::StiffnessProduct(const StiffnessSource &source, const std::vector<int> &number_in_part,
+  StiffnessProduct::StiffnessProduct(const ElasticBody<3> &body, const std::vector<int> &number_in_part,
                                      std::vector<Connector> connectors)
-      : size(size_of_part(source, number_in_part))
-      , of_cells(source.mapping, source.dof_handler.get_fe(), source.properties)
+      : size(size_of_part(body, number_in_part))
+      , of_cells(body)
       , springs(std::move(connectors))
   {
-    for (const auto &cell : source.dof_handler.active_cell_iterators())
+    for (const auto &cell : body.dofs().active_cell_iterators())
       if (cell->material_id() != material_id::hub)
       {
-        auto numbers = numbers_of(cell, source, number_in_part);
+        auto numbers = numbers_of(cell, body, number_in_part);
         if (std::any_of(numbers.begin(), numbers.end(), [](const int number) { return number >= 0; }))
           cells.push_back({ &of_cells(cell), std::move(numbers) });
       }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/body/connectors.h"
-#include "fe/solid/solid_stiffness.h"
+#include "fe/body/cell_stiffness.h"
 
 namespace sprag
 {
@@ -11,8 +10,8 @@ namespace sprag
   class StiffnessProduct
   {
   public:
-    /// `number_in_part` as of assemble_stiffness(). What the source refers to must outlive this.
-    StiffnessProduct(const StiffnessSource &source, const std::vector<int> &number_in_part, std::vector<Connector> connectors);
+    /// `number_in_part` as of assemble_stiffness(). The body must outlive this.
+    StiffnessProduct(const ElasticBody<3> &body, const std::vector<int> &number_in_part, std::vector<Connector> connectors);
 
     /// Subtracts the product with some columns, one after another, from others. Held displacements must be 0.
     void subtract(const std::vector<double> &displacements, std::vector<double> &forces) const;
@@ -25,7 +24,7 @@ namespace sprag
     };
 
     unsigned int size;
-    CellStiffness of_cells;
+    CellStiffness<3> of_cells;
     std::vector<Connector> springs;
     std::vector<Cell> cells;
   };

@@ -213,7 +213,6 @@ namespace sprag
 
   void FullStiffness::tell_sensors(const unsigned int lever, const Vector<double> &coordinates, const PortLoads &, Row &row) const
   {
-    if (!body.connectors().empty())
-      row.sensor_forces = body.sensor_forces(body_displacement(lever, coordinates));
+    row.sensor_forces = body.sensor_forces(body_displacement(lever, coordinates));
   }
 } // namespace sprag

@@ -25,22 +25,4 @@ namespace sprag
     double norm;                                                             ///< as a displacement or a force, hubs by their arm
     std::shared_ptr<const dealii::PETScWrappers::SparseMatrix> tangent = {}; ///< of structures that are factorised anew
   };
-
-  /// Degrees of freedom of the ports of a face: two a node.
-  inline std::vector<unsigned int> face_dofs(const FrictionFace<2> &face)
-  {
-    std::vector<unsigned int> result;
-    for (const auto &node : face.nodes)
-      result.insert(result.end(), node.dofs.begin(), node.dofs.end());
-    return result;
-  }
-
-  /// Degrees of freedom of the ports of the friction face, then of an elastic cylinder's face.
-  inline std::vector<unsigned int> surface_dofs(const ElasticBody<2> &body)
-  {
-    auto result         = face_dofs(body.friction_face());
-    const auto cylinder = face_dofs(body.cylinder_face());
-    result.insert(result.end(), cylinder.begin(), cylinder.end());
-    return result;
-  }
 } // namespace sprag

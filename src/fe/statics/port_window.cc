@@ -146,4 +146,17 @@ namespace sprag
       result[window[place]] = in_window[place];
     return result;
   }
+
+  PortLoads PortWindow::on_surface(const PortLoads &forces, const unsigned int lever) const
+  {
+    const auto &all  = forces.ports;
+    const auto begin = std::lower_bound(all.begin(), all.end(), ports.first(lever));
+    const auto end   = std::lower_bound(begin, all.end(), ports.first(lever) + ports.surface);
+    PortLoads result{
+      { begin, end }, Vector<double>(forces.values.begin() + (begin - all.begin()), forces.values.begin() + (end - all.begin()))
+    };
+    for (auto &port : result.ports)
+      port -= ports.first(lever);
+    return result;
+  }
 } // namespace sprag

@@ -52,6 +52,10 @@ namespace sprag
     /// Visits where the window is.
     void visit_history(Archive &archive);
 
+  protected:
+    /// Returns the forces on the surface of a lever, with the numbers that its ports have alone.
+    PortLoads on_surface(const PortLoads &forces, unsigned int lever) const;
+
   private:
     void move_window(const PortSelection &wanted);
     PortSelection places_of(const PortSelection &of_ports) const;

@@ -146,16 +146,11 @@ namespace sprag
       , body(body_)
       , ports(ports_)
       , surface(surface_dofs(body))
-      , factors(MatrixKind::positive_definite)
-      , faces{ { SurfaceCompliance(factors, face_dofs(body.friction_face())),
-                 SurfaceCompliance(factors, face_dofs(body.cylinder_face())) } }
+      , factors(body.factorised())
+      , faces{ { SurfaceCompliance(*factors, face_dofs(body.friction_face())),
+                 SurfaceCompliance(*factors, face_dofs(body.cylinder_face())) } }
+      , sensors(body, [this](std::vector<double> columns) { return factors->solve(std::move(columns)); })
   {
-    PETScWrappers::SparseMatrix stiffness;
-    Vector<double> forces(body.n_dofs());
-    body.reinit(stiffness);
-    body.assemble(Vector<double>(body.n_dofs()), stiffness, forces);
-    factors.factorise(stiffness);
-    find_sensor_rows();
   }
 
   void StaticStructure::visit_history(Archive &archive)
@@ -165,51 +160,22 @@ namespace sprag
     PortWindow::visit_history(archive);
   }
 
-  void StaticStructure::find_sensor_rows()
-  {
-    const auto sensors = body.sensors();
-    sensor_rows.reinit(static_cast<unsigned int>(sensors.size()), sensors.empty() ? 0 : ports.surface);
-    for (unsigned int s = 0; s < sensors.size(); ++s)
-    {
-      Vector<double> row(body.n_dofs()), response;
-      for (const auto &[dof, weight] : sensors[s].row)
-        row[dof] = sensors[s].stiffness * weight;
-      factors.solve(row, response);
-      for (unsigned int i = 0; i < ports.surface; ++i)
-        sensor_rows(s, i) = response[surface[i]];
-    }
-  }
-
-  Vector<double> StaticStructure::forces_on_faces(const unsigned int lever, const PortLoads &forces) const
-  {
-    Vector<double> result(ports.surface);
-    for (unsigned int i = 0; i < forces.ports.size(); ++i)
-      if (ports.is_surface(forces.ports[i]) && ports.lever_of(forces.ports[i]) == lever)
-        result[forces.ports[i] - ports.first(lever)] = forces.values[i];
-    return result;
-  }
-
   std::vector<Vector<double>> StaticStructure::body_displacements(const Vector<double> &, const PortLoads &forces) const
   {
     std::vector<Vector<double>> result(ports.levers);
     for (unsigned int lever = 0; lever < ports.levers; ++lever)
     {
-      const auto on_faces = forces_on_faces(lever, forces);
+      const auto acting = on_surface(forces, lever);
       Vector<double> loads(body.n_dofs());
-      for (unsigned int i = 0; i < ports.surface; ++i)
-        loads[surface[i]] = on_faces[i];
-      factors.solve(loads, result[lever]);
+      for (unsigned int i = 0; i < acting.ports.size(); ++i)
+        loads[surface[acting.ports[i]]] = acting.values[i];
+      factors->solve(loads, result[lever]);
     }
     return result;
   }
 
   void StaticStructure::tell_sensors(const unsigned int lever, const Vector<double> &, const PortLoads &forces, Row &row) const
   {
-    if (body.connectors().empty())
-      return;
-    Vector<double> of_sensors(static_cast<unsigned int>(sensor_rows.m()));
-    if (of_sensors.size() > 0)
-      sensor_rows.vmult(of_sensors, forces_on_faces(lever, forces));
-    row.sensor_forces.assign(of_sensors.begin(), of_sensors.end());
+    row.sensor_forces = sensors(on_surface(forces, lever));
   }
 } // namespace sprag

@@ -5,6 +5,7 @@
 #include "fe/algebra/mumps.h"
 #include "fe/body/elastic_body.h"
 #include "fe/statics/port_window.h"
+#include "fe/statics/sensor_forces.h"
 #include "model/port_forces.h"
 #include "model/port_layout.h"
 #include "results/columns.h"
@@ -69,14 +70,11 @@ namespace sprag
     void visit_history(Archive &archive);
 
   private:
-    void find_sensor_rows();
-    dealii::Vector<double> forces_on_faces(unsigned int lever, const PortLoads &forces) const;
-
     const ElasticBody<2> &body;
     const PortLayout ports;
     const std::vector<unsigned int> surface; ///< degrees of freedom of a lever's ports
-    Mumps factors;
+    const std::shared_ptr<const Mumps> factors;
     std::array<SurfaceCompliance, 2> faces; ///< of friction face and cylinder's face
-    dealii::FullMatrix<double> sensor_rows; ///< force of a sensor by unit forces on a lever's ports
+    const SensorForces sensors;
   };
 } // namespace sprag

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "fe/solid/solid_modes.h"
+#include "fe/dynamics/lever_modes.h"
 
-#include "base/errors.h"
-#include "base/text.h"
 #include "fe/algebra/block_krylov.h"
-#include "fe/solid/solid_mass.h"
-#include "fe/solid/solid_stiffness.h"
+#include "fe/body/cell_stiffness.h"
+
+#include <deal.II/dofs/dof_tools.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace sprag
 {
@@ -16,19 +16,16 @@ namespace sprag
 
   namespace
   {
-    /// Admissible |phi - omega^2 K^-1 M phi| over |phi|, times omega^2 over that of the lowest mode, by which round-off grows
-    /// there. Solves with more or fewer columns differ by some 1e-11 of the softest motion.
-    constexpr double largest_residual = 1e-9;
-
-    constexpr double alike = 1e-6; ///< relative difference of displacements, as those of both sides in a mode that twists
-
     /// The lever in its free elastic displacements, the vibrations of its leaf spring with the hub held and last the rotation of
     /// its hub. There the stiffness is that of the body, of these vibrations and of the spring, which feel nothing of each other.
+    template <int dim>
     class FreeLever
     {
     public:
-      FreeLever(const SolidBody &body_, const SolidMass &mass_, const LeafBehaviour &leaf_, const double spring_)
+      FreeLever(const ElasticBody<dim> &body_, const Response &response_, const BodyMass<dim> &mass_, const LeafBehaviour &leaf_,
+                const double spring_)
           : body(body_)
+          , response(response_)
           , mass(mass_)
           , leaf(leaf_)
           , spring(spring_)
@@ -108,7 +105,7 @@ namespace sprag
               of_dof(loads[j * n_dofs + free[i]], columns[j * size() + i]);
         };
         each([](double &load, const double force) { load = force; });
-        body.respond(loads);
+        loads = response(std::move(loads));
         each([](const double displacement, double &place) { place = displacement; });
         for (std::size_t begin = 0; begin < columns.size(); begin += size())
         {
@@ -126,58 +123,88 @@ namespace sprag
         return q[free.size() + leaf.modes.size()];
       }
 
-      const SolidBody &body;
-      const SolidMass &mass;
+      const ElasticBody<dim> &body;
+      const Response &response;
+      const BodyMass<dim> &mass;
       const LeafBehaviour &leaf;
       const double spring;
       std::vector<unsigned int> free;
     };
 
-    /// With a modal mass of 1, the hub turning forward, or where it hardly turns, the first of the largest displacements
-    /// positive.
-    void normalise(const FreeLever &lever, std::vector<double> &mode)
+    /// Motions of a body by what both sides of its middle do.
+    class Sides
     {
-      std::vector<double> momentum(mode.size());
-      lever.multiply_mass(mode.data(), momentum.data());
-      double modal_mass = 0., largest = 0.;
-      for (std::size_t i = 0; i < mode.size(); ++i)
-        modal_mass += mode[i] * momentum[i];
-      for (const double value : mode)
-        if (std::abs(value) > (1. + alike) * std::abs(largest))
-          largest = value;
-      const double reference = std::abs(mode.back()) < 1e-8 * std::abs(largest) ? largest : mode.back();
-      const double factor    = (reference < 0. ? -1. : 1.) / std::sqrt(modal_mass);
-      for (double &value : mode)
-        value *= factor;
+    public:
+      explicit Sides(const ElasticBody<3> &body)
+          : axes(turning_axes(body))
+      {
+        std::vector<Point<3>> places(body.n_dofs());
+        DoFTools::map_dofs_to_support_points(body.cell_mapping(), body.dofs(), places);
+        const auto key = [&](const unsigned int dof, const double side)
+        {
+          const auto &place = places[dof];
+          return std::array<long, 4>{ { std::lround(1e6 * place[0]), std::lround(1e6 * place[1]),
+                                        std::lround(1e6 * side * place[2]), axes[dof] } };
+        };
+        std::map<std::array<long, 4>, unsigned int> known;
+        for (unsigned int dof = 0; dof < places.size(); ++dof)
+          known[key(dof, 1.)] = dof;
+        for (unsigned int dof = 0; dof < places.size(); ++dof)
+        {
+          const auto found = known.find(key(dof, -1.));
+          if (found == known.end())
+          {
+            mirrored.clear();
+            break;
+          }
+          mirrored.push_back(found->second);
+        }
+      }
+
+      /// Returns where the kinetic energy of a motion lies, given by the displacement of all degrees of freedom and with a modal
+      /// mass of 1 t, of which hub and leaf spring move as in a plane. A body that is not the same on both sides has no such
+      /// shares: NaN.
+      Eigenmode::AcrossShares shares(const Vector<double> &displacement, const BodyMass<3> &mass) const
+      {
+        if (mirrored.empty())
+          return {};
+        Vector<double> opposite(displacement.size());
+        for (unsigned int dof = 0; dof < opposite.size(); ++dof)
+          opposite[dof] = 0.5 * (displacement[dof] + (axes[dof] == 2 ? 1. : -1.) * displacement[mirrored[dof]]);
+        const auto momentum = mass(opposite);
+        double sideways     = 0.;
+        for (unsigned int dof = 0; dof < opposite.size(); ++dof)
+          sideways += axes[dof] == 2 ? opposite[dof] * momentum[dof] : 0.;
+        const double of_opposite = opposite * momentum;
+        return { 1. - of_opposite, of_opposite - sideways, sideways };
+      }
+
+    private:
+      const std::vector<int> axes;
+      std::vector<unsigned int> mirrored; ///< by a degree of freedom that on the other side; empty where not all have one
+    };
+
+    void add_shares(const ElasticBody<2> &, const BodyMass<2> &, LeverModes &)
+    {
     }
 
-    void require_residuals(const FreeLever &lever, const std::vector<NormalMode> &modes)
+    void add_shares(const ElasticBody<3> &body, const BodyMass<3> &mass, LeverModes &modes)
     {
-      std::vector<double> images;
-      for (const auto &[omega_squared, mode] : modes)
-        images.insert(images.end(), mode.begin(), mode.end());
-      images = lever.deformation(lever.inertia(images));
-      for (std::size_t j = 0; j < modes.size(); ++j)
+      const Sides sides(body);
+      for (unsigned int i = 0; i < modes.displacements.size(); ++i)
       {
-        const auto &[omega_squared, mode] = modes[j];
-        double difference = 0., size = 0.;
-        for (std::size_t i = 0; i < mode.size(); ++i)
-        {
-          difference = std::max(difference, std::abs(omega_squared * images[j * mode.size() + i] - mode[i]));
-          size       = std::max(size, std::abs(mode[i]));
-        }
-        if (!(difference < largest_residual * omega_squared / modes.front().value * size))
-          throw AnalysisError("vibration mode " + std::to_string(j + 1) + " was found with a residual of only " +
-                              number_text(difference / size));
+        auto total = modes.displacements[i];
+        total.add(modes.rotation[i], mass.arms());
+        modes.across.push_back(sides.shares(total, mass));
       }
     }
 
-    FullMatrix<double> stiffness_of_layer(const SolidBody &body, const std::vector<Vector<double>> &modes)
+    template <int dim>
+    FullMatrix<double> stiffness_of_layer(const ElasticBody<dim> &body, const std::vector<Vector<double>> &modes)
     {
       const auto m         = static_cast<unsigned int>(modes.size());
-      const auto &fe       = body.dofs().get_fe();
-      const unsigned int n = fe.n_dofs_per_cell();
-      CellStiffness stiffness(body.cell_mapping(), fe, body.body_properties());
+      const unsigned int n = body.dofs().get_fe().n_dofs_per_cell();
+      CellStiffness<dim> stiffness(body);
       std::vector<types::global_dof_index> indices(n);
       FullMatrix<double> local(n, m), forces(n, m), result(m, m);
       for (const auto &cell : body.dofs().active_cell_iterators())
@@ -195,35 +222,34 @@ namespace sprag
     }
   } // namespace
 
-  SolidModes solid_modes(const SolidBody &body, const LeverInertia &inertia, const double spring_stiffness, const unsigned int n)
+  template <int dim>
+  LeverModes lever_modes(const ElasticBody<dim> &body, const Response &response, const LeverInertia &inertia,
+                         const double spring_stiffness, const unsigned int n)
   {
-    const SolidMass mass(body, inertia);
-    FreeLever lever(body, mass, inertia.leaf, spring_stiffness);
-    auto modes = lowest_eigenpairs({ lever.size(), [&](auto forces) { return lever.deformation(std::move(forces)); },
-                                     [&](const auto &motions) { return lever.inertia(motions); } },
-                                   n);
-    require_residuals(lever, modes);
-    SolidModes result;
-    for (auto &[omega_squared, mode] : modes)
+    const BodyMass<dim> mass(body, inertia);
+    const FreeLever<dim> lever(body, response, mass, inertia.leaf, spring_stiffness);
+    const auto modes = normal_modes({ lever.size(), [&](auto forces) { return lever.deformation(std::move(forces)); },
+                                      [&](const auto &motions) { return lever.inertia(motions); } },
+                                    n);
+    LeverModes result;
+    for (const auto &[omega_squared, mode] : modes)
     {
-      normalise(lever, mode);
-      const auto impulse = lever.impulse(mode.data());
       result.stiffness.push_back(omega_squared);
       result.displacements.push_back(lever.elastic(mode.data()));
       result.rotation.push_back(mode.back());
-      auto total = result.displacements.back();
-      total.add(mode.back(), mass.arms());
-      result.across.push_back(mass.shares(total, 1.));
-      result.momentum.push_back(lever.momentum(mode.data(), impulse));
+      result.leaf.emplace_back(mode.end() - 1 - static_cast<std::ptrdiff_t>(inertia.leaf.modes.size()), mode.end() - 1);
+      result.momentum.push_back(lever.momentum(mode.data(), lever.impulse(mode.data())));
     }
-    result.layer_stiffness   = stiffness_of_layer(body, result.displacements);
-    result.density_factor    = mass.density_factor;
-    result.total_mass        = mass.total_mass;
-    result.moment_of_inertia = mass.moment_of_inertia;
+    add_shares(body, mass, result);
+    result.layer_stiffness          = stiffness_of_layer(body, result.displacements);
+    static_cast<MassSums &>(result) = mass;
     return result;
   }
 
-  void tell_motion(const std::vector<const SolidModes *> &structures, std::vector<Eigenmode> &vibrations)
+  template LeverModes lever_modes(const ElasticBody<2> &, const Response &, const LeverInertia &, double, unsigned int);
+  template LeverModes lever_modes(const ElasticBody<3> &, const Response &, const LeverInertia &, double, unsigned int);
+
+  void tell_motion(const std::vector<const LeverModes *> &structures, std::vector<Eigenmode> &vibrations)
   {
     for (auto &vibration : vibrations)
     {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "fe/body/body_mass.h"
+#include "model/vibration.h"
+
+namespace sprag
+{
+  /// Modes of undamped vibration of a lever on its rotational spring, out of contact, by increasing frequency, with a modal mass
+  /// of 1 t. Coordinates: elastic displacements of the body in axes that turn with its hub, vibrations of the leaf spring with
+  /// the hub held, and the hub's rotation.
+  struct ModeShapes
+  {
+    std::vector<double> stiffness;                     ///< omega^2 [1/s^2]
+    std::vector<dealii::Vector<double>> displacements; ///< elastic, of all degrees of freedom of the body
+    std::vector<double> rotation;                      ///< of the hub
+  };
+
+  struct LeverModes : ModeShapes, MassSums
+  {
+    std::vector<std::vector<double>> leaf; ///< vibrations of the leaf spring
+    std::vector<std::array<double, 2>>
+        momentum; ///< of rho times the total displacement along xi and eta, leaf spring included [t]
+    std::vector<Eigenmode::AcrossShares> across; ///< in space
+    dealii::FullMatrix<double> layer_stiffness;  ///< of the friction layer, in the modes
+  };
+
+  /// Finds the lowest `n` modes, by shift and invert with the body's answer to forces. Throws InputError as BodyMass,
+  /// AnalysisError where a residual is too large.
+  template <int dim>
+  LeverModes lever_modes(const ElasticBody<dim> &body, const Response &response, const LeverInertia &inertia,
+                         double spring_stiffness, unsigned int n);
+
+  /// Tells how vibrations in space move, as far as the modes' own motions tell it. `structures`: the modes of each structure
+  /// whose coordinates a vibration has, one after the other.
+  void tell_motion(const std::vector<const LeverModes *> &structures, std::vector<Eigenmode> &vibrations);
+} // namespace sprag
