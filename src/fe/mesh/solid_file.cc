@@ -21,12 +21,12 @@ namespace sprag
 
   namespace
   {
-    using Messages = std::vector<std::string>;
-    using Side     = Triangulation<3>::active_face_iterator;
+    using Messages  = std::vector<std::string>;
+    using SolidSide = Triangulation<3>::active_face_iterator;
 
-    std::vector<Side> sides_of_face(const Triangulation<3> &triangulation)
+    std::vector<SolidSide> sides_of_face(const Triangulation<3> &triangulation)
     {
-      std::vector<Side> result;
+      std::vector<SolidSide> result;
       for (const auto &cell : triangulation.active_cell_iterators())
         for (const auto &side : cell->face_iterators())
           if (side->at_boundary() && side->boundary_id() == boundary_id::friction_face)
@@ -35,7 +35,7 @@ namespace sprag
     }
 
     /// Positions of the corners of the sides along an axis, in steps of a nanometre.
-    std::set<long> places_along(const unsigned int axis, const std::vector<Side> &sides)
+    std::set<long> places_along(const unsigned int axis, const std::vector<SolidSide> &sides)
     {
       std::set<long> result;
       for (const auto &side : sides)
@@ -54,7 +54,7 @@ namespace sprag
       return rounded_text(ends[0]) + " to " + mm(ends[1]);
     }
 
-    void check_height(const Device &device, const std::vector<Side> &sides, Messages &mistakes)
+    void check_height(const Device &device, const std::vector<SolidSide> &sides, Messages &mistakes)
     {
       const double e     = device.geometry.interface_offset;
       const double small = 1e-6 * device.geometry.cylinder_radius;
@@ -67,7 +67,7 @@ namespace sprag
                            ", but Geometry/Interface offset = " + rounded_text(e));
     }
 
-    void check_width(const Device &device, const std::vector<Side> &sides, Messages &mistakes)
+    void check_width(const Device &device, const std::vector<SolidSide> &sides, Messages &mistakes)
     {
       const double half  = 0.5 * device.lever.width;
       const double small = 1e-6 * half;
@@ -82,7 +82,7 @@ namespace sprag
       mistakes.push_back(line);
     }
 
-    void check_sweep(const Device &device, const std::vector<Side> &sides, Messages &mistakes)
+    void check_sweep(const Device &device, const std::vector<SolidSide> &sides, Messages &mistakes)
     {
       const auto ends          = range(places_along(0, sides));
       const auto [first, last] = swept_contact(device);
@@ -91,7 +91,7 @@ namespace sprag
                            rounded_text(first) + " to " + mm(last));
     }
 
-    void check_cylinder(const Device &device, const std::vector<Side> &sides, Messages &mistakes)
+    void check_cylinder(const Device &device, const std::vector<SolidSide> &sides, Messages &mistakes)
     {
       std::vector<double> planes;
       for (const long place : places_along(2, sides))
@@ -101,13 +101,13 @@ namespace sprag
     }
 
     /// Returns true if a side is a rectangle with its sides along x and z.
-    bool is_straight(const Side &side)
+    bool is_straight(const SolidSide &side)
     {
       return places_along(0, { side }).size() == 2 && places_along(2, { side }).size() == 2;
     }
 
     /// A grid of rectangles in which no line ends or bends.
-    void check_lines(const std::vector<Side> &sides, Messages &mistakes)
+    void check_lines(const std::vector<SolidSide> &sides, Messages &mistakes)
     {
       const std::string rule =
           "the sides of cells on 'friction face' must be rectangles in lines along x and z, from end to end: ";
