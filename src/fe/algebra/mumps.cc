@@ -3,8 +3,6 @@
 
 #include "base/errors.h"
 
-#include <algorithm>
-
 namespace sprag
 {
   Mumps::Mumps(const MatrixKind kind_)
@@ -113,13 +111,16 @@ namespace sprag
   {
     PetscInt n = 0;
     check(MatGetSize(factor, &n, nullptr), "a solve");
-    dealii::Vector<double> solution;
-    for (auto column = columns.begin(); column != columns.end(); column += n)
-    {
-      solve(dealii::Vector<double>(column, column + n), solution);
-      std::copy(solution.begin(), solution.end(), column);
-    }
-    return columns;
+    const auto number = static_cast<PetscInt>(columns.size()) / n;
+    std::vector<double> result(columns.size());
+    Mat b = nullptr, x = nullptr;
+    check(MatCreateSeqDense(PETSC_COMM_SELF, n, number, columns.data(), &b), "a solve");
+    check(MatCreateSeqDense(PETSC_COMM_SELF, n, number, result.data(), &x), "a solve");
+    check(MatMatSolve(factor, b, x), "a solve");
+    check_factor("a solve");
+    check(MatDestroy(&b), "a solve");
+    check(MatDestroy(&x), "a solve");
+    return result;
   }
 
   std::vector<double> Mumps::entries_of_inverse(const std::map<unsigned int, std::vector<unsigned int>> &wanted) const
