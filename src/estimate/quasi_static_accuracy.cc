@@ -408,7 +408,7 @@ namespace sprag
                                             unless_narrow(largest_stress(scene, probes), faces, all_follows) };
       if (scene.analysis.dimension == 3)
         for (const auto &quantity : across)
-          result.push_back(unless_narrow(estimate_across(scene, probes, quantity), faces, all_follows));
+          result.push_back(unless_narrow(estimate_across(scene, probes, quantity), faces, forces_follow));
       const double inertia = left_out_inertia(scene, rows);
       for (auto &estimate : result)
         if (estimate.quantity == "P" && !estimate.parts.empty())

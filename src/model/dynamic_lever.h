@@ -38,16 +38,20 @@ namespace sprag
   };
 
   /// Returns the share of friction from the last of these points to a fold, at which the branch turns back: there the share's
-  /// slope over the overlap, a straight line near the fold, falls to 0. Infinite where it does not fall.
+  /// slope over the overlap, a straight line near the fold, falls to 0. Infinite where it does not fall. The slopes are those
+  /// between points whose overlaps are a tenth apart, over which elements that come into contact count for little.
   inline double distance_to_fold(const std::vector<BranchPoint> &branch)
   {
-    constexpr double none = std::numeric_limits<double>::infinity();
-    if (branch.size() < 3)
+    constexpr double none = std::numeric_limits<double>::infinity(), apart = 0.9;
+    std::vector<BranchPoint> p; // the last first
+    for (auto point = branch.rbegin(); point != branch.rend() && p.size() < 3; ++point)
+      if (p.empty() || point->overlap <= apart * p.back().overlap)
+        p.push_back(*point);
+    if (p.size() < 3)
       return none;
-    const auto p      = branch.end() - 3;
-    const auto slope  = [&](const unsigned int i) { return (p[i + 1].share - p[i].share) / (p[i + 1].overlap - p[i].overlap); };
-    const double bend = (slope(0) - slope(1)) / (0.5 * (p[2].overlap - p[0].overlap));
-    const double slope_at_end = slope(1) - 0.5 * bend * (p[2].overlap - p[1].overlap);
+    const auto slope  = [&](const unsigned int i) { return (p[i].share - p[i + 1].share) / (p[i].overlap - p[i + 1].overlap); };
+    const double bend = (slope(1) - slope(0)) / (0.5 * (p[0].overlap - p[2].overlap));
+    const double slope_at_end = slope(0) - 0.5 * bend * (p[0].overlap - p[1].overlap);
     if (!(bend > 0.))
       return none;
     return slope_at_end > 0. ? 0.5 * slope_at_end * slope_at_end / bend : 0.;

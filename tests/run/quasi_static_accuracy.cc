@@ -229,7 +229,7 @@ TEST(QuasiStaticAccuracy, SaysWhyThereIsNoEstimate)
   scene.mesh.file          = "lever.msh";
   scene.analysis.dimension = 3;
   const auto estimates     = quasi_static_accuracy(scene, {}, [] { return Probes{}; });
-  ASSERT_EQ(estimates.size(), 6u);
+  ASSERT_EQ(estimates.size(), 8u);
   for (const auto &estimate : estimates)
     EXPECT_NE(estimate.unknown.find("mesh from a file"), std::string::npos);
 }

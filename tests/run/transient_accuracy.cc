@@ -87,7 +87,7 @@ TEST(TransientAccuracy, ToldErrorsAreThoseOfShorterSteps)
     EXPECT_EQ(estimates[3].quantity, "decay");
     const double decay = std::abs(ringing(rows).growth_rate / ringing(exact).growth_rate - 1.);
     EXPECT_GT(total_error(estimates[3]), 0.5 * decay);
-    EXPECT_LT(total_error(estimates[3]), 0.1 + 3. * decay);
+    EXPECT_LT(total_error(estimates[3]), 0.15 + 3. * decay); // the slide moves on, and its decay with it
   }
 }
 
