@@ -257,16 +257,7 @@ namespace sprag
       const bool in_time = scene.analysis.type == AnalysisType::transient && scene.analysis.model != ModelType::closed_form;
       if (!in_time || scene.friction.regularisation_speed > 0.)
         return;
-      constexpr double least_fall    = 0.01; ///< of mu, over its largest value
-      constexpr unsigned int samples = 64;
-      double largest = 0., fall = 0.;
-      for (unsigned int i = 0; i <= samples; ++i)
-      {
-        const double mu = friction_coefficient(scene.friction, scene.drive.peak_speed() * i / samples).coefficient;
-        largest         = std::max(largest, mu);
-        fall            = std::max(fall, largest - mu);
-      }
-      if (fall > least_fall * largest)
+      if (const double fall = fall_with_speed(scene.friction, scene.drive.peak_speed()); fall > 0.)
         warnings.push_back({ "falling_friction",
                              "The friction coefficient falls by " + rounded_text(fall) + " with speed, and stick is resolved.",
                              "Points stick and slip by themselves within single steps: friction jumps, its mean does not fall "
