@@ -94,16 +94,6 @@ namespace sprag
       return rows;
     }
 
-    /// Returns the rows at some of the places that were solved.
-    std::vector<Row> rows_at(const std::vector<Row> &places, const std::vector<Row> &solved)
-    {
-      std::vector<Row> result;
-      for (const Row &place : places)
-        result.push_back(*std::find_if(solved.begin(), solved.end(),
-                                       [&](const Row &row) { return row[Column::time] == place[Column::time]; }));
-      return result;
-    }
-
     /// Returns by how much the largest P or Q behind the reversal of the closed form, which jumps there, is off that of finite
     /// elements, which turn over the contact's width.
     double change_of_jump(const std::string &quantity, const std::vector<Row> &rows, const Row &jump)
@@ -164,7 +154,7 @@ namespace sprag
       wanted.erase(std::find_if(wanted.begin(), wanted.end(),
                                 [&](const Row &row) { return row[Column::time] == turn.front()[Column::time]; }));
     const auto solved = probe(fine, wanted);
-    const auto rows   = rows_at(places, solved);
+    const auto rows   = rows_at(times_of(places), solved);
     const auto jump   = of_closed_form(scene, turn);
     const auto coarse = probe(with_coarser_mesh(fine), places);
     const auto closed = of_closed_form(scene, rows);

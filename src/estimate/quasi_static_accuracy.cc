@@ -115,23 +115,6 @@ namespace sprag
   {
     constexpr unsigned int samples_of_stroke = 6, samples_in_space = 3;
 
-    std::vector<Row> rows_at(const std::vector<double> &times, const std::vector<Row> &rows)
-    {
-      std::vector<Row> result;
-      for (const Row &row : rows)
-        if (std::find(times.begin(), times.end(), row[Column::time]) != times.end())
-          result.push_back(row);
-      return result;
-    }
-
-    std::vector<double> times_of(const std::vector<Row> &rows)
-    {
-      std::vector<double> result;
-      for (const Row &row : rows)
-        result.push_back(row[Column::time]);
-      return result;
-    }
-
     /// Sets the samples of a run, and returns them with the rows of its passage through stick between.
     std::vector<Row> choose_rows(const std::vector<Row> &rows, const unsigned int of_stroke, const std::vector<double> &times,
                                  Probes &probes)

@@ -133,7 +133,7 @@ TEST(Growth, OfACondensedLeverIsThatOfItsEigenvalue)
 {
   const JudgedSlide judged(backward_a(ModelType::condensed, 6.));
   ASSERT_EQ(judged.stability.kind, SlideKind::flutter);
-  // Where Newton's method starts decides on the round-off of the first steps: 1.04e-4 from the line of the last two forces with
+  // The start of Newton's method decides on the round-off of the first steps: 1.04e-4 from the line of the last two forces with
   // modes in axes that do not turn, 2.2e-4 in those of the hub.
   expect_as_predicted(judged, growth_of(judged), 4e-4);
 }

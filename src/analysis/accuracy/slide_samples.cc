@@ -156,6 +156,23 @@ namespace sprag
     return result;
   }
 
+  std::vector<double> times_of(const std::vector<Row> &rows)
+  {
+    std::vector<double> result;
+    for (const Row &row : rows)
+      result.push_back(row[Column::time]);
+    return result;
+  }
+
+  std::vector<Row> rows_at(const std::vector<double> &times, const std::vector<Row> &rows)
+  {
+    std::vector<Row> result;
+    for (const Row &row : rows)
+      if (std::find(times.begin(), times.end(), row[Column::time]) != times.end())
+        result.push_back(row);
+    return result;
+  }
+
   namespace
   {
     Row row_at(const DrivePoint &point)

@@ -25,6 +25,12 @@ namespace sprag
       Model &model, const std::vector<Row> &samples, double start, const QuasiStaticSettings &settings,
       const StepSink &look = [](const State &, const Row &, const Evaluation &) {});
 
+  /// Returns the times of rows [s].
+  std::vector<double> times_of(const std::vector<Row> &rows);
+
+  /// Returns the rows at one of some times, exactly.
+  std::vector<Row> rows_at(const std::vector<double> &times, const std::vector<Row> &rows);
+
   /// Returns time, x and v of places in full sliding over the first two strokes of a drive, for probes before a run.
   std::vector<Row> places_of(const Drive &drive);
 
