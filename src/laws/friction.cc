@@ -16,20 +16,13 @@ namespace sprag
   public:
     Interpolant(const std::vector<double> &x, const std::vector<double> &y)
         : MonotoneCubic(x, y)
-        , knots({ x.front() })
+        , fastest(x.back())
+        , falls(!std::is_sorted(y.begin(), y.end()))
     {
-      for (std::size_t i = 1; i < x.size(); ++i)
-      {
-        const double length = x[i] - x[i - 1];
-        const double begin = derivative(x[i - 1]), end = derivative(x[i]), chord = (y[i] - y[i - 1]) / length;
-        const double share = (2. * begin + end - 3. * chord) / (3. * (begin + end - 2. * chord));
-        if (share > 0. && share < 1.)
-          knots.push_back(x[i - 1] + share * length);
-        knots.push_back(x[i]);
-      }
     }
 
-    std::vector<double> knots;
+    const double fastest; ///< [mm/s]
+    const bool falls;
   };
 
   namespace
@@ -61,9 +54,14 @@ namespace sprag
     return { interpolant->value(speed), interpolant->derivative(speed) };
   }
 
-  const std::vector<double> &TabulatedFriction::knots() const
+  double TabulatedFriction::fastest() const
   {
-    return interpolant->knots;
+    return interpolant->fastest;
+  }
+
+  bool TabulatedFriction::falls() const
+  {
+    return interpolant->falls;
   }
 
   namespace
@@ -97,33 +95,6 @@ namespace sprag
     {
       return law.value(speed);
     }
-
-    constexpr double no_knot = std::numeric_limits<double>::infinity();
-
-    double knot_after(const double /*speed*/, const CoulombFriction & /*law*/)
-    {
-      return no_knot;
-    }
-
-    double knot_after(const double speed, const CorkOnAluminium & /*law*/)
-    {
-      const auto *next = std::find_if(std::begin(cork_on_aluminium), std::end(cork_on_aluminium),
-                                      [speed](const FrictionPiece &piece) { return piece.from > speed; });
-      return next != std::end(cork_on_aluminium) ? next->from : no_knot;
-    }
-
-    /// The exponential's inflexion.
-    double knot_after(const double speed, const StribeckFriction &law)
-    {
-      const double steepest = law.speed * std::pow(1. - 1. / law.exponent, 1. / law.exponent);
-      return speed < steepest ? steepest : no_knot;
-    }
-
-    double knot_after(const double speed, const TabulatedFriction &law)
-    {
-      const auto next = std::upper_bound(law.knots().begin(), law.knots().end(), speed);
-      return next != law.knots().end() ? *next : no_knot;
-    }
   } // namespace
 
   FrictionValue friction_coefficient(const FrictionLaw &law, const double speed)
@@ -148,9 +119,13 @@ namespace sprag
     return result;
   }
 
-  double next_friction_knot(const FrictionLaw &law, const double speed)
+  bool falls_with_speed(const FrictionLaw &law)
   {
-    return std::visit([speed](const auto &choice) { return knot_after(speed, choice); }, law.law);
+    if (const auto *const stribeck = std::get_if<StribeckFriction>(&law.law))
+      return stribeck->at_rest > stribeck->kinetic;
+    if (const auto *const table = std::get_if<TabulatedFriction>(&law.law))
+      return table->falls();
+    return false;
   }
 
   double fall_with_speed(const FrictionLaw &law, const double fastest)

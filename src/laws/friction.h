@@ -14,10 +14,10 @@ namespace sprag
   /// None of other laws.
   std::vector<FrictionPiece> rising_pieces(const FrictionLaw &law);
 
+  /// Returns true if mu falls anywhere with speed.
+  bool falls_with_speed(const FrictionLaw &law);
+
   /// Returns by how much mu falls with the speed up to one of `fastest` [mm/s]; 0 where that is less than 1 % of its largest
   /// value.
   double fall_with_speed(const FrictionLaw &law, double fastest);
-
-  /// The next of the speeds beyond `speed` [mm/s] between which dmu/d|v| is monotone; infinity where there is none.
-  double next_friction_knot(const FrictionLaw &law, double speed);
 } // namespace sprag

@@ -50,8 +50,11 @@ namespace sprag
 
     FrictionValue value(double speed) const;
 
-    /// See next_friction_knot(): the rows, and where the cubics between them turn the other way.
-    const std::vector<double> &knots() const;
+    /// Returns true if mu falls between any two rows.
+    bool falls() const;
+
+    /// Returns the speed of the last row [mm/s].
+    double fastest() const;
 
   private:
     class Interpolant;
@@ -69,8 +72,9 @@ namespace sprag
   {
     std::variant<CoulombFriction, CorkOnAluminium, StribeckFriction, TabulatedFriction> law = CorkOnAluminium{};
     FrictionSpeed speed                                                                     = FrictionSpeed::sliding;
-    double regularisation_speed = 0.; ///< [mm/s]; 0: stick is resolved
-    double factor               = 1.; ///< times mu of the law, >= 0
+    double regularisation_speed = 0.;   ///< [mm/s]; 0: stick is resolved
+    double factor               = 1.;   ///< times mu of the law, >= 0
+    double memory_length        = 0.01; ///< of faces sliding on each other, over which a mu that falls follows their speed [mm]
   };
 
   /// Returns the law as one step sees it: where mu depends on the drive's speed [mm/s] it is a constant of the step.

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace sprag
 {
@@ -31,51 +30,11 @@ namespace sprag
       }
     };
 
-    struct Bracket
-    {
-      double lower;
-      double upper;
-    };
-
-    /// Finds where the excess, positive at `lower`, first falls to zero between two knots, over which its derivative is monotone:
-    /// it changes its sign once in the bracket. Between two positive ends it may do so on both sides of a minimum.
-    std::optional<Bracket> first_fall(const Excess &excess, const double lower, const double upper)
-    {
-      if (excess(upper) <= 0.)
-        return Bracket{ lower, upper };
-      if (excess.derivative(lower) >= 0. || excess.derivative(std::nextafter(upper, lower)) <= 0.)
-        return {};
-      double falling = lower;
-      double rising  = upper;
-      // To the root of round-off, over which a minimum is flat.
-      for (unsigned int i = 0; i < 30; ++i)
-      {
-        const double middle = 0.5 * (falling + rising);
-        if (excess(middle) <= 0.)
-          return Bracket{ lower, middle };
-        (excess.derivative(middle) < 0. ? falling : rising) = middle;
-      }
-      return {};
-    }
-
-    /// Returns a bracket around the lowest speed of slip.
-    Bracket bracket_of_slip(const Excess &excess)
-    {
-      const double fastest = excess.trial / excess.resistance;
-      double lower         = 0.;
-      for (double knot = next_friction_knot(excess.law, 0.); knot < fastest; knot = next_friction_knot(excess.law, knot))
-      {
-        if (const auto found = first_fall(excess, lower, knot))
-          return *found;
-        lower = knot;
-      }
-      return first_fall(excess, lower, fastest).value_or(Bracket{ lower, fastest });
-    }
-
     /// Newton's method kept inside the bracket.
     double slip_speed(const Excess &excess)
     {
-      auto [lower, upper]    = bracket_of_slip(excess);
+      double lower           = 0.;
+      double upper           = excess.trial / excess.resistance;
       const double round_off = 4. * std::numeric_limits<double>::epsilon();
       double w               = upper;
       for (unsigned int i = 0; i < 100 && upper - lower > round_off * upper; ++i)
@@ -91,6 +50,23 @@ namespace sprag
       return w;
     }
   } // namespace
+
+  FrictionValue friction_at(const FrictionLaw &law, const double speed)
+  {
+    return friction_coefficient(law, speed);
+  }
+
+  double friction_lag(const FrictionLaw &law, const double stiffness, const double slope, const double speed)
+  {
+    if (falls_with_speed(law))
+      return law.memory_length / std::abs(speed);
+    return law.regularisation_speed > 0. ? 0. : std::max(0., slope / stiffness);
+  }
+
+  SlipLaw slip_law(const FrictionLaw &friction, const double stiffness)
+  {
+    return { friction, stiffness, rising_pieces(friction), falls_with_speed(friction) };
+  }
 
   double friction_in_stick(const FrictionLaw &law)
   {

@@ -4,6 +4,7 @@
 #include "base/dual.h"
 #include "laws/friction_law.h"
 
+#include <cmath>
 #include <limits>
 
 /// The laws of a contact point, for any kind of number: double, Lanes, or dual numbers of these, which carry the derivatives.
@@ -44,6 +45,14 @@ namespace sprag
   /// mu(|w|) sgn(w), or mu(|w|) w / sqrt(w^2 + v_r^2) with a regularisation speed v_r; w != 0 [mm/s].
   SlidingFriction sliding_friction(const FrictionLaw &law, double speed);
 
+  /// Returns mu and its derivative at a speed >= 0 [mm/s].
+  FrictionValue friction_at(const FrictionLaw &law, double speed);
+
+  /// Returns the time by which friction of a slide at a speed w lags behind what it follows [s]. A mu that falls with speed
+  /// follows it over the memory length L: L / |w|. Else the spring of stick in series delays all friction while mu rises:
+  ///   mu' p / stiffness,   `slope` = mu' p [N s/mm].
+  double friction_lag(const FrictionLaw &law, double stiffness, double slope, double speed);
+
   /// mu(0), the cone in stick.
   double friction_in_stick(const FrictionLaw &law);
 
@@ -51,9 +60,12 @@ namespace sprag
   struct SlipLaw
   {
     FrictionLaw friction;
-    double stiffness                  = 0.; ///< in stick, > 0
-    std::vector<FrictionPiece> pieces = {}; ///< see rising_pieces()
+    double stiffness                  = 0.;    ///< in stick, > 0
+    std::vector<FrictionPiece> pieces = {};    ///< see rising_pieces()
+    bool takes_face_speed             = false; ///< see falls_with_speed()
   };
+
+  SlipLaw slip_law(const FrictionLaw &friction, double stiffness);
 
   /// Friction of a point at the end of a step, see end_friction().
   template <class N, int slips>
@@ -62,7 +74,8 @@ namespace sprag
     Several<N, slips> traction;
     Plain<N> mu{};
     Mask<N> slipping{};
-    Several<Plain<N>, slips> slip_speed; ///< mean of the step; 0 in stick [mm/s]
+    Several<Plain<N>, slips> slip_speed; ///< mean of the step, see SlipMemory [mm/s]
+    Plain<N> speed{};                    ///< see SlipMemory [mm/s]
     Plain<N> energy{};                   ///< of the tangential spring at the end
     Plain<N> dissipated{};               ///< in the step
     Plain<N> creep{};                    ///< slip below the regularisation speed [mm]
@@ -72,15 +85,17 @@ namespace sprag
   struct SlipMemory
   {
     Several<V, slips> traction;
-    Several<V, slips> slip_speed; ///< mean of the last step; 0 after stick [mm/s]
-    V step{};                     ///< its duration [s]
+    Several<V, slips> slip_speed; ///< mean of the last step; 0 after stick unless friction falls with speed [mm/s]
+    V speed{};                    ///< that mu follows where it falls with speed [mm/s]
+    V step{};                     ///< duration of the last step [s]
   };
 
-  /// Returns mu and its derivative at the lowest slip speed w >= 0 [mm/s] where a load above mu(0) p is resistance w + mu(w) p.
+  /// Returns mu and its derivative at the slip speed w >= 0 [mm/s] where a load above mu(0) p is resistance w + mu(w) p. The law
+  /// falls nowhere, so there is one.
   FrictionValue slip_friction(const FrictionLaw &law, double load, double resistance, double pressure);
 
-  /// Sets mu and dmu/dw at the slip speed w of a load above the cone: load = resistance w + mu(w) p. Of a law of rising pieces it
-  /// is the only root, which Newton's method finds in all lanes from a guess; else see slip_friction().
+  /// Sets mu and dmu/dw at the slip speed w of a load above the cone: load = resistance w + mu(w) p. Newton's
+  /// method finds it in all lanes from a guess if the law consists of pieces; else see slip_friction().
   template <class V, class M>
   SPRAG_PART void find_slip(const SlipLaw &law, const M &slips, const V &load, const V &resistance, const V &p, const V &guess,
                             V &mu, V &slope)
@@ -146,8 +161,9 @@ namespace sprag
   /// t is the trial. In slip t keeps its direction, and its size and the slip speed w are solved together,
   ///   t = mu(w) p,   w = max(0, (t_trial - t) / stiffness + shift) / duration,
   /// `shift` [mm] being by how much the slip of a step at the speed of its end is longer than the step's own; its part along the
-  /// trial counts. A falling mu(w) may have several solutions: then that of the largest t counts, the first met when the load
-  /// rises. t stays below the trial. Newton's method begins with the step's `slip`.
+  /// trial counts. t stays below the trial. A mu that falls anywhere is taken at the speed of the faces,
+  ///   w = |slip + shift| / duration.
+  /// Newton's method begins with the step's `slip`.
   template <class N, class S, int slips>
   SPRAG_PART PointFriction<N, slips> return_to_cone(const SlipLaw &law, const Several<N, slips> &trial, const N &p,
                                                     const Plain<N> &duration, const Several<S, slips> &shift,
@@ -155,6 +171,13 @@ namespace sprag
   {
     using V        = Plain<N>;
     const double k = law.stiffness;
+    if (law.takes_face_speed)
+    {
+      Several<N, slips> at_end;
+      for (int i = 0; i < slips; ++i)
+        at_end[i] = slip[i] + shift[i];
+      return return_at_speed(law, trial, p, N(Plain<N>(1. / duration) * SizeAndDirection<N, slips>(at_end).size));
+    }
     const SizeAndDirection<N, slips> of(trial);
     const N along      = dot(of.direction, shift);
     const N load       = of.size + k * along;
@@ -183,6 +206,37 @@ namespace sprag
     return result;
   }
 
+  /// Sets mu and dmu/dw at speeds w >= 0 [mm/s] where `here` holds.
+  template <class V, class M>
+  SPRAG_PART void set_friction(const FrictionLaw &law, const M &here, const V &w, V &mu, V &slope)
+  {
+    for_each_lane(here,
+                  [&](const unsigned int i)
+                  {
+                    const auto found = friction_at(law, lane_of(w, i));
+                    set_lane(mu, i, found.coefficient);
+                    set_lane(slope, i, found.derivative);
+                  });
+  }
+
+  /// Returns a trial traction to the cone mu(w) p of a speed w >= 0 [mm/s].
+  template <class N, int slips>
+  SPRAG_PART PointFriction<N, slips> return_at_speed(const SlipLaw &law, const Several<N, slips> &trial, const N &p, const N &w)
+  {
+    using V            = Plain<N>;
+    const auto pressed = value(p) > 0.;
+    V mu{}, slope{};
+    set_friction(law.friction, pressed, value(w), mu, slope);
+    const SizeAndDirection<N, slips> of(trial);
+    const N cone = chained(mu, slope, w) * p;
+    PointFriction<N, slips> result;
+    result.mu       = mu;
+    result.slipping = pressed & (value(of.size) > value(cone));
+    for (int i = 0; i < slips; ++i)
+      result.traction[i] = select(pressed, select(result.slipping, cone * of.direction[i], trial[i]), N{});
+    return result;
+  }
+
   /// The traction of a spring that keeps the slip of a step.
   template <class N, int slips>
   SPRAG_PART Several<N, slips> stick_traction(const SlipLaw &law, const Several<Plain<N>, slips> &before,
@@ -202,41 +256,77 @@ namespace sprag
     return select((memory.step > 0.) & (along_last >= 0.), V(dt / (dt + memory.step)), V{});
   }
 
-  /// Friction t = mu(|w|) p w / sqrt(w^2 + v_r^2) along the mean slip of a step, w at its end.
+  /// Returns the speed that mu follows at the end of a step [mm/s]: over the memory length L it comes to that of the faces,
+  ///   dw/ds = (v - w) / L   along the path s of the faces,
+  /// at once where the point was open before.
+  template <class N, int slips>
+  SPRAG_PART N remembered_speed(const SlipLaw &law, const SlipMemory<Plain<N>, slips> &memory, const N &path, const N &v)
+  {
+    using V             = Plain<N>;
+    const double length = law.friction.memory_length;
+    V share{};
+    for_each_lane(memory.step > 0.,
+                  [&](const unsigned int i) { set_lane(share, i, std::exp(-lane_of(value(path), i) / length)); });
+    return v + chained(share, V(-1. / length * share), path) * (memory.speed - v);
+  }
+
+  /// Friction t = mu p w / sqrt(w^2 + v_r^2) along the mean slip of a step, w at its end. mu is mu(|w|), or follows that over the
+  /// memory length where it falls with speed.
   template <class N, int slips>
   SPRAG_PART PointFriction<N, slips> regularised(const SlipLaw &law, const SlipMemory<Plain<N>, slips> &memory,
                                                  const Several<N, slips> &slip, const N &p, const double dt)
   {
-    using V = Plain<N>;
+    using V          = Plain<N>;
+    const double v_r = law.friction.regularisation_speed;
     PointFriction<N, slips> result;
-    Several<N, slips> mean;
-    for (int i = 0; i < slips; ++i)
-      mean[i] = 1. / dt * slip[i];
-    const SizeAndDirection<N, slips> of(mean);
-    const N last  = dot(memory.slip_speed, of.direction);
-    const V share = extrapolated_share(memory, value(last), dt);
-    const N w     = (1. + share) * of.size - share * last;
-    V coefficient{}, slope{};
-    result.slipping = value(p) > 0.;
-    for_each_lane(result.slipping,
-                  [&](const unsigned int i)
-                  {
-                    const double speed = lane_of(value(w), i);
-                    const auto found   = sliding_friction(law.friction, speed);
-                    set_lane(coefficient, i, found.coefficient);
-                    set_lane(slope, i, found.derivative);
-                    set_lane(result.mu, i, found.mu);
-                  });
-    const N along = chained(coefficient, slope, w);
+    const SizeAndDirection<N, slips> path(slip);
+    const N last       = dot(memory.slip_speed, path.direction);
+    const V share      = extrapolated_share(memory, value(last), dt);
+    const N w          = (1. + share) * (1. / dt * path.size) - share * last;
+    const N speed      = select(value(w) < 0., N(-w), w);
+    const N followed   = law.takes_face_speed ? remembered_speed(law, memory, path.size, speed) : speed;
+    const auto pressed = value(p) > 0.;
+    V mu{}, slope{};
+    set_friction(law.friction, pressed, value(followed), mu, slope);
+    const N root    = square_root(w * w + v_r * v_r);
+    const N along   = chained(mu, slope, followed) * w / root;
+    const V of_rest = (1. + share) / dt * mu * v_r * v_r / (value(root) * value(root) * value(root));
+    result.mu       = mu;
+    result.slipping = pressed;
+    result.speed    = select(pressed, value(followed), V{});
     for (int i = 0; i < slips; ++i)
     {
-      const N at_rest      = V(slope * (1. + share)) * mean[i] + (i == 0 ? coefficient : V{});
-      result.traction[i]   = select(result.slipping, p * select(of.is_nothing, at_rest, along * of.direction[i]), N{});
-      result.slip_speed[i] = select(result.slipping, value(mean[i]), V{});
+      const N at_rest      = of_rest * slip[i] + (i == 0 ? value(along) : V{});
+      result.traction[i]   = select(pressed, p * select(path.is_nothing, at_rest, along * path.direction[i]), N{});
+      result.slip_speed[i] = select(pressed, V(1. / dt * value(slip[i])), V{});
       result.dissipated    = result.dissipated + 0.5 * (memory.traction[i] + value(result.traction[i])) * value(slip[i]);
     }
-    const auto creeps = result.slipping & (value(of.size) < law.friction.regularisation_speed);
-    result.creep      = select(creeps, V(dt * value(of.size)), V{});
+    const auto creeps = pressed & (value(path.size) < dt * v_r);
+    result.creep      = select(creeps, value(path.size), V{});
+    return result;
+  }
+
+  /// Friction that falls with speed: stick with a spring, or slip on the cone. mu follows the speed of the faces, elastic slip
+  /// included, over the memory length. At its own speed of slip a spring without mass would run away.
+  template <class N, int slips>
+  SPRAG_PART PointFriction<N, slips> remembering(const SlipLaw &law, const SlipMemory<Plain<N>, slips> &memory,
+                                                 const Several<N, slips> &slip, const N &p, const double dt)
+  {
+    using V = Plain<N>;
+    const SizeAndDirection<N, slips> path(slip);
+    const N last  = dot(memory.slip_speed, path.direction);
+    const V share = extrapolated_share(memory, value(last), dt);
+    const N v     = (1. + share) * (1. / dt * path.size) - share * last;
+    const N w     = remembered_speed(law, memory, path.size, select(value(v) > 0., v, N{}));
+    auto result   = return_at_speed(law, stick_traction(law, memory.traction, slip), p, w);
+    result.speed  = select(value(p) > 0., value(w), V{});
+    for (int i = 0; i < slips; ++i)
+    {
+      const V t = value(result.traction[i]), before = memory.traction[i];
+      result.slip_speed[i] = select(value(p) > 0., V(1. / dt * value(slip[i])), V{});
+      result.energy        = result.energy + 0.5 / law.stiffness * t * t;
+      result.dissipated    = result.dissipated + 0.5 * (before + t) * (value(slip[i]) - 1. / law.stiffness * (t - before));
+    }
     return result;
   }
 
@@ -251,6 +341,8 @@ namespace sprag
     if (law.friction.regularisation_speed > 0.)
       return regularised(law, memory, slip, p, dt);
     const double k = law.stiffness;
+    if (law.takes_face_speed)
+      return remembering(law, memory, slip, p, dt);
     V last{};
     for (int i = 0; i < slips; ++i)
       last = last + memory.slip_speed[i] * (k * value(slip[i]) + memory.traction[i]);

@@ -113,7 +113,8 @@ namespace sprag
   SlipMemory<double, slips> slip_memory(const PointMemory<slips> &memory)
   {
     SlipMemory<double, slips> result;
-    result.step = memory.step;
+    result.step  = memory.step;
+    result.speed = memory.speed;
     for (unsigned int s = 0; s < slips; ++s)
     {
       result.traction[s]   = memory.traction[s];
@@ -221,13 +222,15 @@ namespace sprag
       response.memory.slip_speed[s] = friction.slip_speed[s];
     }
     set_response(point, N(end + dashpot), friction, pressure, traction, response);
-    response.memory.damping = dashpot.v;
-    response.memory.step    = law.weights.dt;
-    response.energy         = spring_energy(law.normal, point.gap_end) + friction.energy;
-    response.friction       = friction.dissipated;
-    response.damping        = -damped.v * gap_change;
-    response.algorithmic    = delay * work;
-    response.creep          = friction.creep;
+    response.memory.speed    = friction.speed;
+    response.memory.slipping = friction.slipping;
+    response.memory.damping  = dashpot.v;
+    response.memory.step     = law.weights.dt;
+    response.energy          = spring_energy(law.normal, point.gap_end) + friction.energy;
+    response.friction        = friction.dissipated;
+    response.damping         = -damped.v * gap_change;
+    response.algorithmic     = delay * work;
+    response.creep           = friction.creep;
     return response;
   }
 

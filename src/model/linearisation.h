@@ -39,10 +39,10 @@ namespace sprag
     std::vector<double> across;
   };
 
-  /// Friction at a point as mu grows with the speed of slip: the spring of stick stands in series and delays what mu does,
-  ///   time tau' + tau = stiffness_row . z + rate_row . z',   time = mu'(v) p / (stiffness of stick),
-  /// tau the point's traction and `force` what a unit of it is on the ports. Where mu falls with speed that would be a runaway of
-  /// the massless spring, which no step in time follows: friction there is taken without delay.
+  /// Friction at a point that lags behind,
+  ///   time tau' + tau = stiffness_row . z + rate_row . z',
+  /// tau being its delayed traction and `force` what a unit of that is on the ports; see friction_lag(). While mu rises with
+  /// speed, all of the traction is delayed, where it falls what follows the speed.
   struct FrictionDelay
   {
     double time; ///< [s], > 0

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "model/point_contact.h"
 
-#include "laws/friction_law.h"
+#include "laws/friction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -255,7 +255,7 @@ namespace sprag
     StepContactLaw law;
     law.normal            = properties.normal;
     law.damping           = properties.damping;
-    law.slip              = { friction_of_step(properties.friction, step.to.v), properties.tangential };
+    law.slip              = slip_law(friction_of_step(properties.friction, step.to.v), properties.tangential);
     law.weights           = step.weights;
     auto &response        = found.response;
     response              = step_response(kinematics, step.memory.front(), law);
@@ -279,7 +279,6 @@ namespace sprag
     const auto pressure         = spring + dashpot;
     found.slip_rate             = state.speed + end.slip_row * rate;
     found.sliding               = slides ? sliding_friction(law, found.slip_rate) : SlidingFriction{};
-    found.sticks                = slides && law.regularisation_speed == 0.;
     found.d_pressure            = pressure.d[0] * end.gap_row;
     found.d_pressure_rate       = pressure.d[1] * end.gap_row;
 
@@ -325,18 +324,20 @@ namespace sprag
     result.friction      = matrix_on_ports(places, friction_tangent(state.friction, found));
     result.pressure_rate = matrix_on_ports(places, outer_product(found.end.gap_row, found.d_pressure_rate));
     result.friction_rate = matrix_on_ports(places, -1. * outer_product(found.end.slip_row, d_traction_rate));
-    result.delays        = friction_delays(places, d_traction_rate, found);
+    result.delays        = friction_delays(places, friction_of_slide(properties.friction, state), found);
     return result;
   }
 
-  std::vector<FrictionDelay> PointContact::friction_delays(const PortCoordinates &places, const Local &d_traction_rate,
+  std::vector<FrictionDelay> PointContact::friction_delays(const PortCoordinates &places, const FrictionLaw &law,
                                                            const Evaluation &found) const
   {
-    const double time = found.sliding.derivative * found.response.pressure / properties.tangential;
-    if (!found.sticks || !(time > 0.))
+    const double slope = found.sliding.derivative * found.response.pressure;
+    const double time  = slope != 0. ? friction_lag(law, properties.tangential, slope, found.slip_rate) : 0.;
+    if (!(time > 0.))
       return {};
-    return { { time, row_on_ports(places, -1. * found.end.slip_row),
-               row_on_ports(places, found.sliding.coefficient * found.d_pressure), row_on_ports(places, d_traction_rate) } };
+    const double of_pressure = falls_with_speed(law) ? 0. : found.sliding.coefficient;
+    return { { time, row_on_ports(places, -1. * found.end.slip_row), row_on_ports(places, of_pressure * found.d_pressure),
+               row_on_ports(places, of_pressure * found.d_pressure_rate + slope * found.end.slip_row) } };
   }
 
   /// Returns the local coordinates that are ports.

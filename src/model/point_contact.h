@@ -91,7 +91,6 @@ namespace sprag
       SlidingFriction sliding; ///< in steady sliding
       Local d_pressure;        ///< dP/dq there
       Local d_pressure_rate;   ///< dP/dq'
-      bool sticks = false;     ///< whether stick is resolved there, by a spring
     };
 
     explicit PointContact(PointContactProperties properties);
@@ -167,7 +166,7 @@ namespace sprag
     LocalMatrix friction_tangent(ContactFriction friction, const Evaluation &found) const;
 
     PortCoordinates ports(unsigned int window) const;
-    std::vector<FrictionDelay> friction_delays(const PortCoordinates &places, const Local &d_traction_rate,
+    std::vector<FrictionDelay> friction_delays(const PortCoordinates &places, const FrictionLaw &law,
                                                const Evaluation &found) const;
 
     const PointContactProperties properties;

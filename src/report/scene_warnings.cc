@@ -251,20 +251,6 @@ namespace sprag
                              "Take a smaller friction coefficient, Geometry/Interface offset or Drive/Stroke." });
     }
 
-    /// In time a point in stick has a spring without mass, which sticks and slips by itself where friction falls with speed.
-    void add_falling_friction(const Scene &scene, Warnings &warnings)
-    {
-      const bool in_time = scene.analysis.type == AnalysisType::transient && scene.analysis.model != ModelType::closed_form;
-      if (!in_time || scene.friction.regularisation_speed > 0.)
-        return;
-      if (const double fall = fall_with_speed(scene.friction, scene.drive.peak_speed()); fall > 0.)
-        warnings.push_back({ "falling_friction",
-                             "The friction coefficient falls by " + rounded_text(fall) + " with speed, and stick is resolved.",
-                             "Points stick and slip by themselves within single steps: friction jumps, its mean does not fall "
-                             "with speed, and Q may be off by half.",
-                             "Set Friction/Regularisation speed to 1 % of the drive's speed." });
-    }
-
     struct Shaking
     {
       unsigned int turns = 0;  ///< of the speed's change from one interval to the next
@@ -377,7 +363,6 @@ namespace sprag
     add_plane_stress(scene, warnings);
     add_opening(scene, warnings);
     add_locking(scene, warnings);
-    add_falling_friction(scene, warnings);
     add_shaking(scene, warnings);
     append(warnings, implausible_values(scene));
     add_unused_columns(scene, warnings);

@@ -292,6 +292,7 @@ namespace sprag
         law.speed                        = friction.speed;
         law.factor                       = friction.factor;
         law.regularisation_speed         = friction.regularisation_speed;
+        law.memory_length                = friction.memory_length;
         if (friction.law == FrictionChoice::coulomb)
           law.law = friction.coulomb;
         else if (friction.law == FrictionChoice::cork_on_aluminium)

@@ -120,6 +120,8 @@ namespace sprag
       section.number("Factor", settings.factor, at_least(0.), "", "Factor on mu of any law");
       section.number("Regularisation speed", settings.regularisation_speed, at_least(0.), "mm/s",
                      "Sliding speed over which friction changes sign in time; 0: stick is resolved");
+      section.number("Memory length", settings.memory_length, above(0.), "mm",
+                     "Path over which mu follows the speed where it falls with it, in time");
     }
 
     void lever(Section section, Lever &settings)

@@ -40,6 +40,7 @@ namespace sprag
     FrictionSpeed speed         = FrictionSpeed::sliding;
     double regularisation_speed = 0.;
     double factor               = 1.;
+    double memory_length        = 0.01;
     std::string table;
   };
 

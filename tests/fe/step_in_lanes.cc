@@ -54,11 +54,10 @@ TEST_P(StepInLanesOfAnAxis, AStepInTimeFollowsTheLawsAtEachPoint)
     const auto found = step(begin, end, Bed::x, memory);
 
     StepContactLaw law;
-    law.normal         = { bed.surface().penalties().normal, 1. };
-    law.slip.stiffness = bed.surface().penalties().tangential;
-    law.slip.friction  = friction;
-    law.weights        = weights;
-    const auto turned  = [&](const dealii::Vector<double> &ports) {
+    law.normal        = { bed.surface().penalties().normal, 1. };
+    law.slip          = slip_law(friction, bed.surface().penalties().tangential);
+    law.weights       = weights;
+    const auto turned = [&](const dealii::Vector<double> &ports) {
       return bed.ports.slopes > 0 ? AxisSlopes{ { ports[bed.ports.slope(0)], ports[bed.ports.slope(1)] } } : AxisSlopes{};
     };
     const double share = weights.stiffness();

@@ -65,7 +65,7 @@ namespace sprag::test
     using N           = Dual<double, 2 * slips + 1>;
     const auto trials = variables<N>(trial, 0);
     const auto found =
-        return_to_cone(SlipLaw{ law, penalty }, trials, variable<N>(pressure, 2 * slips), dt, variables<N>(shift, slips), trials);
+        return_to_cone(slip_law(law, penalty), trials, variable<N>(pressure, 2 * slips), dt, variables<N>(shift, slips), trials);
     return { values(found.traction), derivatives(found.traction, 0),    derivative(found.traction, 2 * slips), found.mu,
              found.slipping,         derivatives(found.traction, slips) };
   }
@@ -75,7 +75,8 @@ namespace sprag::test
   {
     dealii::Tensor<1, slips> traction;
     dealii::Tensor<1, slips> slip_speed;
-    double step = 0.;
+    double step  = 0.;
+    double speed = 0.;
   };
 
   template <int slips>
@@ -87,7 +88,7 @@ namespace sprag::test
     double mu;
     bool slipping;
     dealii::Tensor<1, slips> slip_speed;
-    double energy, dissipated, creep;
+    double energy, dissipated, creep, speed;
   };
 
   template <int slips>
@@ -97,14 +98,15 @@ namespace sprag::test
   {
     using N = Dual<double, slips + 1>;
     SlipMemory<double, slips> memory;
-    memory.step = history.step;
+    memory.step  = history.step;
+    memory.speed = history.speed;
     for (int i = 0; i < slips; ++i)
     {
       memory.traction[i]   = history.traction[i];
       memory.slip_speed[i] = history.slip_speed[i];
     }
     const auto found =
-        sprag::end_friction(SlipLaw{ law, stiffness }, memory, variables<N>(slip, 0), variable<N>(pressure, slips), dt);
+        sprag::end_friction(slip_law(law, stiffness), memory, variables<N>(slip, 0), variable<N>(pressure, slips), dt);
     return { values(found.traction),
              derivatives(found.traction, 0),
              derivative(found.traction, slips),
@@ -113,6 +115,7 @@ namespace sprag::test
              values(found.slip_speed),
              found.energy,
              found.dissipated,
-             found.creep };
+             found.creep,
+             found.speed };
   }
 } // namespace sprag::test

@@ -63,7 +63,6 @@ namespace
                                          "Stability/Position=50",
                                          "Contact/Stiffness=1e7",
                                          "Contact/Exponent=1",
-                                         "Friction/Regularisation speed=0",
                                          "Drive/Speed=" + std::to_string(speed),
                                          std::string("Stability/Direction=") + (sign > 0. ? "forward" : "backward") };
     changes.insert(changes.end(), friction.begin(), friction.end());
@@ -125,4 +124,29 @@ TEST(Stribeck, FrameSticksToTheCylinderAndSlipsBackAsFastAsItWasCarried)
   EXPECT_LT(fastest, 1.05 * paper.speed_ratio * (v + std::hypot(v, held * omega / stiffness)));
   EXPECT_GT(stuck, 0.1 * all);
   EXPECT_LT(stuck, 0.5 * all);
+}
+
+// Behind a reversal friction over pressure is mu at the speed of the faces, for a contact at a point and one on a mesh.
+TEST(Stribeck, FrictionBehindAReversalIsThatOfTheSpeed)
+{
+  for (const std::string model : { "beam", "condensed" })
+  {
+    const auto scene =
+        read_scene((params_folder() / "reversal-a.prm").string(),
+                   { "Analysis/Model=" + model, "Friction/Law=Stribeck", "Friction/Static coefficient=0.9",
+                     "Friction/Kinetic coefficient=0.5", "Friction/Stribeck speed=60", "Drive/Start=55", "Drive/Stroke=60" });
+    double mean = 0., expected = 0., time = 0.;
+    for (const auto &row : run_in_time(scene).rows)
+      if (row[Column::v] < -100. && row[Column::x] < 58.)
+      {
+        const double share = std::abs(row[Column::friction_resultant]) / row[Column::normal_resultant];
+        const double at    = 0.5 + 0.4 * std::exp(-std::abs(row[Column::v_rel]) / 60.);
+        EXPECT_NEAR(share, at, 0.03) << model << " at " << row[Column::x];
+        mean += share * row[Column::time_step];
+        expected += at * row[Column::time_step];
+        time += row[Column::time_step];
+      }
+    EXPECT_GT(time, 0.02);
+    EXPECT_NEAR(mean / time, expected / time, 3e-3) << model;
+  }
 }

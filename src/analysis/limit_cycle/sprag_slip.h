@@ -13,8 +13,8 @@ namespace sprag
 
   /// Measured growth or decay of a small perturbation of a held slide, beside its eigenvalue.
   ///
-  /// The eigenvalue is that of the contact that slides on without stick, which is the contact in time as long as it slides; only
-  /// where mu falls with speed the spring of stick, in series with friction then, is left out of the eigenvalue.
+  /// The eigenvalue is that of the contact in time as long as it slides on without stick. In three dimensions delays of friction
+  /// are left out, see friction_lag().
   struct Growth
   {
     std::complex<double> eigenvalue; ///< predicted [1/s]

@@ -76,10 +76,10 @@ namespace sprag
                                const std::optional<StaticTerms> &statics)
     {
       StepContactLaw law;
-      law.normal         = { properties.penalties.normal, 1. };
-      law.slip.stiffness = properties.penalties.tangential;
-      law.slip.friction  = statics ? statics->friction : friction_of_step(properties.friction, step.to.v);
-      law.weights        = step.weights;
+      law.normal = { properties.penalties.normal, 1. };
+      law.slip   = slip_law(statics ? statics->friction : friction_of_step(properties.friction, step.to.v),
+                          properties.penalties.tangential);
+      law.weights = step.weights;
       if (statics)
       {
         law.balance    = ForceBalance::end;

@@ -111,7 +111,7 @@ namespace sprag
     /// Returns what the tangential penalty adds to the traction that is remembered, over the slip; a multiplier needs none.
     double unwinding_stiffness() const
     {
-      return augmented ? std::numeric_limits<double>::infinity() : law.slip.stiffness;
+      return augmented || law.slip.takes_face_speed ? std::numeric_limits<double>::infinity() : law.slip.stiffness;
     }
   };
 
@@ -268,7 +268,8 @@ namespace sprag
     double coupled  = 0.;
     double stuck    = 0.;
     double by_speed = 0.;
-    double delay    = 0.; ///< of what goes with coupled and by_speed, 0 where there is none [s]
+    double delay    = 0.; ///< of what goes with by_speed and a share of what goes with coupled, 0 where there is none [s]
+    double delayed  = 0.; ///< that of coupled
   };
 
   /// Sets tractions from the state's gap < 0 and slip and adds them to the sums.

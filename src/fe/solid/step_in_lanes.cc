@@ -127,15 +127,14 @@ namespace sprag
     const auto same = [](const PointMemory<2> &a, const PointMemory<2> &b)
     {
       return a.point == b.point && a.step == b.step && a.traction == b.traction && a.slip_speed == b.slip_speed &&
-             a.normal_multiplier == b.normal_multiplier;
+             a.speed == b.speed && a.normal_multiplier == b.normal_multiplier;
     };
     return std::equal(memory.begin(), memory.end(), remembered.begin(), remembered.end(), same);
   }
 
   void StepInLanes::set(const Constants &constants)
   {
-    of             = constants;
-    of.slip.pieces = rising_pieces(of.slip.friction);
+    of = constants;
   }
 
   void StepInLanes::place(const unsigned int patch, const Patches::Nodal &nodal, const std::vector<SlipShift> &shifts)
@@ -200,10 +199,11 @@ namespace sprag
       auto &begin = begins[of_patch.first + b];
       if (!begin.is_placed)
         place_block(of_patch.all[b], of_patch.begin, begin);
-      begin.touches        = true;
-      begin.known[i]       = -1;
-      begin.memory.step[i] = entry->step;
-      begin.multiplier[i]  = entry->normal_multiplier;
+      begin.touches         = true;
+      begin.known[i]        = -1;
+      begin.memory.step[i]  = entry->step;
+      begin.memory.speed[i] = entry->speed;
+      begin.multiplier[i]   = entry->normal_multiplier;
       for (unsigned int s = 0; s < 2; ++s)
       {
         begin.memory.traction[s][i]   = entry->traction[s];
@@ -586,6 +586,8 @@ namespace sprag
         remembered_traction[d] = begin.memory.traction[d][i];
     }
     state.memory.traction = state.traction;
+    state.memory.speed    = friction.speed[i];
+    state.memory.slipping = state.slipping;
     state.memory.point    = state.index;
     state.elastic_slip    = (state.traction - remembered_traction).norm() / of.slip.stiffness;
     if (of.kind == Kind::at_end)

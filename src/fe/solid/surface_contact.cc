@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/solid/surface_contact.h"
 
-#include "laws/friction_law.h"
+#include "laws/friction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -221,7 +221,7 @@ namespace sprag
     result.kind  = kind;
     result.begin = result.balance = result.end = pose_of(end);
     result.normal                              = { properties.penalties.normal, 1. };
-    result.slip                                = { friction, properties.penalties.tangential };
+    result.slip                                = slip_law(friction, properties.penalties.tangential);
     result.slopes                              = properties.ports.slopes;
     return result;
   }
@@ -229,7 +229,8 @@ namespace sprag
   std::vector<SlipShift> SurfaceContact::shifts_of(const unsigned int patch, const std::vector<SurfaceMemory> &memory,
                                                    const StaticTerms &terms) const
   {
-    const double stiffness = terms.augmented ? std::numeric_limits<double>::infinity() : properties.penalties.tangential;
+    const double stiffness = terms.augmented || falls_with_speed(terms.friction) ? std::numeric_limits<double>::infinity()
+                                                                                 : properties.penalties.tangential;
     std::vector<SlipShift> result;
     for (unsigned int point = patches.patches[patch].begin; point < patches.patches[patch].end; ++point)
       result.push_back(slip_shift(patches, point, 0., terms.travel, stiffness, memory,
