@@ -83,11 +83,12 @@ namespace sprag
   std::string jamming_text(const JammingMargin &margin)
   {
     const auto at_mu = [](const double mu) { return std::isfinite(mu) ? "mu = " + formatted("%.4g", mu) : "no mu"; };
-    std::string text = "Jamming:      margin " + formatted("%.4g", 100. * margin.flexible.value_or(margin.margin())) +
-                       " %, least at x = " + mm(margin.x) + " moving " + (direction_of(margin.v) < 0 ? "backward" : "forward") +
-                       "; a rigid lever locks at " + at_mu(margin.critical_mu);
+    std::string text = "Jamming:      margin " + formatted("%.4g", 100. * margin.flexible.value_or(margin.margin())) + " %" +
+                       (margin.flexible ? " of a beam" : "") + ", least at x = " + mm(margin.x) + " moving " +
+                       (direction_of(margin.v) < 0 ? "backward" : "forward") + "; a rigid lever locks at " +
+                       at_mu(margin.critical_mu);
     if (margin.flexible_critical_mu)
-      text += ", the flexible one at " + at_mu(*margin.flexible_critical_mu);
+      text += ", a beam on the layer's contact law at " + at_mu(*margin.flexible_critical_mu);
     return text;
   }
 } // namespace sprag

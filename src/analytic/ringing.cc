@@ -226,6 +226,53 @@ namespace sprag
     }
   } // namespace
 
+  double recurrence_time(const Signal &signal)
+  {
+    constexpr double same  = 4e-4; ///< mean square of the change, over that of the signal
+    constexpr double other = 0.5;  ///< the same of a signal that has left its beginning
+    const auto &values     = signal.values;
+    const std::size_t n    = values.size();
+    const double mean      = std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(n);
+    double square          = 0.;
+    for (const double value : values)
+      square += (value - mean) * (value - mean) / static_cast<double>(n);
+
+    struct Shifted
+    {
+      double share;  ///< of a step beyond the lag that makes the change least
+      double change; ///< mean square
+    };
+    const auto shifted = [&](const std::size_t lag)
+    {
+      double by_step = 0., of_step = 0., of_lag = 0.;
+      for (std::size_t i = lag + 1; i < n; ++i)
+      {
+        const double change = values[i] - values[i - lag], step = values[i - lag - 1] - values[i - lag];
+        by_step += change * step;
+        of_step += step * step;
+        of_lag += change * change;
+      }
+      const double share = std::clamp(by_step / of_step, 0., 1.);
+      return Shifted{ share, (of_lag - share * (2. * by_step - share * of_step)) / static_cast<double>(n - lag - 1) };
+    };
+
+    bool has_left = false;
+    for (std::size_t lag = 1; 2 * lag < n; ++lag)
+    {
+      auto found = shifted(lag);
+      has_left   = has_left || found.change > other * square;
+      if (!has_left || !(found.change < same * square))
+        continue;
+      for (auto next = shifted(lag + 1); next.change < found.change; next = shifted(lag + 1))
+      {
+        found = next;
+        ++lag;
+      }
+      return (static_cast<double>(lag) + found.share) * signal.step;
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
   Ringing ringing(const Signal &signal, const double noise)
   {
     if (signal.values.size() < 2)

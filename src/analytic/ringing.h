@@ -21,6 +21,10 @@ namespace sprag
     double growth_rate = std::numeric_limits<double>::quiet_NaN(); ///< of the envelope [1/s], negative: decays
   };
 
+  /// Returns the shortest time after which a signal is the same again [s], to 2 % of its root mean square and up to half of its
+  /// length; NaN where it never is. Between values it is taken as linear.
+  double recurrence_time(const Signal &signal);
+
   /// Finds the ringing between the first and the last value further than `noise` from the signal's linear trend. Frequency: peak
   /// of the spectrum, refined by a least-squares fit of one exponentially growing or decaying sinusoid. Growth: log-linear fit of
   /// the half ranges of successive periods, so that neither harmonics nor a slow drift matter.

@@ -33,7 +33,7 @@ namespace sprag
         DrivePoint drive  = held_drive(scene);
         const double away = share * scene.mesh.face_size;
         drive.x += drive.x - away > scene.drive.minimum() ? -away : away;
-        if (auto slide = judge(dynamics.model(), drive, held.stability.modes); slide.slide)
+        if (auto slide = judge(dynamics.model(), drive, judged_modes(held)); slide.slide)
           result.elsewhere.push_back(std::move(slide));
       }
     }
@@ -42,7 +42,7 @@ namespace sprag
     {
       other.condensed.modes = scene.condensed.modes / 2;
       const auto dynamics   = maker.make_with_modes(scene, other.condensed.modes);
-      result.other_modes    = judge(dynamics.model(), held_drive(scene), scene.stability.modes);
+      result.other_modes    = judge(dynamics.model(), held_drive(scene), judged_modes(scene));
     }
     else if (scene.analysis.model == ModelType::condensed)
     {

@@ -246,6 +246,27 @@ namespace sprag
                            "Set Analysis/Step to a quarter of that length; if the gap remains, refine Mesh/Face size." });
     }
 
+    /// A sensor that only presses needs a preload where the plate would pull it.
+    void add_sensors_in_tension(const std::vector<Row> &rows, Warnings &warnings)
+    {
+      constexpr double least = 0.01; ///< of the largest P
+      const Row *lowest      = nullptr;
+      const auto pull        = [](const Row &row)
+      {
+        const auto &forces = row.sensor_forces;
+        return forces.empty() ? 0. : -*std::min_element(forces.begin(), forces.end());
+      };
+      for (const auto &row : rows)
+        if (lowest == nullptr || pull(row) > pull(*lowest))
+          lowest = &row;
+      if (lowest == nullptr || !(pull(*lowest) > least * largest(rows, [](const Row &row) { return row[Column::P]; })))
+        return;
+      warnings.push_back({ "sensor_in_tension",
+                           "A force sensor is pulled by " + rounded_text(pull(*lowest)) + " N " + place(*lowest) + '.',
+                           "A sensor that the plate only rests on opens there, and the others carry other forces.",
+                           "Preload the sensors by more than that, or place them nearer to the contact." });
+    }
+
     /// Beyond its last row a table is constant.
     void add_speed_of_friction(const Scene &scene, const std::vector<Row> &rows, Warnings &warnings)
     {
@@ -254,7 +275,7 @@ namespace sprag
         return;
       const Column column = scene.friction.speed == FrictionSpeed::drive ? Column::v : Column::v_rel;
       const Row *fastest  = row_of_largest(rows, [=](const Row &row) { return std::abs(row[column]); });
-      const double last   = table->knots().back();
+      const double last   = table->fastest();
       // Speeds of a drive that is a table too have round-off.
       if (fastest == nullptr || std::abs((*fastest)[column]) <= (1. + 1e-6) * last)
         return;
@@ -297,6 +318,7 @@ namespace sprag
     add_pressure(scene, rows, *peak, warnings);
     add_energy(scene, rows, warnings);
     add_speed_of_friction(scene, rows, warnings);
+    add_sensors_in_tension(rows, warnings);
     return warnings;
   }
 
@@ -313,19 +335,10 @@ namespace sprag
 
   Warnings beam_warnings(const Scene &scene, const double frequency, const double growth_rate)
   {
-    if (scene.analysis.model != ModelType::beam || !(growth_rate > 0.))
-      return {};
-    constexpr double depths = 6.;
-    const Lever &lever      = scene.lever;
-    const double stiffness  = lever.young_modulus * lever.width * std::pow(lever.depth, 3) / 12.; // E I
-    const double wavenumber = 2. * M_PI / (depths * lever.depth);
-    const double highest    = wavenumber * wavenumber * std::sqrt(stiffness / mass_per_length(scene)) / (2. * M_PI);
-    if (!(frequency > highest))
-      return {};
     return { { "beyond_the_beam",
-               "The mode that grows most vibrates at " + rounded_text(frequency) + " Hz. Up to " + rounded_text(highest) +
-                   " Hz waves are longer than six depths of the lever.",
-               "No lever has that mode, and the verdict does not hold.",
+               "A mode of " + rounded_text(frequency) + " Hz grows by " + rounded_text(growth_rate) + " 1/s. Up to " +
+                   rounded_text(highest_beam_frequency(scene)) + " Hz waves are longer than six depths of the lever.",
+               "No lever has that mode. The verdict leaves it out; in time it would grow.",
                "Give Lever/Modal damping, or take Analysis/Model = condensed." } };
   }
 } // namespace sprag

@@ -27,8 +27,8 @@ namespace sprag
   /// Returns the warnings for a steady slide under P [N] with this compression of the layer [mm].
   Warnings slide_warnings(const Scene &scene, const DrivePoint &drive, double P, double indentation);
 
-  /// Warns where a slide of a beam grows by a vibration whose waves are shorter than six depths of the lever: a beam has no such
-  /// vibrations. `frequency` and `growth_rate` are those of the mode that grows most [Hz, 1/s].
+  /// Warns of a growing vibration of a beam whose waves are shorter than six depths of the lever, see highest_beam_frequency().
+  /// `frequency` and `growth_rate` are its own [Hz, 1/s].
   Warnings beam_warnings(const Scene &scene, double frequency, double growth_rate);
 
   /// Returns Friction layer/Strength, or where it is auto and nu <= 0.2 the share 0.04 of Young's modulus at which the cells of

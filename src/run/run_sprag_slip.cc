@@ -27,7 +27,6 @@ namespace sprag
     struct SpragSlip
     {
       SlideStability slide;
-      bool exact = true; ///< whether the eigenvalue leaves out nothing of the friction in time, see Growth
       std::optional<Growth> growth;
       std::optional<Settled> settled;
       double settled_begin = 0.;             ///< of the rows written of the vibration [s]
@@ -110,20 +109,22 @@ namespace sprag
                                  { "frequency_difference", growth->frequency_difference() },
                                  { "growth_scatter", growth->envelope.scatter },
                                  { "growth_slid", growth->slid ? 1. : 0. },
-                                 { "growth_reached", growth->reached ? 1. : 0. },
-                                 { "linearisation", found.exact ? "exact" : "without the tangential spring of stick" } });
+                                 { "growth_reached", growth->reached ? 1. : 0. } });
       if (found.settled)
       {
         const auto &window = found.settled->window;
-        append<Entry>(entries, { { "cycle", settling_name(found.settled->kind) },
-                                 { "cycle_begin", found.settled_begin },
-                                 { "cycle_amplitude_P", window.amplitude_P },
-                                 { "cycle_amplitude_indentation", window.amplitude_indentation },
-                                 { "cycle_relative_amplitude", window.amplitude_P / found.slide.slide->forces.P },
-                                 { "cycle_open_share", window.open_share },
-                                 { "cycle_stick_share", window.stick_share },
-                                 { "cycle_frequency", window.frequency },
-                                 { "cycle_agreement", found.settled->agreement } });
+        append<Entry>(entries,
+                      { { "cycle", settling_name(found.settled->kind) },
+                        { "cycle_begin", found.settled_begin },
+                        { "cycle_amplitude_P", window.amplitude_P },
+                        { "cycle_amplitude_indentation", window.amplitude_indentation },
+                        { "cycle_relative_amplitude", window.amplitude_P / found.slide.slide->forces.P },
+                        { "cycle_open_share", window.open_share },
+                        { "cycle_stick_share", window.stick_share },
+                        { "cycle_frequency", window.frequency },
+                        { "cycle_period", window.period },
+                        { "cycle_vibrations", window.period > 0. ? std::round(window.period * window.frequency) : unknown },
+                        { "cycle_agreement", found.settled->agreement } });
       }
       const auto range = found.coexistence.value_or(Coexistence{ unknown, unknown });
       if (!found.points.empty())
@@ -203,12 +204,6 @@ namespace sprag
                             ". Try another Stability/Position or a smaller friction coefficient.");
     }
 
-    /// Returns true if friction at this speed is the same in the eigenvalue and in time, see FrictionDelay.
-    bool linearised_exactly(const FrictionLaw &law, const double speed)
-    {
-      return law.regularisation_speed > 0. || friction_coefficient(law, std::abs(speed)).derivative >= 0.;
-    }
-
     /// Growth, vibration and continuation, one after the other; what is finished stands in `found` whatever happens.
     struct Study
     {
@@ -268,7 +263,7 @@ namespace sprag
 
       void continue_along()
       {
-        Continuation continuation(model, run, held_drive(scene), period(), scene.stability.modes, settings);
+        Continuation continuation(model, run, held_drive(scene), period(), judged_modes(scene), settings);
         const double turn = settings.turn.value_or(scene.drive.minimum());
         const auto note   = [&]
         {
@@ -327,9 +322,8 @@ namespace sprag
         {
           const PhaseTimer::Scope scope(maker.timer(), "steps_and_output");
           const auto drive = held_drive(scene);
-          found.slide      = judge(dynamics.model(), drive, scene.stability.modes);
+          found.slide      = judge(dynamics.model(), drive, judged_modes(scene));
           require_slide(found, drive.x);
-          found.exact = linearised_exactly(held.friction, found.slide.slide->speed);
           Study{ scene, dynamics.model(), writer, progress, found, warnings }.carry_out();
           check_ledger(scene, found.ledger);
         },

@@ -232,12 +232,13 @@ namespace sprag
     {
       RunEnd result;
       SlideStability found;
+      bool is_decided   = true;
       const auto swept  = timed(maker, [&] { return sweep(whole, maker, true); });
       const Scene scene = scene_of_slide(whole, swept.worst());
       {
         const Scene held    = held_scene(scene);
         const auto dynamics = maker.make(held);
-        found               = timed(maker, [&] { return judge(dynamics.model(), held_drive(scene), scene.stability.modes); });
+        found               = timed(maker, [&] { return judge(dynamics.model(), held_drive(scene), judged_modes(scene)); });
         result.meta         = meshed_entries(dynamics);
         auto modes          = reported(found.modes, scene.stability.modes);
         if (dynamics.solid)
@@ -247,13 +248,14 @@ namespace sprag
         {
           write_fields(scene, dynamics, pose_of_slide(scene, dynamics.model(), *found.slide), modes, options);
           append(warnings, slide_warnings(scene, found.slide->drive, found.slide->forces.P, found.slide->indentation));
-          append(warnings, beam_warnings(scene, found.frequency(), found.growth_rate()));
+          if (found.beyond)
+            append(warnings, beam_warnings(scene, frequency_of(*found.beyond), found.beyond->mode.eigenvalue.real()));
         }
         const auto accuracy =
             estimates_errors(options) ? accuracy_of(held, found, dynamics.meshed, maker) : std::vector<ErrorEstimate>();
-        const bool is_decided = !is_unstable(found.kind) || accuracy.empty() || !(total_error(accuracy.front()) > 1.);
-        result.summary        = slide_entries(found, is_decided);
-        result.accuracy       = accuracy;
+        is_decided      = accuracy.empty() || !(total_error(accuracy.front()) > 1.);
+        result.summary  = slide_entries(found, is_decided);
+        result.accuracy = accuracy;
         if (options.verbose)
         {
           print_modes(std::cout, modes);
@@ -263,7 +265,8 @@ namespace sprag
           print_growing(std::cout, found.modes);
       }
       append(result.summary, sweep_entries(swept));
-      if (found.slide && scene.stability.damping && whole.stability.ranges == "none" && options.in_memory == nullptr)
+      if (found.slide && is_decided && scene.stability.damping && whole.stability.ranges == "none" &&
+          options.in_memory == nullptr)
       {
         const auto range  = timed(maker, [&] { return damping_range(whole, swept.worst(), maker); });
         const auto limits = timed(maker, [&] { return stick_limits(whole, maker); });

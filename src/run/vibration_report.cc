@@ -138,8 +138,9 @@ namespace sprag
                       const bool with_spacing)
   {
     const bool is_worst = looks_over_stroke(scene);
-    stream << "  Critical values of " << (is_worst ? "the worst slide" : "this slide")
-           << ", all else as it is; narrow islands between the values tried may be missed:\n";
+    stream << "  Critical values of " << (is_worst ? "the worst slide" : "this slide") << ", all else as it is"
+           << (scene.stability.ranges == "none" ? " (Stability/Ranges looks at ranges of damping and friction)" : "")
+           << "; narrow islands between the values tried may be missed:\n";
     for (const auto &[range, first, changes, worst, not_judged, reason, spacing, more_values] : searches)
     {
       const auto unit = unit_of_parameter(range.name);
@@ -289,6 +290,31 @@ namespace sprag
       return result;
     }
 
+    /// Joins stretches of several sets of constants that overlap, by increasing x.
+    std::vector<UnstableStretch> joined(std::vector<UnstableStretch> stretches)
+    {
+      for (auto &stretch : stretches)
+        if (stretch.from > stretch.to)
+          std::swap(stretch.from, stretch.to);
+      std::sort(stretches.begin(), stretches.end(), [](const auto &a, const auto &b) { return a.from < b.from; });
+      std::vector<UnstableStretch> result;
+      for (const auto &stretch : stretches)
+        if (result.empty() || stretch.from > result.back().to)
+          result.push_back(stretch);
+        else
+          result.back().to = std::max(result.back().to, stretch.to);
+      return result;
+    }
+
+    /// Returns "14.66 to 18.21 mm, 56.3 to 65 mm".
+    std::string text_of(const std::vector<UnstableStretch> &stretches)
+    {
+      std::vector<std::string> texts;
+      for (const auto &stretch : stretches)
+        texts.push_back(four_digits(stretch.from) + " to " + with_unit(stretch.to, "mm"));
+      return boost::algorithm::join(texts, ", ");
+    }
+
     /// Which motion of a pair's levers is unstable on one side.
     std::string of_motion(const CriticalValue &critical)
     {
@@ -358,24 +384,25 @@ namespace sprag
     for (const auto &[direction, way] :
          { std::pair<Direction, std::string>{ Direction::forward, "forward" }, { Direction::backward, "backward" } })
     {
-      double from = std::nan(""), to = std::nan(""), growth = std::nan("");
+      double growth     = std::nan("");
       bool is_looked_at = false;
+      std::vector<UnstableStretch> unstable;
       for (const auto &of : swept.ways)
       {
         if (of.direction != direction)
           continue;
         is_looked_at = true;
         growth       = std::fmax(growth, of.along.worst->growth_rate);
-        for (const auto &stretch : unstable_stretches(of.along))
-        {
-          from = std::fmin(from, stretch.from);
-          to   = std::fmax(to, stretch.to);
-        }
+        append(unstable, unstable_stretches(of.along));
       }
+      unstable = joined(std::move(unstable));
       if (is_looked_at)
         result.push_back({ "largest_growth_rate_" + way, growth });
       if (is_looked_at && x.points > 1)
-        append<Entry>(result, { { "unstable_" + way + "_from", from }, { "unstable_" + way + "_to", to } });
+        append<Entry>(result, { { "unstable_" + way + "_from", unstable.empty() ? std::nan("") : unstable.front().from },
+                                { "unstable_" + way + "_to", unstable.empty() ? std::nan("") : unstable.back().to } });
+      if (!unstable.empty() && x.points > 1)
+        result.push_back({ "unstable_" + way, text_of(unstable) });
     }
     return result;
   }
@@ -405,7 +432,8 @@ namespace sprag
                               { "Q", slide->forces.Q },
                               { "indentation", slide->indentation },
                               { "margin", slide->margin },
-                              { "uniqueness", slide->uniqueness } });
+                              { "uniqueness", slide->uniqueness },
+                              { "looked_up_to", found.highest_frequency() } });
     if (found.slide && is_pair(found.modes))
       result.push_back({ "motion", found.motion() });
     return result;

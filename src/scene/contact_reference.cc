@@ -106,6 +106,15 @@ namespace sprag
     return (lever.moment_of_inertia - added_inertia(device)) / (L * L * L / 3. + L * e_a * e_a);
   }
 
+  double highest_beam_frequency(const Device &device)
+  {
+    constexpr double depths = 6.;
+    const Lever &lever      = device.lever;
+    const double stiffness  = lever.young_modulus * lever.width * std::pow(lever.depth, 3) / 12.;
+    const double wavenumber = 2. * M_PI / (depths * lever.depth);
+    return wavenumber * wavenumber * std::sqrt(stiffness / mass_per_length(device)) / (2. * M_PI);
+  }
+
   double moment_of_inertia(const Device &device)
   {
     if (device.lever.inertia == InertiaSource::scaled)

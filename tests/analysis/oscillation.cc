@@ -349,3 +349,24 @@ TEST(Oscillation, EntriesSayWhatTheyAre)
   for (const auto &each : entries)
     EXPECT_FALSE(each.description.empty()) << each.name;
 }
+
+// 50 Hz, with a half of it after a period doubling, and two sines whose periods have no common multiple within the signal.
+// Between values the interpolation errs by (omega step)^2 / 8 = 1e-4 of the amplitude.
+TEST(Recurrence, IsThePeriodOfWhatRepeatsItself)
+{
+  const auto signal = [](const std::function<double(double)> &value)
+  {
+    Signal result{ 1.7e-4, {} };
+    for (unsigned int i = 0; i < 2400; ++i)
+      result.values.push_back(value(i * result.step));
+    return result;
+  };
+  const auto wave = [](const double frequency, const double t) { return std::sin(2. * M_PI * frequency * t); };
+  EXPECT_NEAR(recurrence_time(signal([&](const double t) { return 3. + wave(50., t) + 0.3 * wave(100., t); })), 0.02, 1e-6);
+  EXPECT_NEAR(recurrence_time(signal([&](const double t) { return wave(50., t) + 0.1 * wave(25., t); })), 0.04, 1e-6);
+  EXPECT_NEAR(recurrence_time(signal([&](const double t) { return std::max(0., wave(50., t) + 0.2 * wave(12.5, t)); })), 0.08,
+              1e-5);
+  EXPECT_TRUE(
+      std::isnan(recurrence_time(signal([&](const double t) { return wave(50., t) + 0.5 * wave(50. * std::sqrt(2.), t); }))));
+  EXPECT_TRUE(std::isnan(recurrence_time(signal([](const double) { return 2.; }))));
+}

@@ -254,7 +254,7 @@ class ScenesTest(RunTest):
     def check_sprag_slip(self, file):
         self.check_groups(file, "sprag slip")
         summary = {name: data[()] for name, data in file["summary"].items()}
-        self.assertEqual((summary["slide"], summary["linearisation"]), (b"flutter", b"exact"))
+        self.assertEqual(summary["slide"], b"flutter")
         self.assertLess(abs(summary["measured_growth_rate"] / summary["linear_growth_rate"] - 1), 1e-3)
         self.assertLess(abs(summary["measured_frequency"] / summary["linear_frequency"] - 1), 1e-3)
         # It grows until the contact opens.

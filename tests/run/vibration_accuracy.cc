@@ -40,7 +40,7 @@ namespace
   {
     DynamicsMaker maker(false);
     const auto dynamics = maker.make(scene);
-    const auto found    = judge(dynamics.model(), held_drive(scene), scene.stability.modes);
+    const auto found    = judge(dynamics.model(), held_drive(scene), judged_modes(scene));
     return vibration_accuracy(scene, found, dynamics.meshed, maker);
   }
 } // namespace

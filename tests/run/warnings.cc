@@ -303,34 +303,6 @@ TEST(SceneWarnings, LockingOfModelsThatCanBend)
   EXPECT_TRUE(locks(scene_warnings(with_coulomb(model_a(), 2.64))));
 }
 
-TEST(BeamWarnings, WavesShorterThanSixDepths)
-{
-  Scene scene          = model_a();
-  scene.analysis.model = ModelType::beam;
-  EXPECT_TRUE(beam_warnings(scene, 500., 30.).empty());
-  EXPECT_EQ(beam_warnings(scene, 240e3, 34.).size(), 1u);
-  EXPECT_TRUE(beam_warnings(scene, 240e3, -34.).empty());
-  scene.analysis.model = ModelType::condensed;
-  EXPECT_TRUE(beam_warnings(scene, 240e3, 34.).empty());
-}
-
-TEST(SceneWarnings, FrictionThatFallsWithSpeedInTime)
-{
-  const auto falls = [](const Scene &scene)
-  {
-    const auto warnings = scene_warnings(scene);
-    return std::any_of(warnings.begin(), warnings.end(), [](const Warning &each) { return each.name == "falling_friction"; });
-  };
-  Scene scene          = model_a();
-  scene.analysis.type  = AnalysisType::transient;
-  scene.analysis.model = ModelType::beam;
-  EXPECT_FALSE(falls(scene)) << "cork on aluminium rises";
-  scene.friction.law = StribeckFriction{ 0.9, 0.5, 60. };
-  EXPECT_TRUE(falls(scene));
-  scene.friction.regularisation_speed = 1.;
-  EXPECT_FALSE(falls(scene));
-}
-
 TEST(TargetWarnings, WhereATargetIsMissed)
 {
   AccuracySettings asked;

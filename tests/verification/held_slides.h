@@ -19,7 +19,7 @@ namespace sprag
     explicit JudgedSlide(const Scene &of)
         : scene(held_scene(of))
         , dynamics(DynamicsMaker().make(scene))
-        , stability(judge(dynamics.model(), held_drive(scene), scene.stability.modes))
+        , stability(judge(dynamics.model(), held_drive(scene), judged_modes(scene)))
     {
     }
 
@@ -43,7 +43,7 @@ namespace sprag
     {
       DrivePoint there = held_drive(scene);
       there.x          = x;
-      return judge(dynamics.model(), there, scene.stability.modes);
+      return judge(dynamics.model(), there, judged_modes(scene));
     }
   };
 

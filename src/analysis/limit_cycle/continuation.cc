@@ -14,16 +14,6 @@ namespace sprag
     constexpr double round_off      = 1e-7; ///< of P over its mean, above which it vibrates
     constexpr double same           = 0.01; ///< relative difference of amplitudes that counts as none
 
-    /// Returns the frequency of the strongest line in the spectrum of a signal that is sampled every `step` [s]. Where contact is
-    /// lost the signal may cross its mean several times a period.
-    double strongest_frequency(const std::vector<Sample> &signal, const double step, const double noise)
-    {
-      Signal values{ step, {} };
-      for (const auto &sample : signal)
-        values.values.push_back(sample.value);
-      return ringing(values, noise).frequency;
-    }
-
     double amplitude(const std::vector<Sample> &signal)
     {
       const auto [lowest, highest] =
@@ -47,10 +37,22 @@ namespace sprag
         stuck += run.slides(slide.speed) ? 0. : 1.;
         sink(row);
       }
+      Signal signal{ run.time_step(), {} };
       for (const auto &sample : P)
+      {
         mean += sample.value / n;
-      const double frequency = strongest_frequency(P, run.time_step(), round_off * mean);
-      return { begin, P.back().time, amplitude(P), amplitude(indentation), mean, open / n, stuck / n, frequency };
+        signal.values.push_back(sample.value);
+      }
+      // Where contact is lost P may cross its mean several times a period: its frequency is that of the strongest line.
+      return { begin,
+               P.back().time,
+               amplitude(P),
+               amplitude(indentation),
+               mean,
+               open / n,
+               stuck / n,
+               ringing(signal, round_off * mean).frequency,
+               recurrence_time(signal) };
     }
 
     bool agree(const double a, const double b)
@@ -83,7 +85,10 @@ namespace sprag
       {
         const auto &window = windows[i];
         if (window.amplitude_P >= sum.amplitude_P)
+        {
           sum.frequency = window.frequency;
+          sum.period    = window.period;
+        }
         sum.amplitude_P           = std::max(sum.amplitude_P, window.amplitude_P);
         sum.amplitude_indentation = std::max(sum.amplitude_indentation, window.amplitude_indentation);
         sum.mean_P += share * window.mean_P;
@@ -102,7 +107,8 @@ namespace sprag
       const auto &before = windows[n - 2], &last = windows[n - 1];
       if (last.amplitude_P < small_vibration * P)
         return last.amplitude_P < before.amplitude_P ? Settling::slide : Settling::undecided;
-      return agree(before, last) && agree(windows[n - 3], last) ? Settling::cycle : Settling::undecided;
+      const bool repeats = last.period > 0. && agree(before, last) && agree(windows[n - 3], last);
+      return repeats ? Settling::cycle : Settling::undecided;
     }
 
     /// At the end of the time: a large vibration stays unless its second half is clearly smaller than its first.
@@ -160,11 +166,11 @@ namespace sprag
   } // namespace
 
   Continuation::Continuation(DynamicModel &dynamic_model, HeldRun &held_run, const DrivePoint &start, const double period,
-                             const unsigned int n_modes, const SpragSlipSettings &sprag_slip)
+                             const JudgedModes &judged_modes, const SpragSlipSettings &sprag_slip)
       : model(dynamic_model)
       , run(held_run)
       , drive(start)
-      , modes(n_modes)
+      , modes(judged_modes)
       , settings(sprag_slip)
       , times{ period, sprag_slip.settling, std::max(sprag_slip.settling, sprag_slip.longest_growth) }
   {

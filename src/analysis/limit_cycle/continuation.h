@@ -18,6 +18,7 @@ namespace sprag
     double open_share            = 0.; ///< of the time, without contact
     double stick_share           = 0.; ///< of the time, with a point in contact that does not slide on with the cylinder
     double frequency             = 0.; ///< strongest line of P's spectrum [Hz]; NaN without one
+    double period                = 0.; ///< after which P is the same again [s]; NaN if it never is
   };
 
   enum class Settling
@@ -54,8 +55,8 @@ namespace sprag
   /// Amplitude of P over its mean below which a shrinking vibration is one that dies.
   constexpr double small_vibration = 1e-2;
 
-  /// Goes on about a held slide until three windows agree, in amplitudes and frequency within 1 % and in the share of open time
-  /// within 0.01, or the vibration is small and shrinks. Throws as HeldRun::step().
+  /// Goes on about a held slide until P comes back to itself and three windows agree, in amplitudes and frequency within 1 % and
+  /// in the share of open time within 0.01, or the vibration is small and shrinks. Throws as HeldRun::step().
   Settled settle(HeldRun &run, const HeldSlide &slide, const SettlingTimes &times, const RowSink &sink);
 
   /// The slide and the vibrations found at one x.
@@ -100,7 +101,7 @@ namespace sprag
 
     /// Starts at `drive` with a vibration of this period [s]; `modes` is that of judge(). The run must begin at the slide or
     /// vibration there.
-    Continuation(DynamicModel &model, HeldRun &run, const DrivePoint &drive, double period, unsigned int modes,
+    Continuation(DynamicModel &model, HeldRun &run, const DrivePoint &drive, double period, const JudgedModes &modes,
                  const SpragSlipSettings &settings);
 
     /// Goes to `turn` [mm] in the scene's number of intervals, finds where the vibration dies on the way, and returns. `done` is
@@ -137,7 +138,7 @@ namespace sprag
     DynamicModel &model;
     HeldRun &run;
     const DrivePoint drive;
-    const unsigned int modes;
+    const JudgedModes modes;
     const SpragSlipSettings &settings;
     const SettlingTimes times;
     std::vector<ContinuationPoint> visited;

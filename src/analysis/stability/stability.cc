@@ -2,16 +2,23 @@
 #include "analysis/stability/stability.h"
 
 #include "model/mirroring.h"
+#include "scene/contact_reference.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace sprag
 {
   namespace
   {
+    double hertz(const Eigenmode &mode)
+    {
+      return mode.mode.eigenvalue.imag() / (2. * M_PI);
+    }
+
     SlideKind kind_of(const HeldSlide &slide, const std::complex<double> worst)
     {
       if (!(slide.uniqueness > 0.) || !(slide.forces.P > 0.))
@@ -41,13 +48,29 @@ namespace sprag
     return worst_mode().mirroring > 0. ? "mirroring" : "swinging";
   }
 
-  SlideStability judge(DynamicModel &model, const DrivePoint &drive, const unsigned int modes)
+  JudgedModes judged_modes(const Scene &scene)
+  {
+    JudgedModes result{ scene.stability.modes };
+    if (scene.analysis.model == ModelType::beam)
+      result.up_to = highest_beam_frequency(scene);
+    return result;
+  }
+
+  double SlideStability::highest_frequency() const
+  {
+    double result = std::numeric_limits<double>::quiet_NaN();
+    for (const auto &mode : modes)
+      result = std::fmax(result, hertz(mode));
+    return result;
+  }
+
+  SlideStability judge(DynamicModel &model, const DrivePoint &drive, const JudgedModes &modes)
   {
     SlideStability result;
     result.slide = model.hold(drive, ContactFriction::sliding);
     if (!result.slide)
       return result;
-    result.modes        = model.vibrations(*result.slide, true, modes);
+    result.modes        = model.vibrations(*result.slide, true, modes.lowest);
     const auto growth   = [](const Eigenmode &mode) { return mode.mode.eigenvalue.real() / std::abs(mode.mode.eigenvalue); };
     const auto is_worse = [&](const Eigenmode &a, const Eigenmode &b)
     {
@@ -55,6 +78,12 @@ namespace sprag
       const bool b_grows = growth(b) > smallest_growth;
       return a_grows == b_grows ? a.mode.eigenvalue.real() < b.mode.eigenvalue.real() : b_grows;
     };
+    const auto is_fast = [&](const Eigenmode &mode) { return hertz(mode) > modes.up_to; };
+    const auto fast    = std::stable_partition(result.modes.begin(), result.modes.end(), std::not_fn(is_fast));
+    if (const auto most = std::max_element(fast, result.modes.end(), is_worse);
+        most != result.modes.end() && growth(*most) > smallest_growth)
+      result.beyond = *most;
+    result.modes.erase(fast, result.modes.end());
     const auto worst = std::max_element(result.modes.begin(), result.modes.end(), is_worse);
     const auto first =
         std::find_if(result.modes.begin(), worst, [&](const Eigenmode &mode) { return are_tied(mode.mode, worst->mode); });
@@ -67,6 +96,6 @@ namespace sprag
   {
     const Scene held    = held_scene(scene);
     const auto dynamics = maker.make(held);
-    return judge(dynamics.model(), held_drive(scene), held.stability.modes);
+    return judge(dynamics.model(), held_drive(scene), judged_modes(held));
   }
 } // namespace sprag

@@ -23,13 +23,27 @@ namespace sprag
   /// Returns "stable", "flutter" ...
   std::string kind_name(SlideKind kind);
 
+  /// The vibrations that a verdict rests on.
+  struct JudgedModes
+  {
+    unsigned int lowest;                                    ///< at least so many are found
+    double up_to = std::numeric_limits<double>::infinity(); ///< [Hz]; the model cannot have faster ones
+  };
+
+  /// Returns those of the scene's model; see highest_beam_frequency().
+  JudgedModes judged_modes(const Scene &scene);
+
   /// A steady slide and its vibrations.
   struct SlideStability
   {
     SlideKind kind = SlideKind::jammed;
-    std::optional<HeldSlide> slide; ///< none where there is no equilibrium
-    std::vector<Eigenmode> modes;   ///< by increasing |lambda|; empty without equilibrium
-    std::size_t worst = 0;          ///< of the modes, the one with the largest growth rate, the first of those that tie
+    std::optional<HeldSlide> slide;  ///< none where there is no equilibrium
+    std::vector<Eigenmode> modes;    ///< by increasing |lambda|; empty without equilibrium
+    std::size_t worst = 0;           ///< of the modes, the one with the largest growth rate, the first of those that tie
+    std::optional<Eigenmode> beyond; ///< the fastest growing mode beyond JudgedModes::up_to, if one grows
+
+    /// Returns the highest frequency among the modes [Hz]; NaN without equilibrium.
+    double highest_frequency() const;
 
     const Eigenmode &worst_mode() const
     {
@@ -59,11 +73,11 @@ namespace sprag
     std::string motion() const;
   };
 
-  /// Growth above this share of |lambda| counts as growth; what is below is round-off.
-  constexpr double smallest_growth = 1e-7;
+  /// Growth above this share of |lambda| counts as growth. No structure has so little damping.
+  constexpr double smallest_growth = 1e-6;
 
-  /// Judges the slide at `drive`: its vibrations, at least the `modes` lowest.
-  SlideStability judge(DynamicModel &model, const DrivePoint &drive, unsigned int modes);
+  /// Judges the slide at `drive`.
+  SlideStability judge(DynamicModel &model, const DrivePoint &drive, const JudgedModes &modes);
 
   /// Judges the slide at the scene's held_drive(), with its model in held_scene(), which `maker` makes.
   SlideStability judge(const Scene &scene, DynamicsMaker &maker);

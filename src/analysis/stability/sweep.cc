@@ -42,7 +42,7 @@ namespace sprag
       {
         DrivePoint drive = held_drive(scene);
         drive.x          = x;
-        auto slide       = judged(judge(model, drive, scene.stability.modes), drive);
+        auto slide       = judged(judge(model, drive, judged_modes(scene)), drive);
         if (over_stroke || !is_reduced(scene.analysis.model)) // where single modes would take long to follow
           slide.growth_rates.clear();
         return slide;
