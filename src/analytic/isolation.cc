@@ -200,6 +200,7 @@ namespace sprag
 
       void conclude()
       {
+        constexpr double still = 0.01; ///< distance of two turns, over the largest displacement, of a table about to rest
         note();
         const auto &state = motion.state();
         found.time        = state.time;
@@ -208,8 +209,9 @@ namespace sprag
         found.dissipated  = state.dissipated;
         if (motion.rests())
           found.residual_offset = state.z;
-        else if (course.last_turns.size() == 2)
-          found.residual_offset = 0.5 * (course.last_turns[0] + course.last_turns[1]);
+        else if (const auto &turns = course.last_turns;
+                 turns.size() == 2 && std::abs(turns[0] - turns[1]) < still * found.largest_displacement)
+          found.residual_offset = 0.5 * (turns[0] + turns[1]);
         course.square += state.square;
         found.rms_acceleration = state.time > 0. ? std::sqrt(course.square / state.time) : 0.;
         found.energy_residual  = course.largest_energy > 0. ? course.largest_residual / course.largest_energy : 0.;
@@ -376,7 +378,11 @@ namespace sprag
     if (settings.output_step)
       return *settings.output_step;
     const double natural = 2. * M_PI * std::sqrt(settings.mass / settings.stiffness);
-    return std::min(0.01 * natural, 0.1 * base_motion(settings).shortest_period);
+    const auto base      = base_motion(settings);
+    const double of_base = std::min(0.01 * natural, 0.1 * base.shortest_period);
+    // Rows as fine as a record show its whole spectrum.
+    const bool is_record = settings.base == BaseMotionType::record && !base.kinks.empty();
+    return is_record ? std::min(of_base, base.kinks.back() / static_cast<double>(base.kinks.size())) : of_base;
   }
 
   void run_isolation(const Scene &scene, IsolatedTable &table, IsolationFindings &findings, const RecordTable &record,

@@ -96,8 +96,8 @@ namespace sprag
       section.number("Tolerance", settings.tolerance, { 1e-14, 1e-3 }, "",
                      "Error of a step in time, over the amplitude; events are met to round-off whatever it is");
       section.number_or_auto("Output step", settings.output_step, above(0.), "s",
-                             "Time between rows of the table, which events have too; auto: a hundredth of the natural period, or "
-                             "a tenth of the base's shortest where that is less");
+                             "Time between rows of the table, which events have too; auto: a hundredth of the natural period, a "
+                             "tenth of the base's shortest or the record's own, whichever is least");
     }
   } // namespace
 

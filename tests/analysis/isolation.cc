@@ -416,3 +416,17 @@ TEST(Isolation, ATableWithoutADamperConservesItsEnergy)
   EXPECT_EQ(found.dissipated, 0.);
   EXPECT_LT(found.energy_residual, 1e-10);
 }
+
+// Rows every hundredth of the natural period, 10 ms, would fold the upper half of a record of 500 Hz onto the lower one.
+TEST(Isolation, RowsAreAsFineAsTheRecord)
+{
+  auto settings = isolated(DamperType::linear_friction).isolation;
+  EXPECT_NEAR(output_step(settings), std::min(0.01 * 2. * M_PI / w_n, 0.1 / settings.base_frequency), 1e-12);
+  settings.base = BaseMotionType::record;
+  for (unsigned int i = 0; i <= 1000; ++i)
+  {
+    settings.base_table.at.push_back(2e-3 * i);
+    settings.base_table.values.push_back(std::sin(0.1 * i));
+  }
+  EXPECT_NEAR(output_step(settings), 2e-3, 1e-12);
+}

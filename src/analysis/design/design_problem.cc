@@ -118,9 +118,17 @@ namespace sprag
       {
         search.optimize(x, value);
       }
-      catch (const nlopt::roundoff_limited &)
+      catch (const AnalysisError &)
       {
-        // The place found is as exact as it can be.
+        throw;
+      }
+      catch (const InputError &)
+      {
+        throw;
+      }
+      catch (const std::runtime_error &)
+      {
+        // NLopt cannot go on, by round-off for one. The best place that was tried is the answer.
       }
     }
 
