@@ -93,7 +93,6 @@ FURTHER = {
     "pair, beam in time": ("pair-reversal-a", (*REVERSAL, "Analysis/Model=beam", "Rotational spring/Type=torsional", "Mirrored pair/Joint mass=0")),
     "cylinder, condensed in time": ("cylinder-a", (*REVERSAL, *IN_TIME, "Analysis/Model=condensed")),
     "cylinder, finite elements in time": ("cylinder-a", (*REVERSAL, *IN_TIME, *FEW_STEPS)),
-    "ring": ("cylinder-a", (*SLIDE, "Cylinder/Type=ring")),
     "leaf, finite elements in time": ("leaf-a", (*REVERSAL, *IN_TIME, *FEW_STEPS)),
     "plate, finite elements in time": ("plate-a", (*REVERSAL, *IN_TIME, *FEW_STEPS)),
     "stability of a pair, condensed": ("pair-reversal-a", ("Analysis/Type=stability", *NO_SEARCH)),

@@ -83,9 +83,16 @@ namespace sprag
       energy -= at_rest;
   }
 
+  MomentLaw MomentLaw::at_rest_at(const double turn) const
+  {
+    MomentLaw result = *this;
+    result.rest      = turn;
+    return result;
+  }
+
   bool MomentLaw::is_linear() const
   {
-    return excess_samples.size() < 2;
+    return excess_samples.size() < 2 && rest == 0.;
   }
 
   double MomentLaw::linear_stiffness() const
@@ -96,24 +103,27 @@ namespace sprag
   double MomentLaw::excess(const double turn) const
   {
     return evaluated(
-        excess_samples, turn, [](const Cubic &cubic, const double place, std::size_t) { return cubic.value(place); },
-        [](const Sample &end, const double beyond, std::size_t) { return end.moment + end.stiffness * beyond; });
+               excess_samples, turn - rest,
+               [](const Cubic &cubic, const double place, std::size_t) { return cubic.value(place); },
+               [](const Sample &end, const double beyond, std::size_t) { return end.moment + end.stiffness * beyond; }) -
+           k * rest;
   }
 
   double MomentLaw::excess_stiffness(const double turn) const
   {
     return evaluated(
-        excess_samples, turn, [](const Cubic &cubic, const double place, std::size_t) { return cubic.derivative(place); },
+        excess_samples, turn - rest, [](const Cubic &cubic, const double place, std::size_t) { return cubic.derivative(place); },
         [](const Sample &end, double, std::size_t) { return end.stiffness; });
   }
 
   double MomentLaw::excess_energy(const double turn) const
   {
     return evaluated(
-        excess_samples, turn,
-        [&](const Cubic &cubic, const double place, const std::size_t i) { return energies[i] + cubic.integral(place); },
-        [&](const Sample &end, const double beyond, const std::size_t i)
-        { return energies[i] + beyond * (end.moment + 0.5 * end.stiffness * beyond); });
+               excess_samples, turn - rest,
+               [&](const Cubic &cubic, const double place, const std::size_t i) { return energies[i] + cubic.integral(place); },
+               [&](const Sample &end, const double beyond, const std::size_t i)
+               { return energies[i] + beyond * (end.moment + 0.5 * end.stiffness * beyond); }) +
+           k * rest * (0.5 * rest - turn);
   }
 
   double MomentLaw::moment(const double turn) const

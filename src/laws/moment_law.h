@@ -5,14 +5,15 @@
 
 namespace sprag
 {
-  /// Moment of a rotational spring over its turn from rest: k turn and, of a spring that is not linear, an excess over that, by
-  /// cubic Hermite interpolation between samples of finite elements. Beyond the samples the last one's tangent goes on.
+  /// Moment of a rotational spring over the lever's turn from x = 0: k turn and an excess over that. A spring that is not linear
+  /// has one, by cubic Hermite interpolation between samples of finite elements; beyond them the last one's tangent goes on. So
+  /// has a spring that is at rest at another turn.
   class MomentLaw
   {
   public:
     struct Sample
     {
-      double turn;      ///< [rad]
+      double turn;      ///< from rest [rad]
       double moment;    ///< that turns it so [N mm]
       double stiffness; ///< d(moment)/d(turn) [N mm/rad]
     };
@@ -22,6 +23,10 @@ namespace sprag
     /// k > 0 [N mm/rad]. `samples` by increasing turn, which include 0; none: linear.
     explicit MomentLaw(double stiffness, std::vector<Sample> samples = {});
 
+    /// Returns the law of this spring at rest at a turn [rad].
+    MomentLaw at_rest_at(double turn) const;
+
+    /// Returns true if there is no excess.
     bool is_linear() const;
 
     double linear_stiffness() const;
@@ -29,7 +34,7 @@ namespace sprag
     // The excess is the moment above the linear k turn.
     double excess(double turn) const;           ///< [N mm]
     double excess_stiffness(double turn) const; ///< [N mm/rad]
-    double excess_energy(double turn) const;    ///< from rest [N mm]
+    double excess_energy(double turn) const;    ///< [N mm]
 
     // The following include the linear part.
     double moment(double turn) const;
@@ -39,7 +44,8 @@ namespace sprag
     const std::vector<Sample> &samples() const;
 
   private:
-    double k = 0.;
+    double k    = 0.;
+    double rest = 0.;                   ///< turn [rad]
     std::vector<Sample> excess_samples; ///< moments and stiffnesses above k
     std::vector<double> energies;       ///< of the excess, at the samples
     std::vector<Sample> given;

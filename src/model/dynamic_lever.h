@@ -332,7 +332,8 @@ namespace sprag
     /// Touching at x = 0. Further on as slowly slid there from x = 0, with friction as in a motion forward and mu at rest.
     Motion start_at_rest(const DrivePoint &drive)
     {
-      if (drive.x > 0.)
+      const bool is_preloaded = frame.spring.moment(0.) > 0.;
+      if (drive.x > 0. || is_preloaded)
         return pressed_at_rest(drive, ContactFriction::sliding);
       Motion motion = structure->rest();
       motion.drive  = drive;

@@ -75,6 +75,11 @@ namespace sprag
   {
     SpringType type  = SpringType::torsional;
     double stiffness = 7.40e4; ///< k [N mm/rad], > 0; of a leaf spring that of its behaviour
+
+    /// Turn of the lever from x = 0 at which the spring has no moment [rad]. Below 0 it presses at x = 0 already, a preload;
+    /// above, the lever touches the cylinder later, a clearance.
+    double rest_angle = 0.;
+
     LeafSpring leaf;
     LeafBehaviour behaviour; ///< filled in by prepared_spring(), empty for a torsional spring
 
@@ -85,7 +90,8 @@ namespace sprag
   /// Returns the moment over the turn of the spring, whatever its type.
   inline MomentLaw moment_law(const RotationalSpring &spring)
   {
-    return spring.behaviour.law.is_linear() ? MomentLaw(spring.stiffness) : spring.behaviour.law;
+    const auto &leaf = spring.behaviour.law;
+    return (leaf.is_linear() ? MomentLaw(spring.stiffness) : leaf).at_rest_at(spring.rest_angle);
   }
 
   enum class LeverOutline
@@ -159,8 +165,7 @@ namespace sprag
   enum class CylinderType
   {
     rigid,
-    solid, ///< elastic, on a rigid core
-    ring   ///< elastic, on a rigid shaft of the inner radius
+    solid ///< elastic, on a rigid core or shaft of the inner radius
   };
 
   struct Cylinder

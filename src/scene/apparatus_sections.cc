@@ -13,6 +13,8 @@ namespace sprag
                      "torsional: one number at the hub; leaf: a leaf spring of finite elements");
       section.number("Stiffness", settings.stiffness, above(0.), "N mm/rad",
                      "k, moment over the lever's rotation; that of a leaf spring follows from its dimensions");
+      section.number("Rest angle", settings.rest_angle, { -0.5, 0.5 }, "rad",
+                     "Turn of the lever from x = 0 at which the spring has no moment; < 0: preload, > 0: clearance");
     }
 
     void leaf(Section section, LeafSpring &settings)
@@ -72,10 +74,9 @@ namespace sprag
 
     void cylinder(Section section, Cylinder &settings)
     {
-      section.choice("Type", settings.type,
-                     { { "rigid", CylinderType::rigid }, { "solid", CylinderType::solid }, { "ring", CylinderType::ring } },
-                     "rigid: a circle; solid, ring: finite elements on a rigid core or shaft");
-      section.length("Inner radius", settings.inner_radius, "Radius of the rigid core of a solid cylinder, or of a ring's shaft");
+      section.choice("Type", settings.type, { { "rigid", CylinderType::rigid }, { "solid", CylinderType::solid } },
+                     "rigid: a circle; solid: finite elements on a rigid core or shaft");
+      section.length("Inner radius", settings.inner_radius, "Radius of the rigid core or shaft of a solid cylinder");
       add_material(section, settings, " of the cylinder");
       add_plane(section, settings, "Plane stress or strain of an elastic cylinder, which is wide");
       section.length("Face size", settings.face_size, "Element length on the face that touches the lever");

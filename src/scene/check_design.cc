@@ -41,6 +41,7 @@ namespace sprag
     rules.need(scene.analysis.dimension == 2, "Analysis/Dimension", { "Analysis/Type" }, "must be 2 in a design");
     rules.need(scene.spring.type == SpringType::torsional, "Rotational spring/Type", { "Analysis/Type" },
                "must be torsional in a design, which finds k; Analysis/Type = calibration makes a leaf spring of it");
+    rules.need(scene.spring.rest_angle == 0., "Rotational spring/Rest angle", { "Analysis/Type" }, "must be 0 in a design");
     rules.need(scene.pair.type == PairType::half, "Mirrored pair/Type", { "Analysis/Type" },
                "must be half in a design, whose quantities are of one lever");
     rules.need(scene.support.type == SupportType::rigid, "Support/Type", { "Analysis/Type" }, "must be rigid in a design");

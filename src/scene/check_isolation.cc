@@ -24,6 +24,8 @@ namespace sprag
                  "must be less than Drive/Stroke = " + mm(scene.drive.maximum()) + " either way, for which the levers are made");
       rules.need(scene.support.type == SupportType::rigid, "Support/Type", { "Analysis/Type", "Isolation/Damper" },
                  "must be rigid with Isolation/Damper = lever");
+      rules.need(scene.spring.rest_angle == 0., "Rotational spring/Rest angle", { "Analysis/Type", "Isolation/Damper" },
+                 "must be 0 with Isolation/Damper = lever");
     }
 
     /// Once the damper can be made.

@@ -20,6 +20,7 @@ namespace sprag
     interface_offset,    ///< e [mm]
     inclination,         ///< th0 = th(x = 0) [rad], by the pivot's height
     force_offsets,       ///< of each measured force [N]
+    rest_angle,          ///< of the rotational spring [rad]
     lag                  ///< of all forces behind x [s]
   };
 

@@ -15,9 +15,10 @@ namespace sprag
         "in brackets in the header, as in 'time [s], Q [N]', or a result.h5; relative to the folder of this file",
         Rule::Kind::file);
     section.text("Forces", settings.forces, "Forces that are used: list of P, Q, sensors; auto: all in the table");
-    section.text("Unknowns", settings.unknowns,
-                 "Unknowns to be found: mu, mu polynomial, mu table or friction factor, and any of k, e, th0, offsets (of each "
-                 "force), lag (of all forces behind x); they start from the values of this scene");
+    section.text(
+        "Unknowns", settings.unknowns,
+        "Unknowns to be found: mu, mu polynomial, mu table or friction factor, and any of k, e, th0, offsets (of each "
+        "force), rest (the spring's rest angle), lag (of all forces behind x); they start from the values of this scene");
     section.numbers("Friction speeds", settings.friction_speeds, at_least(0.), "mm/s",
                     "Speeds at which mu table has its values, increasing, at least 4");
     section.number_or_auto("Reversal window", settings.window, at_least(0.), "mm",

@@ -195,6 +195,7 @@ namespace sprag
                                           { "e", Unknown::interface_offset },
                                           { "th0", Unknown::inclination },
                                           { "offsets", Unknown::force_offsets },
+                                          { "rest", Unknown::rest_angle },
                                           { "lag", Unknown::lag } };
     return all;
   }

@@ -139,6 +139,19 @@ TEST(Identification, FindsFrictionSpringAndGeometryWithoutNoise)
   EXPECT_NEAR(number(found, "th0").value, inclination(truth), 1e-7);
 }
 
+TEST(Identification, FindsTheRestAngleOfASpring)
+{
+  Scene truth                   = device();
+  truth.spring.rest_angle       = -0.01;
+  Scene scene                   = guess(truth, { Unknown::friction_constant, Unknown::stiffness, Unknown::rest_angle });
+  scene.spring.rest_angle       = 0.;
+  scene.identification.measured = measured(rows_of(truth), { 0., 0. }, 1);
+  const auto found              = identified(scene);
+  EXPECT_NEAR(number(found, "mu").value, 0.73, 1e-7);
+  EXPECT_NEAR(number(found, "k").value, 7.4e4, 1e-2);
+  EXPECT_NEAR(number(found, "rest").value, -0.01, 1e-8);
+}
+
 TEST(Identification, IntervalsHoldTheTruthUnderWhiteNoise)
 {
   const Scene truth = device();

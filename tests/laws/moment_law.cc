@@ -29,6 +29,23 @@ TEST(MomentLaw, IsLinearWithoutSamples)
   EXPECT_EQ(law.excess(0.03), 0.);
 }
 
+TEST(MomentLaw, AtRestAtATurnIsTheSameSpringShifted)
+{
+  constexpr double rest = -0.012;
+  for (const MomentLaw &law : { MomentLaw(k), hardening() })
+  {
+    const auto preloaded = law.at_rest_at(rest);
+    EXPECT_FALSE(preloaded.is_linear());
+    EXPECT_EQ(preloaded.linear_stiffness(), k);
+    for (const double turn : { -0.0371, 0., 0.0049, 0.0333, 0.09 })
+    {
+      EXPECT_NEAR(preloaded.moment(turn), law.moment(turn - rest), 1e-11 * k);
+      EXPECT_NEAR(preloaded.stiffness(turn), law.stiffness(turn - rest), 1e-11 * k);
+      EXPECT_NEAR(preloaded.energy(turn), law.energy(turn - rest), 1e-13 * k);
+    }
+  }
+}
+
 TEST(MomentLaw, MeetsACubicSpringBetweenItsSamples)
 {
   const auto law = hardening();

@@ -62,14 +62,14 @@ TEST(CheckScene, WhatThisVersionCannotDoIsRefused)
     EXPECT_TRUE(mistakes_of({ "Analysis/Dimension=3", "Analysis/Type=" + type, "Analysis/Model=condensed" }).empty()) << type;
   EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3", "Analysis/Type=contact law" }).size(), 2u); // type and model
   EXPECT_TRUE(mistakes_of({ "Analysis/Dimension=auto" }).empty());
-  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=auto", "Cylinder/Type=ring" }).size(), 1u);
+  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=auto", "Cylinder/Type=solid" }).size(), 1u);
   EXPECT_EQ(mistakes_of({ "Analysis/Dimension=auto", "Analysis/Type=modal", "Analysis/Model=condensed" }),
             (Messages{ "--set: Analysis/Dimension = auto: auto is for Analysis/Type = quasi-static, stability and transient" }));
   EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3", "Analysis/Type=transient", "Analysis/Model=beam" }).size(), 1u);
   for (const std::string part : { "Lever/Tip mass=1e-5", "Rotational spring/Type=leaf" })
     EXPECT_TRUE(mistakes_of({ "Analysis/Dimension=3", "Analysis/Type=transient", "Analysis/Model=condensed", part }).empty())
         << part;
-  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3", "Lever/Outline=frame", "Mirrored pair/Type=full", "Cylinder/Type=ring",
+  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3", "Lever/Outline=frame", "Mirrored pair/Type=full", "Cylinder/Type=solid",
                           "Contact/Enforcement=augmented Lagrangian" })
                 .size(),
             1u);

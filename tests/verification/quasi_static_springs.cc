@@ -4,6 +4,7 @@
 #include "scene/contact_reference.h"
 #include "scene/scene.h"
 #include "support/scene_parts.h"
+#include "verification/held_slides.h"
 #include "verification/run_scene.h"
 
 #include <cstdio>
@@ -90,6 +91,31 @@ TEST(HardeningSpring, MovesPAsTheClosedFormSays)
     scene.spring = with_cubic_hardening(scene.spring.stiffness, 330.);
     expect_rigid_lever(scene, scene.spring.behaviour.law, std::numeric_limits<double>::infinity());
   }
+}
+
+// A preload of k 0.01 is 740 N mm at x = 0, a third of the moment at the end of the stroke.
+TEST(PreloadedSpring, MovesPAsTheClosedFormSays)
+{
+  Scene scene             = nearly_rigid(model_a());
+  scene.spring.rest_angle = -0.01;
+  expect_rigid_lever(scene, MomentLaw(scene.spring.stiffness).at_rest_at(-0.01), std::numeric_limits<double>::infinity());
+}
+
+// P = k (turn - rest) / (s + sigma mu e); the lever gives so little that what is left is 1e-3.
+TEST(PreloadedSpring, PressesAtEveryFidelity)
+{
+  for (const auto model : { ModelType::rigid, ModelType::beam, ModelType::condensed })
+    for (const double x : { 0.5, 40. })
+    {
+      Scene scene             = held_at(with_stiffness(with_coulomb(in_time(model_a(), model), mu), 1000.), x);
+      scene.spring.rest_angle = -0.01;
+      scene.contact.stiffness = 1e7;
+      scene.contact.exponent  = 1.;
+      const auto at           = kinematics(scene.geometry, x);
+      const double moment     = scene.spring.stiffness * (at.theta - kinematics(scene.geometry, 0.).theta + 0.01);
+      const JudgedSlide judged(scene);
+      EXPECT_NEAR(judged.slide().forces.P, moment / (at.s - mu * scene.geometry.interface_offset), 2e-3 * 20.) << x;
+    }
 }
 
 // The model in time without inertia solves the same equations with the same points and, as it is told, the same penalty: 12

@@ -217,6 +217,10 @@ namespace sprag
       case Unknown::force_offsets:
         add_offsets();
         break;
+      case Unknown::rest_angle:
+        all.push_back({ "rest", "rad", "turn of the lever at which the rotational spring has no moment", scene.spring.rest_angle,
+                        large_share * kinematics(geometry, 0.).theta });
+        break;
       case Unknown::lag:
       {
         const auto &first = motion.strokes().front();
@@ -278,7 +282,8 @@ namespace sprag
   IdentifiedLever LeverUnknowns::lever(const std::vector<double> &values) const
   {
     const auto &channels = scene.identification.measured.channels;
-    IdentifiedLever result{ scene.geometry, scene.friction, scene.spring.stiffness, std::vector<double>(channels.size()) };
+    IdentifiedLever result{ scene.geometry, scene.friction, scene.spring.stiffness, scene.spring.rest_angle,
+                            std::vector<double>(channels.size()) };
     std::size_t offset = 0;
     std::optional<double> theta;
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -294,6 +299,8 @@ namespace sprag
         result.friction = { CoulombFriction{ values[i] }, scene.friction.speed };
       else if (name == "friction_factor")
         result.friction.factor = values[i];
+      else if (name == "rest")
+        result.rest_angle = values[i];
       else if (name == "lag")
         result.lag = values[i];
       else if (name.rfind("offset_", 0) == 0)
@@ -321,10 +328,11 @@ namespace sprag
 
   Scene LeverUnknowns::scene_with(const IdentifiedLever &lever) const
   {
-    Scene result            = scene;
-    result.geometry         = lever.geometry;
-    result.friction         = lever.friction;
-    result.spring.stiffness = lever.stiffness;
+    Scene result             = scene;
+    result.geometry          = lever.geometry;
+    result.friction          = lever.friction;
+    result.spring.stiffness  = lever.stiffness;
+    result.spring.rest_angle = lever.rest_angle;
     return result;
   }
 
@@ -334,6 +342,8 @@ namespace sprag
     for (const auto &number : all)
       if (number.name == "k")
         result.push_back(override_text("Rotational spring/Stiffness", lever.stiffness));
+      else if (number.name == "rest")
+        result.push_back(override_text("Rotational spring/Rest angle", lever.rest_angle));
       else if (number.name == "e")
         result.push_back(override_text("Geometry/Interface offset", lever.geometry.interface_offset));
       else if (number.name == "th0")

@@ -89,6 +89,7 @@ namespace sprag
     Geometry geometry;
     FrictionLaw friction;
     double stiffness;            ///< k [N mm/rad]
+    double rest_angle;           ///< of the rotational spring [rad]
     std::vector<double> offsets; ///< of the channels [N]
     double lag = 0.;             ///< [s]
   };

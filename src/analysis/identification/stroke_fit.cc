@@ -119,7 +119,8 @@ namespace sprag
     const int direction = motion.strokes()[stroke].direction;
     const double v      = std::copysign(place.v, direction);
     const auto contact  = kinematics(lever.geometry, place.x);
-    const double spring = lever.stiffness * (contact.theta - kinematics(lever.geometry, 0.).theta);
+    const double turn   = contact.theta - kinematics(lever.geometry, 0.).theta;
+    const double spring = lever.stiffness * (turn - lever.rest_angle);
     const double moment = spring + inertia * curvature(lever.geometry, contact) * v * v;
     const auto state    = closed_form(lever.geometry, lever.friction, moment, contact, v);
     const double arm    = contact.s + direction * state.mu * lever.geometry.interface_offset;

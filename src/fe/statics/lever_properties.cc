@@ -52,9 +52,7 @@ namespace sprag
     result.centre           = [geometry](double x, double theta) { return cylinder_centre(geometry, x, theta); };
     result.radius           = geometry.cylinder_radius;
     result.ideal_theta      = [geometry](double x) { return kinematics(geometry, x).theta; };
-    const auto &law         = device.spring.behaviour.law;
-    result.spring           = { law.is_linear() ? MomentLaw(device.spring.stiffness) : law, kinematics(geometry, 0.).theta,
-                      geometry.pivot_distance };
+    result.spring           = { moment_law(device.spring), kinematics(geometry, 0.).theta, geometry.pivot_distance };
     if (device.support.type == SupportType::sprung)
       result.support_stiffness = device.support.stiffness;
     result.friction         = device.friction;
