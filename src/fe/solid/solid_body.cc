@@ -41,7 +41,7 @@ namespace sprag
     auto entries = assemble_stiffness(body, number_in_part);
     for (const auto &connector : connectors)
       add(connector, entries);
-    factors = std::make_unique<SharedFactors>(call_others.ranks, folder);
+    factors = std::make_unique<Mumps>(MatrixKind::solid_stiffness, call_others.ranks, folder);
     factors->factorise(std::move(entries));
   }
 

@@ -45,15 +45,11 @@ namespace sprag
     return result;
   }
 
-  void add(const Connector &connector, SymmetricEntries &stiffness)
+  void add(const Connector &connector, MatrixEntries &stiffness)
   {
     for (const auto &[row, of_row] : connector.row)
       for (const auto &[column, of_column] : connector.row)
         if (row <= column)
-        {
-          stiffness.row.push_back(static_cast<int>(row) + 1);
-          stiffness.column.push_back(static_cast<int>(column) + 1);
-          stiffness.value.push_back(connector.stiffness * of_row * of_column);
-        }
+          stiffness.add(row, column, connector.stiffness * of_row * of_column);
   }
 } // namespace sprag

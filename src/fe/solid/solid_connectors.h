@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "fe/algebra/mumps.h"
 #include "fe/body/connectors.h"
-#include "fe/solid/shared_factors.h"
 
 namespace sprag
 {
@@ -16,5 +16,5 @@ namespace sprag
   std::vector<Connector> find_connectors(const ElasticBody<3> &body, const Device &device, bool is_half);
 
   /// Adds the stiffness of a connector to that of its body.
-  void add(const Connector &connector, SymmetricEntries &stiffness);
+  void add(const Connector &connector, MatrixEntries &stiffness);
 } // namespace sprag

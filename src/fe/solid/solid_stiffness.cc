@@ -12,27 +12,20 @@ namespace sprag
   namespace
   {
     /// Growing vectors would take twice the memory, which is what limits a run.
-    void reserve(const std::size_t n, SymmetricEntries &entries)
+    void reserve(const std::size_t n, MatrixEntries &entries)
     {
       entries.row.reserve(n);
       entries.column.reserve(n);
       entries.value.reserve(n);
     }
 
-    void add(const int row, const int column, const double value, SymmetricEntries &entries)
-    {
-      entries.row.push_back(row + 1);
-      entries.column.push_back(column + 1);
-      entries.value.push_back(value);
-    }
-
     /// Adds a cell's part of the upper triangle on those of its displacements that have numbers.
-    void add(const FullMatrix<double> &of_cell, const std::vector<int> &numbers, SymmetricEntries &entries)
+    void add(const FullMatrix<double> &of_cell, const std::vector<int> &numbers, MatrixEntries &entries)
     {
       for (unsigned int i = 0; i < numbers.size(); ++i)
         for (unsigned int j = 0; j <= i && numbers[i] >= 0; ++j)
           if (numbers[j] >= 0 && of_cell(i, j) != 0.)
-            add(std::min(numbers[i], numbers[j]), std::max(numbers[i], numbers[j]), of_cell(i, j), entries);
+            entries.add(std::min(numbers[i], numbers[j]), std::max(numbers[i], numbers[j]), of_cell(i, j));
     }
   } // namespace
 
@@ -53,7 +46,7 @@ namespace sprag
     return result;
   }
 
-  SymmetricEntries assemble_stiffness(const ElasticBody<3> &body, const std::vector<int> &number_in_part)
+  MatrixEntries assemble_stiffness(const ElasticBody<3> &body, const std::vector<int> &number_in_part)
   {
     std::vector<std::pair<DoFHandler<3>::active_cell_iterator, std::vector<int>>> cells;
     for (const auto &cell : body.dofs().active_cell_iterators())
@@ -64,7 +57,7 @@ namespace sprag
           cells.emplace_back(cell, std::move(numbers));
       }
 
-    SymmetricEntries result;
+    MatrixEntries result;
     result.size         = size_of_part(body, number_in_part);
     const std::size_t n = body.dofs().get_fe().n_dofs_per_cell();
     reserve(cells.size() * n * (n + 1) / 2 + body.held().n_constraints(), result);
@@ -74,7 +67,7 @@ namespace sprag
     for (const auto index : body.dofs().locally_owned_dofs())
       if (const int number = number_in_part.empty() ? static_cast<int>(index) : number_in_part[index];
           number >= 0 && body.held().is_constrained(index))
-        add(number, number, 1., result);
+        result.add(number, number, 1.);
     return result;
   }
 } // namespace sprag

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "fe/algebra/mumps.h"
 #include "fe/body/elastic_body.h"
-#include "fe/solid/shared_factors.h"
 
 namespace sprag
 {
@@ -18,5 +18,5 @@ namespace sprag
 
   /// Returns this rank's entries of the stiffness of a part of a body without load, with unit entries for held degrees of
   /// freedom. To be called by all ranks.
-  SymmetricEntries assemble_stiffness(const ElasticBody<3> &body, const std::vector<int> &number_in_part);
+  MatrixEntries assemble_stiffness(const ElasticBody<3> &body, const std::vector<int> &number_in_part);
 } // namespace sprag

@@ -149,7 +149,7 @@ namespace sprag
       , factors(body.factorised())
       , faces{ { SurfaceCompliance(*factors, face_dofs(body.friction_face())),
                  SurfaceCompliance(*factors, face_dofs(body.cylinder_face())) } }
-      , sensors(body, [this](std::vector<double> columns) { return factors->solve(std::move(columns)); })
+      , sensors(body, response_of(factors))
   {
   }
 
