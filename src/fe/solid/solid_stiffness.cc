@@ -27,24 +27,20 @@ namespace sprag
           if (numbers[j] >= 0 && of_cell(i, j) != 0.)
             entries.add(std::min(numbers[i], numbers[j]), std::max(numbers[i], numbers[j]), of_cell(i, j));
     }
+
+    /// Returns the numbers of a cell's displacements, -1 also where they are held.
+    std::vector<int> numbers_of(const DoFHandler<3>::active_cell_iterator &cell, const ElasticBody<3> &body,
+                                const std::vector<int> &number_in_part)
+    {
+      std::vector<types::global_dof_index> indices(cell->get_fe().n_dofs_per_cell());
+      cell->get_dof_indices(indices);
+      std::vector<int> result(indices.size(), -1);
+      for (unsigned int i = 0; i < indices.size(); ++i)
+        if (!body.is_held(static_cast<unsigned int>(indices[i])))
+          result[i] = number_in_part.empty() ? static_cast<int>(indices[i]) : number_in_part[indices[i]];
+      return result;
+    }
   } // namespace
-
-  unsigned int size_of_part(const ElasticBody<3> &body, const std::vector<int> &number_in_part)
-  {
-    return number_in_part.empty() ? body.n_dofs() : 1 + *std::max_element(number_in_part.begin(), number_in_part.end());
-  }
-
-  std::vector<int> numbers_of(const DoFHandler<3>::active_cell_iterator &cell, const ElasticBody<3> &body,
-                              const std::vector<int> &number_in_part)
-  {
-    std::vector<types::global_dof_index> indices(cell->get_fe().n_dofs_per_cell());
-    cell->get_dof_indices(indices);
-    std::vector<int> result(indices.size(), -1);
-    for (unsigned int i = 0; i < indices.size(); ++i)
-      if (!body.is_held(static_cast<unsigned int>(indices[i])))
-        result[i] = number_in_part.empty() ? static_cast<int>(indices[i]) : number_in_part[indices[i]];
-    return result;
-  }
 
   MatrixEntries assemble_stiffness(const ElasticBody<3> &body, const std::vector<int> &number_in_part)
   {
@@ -58,7 +54,7 @@ namespace sprag
       }
 
     MatrixEntries result;
-    result.size         = size_of_part(body, number_in_part);
+    result.size = number_in_part.empty() ? body.n_dofs() : 1 + *std::max_element(number_in_part.begin(), number_in_part.end());
     const std::size_t n = body.dofs().get_fe().n_dofs_per_cell();
     reserve(cells.size() * n * (n + 1) / 2 + body.held().n_constraints(), result);
     CellStiffness<3> stiffness(body);
