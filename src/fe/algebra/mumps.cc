@@ -89,6 +89,7 @@ namespace sprag
     const MatrixRows rows(matrix);
     MatrixEntries entries;
     entries.size = rows.n;
+    entries.reserve(static_cast<std::size_t>(rows.begin[rows.n]));
     for (PetscInt row = 0; row < rows.n; ++row)
       for (PetscInt i = rows.begin[row]; i < rows.begin[row + 1]; ++i)
         if (kind == MatrixKind::general || rows.column[i] >= row)

@@ -29,6 +29,14 @@ namespace sprag
     std::vector<int> column;
     std::vector<double> value;
 
+    /// Makes room for that many.
+    void reserve(const std::size_t number)
+    {
+      row.reserve(number);
+      column.reserve(number);
+      value.reserve(number);
+    }
+
     /// Adds an entry, by indices from 0.
     void add(const unsigned int of_row, const unsigned int of_column, const double of_value)
     {
