@@ -95,10 +95,7 @@ namespace sprag
 
   Row ideal_contact_row(const DrivePoint &point, const ClosedFormState &state, const double spring_energy)
   {
-    Row row;
-    row[Column::time]               = point.time;
-    row[Column::x]                  = point.x;
-    row[Column::v]                  = point.v;
+    Row row(point);
     row[Column::theta]              = state.contact.theta;
     row[Column::s]                  = state.contact.s;
     row[Column::P]                  = state.P;

@@ -58,11 +58,7 @@ namespace sprag
     const double before       = residual();
     const std::string largest = largest_term(now, stored, work);
     now                       = stored;
-    sum.drive += work.drive;
-    sum.friction += work.friction;
-    sum.damping += work.damping;
-    sum.algorithmic += work.algorithmic;
-    sum.creep += work.creep;
+    sum += work;
 
     found.residual     = std::max(found.residual, std::abs(residual()));
     found.largest_work = std::max({ found.largest_work, std::abs(sum.drive), sum.friction, std::abs(total(now) - total(start)) });

@@ -22,5 +22,14 @@ namespace sprag
     double damping     = 0.; ///< dissipated by structure, support and contact damping
     double algorithmic = 0.; ///< dissipated by the time integration
     double creep       = 0.; ///< slip below the regularisation speed [mm]
+
+    void operator+=(const StepWork &other)
+    {
+      drive += other.drive;
+      friction += other.friction;
+      damping += other.damping;
+      algorithmic += other.algorithmic;
+      creep += other.creep;
+    }
   };
 } // namespace sprag

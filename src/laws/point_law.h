@@ -157,6 +157,37 @@ namespace sprag
     }
   };
 
+  /// Sets mu and dmu/dw at speeds w >= 0 [mm/s] where `here` holds.
+  template <class V, class M>
+  SPRAG_PART void set_friction(const FrictionLaw &law, const M &here, const V &w, V &mu, V &slope)
+  {
+    for_each_lane(here,
+                  [&](const unsigned int i)
+                  {
+                    const auto found = friction_at(law, lane_of(w, i));
+                    set_lane(mu, i, found.coefficient);
+                    set_lane(slope, i, found.derivative);
+                  });
+  }
+
+  /// Returns a trial traction to the cone mu(w) p of a speed w >= 0 [mm/s].
+  template <class N, int slips>
+  SPRAG_PART PointFriction<N, slips> return_at_speed(const SlipLaw &law, const Several<N, slips> &trial, const N &p, const N &w)
+  {
+    using V            = Plain<N>;
+    const auto pressed = value(p) > 0.;
+    V mu{}, slope{};
+    set_friction(law.friction, pressed, value(w), mu, slope);
+    const SizeAndDirection<N, slips> of(trial);
+    const N cone = chained(mu, slope, w) * p;
+    PointFriction<N, slips> result;
+    result.mu       = mu;
+    result.slipping = pressed & (value(of.size) > value(cone));
+    for (int i = 0; i < slips; ++i)
+      result.traction[i] = select(pressed, select(result.slipping, cone * of.direction[i], trial[i]), N{});
+    return result;
+  }
+
   /// Returns a trial traction to the cone of the pressure p at the end of a step of a duration [s]. In stick |t| <= mu(0) p and
   /// t is the trial. In slip t keeps its direction, and its size and the slip speed w are solved together,
   ///   t = mu(w) p,   w = max(0, (t_trial - t) / stiffness + shift) / duration,
@@ -203,37 +234,6 @@ namespace sprag
     result.slipping = beyond & (at_rest | (value(mu) * value(p) <= value(of.size)));
     for (int i = 0; i < slips; ++i)
       result.traction[i] = select(pressed, select(result.slipping, mu * p * of.direction[i], trial[i]), N{});
-    return result;
-  }
-
-  /// Sets mu and dmu/dw at speeds w >= 0 [mm/s] where `here` holds.
-  template <class V, class M>
-  SPRAG_PART void set_friction(const FrictionLaw &law, const M &here, const V &w, V &mu, V &slope)
-  {
-    for_each_lane(here,
-                  [&](const unsigned int i)
-                  {
-                    const auto found = friction_at(law, lane_of(w, i));
-                    set_lane(mu, i, found.coefficient);
-                    set_lane(slope, i, found.derivative);
-                  });
-  }
-
-  /// Returns a trial traction to the cone mu(w) p of a speed w >= 0 [mm/s].
-  template <class N, int slips>
-  SPRAG_PART PointFriction<N, slips> return_at_speed(const SlipLaw &law, const Several<N, slips> &trial, const N &p, const N &w)
-  {
-    using V            = Plain<N>;
-    const auto pressed = value(p) > 0.;
-    V mu{}, slope{};
-    set_friction(law.friction, pressed, value(w), mu, slope);
-    const SizeAndDirection<N, slips> of(trial);
-    const N cone = chained(mu, slope, w) * p;
-    PointFriction<N, slips> result;
-    result.mu       = mu;
-    result.slipping = pressed & (value(of.size) > value(cone));
-    for (int i = 0; i < slips; ++i)
-      result.traction[i] = select(pressed, select(result.slipping, cone * of.direction[i], trial[i]), N{});
     return result;
   }
 

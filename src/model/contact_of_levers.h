@@ -35,14 +35,4 @@ namespace sprag
     }
     return largest;
   }
-
-  /// Adds the works of a contact to those of a step.
-  inline void add_work(const StepWork &work, StepWork &sum)
-  {
-    sum.drive += work.drive;
-    sum.friction += work.friction;
-    sum.damping += work.damping;
-    sum.algorithmic += work.algorithmic;
-    sum.creep += work.creep;
-  }
 } // namespace sprag

@@ -142,7 +142,7 @@ namespace sprag
       Motion motion  = completed(structure->advance(accepted, *solved.forces, to), to, *solved.forces);
       motion.tangent = std::move(tangent);
       structure->add_work(accepted, motion, outcome.work);
-      add_work(found.work(), outcome.work);
+      outcome.work += found.work();
       coupling.add_work(begin, z, weights, outcome.work);
       hub_spring.add_work(turned, turns_of(frame.ports, z), weights, outcome.work);
       outcome.error  = weights.wants_error ? largest_gap_change(*contact, found, structure->port_error(accepted, motion)) : 0.;

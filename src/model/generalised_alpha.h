@@ -3,6 +3,10 @@
 
 #include <deal.II/lac/vector.h>
 
+#include <algorithm>
+#include <memory>
+#include <vector>
+
 namespace sprag
 {
   /// Constants of one step of the generalised-alpha method (Chung and Hulbert 1993). With state 0 before and 1 after the step,
@@ -52,6 +56,25 @@ namespace sprag
     w.gamma   = 0.5 - w.alpha_m + w.alpha_f;
     w.beta    = 0.25 * (1. - w.alpha_m + w.alpha_f) * (1. - w.alpha_m + w.alpha_f);
     return w;
+  }
+
+  /// Finds among some steps, the latest last, the one with these weights; makes it where there is none, and forgets the earliest
+  /// one where there are `most` already.
+  template <class Step, class Make>
+  const Step *step_among(std::vector<std::unique_ptr<Step>> &steps, const StepWeights &w, const std::size_t most,
+                         const Make &make)
+  {
+    const auto is_equal = [&](const auto &step) { return step->weights.dt == w.dt && step->weights.alpha_f == w.alpha_f; };
+    const auto found    = std::find_if(steps.begin(), steps.end(), is_equal);
+    if (found != steps.end())
+      std::rotate(found, found + 1, steps.end());
+    else
+    {
+      if (steps.size() >= most)
+        steps.erase(steps.begin());
+      steps.push_back(make());
+    }
+    return steps.back().get();
   }
 
   /// Coordinates with their rates.

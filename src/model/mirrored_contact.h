@@ -39,7 +39,7 @@ namespace sprag
       StepWork work() const
       {
         StepWork result = of_lever[0].work();
-        add_work(of_lever[1].work(), result);
+        result += of_lever[1].work();
         return result;
       }
       double energy() const

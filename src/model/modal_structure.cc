@@ -153,16 +153,16 @@ namespace sprag
     return -(w.alpha_f - data.relaxation / w.dt) / static_weight(w);
   }
 
-  ModalStructure::Step ModalStructure::make_step(const StepWeights &weights) const
+  std::unique_ptr<ModalStructure::Step> ModalStructure::make_step(const StepWeights &weights) const
   {
-    Step step;
-    step.weights = weights;
+    auto step     = std::make_unique<Step>();
+    step->weights = weights;
     FullMatrix<double> effective(n_modes(), n_modes());
     effective.add(weights.damping(), data.damping);
     for (unsigned int i = 0; i < n_modes(); ++i)
       effective(i, i) += weights.mass() + weights.stiffness() * data.stiffness[i];
-    step.inverse    = inverse_of(effective);
-    step.compliance = port_compliance(step.inverse, 1. / static_weight(weights));
+    step->inverse    = inverse_of(effective);
+    step->compliance = port_compliance(step->inverse, 1. / static_weight(weights));
     return step;
   }
 
@@ -174,18 +174,7 @@ namespace sprag
   void ModalStructure::use_step(const StepWeights &weights)
   {
     constexpr std::size_t kept = 16;
-    const auto found           = std::find_if(steps.begin(), steps.end(),
-                                              [&](const auto &step)
-                                              { return step->weights.dt == weights.dt && step->weights.alpha_f == weights.alpha_f; });
-    if (found == steps.end())
-    {
-      if (steps.size() >= kept)
-        steps.erase(steps.begin());
-      steps.push_back(std::make_unique<Step>(make_step(weights)));
-    }
-    else
-      std::rotate(found, found + 1, steps.end());
-    current = steps.back().get();
+    current                    = step_among(steps, weights, kept, [&] { return make_step(weights); });
   }
 
   const PortCompliance &ModalStructure::compliance() const

@@ -3,6 +3,7 @@
 
 #include "base/append.h"
 #include "results/page_tables.h"
+#include "scene/drive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -101,6 +102,14 @@ namespace sprag
         add_as_second(of_lever, result);
     }
     return result;
+  }
+
+  Row::Row(const DrivePoint &at)
+      : Row()
+  {
+    (*this)[Column::time] = at.time;
+    (*this)[Column::x]    = at.x;
+    (*this)[Column::v]    = at.v;
   }
 
   void Row::add_second_lever(const Row &second)

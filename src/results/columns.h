@@ -12,6 +12,7 @@
 namespace sprag
 {
   class Archive;
+  struct DrivePoint;
 
   // One table for all fidelities. A model that cannot supply a quantity leaves NaN.
 
@@ -102,6 +103,9 @@ namespace sprag
     {
       values.fill(std::numeric_limits<double>::quiet_NaN());
     }
+
+    /// Sets time, x and v.
+    explicit Row(const DrivePoint &at);
 
     double &operator[](Column column)
     {

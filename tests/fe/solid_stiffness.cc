@@ -48,7 +48,7 @@ namespace
       body.emplace(triangulation, properties);
     }
 
-    SymmetricEntries stiffness() const
+    MatrixEntries stiffness() const
     {
       return assemble_stiffness(*body, {});
     }
@@ -57,7 +57,7 @@ namespace
     std::optional<ElasticBody<3>> body;
   };
 
-  Vector<double> product(const SymmetricEntries &matrix, const Vector<double> &vector)
+  Vector<double> product(const MatrixEntries &matrix, const Vector<double> &vector)
   {
     Vector<double> result(vector.size());
     for (std::size_t k = 0; k < matrix.value.size(); ++k)
@@ -148,7 +148,7 @@ namespace
                 values.shape_value(i, q) * force[cube.body->dofs().get_fe().system_to_component_index(i).first] * values.JxW(q);
       }
     }
-    SharedFactors factors(MPI_COMM_SELF);
+    Mumps factors(MatrixKind::solid_stiffness);
     factors.factorise(cube.stiffness());
     factors.solve(solution);
     const Vector<double> found(solution.begin(), solution.end());

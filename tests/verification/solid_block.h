@@ -29,7 +29,7 @@ namespace sprag
     };
 
     SolidBlock(const Planes &planes, const ElasticConstants &constants, const unsigned int degree = 2)
-        : factors(MPI_COMM_SELF)
+        : factors(MatrixKind::solid_stiffness)
     {
       make_cells(planes);
       BodyProperties properties;
@@ -130,7 +130,7 @@ namespace sprag
     dealii::Triangulation<3> triangulation;
     std::optional<ElasticBody<3>> body;
     FrictionFace<3> face;
-    SharedFactors factors;
+    Mumps factors;
   };
 
   /// The part of a block's face where it can be touched: its ports, three a node, and the compliance between them.

@@ -31,14 +31,8 @@ namespace sprag
     {
       double result = 0.;
       for (std::size_t i = 1; i + 1 < rows.size(); ++i)
-      {
-        const double way = rows[i + 1][Column::x] - rows[i - 1][Column::x];
-        if (way == 0. || !is_one_stroke(rows[i - 1], rows[i + 1]))
-          continue;
-        const double share = (rows[i][Column::x] - rows[i - 1][Column::x]) / way;
-        const double line  = (1. - share) * rows[i - 1][column] + share * rows[i + 1][column];
-        result             = std::max(result, std::abs(rows[i][column] - line));
-      }
+        if (is_one_stroke(rows[i - 1], rows[i + 1]))
+          result = std::max(result, std::abs(distance_from_line(rows[i - 1], rows[i], rows[i + 1], column)));
       return result / largest(rows, column);
     }
 

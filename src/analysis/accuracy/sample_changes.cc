@@ -70,18 +70,23 @@ namespace sprag
     return largest_change(samples, other, columns.at(quantity));
   }
 
+  double distance_from_line(const Row &before, const Row &row, const Row &after, const Column column)
+  {
+    const double way = after[Column::x] - before[Column::x];
+    if (way == 0.)
+      return 0.;
+    const double share = (row[Column::x] - before[Column::x]) / way;
+    return row[column] - (1. - share) * before[column] - share * after[column];
+  }
+
   double alternation(const std::vector<Row> &rows, const Column column)
   {
     const auto has_turned = friction_has_turned(rows);
-    /// Distance of a row from the line between its neighbours.
-    const auto beside = [&](const std::size_t i)
+    const auto beside     = [&](const std::size_t i)
     {
-      const Row &before = rows[i - 1], &row = rows[i], &after = rows[i + 1];
-      const double way = after[Column::x] - before[Column::x];
-      if (!has_turned[i - 1] || way == 0. || direction_of(before[Column::v]) != direction_of(after[Column::v]))
-        return 0.;
-      const double share = (row[Column::x] - before[Column::x]) / way;
-      return row[column] - (1. - share) * before[column] - share * after[column];
+      const Row &before = rows[i - 1], &after = rows[i + 1];
+      const bool is_one_stroke = direction_of(before[Column::v]) == direction_of(after[Column::v]);
+      return has_turned[i - 1] && is_one_stroke ? distance_from_line(before, rows[i], after, column) : 0.;
     };
     double result = 0.;
     for (std::size_t i = 2; i + 2 < rows.size(); ++i)

@@ -173,18 +173,6 @@ namespace sprag
     return result;
   }
 
-  namespace
-  {
-    Row row_at(const DrivePoint &point)
-    {
-      Row row;
-      row[Column::time] = point.time;
-      row[Column::x]    = point.x;
-      row[Column::v]    = point.v;
-      return row;
-    }
-  } // namespace
-
   std::vector<Row> places_of(const Drive &drive)
   {
     std::vector<double> ends = { 0. };
@@ -196,7 +184,7 @@ namespace sprag
     std::vector<Row> result;
     for (std::size_t stroke = 1; stroke < ends.size(); ++stroke)
       for (const double share : stroke == 1 ? std::vector{ 0.3, 0.7, 0.98 } : std::vector{ 0.08, 0.4, 0.8 })
-        result.push_back(row_at(drive.at(ends[stroke - 1] + share * (ends[stroke] - ends[stroke - 1]))));
+        result.emplace_back(drive.at(ends[stroke - 1] + share * (ends[stroke] - ends[stroke - 1])));
     return result;
   }
 
@@ -210,9 +198,9 @@ namespace sprag
     const double duration = distance / drive.peak_speed();
     if (turn.time + duration > (drive.reversals().size() > 1 ? drive.reversals()[1] : drive.duration()))
       return result;
-    result.push_back(row_at(turn));
+    result.emplace_back(turn);
     for (unsigned int i = number; i-- > 0;)
-      result.push_back(row_at(drive.at(turn.time + std::ldexp(duration, -static_cast<int>(i)))));
+      result.emplace_back(drive.at(turn.time + std::ldexp(duration, -static_cast<int>(i))));
     return result;
   }
 } // namespace sprag

@@ -259,10 +259,7 @@ namespace sprag
 
   Row observed(const Model &model, const State &state, const Evaluation &found)
   {
-    Row row;
-    row[Column::time]          = state.drive.time;
-    row[Column::x]             = state.drive.x;
-    row[Column::v]             = state.drive.v;
+    Row row(state.drive);
     row[Column::friction_work] = 0.;
     row[Column::drive_work]    = 0.;
     model.observe(state, found, row);

@@ -70,10 +70,7 @@ namespace sprag
     const auto &at          = now.motion.drive;
     const double x          = at.x;
     const auto iterations   = advance(path, dt, 0);
-    row                     = {};
-    row[Column::time]       = at.time;
-    row[Column::x]          = at.x;
-    row[Column::v]          = at.v;
+    row                     = Row(at);
     row[Column::step]       = at.x - x;
     row[Column::time_step]  = dt;
     row[Column::iterations] = iterations;

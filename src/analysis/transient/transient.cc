@@ -28,10 +28,7 @@ namespace sprag
 
     Row observe(const DynamicModel &model, const Motion &motion, const EnergyLedger &ledger)
     {
-      Row row;
-      row[Column::time] = motion.drive.time;
-      row[Column::x]    = motion.drive.x;
-      row[Column::v]    = motion.drive.v;
+      Row row(motion.drive);
       model.observe(motion, row);
       ledger.fill(row);
       return row;

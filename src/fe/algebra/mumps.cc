@@ -2,151 +2,179 @@
 #include "fe/algebra/mumps.h"
 
 #include "base/errors.h"
+#include "fe/algebra/matrix_rows.h"
+
+#include <cstring>
+#include <utility>
 
 namespace sprag
 {
-  Mumps::Mumps(const MatrixKind kind_)
+  namespace
+  {
+    // Jobs and settings of MUMPS by their numbers in its users' guide.
+    constexpr int initialise = -1, terminate = -2, analyse = 1, decompose = 2, back_substitute = 3;
+    constexpr int schur_complement = 19, sparse_columns = 20, inverse_entries = 30;
+
+    std::string reason_of(const int status)
+    {
+      if (status == -13 || status == -9)
+        return "): there is not enough memory";
+      return status == -90 ? "): the factors could not be written or read" : ")";
+    }
+  } // namespace
+
+  Mumps::Mumps(const MatrixKind kind_, const MPI_Comm ranks, const std::string &folder)
       : kind(kind_)
   {
+    std::memset(&mumps, 0, sizeof mumps);
+    mumps.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(ranks));
+    mumps.par          = 1;
+    mumps.sym          = kind == MatrixKind::general ? 0 : 1;
+    call(initialise, "set-up");
+    for (const int output : { 1, 2, 3 })
+      set(output, -1);
+    set(4, 0);
+    set(5, 0);
+    set(22, folder.empty() ? 0 : 1);
+    std::strncpy(mumps.ooc_tmpdir, folder.c_str(), sizeof mumps.ooc_tmpdir - 1);
+    std::strncpy(mumps.ooc_prefix, "factors", sizeof mumps.ooc_prefix - 1);
+    if (kind != MatrixKind::solid_stiffness)
+      return;
+    set(7, 4);   // PORD, which is best for long bodies
+    set(14, 30); // per cent of memory that the analysis may have missed
+    set(15, -3); // ordered by nodes
+    set(18, 3);  // entries where they are
+    set(27, 64); // right-hand sides together: more gain little
+    set(28, 1);
   }
 
   Mumps::~Mumps()
   {
-    MatDestroy(&factor);
+    mumps.job = terminate;
+    dmumps_c(&mumps);
   }
 
-  void Mumps::check(const PetscErrorCode code, const char *what) const
+  void Mumps::set(const int setting, const int value) const
   {
-    if (code != 0)
-      throw AnalysisError(std::string("the direct solver failed in ") + what + " (PETSc error " + std::to_string(code) + ")");
+    mumps.icntl[setting - 1] = value;
   }
 
-  void Mumps::check_factor(const char *what) const
+  void Mumps::call(const int job, const char *what) const
   {
-    MatFactorError error = MAT_FACTOR_NOERROR;
-    PetscInt info        = 0;
-    check(MatFactorGetError(factor, &error), what);
-    check(MatMumpsGetInfog(factor, 1, &info), what);
-    if (error != MAT_FACTOR_NOERROR || info < 0)
-      throw AnalysisError(std::string("the direct solver failed in ") + what + " (MUMPS INFOG(1) = " + std::to_string(info) +
-                          ", MatFactorError = " + std::to_string(error) + ")");
+    mumps.job = job;
+    dmumps_c(&mumps);
+    const int status = mumps.infog[0];
+    if (status < 0)
+      throw AnalysisError(std::string("the direct solver failed in ") + what + " (MUMPS INFOG(1) = " + std::to_string(status) +
+                          ", INFOG(2) = " + std::to_string(mumps.infog[1]) + reason_of(status));
   }
 
-  void Mumps::symbolic(const dealii::PETScWrappers::SparseMatrix &matrix)
+  void Mumps::factorise(MatrixEntries entries)
   {
-    MatFactorInfo info;
-    check(MatFactorInfoInitialize(&info), "set-up");
-    check(kind == MatrixKind::general ? MatLUFactorSymbolic(factor, matrix, nullptr, nullptr, &info)
-                                      : MatCholeskyFactorSymbolic(factor, matrix, nullptr, &info),
-          "analysis");
-    check_factor("analysis");
-  }
-
-  void Mumps::numeric(const dealii::PETScWrappers::SparseMatrix &matrix)
-  {
-    MatFactorInfo info;
-    check(MatFactorInfoInitialize(&info), "set-up");
-    check(kind == MatrixKind::general ? MatLUFactorNumeric(factor, matrix, &info)
-                                      : MatCholeskyFactorNumeric(factor, matrix, &info),
-          "factorisation");
-    check_factor("factorisation");
+    mumps.n   = static_cast<MUMPS_INT>(entries.size);
+    mumps.nnz = mumps.nnz_loc = static_cast<MUMPS_INT8>(entries.row.size());
+    mumps.irn = mumps.irn_loc = entries.row.data();
+    mumps.jcn = mumps.jcn_loc = entries.column.data();
+    mumps.a = mumps.a_loc = entries.value.data();
+    if (!is_ordered)
+      call(analyse, "analysis");
+    is_ordered = true;
+    call(decompose, "factorisation");
+    mumps.irn = mumps.irn_loc = mumps.jcn = mumps.jcn_loc = nullptr;
+    mumps.a = mumps.a_loc = nullptr;
   }
 
   void Mumps::factorise(const dealii::PETScWrappers::SparseMatrix &matrix)
   {
-    if (factor == nullptr)
-    {
-      if (kind == MatrixKind::positive_definite)
-        check(MatSetOption(matrix, MAT_SPD, PETSC_TRUE), "set-up");
-      const auto type = kind == MatrixKind::general ? MAT_FACTOR_LU : MAT_FACTOR_CHOLESKY;
-      check(MatGetFactor(matrix, MATSOLVERMUMPS, type, &factor), "set-up");
-      symbolic(matrix);
-    }
-    numeric(matrix);
+    const MatrixRows rows(matrix);
+    MatrixEntries entries;
+    entries.size = rows.n;
+    entries.reserve(static_cast<std::size_t>(rows.begin[rows.n]));
+    for (PetscInt row = 0; row < rows.n; ++row)
+      for (PetscInt i = rows.begin[row]; i < rows.begin[row + 1]; ++i)
+        if (kind == MatrixKind::general || rows.column[i] >= row)
+          entries.add(row, rows.column[i], rows[i]);
+    factorise(std::move(entries));
   }
 
   dealii::FullMatrix<double> Mumps::factorise_with_schur_complement(const dealii::PETScWrappers::SparseMatrix &matrix,
                                                                     const std::vector<unsigned int> &indices)
   {
-    const std::vector<PetscInt> petsc_indices(indices.begin(), indices.end());
-    const auto n = static_cast<PetscInt>(indices.size());
-    IS schur_set = nullptr;
-    check(MatDestroy(&factor), "set-up");
-    check(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_LU, &factor), "set-up");
-    check(ISCreateGeneral(PETSC_COMM_SELF, n, petsc_indices.data(), PETSC_COPY_VALUES, &schur_set), "set-up");
-    check(MatFactorSetSchurIS(factor, schur_set), "set-up");
-    check(ISDestroy(&schur_set), "set-up");
-    symbolic(matrix);
-    numeric(matrix);
-
-    Mat schur = nullptr;
-    MatFactorSchurStatus status;
-    check(MatFactorCreateSchurComplement(factor, &schur, &status), "the Schur complement");
-    const PetscScalar *values = nullptr;
-    check(MatDenseGetArrayRead(schur, &values), "the Schur complement");
-    dealii::FullMatrix<double> result(indices.size(), indices.size());
-    for (std::size_t i = 0; i < indices.size(); ++i)
-      for (std::size_t j = 0; j < indices.size(); ++j)
-        result(i, j) = values[j * indices.size() + i];
-    check(MatDenseRestoreArrayRead(schur, &values), "the Schur complement");
-    check(MatDestroy(&schur), "the Schur complement");
+    const auto n = static_cast<MUMPS_INT>(indices.size());
+    std::vector<MUMPS_INT> from_1;
+    for (const unsigned int index : indices)
+      from_1.push_back(static_cast<MUMPS_INT>(index) + 1);
+    dealii::FullMatrix<double> transposed(n, n), result(n, n);
+    set(schur_complement, 3); // by columns
+    mumps.size_schur = mumps.schur_lld = n;
+    mumps.listvar_schur                = from_1.data();
+    mumps.schur                        = &transposed(0, 0);
+    mumps.nprow = mumps.npcol = 1;
+    mumps.mblock = mumps.nblock = 100;
+    factorise(matrix);
+    result.copy_transposed(transposed);
     return result;
+  }
+
+  void Mumps::solve(double *const columns, const std::size_t number) const
+  {
+    set(sparse_columns, 0);
+    mumps.rhs  = columns;
+    mumps.lrhs = mumps.n;
+    mumps.nrhs = static_cast<MUMPS_INT>(number);
+    call(back_substitute, "back-substitution");
   }
 
   void Mumps::solve(const dealii::Vector<double> &right_hand_side, dealii::Vector<double> &solution) const
   {
-    const auto n = static_cast<PetscInt>(right_hand_side.size());
-    Vec b        = nullptr;
-    Vec x        = nullptr;
-    solution.reinit(right_hand_side.size());
-    check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, right_hand_side.begin(), &b), "a solve");
-    check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, solution.begin(), &x), "a solve");
-    check(MatSolve(factor, b, x), "a solve");
-    check_factor("a solve");
-    check(VecDestroy(&b), "a solve");
-    check(VecDestroy(&x), "a solve");
+    solution = right_hand_side;
+    solve(solution.begin(), 1);
   }
 
-  std::vector<double> Mumps::solve(std::vector<double> columns) const
+  void Mumps::solve(std::vector<double> &columns) const
   {
-    PetscInt n = 0;
-    check(MatGetSize(factor, &n, nullptr), "a solve");
-    const auto number = static_cast<PetscInt>(columns.size()) / n;
-    std::vector<double> result(columns.size());
-    Mat b = nullptr, x = nullptr;
-    check(MatCreateSeqDense(PETSC_COMM_SELF, n, number, columns.data(), &b), "a solve");
-    check(MatCreateSeqDense(PETSC_COMM_SELF, n, number, result.data(), &x), "a solve");
-    check(MatMatSolve(factor, b, x), "a solve");
-    check_factor("a solve");
-    check(MatDestroy(&b), "a solve");
-    check(MatDestroy(&x), "a solve");
+    solve(columns.data(), columns.size() / mumps.n);
+  }
+
+  void Mumps::solve(SparseColumns &columns, double *const solution) const
+  {
+    mumps.nz_rhs      = static_cast<MUMPS_INT>(columns.row.size());
+    mumps.irhs_ptr    = columns.begin.data();
+    mumps.irhs_sparse = columns.row.data();
+    mumps.rhs_sparse  = columns.value.data();
+    mumps.rhs         = solution;
+    mumps.lrhs        = mumps.n;
+    mumps.nrhs        = columns.size();
+    call(back_substitute, "back-substitution");
+  }
+
+  std::vector<double> Mumps::solve(SparseColumns columns) const
+  {
+    std::vector<double> result(static_cast<std::size_t>(mumps.n) * columns.size());
+    set(sparse_columns, 1);
+    solve(columns, result.data());
     return result;
+  }
+
+  void Mumps::take_part() const
+  {
+    call(back_substitute, "back-substitution");
   }
 
   std::vector<double> Mumps::entries_of_inverse(const std::map<unsigned int, std::vector<unsigned int>> &wanted) const
   {
-    constexpr PetscInt inverse_entries = 30; // of ICNTL
-    PetscInt n                         = 0;
-    check(MatGetSize(factor, &n, nullptr), "the inverse");
-    std::vector<PetscInt> begins(static_cast<std::size_t>(n) + 1), columns;
+    SparseColumns entries;
     auto row = wanted.begin();
-    for (PetscInt i = 0; i < n; ++i)
+    for (MUMPS_INT i = 0; i < mumps.n; ++i)
     {
-      if (row != wanted.end() && static_cast<PetscInt>(row->first) == i)
-      {
-        columns.insert(columns.end(), row->second.begin(), row->second.end());
-        ++row;
-      }
-      begins[static_cast<std::size_t>(i) + 1] = static_cast<PetscInt>(columns.size());
+      if (row != wanted.end() && row->first == static_cast<unsigned int>(i))
+        for (const unsigned int column : (row++)->second)
+          entries.add(column, 0.);
+      entries.end_column();
     }
-    std::vector<double> result(columns.size());
-    Mat entries = nullptr;
-    check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, begins.data(), columns.data(), result.data(), &entries),
-          "the inverse");
-    check(MatMumpsGetInverseTranspose(factor, entries), "the inverse");
-    check_factor("the inverse");
-    check(MatMumpsSetIcntl(factor, inverse_entries, 0), "the inverse"); // later solves are of all entries again
-    check(MatDestroy(&entries), "the inverse");
-    return result;
+    set(inverse_entries, 1);
+    solve(entries, nullptr);
+    set(inverse_entries, 0); // later solves are of all entries again
+    return entries.value;
   }
 } // namespace sprag

@@ -142,4 +142,14 @@ namespace sprag
 
   /// Returns displacements [mm] by forces on all degrees of freedom of a body that its hub holds [N], one column after another.
   using Response = std::function<std::vector<double>(std::vector<double> columns)>;
+
+  /// Returns the answer by the factors of a body.
+  inline Response response_of(std::shared_ptr<const Mumps> factors)
+  {
+    return [factors = std::move(factors)](std::vector<double> columns)
+    {
+      factors->solve(columns);
+      return columns;
+    };
+  }
 } // namespace sprag

@@ -107,13 +107,14 @@ namespace sprag
     // it ends.
     double travel      = 0.; ///< of the contact along the lever in the step [mm]; 0: speeds are means
     double speed_ratio = 1.; ///< sliding speed of a rigid lever at the end over its mean; the law's duration is shorter by it
-
-    /// Returns what the tangential penalty adds to the traction that is remembered, over the slip; a multiplier needs none.
-    double unwinding_stiffness() const
-    {
-      return augmented || law.slip.takes_face_speed ? std::numeric_limits<double>::infinity() : law.slip.stiffness;
-    }
   };
+
+  /// Returns what the tangential penalty adds to the traction that is remembered, over the slip; a multiplier needs none.
+  /// Nor does friction that follows the speed of the faces.
+  inline double unwinding_stiffness(const bool augmented, const SlipLaw &slip)
+  {
+    return augmented || slip.takes_face_speed ? std::numeric_limits<double>::infinity() : slip.stiffness;
+  }
 
   /// Finds the memory of the first point in contact from one on, by indices in the face.
   template <int slips>

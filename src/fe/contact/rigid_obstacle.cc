@@ -165,10 +165,11 @@ namespace sprag
     Tensor<1, 4> direction;
     if (step.travel != 0.)
     {
-      direction = direction_of_face(state.index);
-      shift     = slip_shift(face, state.index, placed.slip_row * direction, step.travel, step.unwinding_stiffness(), step.memory,
-                             [this](const unsigned int q)
-                             {
+      direction                        = direction_of_face(state.index);
+      shift                            = slip_shift(face, state.index, placed.slip_row * direction, step.travel,
+                                                    unwinding_stiffness(step.augmented, step.law.slip), step.memory,
+                                                    [this](const unsigned int q)
+                                                    {
                            const unsigned int of_patch = face.patch_of_point(q);
                            return begin_of(of_patch)[q - face.patches[of_patch].begin].slip;
                          });

@@ -194,7 +194,7 @@ namespace sprag
 
   Response response_of(const ElasticBody<2> &body)
   {
-    return [factors = body.factorised()](std::vector<double> columns) { return factors->solve(std::move(columns)); };
+    return response_of(body.factorised());
   }
 
   CondensedBasis basis_on(const PortLayout &ports, const LeverModes &modes, const std::vector<unsigned int> &surface,

@@ -36,11 +36,9 @@ namespace sprag
     MeshedDynamics facts(const Device &device, const ElasticBody<2> &body, const std::vector<double> &omega_squared,
                          const MassSums &mass)
     {
-      using namespace penalty_over_layer;
       MeshedDynamics result;
       static_cast<MassSums &>(result) = mass;
-      const double factor             = device.mesh.degree == 1 ? in_time_linear : in_time;
-      result.penalties                = contact_penalties(body, device.contact, device.layer.thickness, factor);
+      result.penalties                = penalties_in_time(device, body);
       for (const double stiffness : omega_squared)
         result.frequencies.push_back(0.5 * std::sqrt(stiffness) / M_PI);
       return result;

@@ -333,18 +333,7 @@ namespace sprag
 
   void SparseStructure::use_step(const StepWeights &weights)
   {
-    const auto found = std::find_if(steps.begin(), steps.end(),
-                                    [&](const auto &step)
-                                    { return step->weights.dt == weights.dt && step->weights.alpha_f == weights.alpha_f; });
-    if (found == steps.end())
-    {
-      if (steps.size() >= n_steps)
-        steps.erase(steps.begin());
-      steps.push_back(make_step(weights));
-    }
-    else
-      std::rotate(found, found + 1, steps.end());
-    current = steps.back().get();
+    current = step_among(steps, weights, n_steps, [&] { return make_step(weights); });
   }
 
   void SparseStructure::visit_history(Archive &archive)

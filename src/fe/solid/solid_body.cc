@@ -3,7 +3,6 @@
 
 #include "base/errors.h"
 #include "base/messages.h"
-#include "fe/solid/solid_connectors.h"
 #include "fe/solid/solid_stiffness.h"
 #include "fe/statics/lever_properties.h"
 #include "scene/across.h"
@@ -25,6 +24,59 @@ namespace sprag
             properties.interface_offset, properties.layer, properties.skin, properties.folder);
   }
 
+  namespace
+  {
+    void add_guide(const ElasticBody<3> &body, const Device &device, const bool is_half, std::vector<Connector> &result)
+    {
+      const auto &plate      = device.plate;
+      const double half      = 0.5 * device.lever.width;
+      const double xi        = 0.5 * plate.sensor_length;
+      const double stiffness = plate.guide_stiffness;
+      const FacingPads<3> pads(ConnectorType::guide,
+                               { { { plate.guide - xi, is_half ? 0. : -half } }, { { plate.guide + xi, half } } }, body);
+      result.push_back(connector(ConnectorType::guide, stiffness, pads.shift(0)));
+      if (is_half)
+        return;
+      result.push_back(connector(ConnectorType::guide, stiffness, pads.shift(1)));
+      result.push_back(connector(ConnectorType::guide, stiffness * half * half / 3., pads.turn()));
+    }
+
+    /// Finds the connectors of the scene's friction plate; none without one. First come the sensors, of each place along the
+    /// lever that on the left (zeta < 0) and that on the right, half as stiff as the place each; of a half, which is the same on
+    /// both sides of the middle and has zeta >= 0, the right one alone, which stands for both. Then comes the guide, over the
+    /// whole width: a spring along the lever, and of a whole also one across it, as stiff, and one against turning about eta, as
+    /// of springs along the lever spread over the width [N mm]. Throws InputError as FacingPads.
+    std::vector<Connector> find_connectors(const ElasticBody<3> &body, const Device &device, const bool is_half)
+    {
+      const auto &plate = device.plate;
+      std::vector<Connector> result;
+      if (plate.type == PlateType::none)
+        return result;
+      const double middle = sensors_across(device), xi = 0.5 * plate.sensor_length, zeta = 0.5 * plate.sensor_width;
+      for (const double place : plate.sensors)
+        for (const double side : { -1., 1. })
+        {
+          if (is_half && side < 0.)
+            continue;
+          const FacingPads<3> pads(ConnectorType::sensor,
+                                   { { { place - xi, side * middle - zeta } }, { { place + xi, side * middle + zeta } } }, body);
+          const double share = is_half ? 1. : 0.5;
+          result.push_back(connector(ConnectorType::sensor, share * plate.sensor_stiffness, pads.approach()));
+        }
+      add_guide(body, device, is_half, result);
+      return result;
+    }
+
+    /// Adds the stiffness of a connector to that of its body.
+    void add(const Connector &connector, MatrixEntries &stiffness)
+    {
+      for (const auto &[row, of_row] : connector.row)
+        for (const auto &[column, of_column] : connector.row)
+          if (row <= column)
+            stiffness.add(row, column, connector.stiffness * of_row * of_column);
+    }
+  } // namespace
+
   BodyFactors::BodyFactors(const ElasticBody<3> &of_body, const std::vector<int> &numbers, const SharedTask solve,
                            const BodyCalls &calls)
       : body(of_body)
@@ -37,11 +89,11 @@ namespace sprag
   void BodyFactors::factorise(const std::vector<Connector> &connectors, const std::string &folder)
   {
     release();
-    n            = size_of_part(body, number_in_part);
     auto entries = assemble_stiffness(body, number_in_part);
+    n            = entries.size;
     for (const auto &connector : connectors)
       add(connector, entries);
-    factors = std::make_unique<SharedFactors>(call_others.ranks, folder);
+    factors = std::make_unique<Mumps>(MatrixKind::solid_stiffness, call_others.ranks, folder);
     factors->factorise(std::move(entries));
   }
 

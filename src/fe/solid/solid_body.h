@@ -51,7 +51,7 @@ namespace sprag
     const SharedTask task;
     const BodyCalls &call_others;
     unsigned int n = 0;
-    std::unique_ptr<SharedFactors> factors;
+    std::unique_ptr<Mumps> factors;
   };
 
   /// A mesh of three dimensions, which every rank knows whole and shares the work on.

@@ -240,13 +240,6 @@ namespace sprag
     return result;
   }
 
-  ContactPenalties penalties_in_time(const Device &device, const FrictionFace<3> &face)
-  {
-    using namespace penalty_over_layer;
-    const double factor = device.mesh.degree == 1 ? in_time_linear : in_time;
-    return contact_penalties(face, device.contact, device.layer.thickness, factor);
-  }
-
   FrictionFace<3> reached_face(const std::array<double, 2> &reach, const SolidBody &body)
   {
     return window_of(body.friction_face(), reach[0], reach[1]).face;

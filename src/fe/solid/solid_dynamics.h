@@ -39,9 +39,6 @@ namespace sprag
   MeshedDynamics make_solid_dynamics(const Device &device, const SolidInTime &lever, const std::array<double, 2> &reach,
                                      double relaxation, unsigned int n_modes);
 
-  /// Returns the penalties that this model has.
-  ContactPenalties penalties_in_time(const Device &device, const FrictionFace<3> &face);
-
   /// Returns the part of the face that this model looks at: where the contact may come.
   FrictionFace<3> reached_face(const std::array<double, 2> &reach, const SolidBody &body);
 } // namespace sprag

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "fe/algebra/mumps.h"
 #include "fe/body/elastic_body.h"
-#include "fe/solid/shared_factors.h"
 
 namespace sprag
 {
-  // Parts of a body are given by a number for each degree of freedom, from 0, -1 where it is not of the part; no numbers stand
-  // for the whole body.
-
-  /// Returns the number of displacements of a part.
-  unsigned int size_of_part(const ElasticBody<3> &body, const std::vector<int> &number_in_part);
-
-  /// Returns the numbers of a cell's displacements, -1 also where they are held.
-  std::vector<int> numbers_of(const dealii::DoFHandler<3>::active_cell_iterator &cell, const ElasticBody<3> &body,
-                              const std::vector<int> &number_in_part);
-
   /// Returns this rank's entries of the stiffness of a part of a body without load, with unit entries for held degrees of
-  /// freedom. To be called by all ranks.
-  SymmetricEntries assemble_stiffness(const ElasticBody<3> &body, const std::vector<int> &number_in_part);
+  /// freedom. A part is given by a number for each degree of freedom, from 0, -1 where it is not of the part; no numbers stand
+  /// for the whole body. To be called by all ranks.
+  MatrixEntries assemble_stiffness(const ElasticBody<3> &body, const std::vector<int> &number_in_part);
 } // namespace sprag

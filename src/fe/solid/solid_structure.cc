@@ -12,7 +12,7 @@ namespace sprag
   FiniteStrain::FiniteStrain(const SolidBody &body_)
       : body(body_)
       , surface(surface_dofs(body))
-      , stiffness(body, {}, {})
+      , stiffness(body)
       , elasticity(body.cell_mapping(), body.dofs().get_fe(), body.body_properties())
       , of_cell(body.dofs().get_fe().n_dofs_per_cell())
   {
@@ -21,7 +21,7 @@ namespace sprag
       {
         std::vector<types::global_dof_index> dofs(of_cell.size());
         cell->get_dof_indices(dofs);
-        cells.push_back({ cell, std::move(dofs) });
+        cells.push_back({ cell, std::move(dofs), &stiffness(cell) });
       }
   }
 
@@ -42,16 +42,17 @@ namespace sprag
   Vector<double> FiniteStrain::unbalance(const Vector<double> &displacement, const PortLoads &on_face)
   {
     std::vector<double> loads(body.n_dofs(), 0.);
-    Vector<double> internal(of_cell.size());
+    Vector<double> internal(of_cell.size()), of_stiffness(of_cell.size());
     for (const auto &cell : cells)
     {
       elasticity.reinit(cell.cell, of(cell, displacement));
       elasticity.find_forces(internal);
+      cell.stiffness->vmult(of_stiffness, of_cell);
+      internal -= of_stiffness;
       for (unsigned int i = 0; i < cell.dofs.size(); ++i)
         if (!body.is_held(cell.dofs[i]))
           loads[cell.dofs[i]] += internal[i];
     }
-    stiffness.subtract(std::vector<double>(displacement.begin(), displacement.end()), loads);
     for (double &load : loads)
       load = -load;
     add(on_face, loads);
@@ -91,7 +92,6 @@ namespace sprag
                    { { ports_.surface, [this](const PortSelection &some) { return compliance.whole_tiles(some); },
                        [this](const PortSelection &tiles) { return compliance.among(tiles); } } })
       , body(body_)
-      , ports(ports_)
       , surface(surface_dofs(body))
       , compliance(body, begin, end)
       , node_lines(lines_along(body.friction_face()))

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "fe/body/cell_stiffness.h"
 #include "fe/solid/layered_compliance.h"
 #include "fe/solid/solid_body.h"
-#include "fe/solid/stiffness_product.h"
 #include "fe/statics/port_window.h"
 #include "fe/statics/sensor_forces.h"
 #include "model/port_forces.h"
@@ -34,6 +34,7 @@ namespace sprag
     {
       dealii::DoFHandler<3>::active_cell_iterator cell;
       std::vector<dealii::types::global_dof_index> dofs;
+      const dealii::FullMatrix<double> *stiffness; ///< without load
     };
 
     const dealii::Vector<double> &of(const Cell &cell, const dealii::Vector<double> &displacement);
@@ -41,7 +42,7 @@ namespace sprag
 
     const SolidBody &body;
     const std::vector<unsigned int> surface; ///< degrees of freedom of the ports
-    const StiffnessProduct stiffness;        ///< of the cells, without load
+    CellStiffness<3> stiffness;
     CellElasticity<3> elasticity;
     std::vector<Cell> cells;
     dealii::Vector<double> of_cell;
@@ -112,7 +113,6 @@ namespace sprag
     PortLoads interpolation(const std::vector<unsigned int> &line, double xi) const;
 
     const SolidBody &body;
-    const PortLayout ports;
     const std::vector<unsigned int> surface;           ///< degrees of freedom of a lever's ports
     mutable LayeredCompliance compliance;              ///< of a face; remembers what it found
     std::vector<std::vector<unsigned int>> node_lines; ///< nodes of the face with the same zeta, along xi; three and more

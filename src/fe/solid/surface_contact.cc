@@ -24,7 +24,6 @@ namespace sprag
       , patches(face)
       , view(face, patches, properties.half)
       , in_lanes(face, patches, properties.cylinder)
-      , place_of_port(properties.ports.size())
   {
     find_ends();
     for (const auto &patch : patches.patches)
@@ -229,8 +228,7 @@ namespace sprag
   std::vector<SlipShift> SurfaceContact::shifts_of(const unsigned int patch, const std::vector<SurfaceMemory> &memory,
                                                    const StaticTerms &terms) const
   {
-    const double stiffness = terms.augmented || falls_with_speed(terms.friction) ? std::numeric_limits<double>::infinity()
-                                                                                 : properties.penalties.tangential;
+    const double stiffness = unwinding_stiffness(terms.augmented, slip_law(terms.friction, properties.penalties.tangential));
     std::vector<SlipShift> result;
     for (unsigned int point = patches.patches[patch].begin; point < patches.patches[patch].end; ++point)
       result.push_back(slip_shift(patches, point, 0., terms.travel, stiffness, memory,

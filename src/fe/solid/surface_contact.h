@@ -204,7 +204,6 @@ namespace sprag
     std::optional<unsigned int> most_pressed; ///< the one whose springs are compressed most
     Summed summed;
 
-    std::vector<unsigned int> place_of_port; ///< among those summed
     FaceReach<3> reach;
   };
 } // namespace sprag

@@ -56,12 +56,13 @@ namespace sprag
     /// Returns the forces on the surface of a lever, with the numbers that its ports have alone.
     PortLoads on_surface(const PortLoads &forces, unsigned int lever) const;
 
+    const PortLayout ports;
+
   private:
     void move_window(const PortSelection &wanted);
     PortSelection places_of(const PortSelection &of_ports) const;
     PortSelection look_at(const PortSelection &near);
 
-    const PortLayout ports;
     const PortSprings springs;
     const std::vector<FaceResponse> faces;
 

@@ -144,12 +144,11 @@ namespace sprag
       : PortWindow(ports_, springs_,
                    { response_of(body_.friction_face(), &faces, 0), response_of(body_.cylinder_face(), &faces, 1) })
       , body(body_)
-      , ports(ports_)
       , surface(surface_dofs(body))
       , factors(body.factorised())
       , faces{ { SurfaceCompliance(*factors, face_dofs(body.friction_face())),
                  SurfaceCompliance(*factors, face_dofs(body.cylinder_face())) } }
-      , sensors(body, [this](std::vector<double> columns) { return factors->solve(std::move(columns)); })
+      , sensors(body, response_of(factors))
   {
   }
 

@@ -71,7 +71,6 @@ namespace sprag
 
   private:
     const ElasticBody<2> &body;
-    const PortLayout ports;
     const std::vector<unsigned int> surface; ///< degrees of freedom of a lever's ports
     const std::shared_ptr<const Mumps> factors;
     std::array<SurfaceCompliance, 2> faces; ///< of friction face and cylinder's face
