@@ -47,7 +47,7 @@ class OwnDevice(FolderTest):
         words = shlex.split(line)
         if words[0] == "./run" and not LITERALLY:
             words[0] = SPRAG
-        done = subprocess.run(words, capture_output=True, text=True, check=False, timeout=TIMEOUT, cwd=self.folder)
+        done = subprocess.run(words, capture_output=True, text=True, check=False, timeout=3 * TIMEOUT, cwd=self.folder)
         self.assertEqual(done.returncode, 0, f"{line}\n{done.stdout}{done.stderr}")
         self.printed[words[-1]] = done.stdout
 
@@ -74,11 +74,11 @@ class OwnDevice(FolderTest):
         for way in ("forward", "backward"):
             self.assertAlmostEqual(self.result("strokes", "deviation_Q_" + way), 0.055, delta=0.014)
         self.assertEqual(self.result("slide", "verdict"), "flutter")
-        self.assertRegex(self.printed["own/slide"], r"Lever/Depth from 2 to 12 mm: flutter, stable from 3\.(8|9)")
+        self.assertRegex(self.printed["own/slide"], r"Lever/Depth from 2 to 12 mm: flutter, stable from 4\.2")
         self.assertEqual(self.result("slide-thick", "verdict"), "stable")
         self.assertIn("Friction/Factor from 0.5 to 2: stable, flutter from 1.5", self.printed["own/slide-thick"])
         self.assertEqual(self.result("slide-tapered", "verdict"), "stable")
-        self.assertLess(self.result("tapered", "largest_lever_stress"), 25)
+        self.assertLess(self.result("tapered", "largest_lever_stress"), 20)
         for number, entry in ((2070.87, "stiffness"), (1.55785, "exponent")):
             self.assertAlmostEqual(self.result("law", entry) / number, 1, delta=1e-3)
         for turn in (1, 2, 3):
