@@ -17,12 +17,18 @@ namespace sprag
     Interpolant(const std::vector<double> &x, const std::vector<double> &y)
         : MonotoneCubic(x, y)
         , fastest(x.back())
-        , falls(!std::is_sorted(y.begin(), y.end()))
     {
+      constexpr double scatter = 0.01; ///< of the largest coefficient
+      double highest           = 0.;
+      for (const double mu : y)
+      {
+        highest = std::max(highest, mu);
+        falls   = falls || mu < highest - scatter * *std::max_element(y.begin(), y.end());
+      }
     }
 
     const double fastest; ///< [mm/s]
-    const bool falls;
+    bool falls = false;
   };
 
   namespace
@@ -122,7 +128,10 @@ namespace sprag
   bool falls_with_speed(const FrictionLaw &law)
   {
     if (const auto *const stribeck = std::get_if<StribeckFriction>(&law.law))
-      return stribeck->at_rest > stribeck->kinetic;
+    {
+      const double steepest = stribeck->speed * std::pow(1. - 1. / stribeck->exponent, 1. / stribeck->exponent);
+      return value_of(*stribeck, steepest).derivative < 0.;
+    }
     if (const auto *const table = std::get_if<TabulatedFriction>(&law.law))
       return table->falls();
     return false;

@@ -50,7 +50,7 @@ namespace sprag
 
     FrictionValue value(double speed) const;
 
-    /// Returns true if mu falls between any two rows.
+    /// Returns true if mu falls from one row to a later one by more than 1 % of its largest value.
     bool falls() const;
 
     /// Returns the speed of the last row [mm/s].

@@ -65,7 +65,7 @@ namespace sprag
 
   SlipLaw slip_law(const FrictionLaw &friction, const double stiffness)
   {
-    return { friction, stiffness, rising_pieces(friction), falls_with_speed(friction) };
+    return { friction, stiffness, {}, falls_with_speed(friction) };
   }
 
   double friction_in_stick(const FrictionLaw &law)

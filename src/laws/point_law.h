@@ -61,7 +61,7 @@ namespace sprag
   {
     FrictionLaw friction;
     double stiffness                  = 0.;    ///< in stick, > 0
-    std::vector<FrictionPiece> pieces = {};    ///< see rising_pieces()
+    std::vector<FrictionPiece> pieces = {};    ///< see rising_pieces(); none: the law is asked
     bool takes_face_speed             = false; ///< see falls_with_speed()
   };
 
@@ -258,14 +258,14 @@ namespace sprag
 
   /// Returns the speed that mu follows at the end of a step [mm/s]: over the memory length L it comes to that of the faces,
   ///   dw/ds = (v - w) / L   along the path s of the faces,
-  /// at once where the point was open before.
+  /// at once where the point was open or stuck before.
   template <class N, int slips>
   SPRAG_PART N remembered_speed(const SlipLaw &law, const SlipMemory<Plain<N>, slips> &memory, const N &path, const N &v)
   {
     using V             = Plain<N>;
     const double length = law.friction.memory_length;
     V share{};
-    for_each_lane(memory.step > 0.,
+    for_each_lane(memory.speed > 0.,
                   [&](const unsigned int i) { set_lane(share, i, std::exp(-lane_of(value(path), i) / length)); });
     return v + chained(share, V(-1. / length * share), path) * (memory.speed - v);
   }
@@ -307,7 +307,8 @@ namespace sprag
   }
 
   /// Friction that falls with speed: stick with a spring, or slip on the cone. mu follows the speed of the faces, elastic slip
-  /// included, over the memory length. At its own speed of slip a spring without mass would run away.
+  /// included, over the memory length; in stick it forgets how fast the point slid. At its own speed of slip a spring without
+  /// mass would run away.
   template <class N, int slips>
   SPRAG_PART PointFriction<N, slips> remembering(const SlipLaw &law, const SlipMemory<Plain<N>, slips> &memory,
                                                  const Several<N, slips> &slip, const N &p, const double dt)
@@ -319,7 +320,7 @@ namespace sprag
     const N v     = (1. + share) * (1. / dt * path.size) - share * last;
     const N w     = remembered_speed(law, memory, path.size, select(value(v) > 0., v, N{}));
     auto result   = return_at_speed(law, stick_traction(law, memory.traction, slip), p, w);
-    result.speed  = select(value(p) > 0., value(w), V{});
+    result.speed  = select(result.slipping, value(w), V{});
     for (int i = 0; i < slips; ++i)
     {
       const V t = value(result.traction[i]), before = memory.traction[i];

@@ -112,10 +112,10 @@ namespace sprag
       return row[Column::spring_energy] + row[Column::elastic_energy] + (std::isnan(support) ? 0. : support);
     }
 
-    /// Without a slope at x = 0 where a pair is opened there.
+    /// Without a slope at x = 0 where a pair is opened there or a preload presses.
     bool begins_closed(const Scene &scene)
     {
-      return number_of_levers(scene) == 1 || scene.pair.cylinder_offset == 0.;
+      return scene.spring.rest_angle == 0. && (number_of_levers(scene) == 1 || scene.pair.cylinder_offset == 0.);
     }
 
     void add_stroke(const Scene &scene, const Rows &turned, const Rows &settled, const std::string &way,

@@ -109,9 +109,10 @@ namespace sprag
       const auto type = scene.analysis.type;
       if (scene.spring.type != SpringType::leaf || type == AnalysisType::slope || type == AnalysisType::calibration)
         return;
-      const double x      = scene.drive.maximum();
-      const auto &leaf    = scene.spring.leaf;
-      const double turn   = std::abs(kinematics(scene.geometry, x).theta - kinematics(scene.geometry, 0.).theta);
+      const double x   = scene.drive.maximum();
+      const auto &leaf = scene.spring.leaf;
+      const double turn =
+          std::abs(kinematics(scene.geometry, x).theta - kinematics(scene.geometry, 0.).theta - scene.spring.rest_angle);
       const double strain = leaf_strain(leaf, turn);
       if (strain <= largest_leaf_strain)
         return;

@@ -253,7 +253,8 @@ namespace sprag
         }
         const auto accuracy =
             estimates_errors(options) ? accuracy_of(held, found, dynamics.meshed, maker) : std::vector<ErrorEstimate>();
-        is_decided      = accuracy.empty() || !(total_error(accuracy.front()) > 1.);
+        // What is jammed has no growth rate that decides.
+        is_decided      = found.kind == SlideKind::jammed || accuracy.empty() || !(total_error(accuracy.front()) > 1.);
         result.summary  = slide_entries(found, is_decided);
         result.accuracy = accuracy;
         if (options.verbose)

@@ -76,8 +76,7 @@ namespace sprag
     SpringType type  = SpringType::torsional;
     double stiffness = 7.40e4; ///< k [N mm/rad], > 0; of a leaf spring that of its behaviour
 
-    /// Turn of the lever from x = 0 at which the spring has no moment [rad]. Below 0 it presses at x = 0 already, a preload;
-    /// above, the lever touches the cylinder later, a clearance.
+    /// Turn of the lever from x = 0 at which the spring has no moment [rad], <= 0: with a preload it presses at x = 0 already.
     double rest_angle = 0.;
 
     LeafSpring leaf;

@@ -13,8 +13,8 @@ namespace sprag
                      "torsional: one number at the hub; leaf: a leaf spring of finite elements");
       section.number("Stiffness", settings.stiffness, above(0.), "N mm/rad",
                      "k, moment over the lever's rotation; that of a leaf spring follows from its dimensions");
-      section.number("Rest angle", settings.rest_angle, { -0.5, 0.5 }, "rad",
-                     "Turn of the lever from x = 0 at which the spring has no moment; < 0: preload, > 0: clearance");
+      section.number("Rest angle", settings.rest_angle, { -0.5, 0. }, "rad",
+                     "Turn of the lever from x = 0 at which the spring has no moment; below 0 a preload presses at x = 0");
     }
 
     void leaf(Section section, LeafSpring &settings)

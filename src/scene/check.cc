@@ -289,8 +289,8 @@ namespace sprag
         cache(scene.condensed, rules);
       if (use.positions)
         check_spring(scene, rules);
-      if (use.in_time || use.held)
-        check_rest_angle(scene, use.held ? 0. : std::max(0., scene.drive.minimum()), rules);
+      rules.need(analysis.type != AnalysisType::slope || scene.spring.rest_angle == 0., "Rotational spring/Rest angle",
+                 { "Analysis/Type" }, "must be 0 in a slope, which is that from a spring at rest");
       check_pair(scene, rules);
       if (use.meshed)
         check_cylinder(scene, rules);

@@ -2,7 +2,6 @@
 #include "scene/check_parts.h"
 
 #include "base/text.h"
-#include "scene/closed_form.h"
 #include "scene/scene.h"
 
 #include <algorithm>
@@ -45,14 +44,6 @@ namespace sprag
     add("Contact/Penalty", scene.contact.penalty, largest,
         "moves P by less than 1e-4, lets single points carry the pressure and");
     add("Contact/Tangential penalty", scene.contact.tangential_penalty, 10. * largest, "moves Q by less than 1e-4 and");
-  }
-
-  void check_rest_angle(const Scene &scene, const double from, Rules &rules)
-  {
-    const double turn = kinematics(scene.geometry, from).theta - kinematics(scene.geometry, 0.).theta;
-    rules.need(scene.spring.rest_angle <= turn, "Rotational spring/Rest angle", { "Analysis/Type", "Drive/Start" },
-               "must be at most the lever's turn at x = " + mm(from) + ", " + rounded_text(turn) +
-                   " rad: in time and where slides are held the lever touches the cylinder from the beginning");
   }
 
   void check_spring(const Scene &scene, Rules &rules)

@@ -34,9 +34,6 @@ namespace sprag
   /// Checks that frame and plate of a built-in outline leave the cylinder its way. The drive must be in range.
   void check_sweep(const Scene &scene, Rules &rules);
 
-  /// Checks that the lever touches the cylinder at the least x that is looked at [mm].
-  void check_rest_angle(const Scene &scene, double from, Rules &rules);
-
   // The following check the dimensions of a leaf spring, of an elastic cylinder, what is calibrated, and a full pair.
   void check_spring(const Scene &scene, Rules &rules);
   void check_cylinder(const Scene &scene, Rules &rules);

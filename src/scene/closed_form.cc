@@ -120,7 +120,7 @@ namespace sprag
     state.contact     = contact;
     state.v_rel       = sliding_speed(geometry, contact, v);
     state.mu          = sliding_friction(friction, v, state.v_rel).coefficient;
-    state.P           = std::max(0., moment) / (state.contact.s + sign * state.mu * geometry.interface_offset);
+    state.P           = moment / (state.contact.s + sign * state.mu * geometry.interface_offset);
     state.F           = sign * state.mu * state.P;
     state.Q           = state.P * std::sin(state.contact.theta) + state.F * std::cos(state.contact.theta);
     return state;

@@ -20,7 +20,7 @@ namespace sprag
     struct Turns
     {
       double opening; ///< of the lever
-      double spring;  ///< half of both with a joint that is free
+      double spring;  ///< from its rest; half of both with a joint that is free
 
       bool touches() const
       {
@@ -38,9 +38,10 @@ namespace sprag
     {
       const double first  = opening(device, 0, x);
       const double second = opening(device, 1, x);
+      const double rest   = device.spring.rest_angle;
       if (!swings(device))
-        return { { { first, first }, { second, second } } };
-      const double mean = 0.5 * (first + second);
+        return { { { first, first - rest }, { second, second - rest } } };
+      const double mean = 0.5 * (first + second) - rest;
       return { { { first, mean }, { second, mean } } };
     }
 
@@ -49,8 +50,9 @@ namespace sprag
       if (!turn.touches())
         return { { { rest_inclination(device) + turn.of_lever(), 0., 0. }, 0., 0., 0., 0., 0. }, false, 0. };
       const auto law = moment_law(device.spring);
-      return { closed_form(geometry_of_lever(device, lever), friction_of_lever(device, lever), law.moment(turn.spring), x, v),
-               true, law.energy(turn.spring) };
+      return { closed_form(geometry_of_lever(device, lever), friction_of_lever(device, lever),
+                           law.moment(turn.spring + device.spring.rest_angle), x, v),
+               true, law.energy(turn.spring + device.spring.rest_angle) };
     }
   } // namespace
 

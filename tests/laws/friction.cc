@@ -69,10 +69,11 @@ TEST(Friction, StribeckFallsFromRestAndGrowsAgainWithSpeed)
 TEST(Friction, FallsWhereAnySpeedHasASmallerCoefficient)
 {
   for (const auto &law : { law_of(CoulombFriction{}), law_of(CorkOnAluminium{}), law_of(StribeckFriction{ 0.4, 0.7, 50., 2. }),
-                           law_of(TabulatedFriction({ 0., 20., 60., 120. }, { 0.3, 0.35, 0.35, 0.85 })) })
+                           law_of(StribeckFriction{ 0.9, 0.6, 30., 1., 1.01e-2 }),
+                           law_of(TabulatedFriction({ 0., 20., 60., 120. }, { 0.3, 0.35, 0.345, 0.85 })) })
     EXPECT_FALSE(falls_with_speed(law));
-  for (const auto &law : { law_of(StribeckFriction{ 0.9, 0.6, 30., 1., 1e-2 }),
-                           law_of(TabulatedFriction({ 0., 20., 60., 120. }, { 0.3, 0.35, 0.34, 0.85 })) })
+  for (const auto &law : { law_of(StribeckFriction{ 0.9, 0.6, 30., 1., 0.99e-2 }),
+                           law_of(TabulatedFriction({ 0., 20., 60., 120. }, { 0.3, 0.35, 0.34, 0.36 })) })
     EXPECT_TRUE(falls_with_speed(law));
 }
 

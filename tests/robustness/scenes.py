@@ -78,13 +78,13 @@ STABLE, FLUTTER, DIVERGENCE = range(3)
 # The most lines that scenes of each kind may print before their warnings, with a unit behind each number.
 MOST_LINES = {
     "closed-form-a": 10, "fig10": 3, "contact-law-a": 6, "calibration-a": 16, "modal-a": 12, "pair-modal-a": 12, "pair-stability-a": 23, "isolation-a": 12,
-    "isolation-free-a": 12, "isolation-ground-a": 12, "onset-a": 14, "map-position-depth-a": 8, "study-offset-a": 10, "reversal-a": 20,
+    "isolation-free-a": 12, "isolation-ground-a": 12, "onset-a": 15, "map-position-depth-a": 8, "study-offset-a": 10, "reversal-a": 20,
 }  # fmt: skip
 NUMBER = r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 # Units, and what is counted.
 UNIT = (
     r"(?:N mm/rad|N mm\^2|N/mm\^n|N/mm\^3|N/mm|N mm|N|MPa|t mm\^?2|mm/s\^2|mm/s|mm|Hz|1/s|s|rad|%)(?![\w/^])"
-    r"|(?:of|more|runs|completed|failed|refused|steps|turns|stops|periods?|points|processes|values|in the grid|judged)\b"
+    r"|(?:of|more|runs|completed|failed|refused|steps|turns|stops|periods?|points|processes|values|in the grid|judged|vibrations?)\b"
 )
 WITH_UNIT = re.compile(rf"{NUMBER}(?:(?: to|,)? +{NUMBER})? (?:{UNIT})")
 # Numbers that have none.

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <nlopt.hpp>
 #include <random>
@@ -52,7 +53,15 @@ namespace sprag
         if (asked == place || (interrupted() && !place.empty()))
           return last;
         place = asked;
-        last  = problem.evaluate(place);
+        try
+        {
+          last = problem.evaluate(place);
+        }
+        catch (...)
+        {
+          thrown = std::current_exception();
+          throw;
+        }
         const Optimum here{ place, last.objective, largest_of(last.constraints) };
         if (found.place.empty() || is_better(here, found))
           found = here;
@@ -69,9 +78,17 @@ namespace sprag
         return found;
       }
 
+      /// Throws again what an evaluation has thrown, which the library makes an error of its own.
+      void rethrow() const
+      {
+        if (thrown)
+          std::rethrow_exception(thrown);
+      }
+
     private:
       const BoxProblem &problem;
       std::vector<double> place;
+      std::exception_ptr thrown;
       BoxProblem::Evaluation last;
       Optimum found{ {}, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity() };
     };
@@ -111,23 +128,16 @@ namespace sprag
         result[i] -= x[n - 1];
     }
 
-    void optimise(nlopt::opt &search, std::vector<double> x)
+    void optimise(nlopt::opt &search, std::vector<double> x, const Evaluator &evaluator)
     {
       double value = 0.;
       try
       {
         search.optimize(x, value);
       }
-      catch (const AnalysisError &)
-      {
-        throw;
-      }
-      catch (const InputError &)
-      {
-        throw;
-      }
       catch (const std::runtime_error &)
       {
+        evaluator.rethrow();
         // NLopt cannot go on, by round-off for one. The best place that was tried is the answer.
       }
     }
@@ -156,7 +166,7 @@ namespace sprag
       search.set_min_objective(bound, nullptr);
       search.add_inequality_mconstraint(constraints_below_bound, &evaluator, std::vector<double>(evaluator.of().n_constraints));
       search.set_stopval(-1e-3);
-      optimise(search, x);
+      optimise(search, x, evaluator);
     }
 
     void improve(Evaluator &evaluator, std::vector<double> start, const unsigned int evaluations, const double step)
@@ -167,7 +177,7 @@ namespace sprag
       search.set_upper_bounds(1.);
       search.set_min_objective(objective, &evaluator);
       search.add_inequality_mconstraint(constraints, &evaluator, std::vector<double>(evaluator.of().n_constraints));
-      optimise(search, start);
+      optimise(search, start, evaluator);
     }
 
     /// Steps become shorter where the search begins anew, as it may stop at an edge between two constraints.
@@ -196,7 +206,7 @@ namespace sprag
       search.set_min_objective(only_approaches ? largest_constraint : objective, &evaluator);
       if (!only_approaches)
         search.add_inequality_mconstraint(constraints, &evaluator, std::vector<double>(problem.n_constraints));
-      optimise(search, std::vector<double>(problem.dimension, 0.5));
+      optimise(search, std::vector<double>(problem.dimension, 0.5), evaluator);
       return evaluator.best().place;
     }
 

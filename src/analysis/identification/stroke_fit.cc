@@ -29,7 +29,7 @@ namespace sprag
       const double from = scene.drive.minimum();
       const double to   = scene.drive.maximum();
       std::vector<double> x, P, Q;
-      if (from == 0.) // where nothing presses
+      if (from == 0. && scene.spring.rest_angle == 0.) // where nothing presses
       {
         x.push_back(0.);
         P.push_back(0.);

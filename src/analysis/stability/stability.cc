@@ -83,7 +83,8 @@ namespace sprag
     if (const auto most = std::max_element(fast, result.modes.end(), is_worse);
         most != result.modes.end() && growth(*most) > smallest_growth)
       result.beyond = *most;
-    result.modes.erase(fast, result.modes.end());
+    if (fast != result.modes.begin())
+      result.modes.erase(fast, result.modes.end());
     const auto worst = std::max_element(result.modes.begin(), result.modes.end(), is_worse);
     const auto first =
         std::find_if(result.modes.begin(), worst, [&](const Eigenmode &mode) { return are_tied(mode.mode, worst->mode); });

@@ -24,12 +24,13 @@ namespace sprag
     /// The scene without friction and with a linear spring that leads to the largest P.
     Scene indentation_scene(const Scene &scene, const ContactReference &reference)
     {
-      Scene result            = scene;
-      result.friction.law     = CoulombFriction{ 0. };
-      result.drive            = Drive(DriveProfile::triangle, 0., scene.drive.maximum(), scene.drive.peak_speed(), 0.5);
-      result.spring.type      = SpringType::torsional;
-      result.spring.behaviour = {};
-      const double P          = closed_form(result, scene.drive.maximum(), 1.).P;
+      Scene result             = scene;
+      result.friction.law      = CoulombFriction{ 0. };
+      result.drive             = Drive(DriveProfile::triangle, 0., scene.drive.maximum(), scene.drive.peak_speed(), 0.5);
+      result.spring.type       = SpringType::torsional;
+      result.spring.behaviour  = {};
+      result.spring.rest_angle = 0.;
+      const double P           = closed_form(result, scene.drive.maximum(), 1.).P;
       result.spring.stiffness *= beyond * reference.P / P;
       result.mesh.face_size /= refinement;
       return result;

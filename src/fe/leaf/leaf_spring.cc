@@ -184,7 +184,7 @@ namespace sprag
     RotationalSpring result = device.spring;
     if (result.type != SpringType::leaf)
       return result;
-    const double rest       = kinematics(device.geometry, 0.).theta;
+    const double rest       = kinematics(device.geometry, 0.).theta + device.spring.rest_angle;
     const double smallest   = std::min(0., kinematics(device.geometry, device.drive.minimum()).theta - rest);
     const double largest    = std::max(0., kinematics(device.geometry, device.drive.maximum()).theta - rest);
     const double room       = std::max(0.02, 0.5 * std::max(-smallest, largest));

@@ -134,7 +134,8 @@ namespace sprag
 
   void StepInLanes::set(const Constants &constants)
   {
-    of = constants;
+    of             = constants;
+    of.slip.pieces = rising_pieces(of.slip.friction);
   }
 
   void StepInLanes::place(const unsigned int patch, const Patches::Nodal &nodal, const std::vector<SlipShift> &shifts)
