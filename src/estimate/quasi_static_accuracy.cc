@@ -9,7 +9,6 @@
 #include "estimate/coarser_scene.h"
 #include "estimate/quasi_static_accuracy.h"
 #include "fe/mesh/mesh.h"
-#include "laws/friction.h"
 #include "report/peak_report.h"
 #include "results/row_statistics.h"
 #include "scene/closed_form.h"
@@ -251,17 +250,6 @@ namespace sprag
       return result;
     }
 
-    /// Adds what rows alternate by, where friction falls with speed.
-    ErrorEstimate with_alternation(const Scene &scene, ErrorEstimate estimate, const std::vector<Row> &rows)
-    {
-      const double found = alternation(rows, estimate.quantity == "P" ? Column::P : Column::Q);
-      if (!estimate.parts.empty() && found > 0. && fall_with_speed(scene.friction, scene.drive.peak_speed()) > 0.)
-        estimate.parts.push_back(
-            { "alternation", found,
-              "Friction that falls with speed has no smooth slide without inertia: try Friction/Speed = drive." });
-      return estimate;
-    }
-
     /// Returns the estimate of a column that three dimensions add.
     ErrorEstimate estimate_across(const Scene &scene, const Probes &probes, const std::string &quantity)
     {
@@ -382,8 +370,8 @@ namespace sprag
         const double least = quantity == "largest_pressure" ? scatter : 0.;
         return unless_narrow(with_scatter(estimate(scene, probes, quantity, relative_to), least), faces, is_followed);
       };
-      std::vector<ErrorEstimate> result = { with_alternation(scene, told("P", "its peak", forces_follow), rows),
-                                            with_alternation(scene, told("Q", "its peak", forces_follow), rows),
+      std::vector<ErrorEstimate> result = { told("P", "its peak", forces_follow),
+                                            told("Q", "its peak", forces_follow),
                                             unless_narrow(loop_area(scene, probes, rows), faces, forces_follow),
                                             told("largest_pressure", "it", all_follows),
                                             told("contact_width", "the largest one", all_follows),

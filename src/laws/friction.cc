@@ -137,20 +137,6 @@ namespace sprag
     return false;
   }
 
-  double fall_with_speed(const FrictionLaw &law, const double fastest)
-  {
-    constexpr double least         = 0.01;
-    constexpr unsigned int samples = 64;
-    double largest = 0., fall = 0.;
-    for (unsigned int i = 0; i <= samples; ++i)
-    {
-      const double mu = friction_coefficient(law, fastest * i / samples).coefficient;
-      largest         = std::max(largest, mu);
-      fall            = std::max(fall, largest - mu);
-    }
-    return fall > least * largest ? fall : 0.;
-  }
-
   FrictionLaw friction_of_step(const FrictionLaw &friction, const double drive_speed)
   {
     FrictionLaw law = friction;

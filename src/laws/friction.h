@@ -16,8 +16,4 @@ namespace sprag
 
   /// Returns true if mu falls with speed; in a table by more than 1 % of its largest value.
   bool falls_with_speed(const FrictionLaw &law);
-
-  /// Returns by how much mu falls with the speed up to one of `fastest` [mm/s]; 0 where that is less than 1 % of its largest
-  /// value.
-  double fall_with_speed(const FrictionLaw &law, double fastest);
 } // namespace sprag

@@ -192,9 +192,7 @@ namespace sprag
   /// t is the trial. In slip t keeps its direction, and its size and the slip speed w are solved together,
   ///   t = mu(w) p,   w = max(0, (t_trial - t) / stiffness + shift) / duration,
   /// `shift` [mm] being by how much the slip of a step at the speed of its end is longer than the step's own; its part along the
-  /// trial counts. t stays below the trial. A mu that falls anywhere is taken at the speed of the faces,
-  ///   w = |slip + shift| / duration.
-  /// Newton's method begins with the step's `slip`.
+  /// trial counts. t stays below the trial. Newton's method begins with the step's `slip`.
   template <class N, class S, int slips>
   SPRAG_PART PointFriction<N, slips> return_to_cone(const SlipLaw &law, const Several<N, slips> &trial, const N &p,
                                                     const Plain<N> &duration, const Several<S, slips> &shift,
@@ -202,13 +200,6 @@ namespace sprag
   {
     using V        = Plain<N>;
     const double k = law.stiffness;
-    if (law.takes_face_speed)
-    {
-      Several<N, slips> at_end;
-      for (int i = 0; i < slips; ++i)
-        at_end[i] = slip[i] + shift[i];
-      return return_at_speed(law, trial, p, N(Plain<N>(1. / duration) * SizeAndDirection<N, slips>(at_end).size));
-    }
     const SizeAndDirection<N, slips> of(trial);
     const N along      = dot(of.direction, shift);
     const N load       = of.size + k * along;

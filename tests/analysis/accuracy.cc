@@ -43,18 +43,6 @@ namespace
   }
 } // namespace
 
-// P = 1 + x^2/100 with 0.05 added and taken off in turn, up to 5.05 at x = 20 mm.
-TEST(Alternation, IsFoundAboutASmoothCurve)
-{
-  for (const double size : { 0., 0.05 })
-  {
-    std::vector<Row> rows;
-    for (unsigned int i = 0; i <= 20; ++i)
-      rows.push_back(row(i, i, 1., 1. + 0.01 * i * i + (i % 2 == 0 ? size : -size)));
-    EXPECT_NEAR(alternation(rows, Column::P), size / (5. + size), 0.1 * size);
-  }
-}
-
 TEST(ErrorEstimate, OfTheFinerResultIsAShareOfTheDifference)
 {
   // Values 3 + 5 h^2 at h = 0.2 and 0.1: the finer is 0.05 off.

@@ -196,23 +196,3 @@ TEST(FrictionTraction, IsContinuousAtTheStickLimit)
       }
     }
 }
-
-// Between them a spring without mass would jump from one speed of slip to another.
-TEST(FrictionTraction, FallingFrictionTakesTheSpeedOfTheFaces)
-{
-  const FrictionLaw falling{ StribeckFriction{ 0.9, 0.5, 60. } };
-  for (const double shift : { 0., 0.4 })
-    for (const double sign : { 1., -1. })
-    {
-      // Trial and slip are one number here: 1.2 mm in 0.01 s.
-      const auto friction = friction_traction(sign * 1.2, 0.8, falling, 500., 0.01, sign * shift);
-      const double mu     = 0.5 + 0.4 * std::exp(-(1.2 + shift) / 0.01 / 60.);
-      EXPECT_TRUE(friction.slipping);
-      EXPECT_NEAR(friction.mu, mu, 1e-15);
-      EXPECT_NEAR(friction.traction, sign * 0.8 * mu, 1e-15);
-      EXPECT_NEAR(friction.d_pressure, sign * mu, 1e-15);
-      EXPECT_NEAR(friction.d_shift, -0.8 * (mu - 0.5) / 60. / 0.01, 1e-13);
-    }
-  // In stick within the cone of that speed.
-  EXPECT_EQ(friction_traction(0.3, 0.8, falling, 500., 0.01).traction, 0.3);
-}

@@ -78,23 +78,4 @@ namespace sprag
     const double share = (row[Column::x] - before[Column::x]) / way;
     return row[column] - (1. - share) * before[column] - share * after[column];
   }
-
-  double alternation(const std::vector<Row> &rows, const Column column)
-  {
-    const auto has_turned = friction_has_turned(rows);
-    const auto beside     = [&](const std::size_t i)
-    {
-      const Row &before = rows[i - 1], &after = rows[i + 1];
-      const bool is_one_stroke = direction_of(before[Column::v]) == direction_of(after[Column::v]);
-      return has_turned[i - 1] && is_one_stroke ? distance_from_line(before, rows[i], after, column) : 0.;
-    };
-    double result = 0.;
-    for (std::size_t i = 2; i + 2 < rows.size(); ++i)
-    {
-      const double before = beside(i - 1), here = beside(i), after = beside(i + 1);
-      if (before * here < 0. && here * after < 0.)
-        result = std::max(result, 0.5 * std::min({ std::abs(before), std::abs(here), std::abs(after) }));
-    }
-    return result > 0. ? result / largest(rows, column) : 0.;
-  }
 } // namespace sprag

@@ -23,8 +23,4 @@ namespace sprag
 
   /// Returns by how much a row lies beside the line over x between two others, 0 where these have the same x.
   double distance_from_line(const Row &before, const Row &row, const Row &after, Column column);
-
-  /// Returns by how much rows of full sliding alternate about a smooth curve, over the column's peak: where three in a row lie on
-  /// different sides of the lines through their neighbours. Friction that falls with speed makes them do so without inertia.
-  double alternation(const std::vector<Row> &rows, Column column);
 } // namespace sprag

@@ -237,8 +237,9 @@ namespace sprag
     }
     SlipShift shift;
     if (step.travel != 0.)
-      shift = slip_shift(face, state.index, slope(state.index), step.travel, unwinding_stiffness(step.augmented, step.law.slip),
-                         step.memory, [this](const unsigned int q) { return slip_at_begin(q); });
+      shift = slip_shift(face, state.index, slope(state.index), step.travel,
+                         unwinding_stiffness(step.augmented, step.law.slip.stiffness), step.memory,
+                         [this](const unsigned int q) { return slip_at_begin(q); });
     over_step.slip_shift[0] = stretch * shift.slip + shift.elastic;
     const auto response     = step_response(over_step, memory, step.law);
 

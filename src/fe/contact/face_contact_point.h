@@ -110,10 +110,9 @@ namespace sprag
   };
 
   /// Returns what the tangential penalty adds to the traction that is remembered, over the slip; a multiplier needs none.
-  /// Nor does friction that follows the speed of the faces.
-  inline double unwinding_stiffness(const bool augmented, const SlipLaw &slip)
+  inline double unwinding_stiffness(const bool augmented, const double tangential_penalty)
   {
-    return augmented || slip.takes_face_speed ? std::numeric_limits<double>::infinity() : slip.stiffness;
+    return augmented ? std::numeric_limits<double>::infinity() : tangential_penalty;
   }
 
   /// Finds the memory of the first point in contact from one on, by indices in the face.

@@ -167,7 +167,7 @@ namespace sprag
     {
       direction                        = direction_of_face(state.index);
       shift                            = slip_shift(face, state.index, placed.slip_row * direction, step.travel,
-                                                    unwinding_stiffness(step.augmented, step.law.slip), step.memory,
+                                                    unwinding_stiffness(step.augmented, step.law.slip.stiffness), step.memory,
                                                     [this](const unsigned int q)
                                                     {
                            const unsigned int of_patch = face.patch_of_point(q);

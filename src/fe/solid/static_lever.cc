@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "fe/contact/face_contact.h"
 #include "fe/statics/contact_penalties.h"
+#include "laws/friction.h"
 #include "laws/friction_law.h"
 #include "model/joined_memory.h"
 #include "model/joined_ports.h"
@@ -29,6 +30,12 @@ namespace sprag
     constexpr double least_ratio = 1e-6;
     const double duration        = end.time - begin.time;
     StaticTerms result{ friction_of_step(friction, end.v), duration, mode };
+    // A step holds no mass against a mu that falls with the speed of single points: it takes that of a rigid lever.
+    if (falls_with_speed(result.friction))
+    {
+      const double speed = geometry ? sliding_speed(*geometry, end.x, end.v) : end.v;
+      result.friction    = { CoulombFriction{ friction_coefficient(friction, std::abs(speed)).coefficient } };
+    }
     if (duration == 0.)
     {
       if (mode == FrictionMode::cone)

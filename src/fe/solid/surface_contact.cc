@@ -228,7 +228,7 @@ namespace sprag
   std::vector<SlipShift> SurfaceContact::shifts_of(const unsigned int patch, const std::vector<SurfaceMemory> &memory,
                                                    const StaticTerms &terms) const
   {
-    const double stiffness = unwinding_stiffness(terms.augmented, slip_law(terms.friction, properties.penalties.tangential));
+    const double stiffness = unwinding_stiffness(terms.augmented, properties.penalties.tangential);
     std::vector<SlipShift> result;
     for (unsigned int point = patches.patches[patch].begin; point < patches.patches[patch].end; ++point)
       result.push_back(slip_shift(patches, point, 0., terms.travel, stiffness, memory,
