@@ -200,7 +200,6 @@ namespace sprag
 
       void conclude()
       {
-        constexpr double still = 0.01; ///< distance of two turns, over the largest displacement, of a table about to rest
         note();
         const auto &state = motion.state();
         found.time        = state.time;
@@ -209,8 +208,7 @@ namespace sprag
         found.dissipated  = state.dissipated;
         if (motion.rests())
           found.residual_offset = state.z;
-        else if (const auto &turns = course.last_turns;
-                 turns.size() == 2 && std::abs(turns[0] - turns[1]) < still * found.largest_displacement)
+        else if (const auto &turns = course.last_turns; turns.size() == 2 && state.time > base_motion(settings).end)
           found.residual_offset = 0.5 * (turns[0] + turns[1]);
         course.square += state.square;
         found.rms_acceleration = state.time > 0. ? std::sqrt(course.square / state.time) : 0.;

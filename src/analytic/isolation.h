@@ -19,7 +19,7 @@ namespace sprag
     unsigned int stops     = 0;  ///< of these at which friction held the table
     double time            = 0.; ///< at the end [s]
     bool rests             = false;
-    double residual_offset = unknown; ///< z at rest, or the mean of two turns that are as good as that [mm]
+    double residual_offset = unknown; ///< z at rest, or on a base at rest the mean of the last two turns [mm]
 
     double largest_displacement = 0.;      ///< [mm]
     double largest_acceleration = 0.;      ///< of the table [mm/s^2]

@@ -253,7 +253,7 @@ namespace sprag
         }
         const auto accuracy =
             estimates_errors(options) ? accuracy_of(held, found, dynamics.meshed, maker) : std::vector<ErrorEstimate>();
-        // What is jammed has no growth rate that decides.
+        // A slide that jams is decided without its growth rate.
         is_decided      = found.kind == SlideKind::jammed || accuracy.empty() || !(total_error(accuracy.front()) > 1.);
         result.summary  = slide_entries(found, is_decided);
         result.accuracy = accuracy;

@@ -43,7 +43,7 @@ namespace
   {
     const auto number = leading_number(value);
     if (!number || number->value == 0.)
-      return { "0.01", "1e-6", "1", "30", "100" };
+      return { "0.01", "1e-6", "1", "30", "100", "-1e-3" };
     return { number_text(1.01 * number->value), number_text(0.99 * number->value), number_text(1. + number->value) };
   }
 

@@ -53,6 +53,9 @@ COMMON = {
 }
 
 
+MEMORY_LENGTH = 0.01  # of friction, the default [mm]
+
+
 def device(rng):
     d = {"R": rng.uniform(20, 60)}
     d["e"] = d["R"] * rng.uniform(0.2, 0.8)
@@ -221,18 +224,24 @@ class RitzBeam:
         f_q = jacobian(lambda p: np.array([friction(p, at_rest)]), q, sizes)[0]
         f_v = jacobian(lambda r: np.array([friction(q, r)]), at_rest, 1e3 * sizes)[0]
         g, n = along(q), len(q)
-        # The spring of stick in series: tau + mu' P/k_t tau' = F; where mu falls there is none.
-        delay = max(0.0, self.slope_of_mu(slip) * pressure(q, at_rest) / d["k_t"])
+        slope = self.slope_of_mu(slip) * pressure(q, at_rest)
+        falls = slope < 0
+        # The spring of stick in series: tau + mu' P/k_t tau' = F. A mu that falls follows the speed of the faces over a length:
+        # w + L/|v| w' = g rate, F = mu P + mu' P w.
+        delay = MEMORY_LENGTH / abs(slip) if falls else slope / d["k_t"]
+        f_pressure = f_v - slope * g
         inverse = np.linalg.inv(self.M)
-        A = np.zeros((2 * n + (delay > 0),) * 2)
+        A = np.zeros((2 * n + 1,) * 2)
         A[:n, n : 2 * n] = np.eye(n)
         A[n : 2 * n, :n], A[n : 2 * n, n : 2 * n] = -inverse @ K, -inverse @ C
-        if delay > 0:
+        if falls:
+            A[n : 2 * n, :n] -= inverse @ np.outer(g, f_q)
+            A[n : 2 * n, n : 2 * n] -= inverse @ np.outer(g, f_pressure)
+            A[n : 2 * n, -1] = -inverse @ g * slope
+            A[-1, n : 2 * n], A[-1, -1] = g / delay, -1 / delay
+        else:
             A[n : 2 * n, -1] = -inverse @ g
             A[-1, :n], A[-1, n : 2 * n], A[-1, -1] = f_q / delay, f_v / delay, -1 / delay
-        else:
-            A[n : 2 * n, :n] -= inverse @ np.outer(g, f_q)
-            A[n : 2 * n, n : 2 * n] -= inverse @ np.outer(g, f_v)
         values = np.linalg.eigvals(A)
         return values[np.argmax(values.real)]
 

@@ -31,7 +31,7 @@ PROVOKED = {
     "e almost R": ("model-a", (*FORWARD, "Geometry/Interface offset=55.999999"), ["contact_between_points", "soft_penalty", "coarse_contact", "far_from_closed_form"]),
     "one step": ("model-a", (*FORWARD, "Analysis/Step=65"), ["long_steps"]),
     "near locking": ("closed-form-a", ("Friction/Law=Coulomb", "Friction/Coefficient=2.62"), ["near_locking", "pressure_beyond_strength"]),
-    "pulled sensor": ("plate-a", ("Mesh/Face size=4", "Analysis/Step=2", "Output/Fields=none"), ["sensor_in_tension"]),
+    "pulled sensor": ("plate-a", ("Mesh/Face size=4", "Analysis/Step=2", "Output/Fields=none"), ["coarse_contact", "sensor_in_tension"]),
     "none": ("model-a", FORWARD, []),
 }
 

@@ -86,7 +86,7 @@ TEST(Continuation, FindsWhereASlideAndACycleCoexistSlow)
   HeldRun run(judged.dynamics.model(), judged.step());
   const auto start    = after_kick(judged, 1e-3, run);
   const double period = judged.step() * scene.sprag_slip.steps_per_period;
-  Continuation continuation(judged.dynamics.model(), run, held_drive(scene), period, scene.stability.modes, scene.sprag_slip);
+  Continuation continuation(judged.dynamics.model(), run, held_drive(scene), period, judged_modes(scene), scene.sprag_slip);
   unsigned int calls = 0;
   continuation.go(judged.stability, start, 38., [&] { ++calls; });
   EXPECT_GE(calls, 13u);

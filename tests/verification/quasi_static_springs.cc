@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-only
+#include "analysis/stability/stability.h"
 #include "fe/dynamics/dynamic_face_lever.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"
 #include "scene/scene.h"
 #include "support/scene_parts.h"
-#include "verification/held_slides.h"
 #include "verification/run_scene.h"
+#include "verification/run_transient.h"
 
 #include <cstdio>
 #include <gtest/gtest.h>
@@ -107,14 +108,16 @@ TEST(PreloadedSpring, PressesAtEveryFidelity)
   for (const auto model : { ModelType::rigid, ModelType::beam, ModelType::condensed })
     for (const double x : { 0.5, 40. })
     {
-      Scene scene             = held_at(with_stiffness(with_coulomb(in_time(model_a(), model), mu), 1000.), x);
-      scene.spring.rest_angle = -0.01;
-      scene.contact.stiffness = 1e7;
-      scene.contact.exponent  = 1.;
-      const auto at           = kinematics(scene.geometry, x);
-      const double moment     = scene.spring.stiffness * (at.theta - kinematics(scene.geometry, 0.).theta + 0.01);
-      const JudgedSlide judged(scene);
-      EXPECT_NEAR(judged.slide().forces.P, moment / (at.s - mu * scene.geometry.interface_offset), 2e-3 * 20.) << x;
+      Scene scene              = with_stiffness(with_coulomb(in_time(model_a(), model), mu), 1000.);
+      scene.stability.position = x;
+      scene.spring.rest_angle  = -0.01;
+      scene.contact.stiffness  = 1e7;
+      scene.contact.exponent   = 1.;
+      const auto at            = kinematics(scene.geometry, x);
+      const double moment      = scene.spring.stiffness * (at.theta - kinematics(scene.geometry, 0.).theta + 0.01);
+      DynamicsMaker maker;
+      const auto judged = judge(scene, maker);
+      EXPECT_NEAR(judged.slide->forces.P, moment / (at.s - mu * scene.geometry.interface_offset), 2e-3 * 20.) << x;
     }
 }
 

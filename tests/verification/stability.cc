@@ -151,7 +151,7 @@ TEST(Beam, OfEightElementsHasConverged)
     const Scene held   = held_scene(scene);
     const auto flutter = [&](const unsigned int elements)
     {
-      const auto found = judge(*make_reduced_lever(held, elements), at_65, 10);
+      const auto found = judge(*make_reduced_lever(held, elements), at_65, { 10 });
       EXPECT_EQ(found.kind, SlideKind::flutter) << elements;
       return found.worst_mode().mode.eigenvalue;
     };

@@ -52,10 +52,9 @@ namespace sprag
         // An interrupted search comes to its end without computing anything more.
         if (asked == place || (interrupted() && !place.empty()))
           return last;
-        place = asked;
         try
         {
-          last = problem.evaluate(place);
+          last = problem.evaluate(place = asked);
         }
         catch (...)
         {
@@ -68,27 +67,16 @@ namespace sprag
         return last;
       }
 
-      const BoxProblem &of() const
-      {
-        return problem;
-      }
-
       const Optimum &best() const
       {
         return found;
       }
 
-      /// Throws again what an evaluation has thrown, which the library makes an error of its own.
-      void rethrow() const
-      {
-        if (thrown)
-          std::rethrow_exception(thrown);
-      }
+      const BoxProblem &problem;
+      std::exception_ptr thrown; ///< by the last evaluation, which the library makes an error of its own
 
     private:
-      const BoxProblem &problem;
       std::vector<double> place;
-      std::exception_ptr thrown;
       BoxProblem::Evaluation last;
       Optimum found{ {}, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity() };
     };
@@ -137,8 +125,9 @@ namespace sprag
       }
       catch (const std::runtime_error &)
       {
-        evaluator.rethrow();
-        // NLopt cannot go on, by round-off for one. The best place that was tried is the answer.
+        if (evaluator.thrown)
+          std::rethrow_exception(evaluator.thrown);
+        // NLopt cannot go on: the best place tried is the answer.
       }
     }
 
@@ -154,7 +143,7 @@ namespace sprag
 
     void approach_constraints(Evaluator &evaluator, std::vector<double> start, const unsigned int evaluations, const double step)
     {
-      const std::size_t n = evaluator.of().dimension;
+      const std::size_t n = evaluator.problem.dimension;
       const double most   = largest_of(evaluator.at(start.data()).constraints);
       auto search         = local_search(n + 1, evaluations, step);
       std::vector<double> low(n + 1, 0.), high(n + 1, 1.), x = start;
@@ -164,19 +153,20 @@ namespace sprag
       search.set_lower_bounds(low);
       search.set_upper_bounds(high);
       search.set_min_objective(bound, nullptr);
-      search.add_inequality_mconstraint(constraints_below_bound, &evaluator, std::vector<double>(evaluator.of().n_constraints));
+      search.add_inequality_mconstraint(constraints_below_bound, &evaluator,
+                                        std::vector<double>(evaluator.problem.n_constraints));
       search.set_stopval(-1e-3);
       optimise(search, x, evaluator);
     }
 
     void improve(Evaluator &evaluator, std::vector<double> start, const unsigned int evaluations, const double step)
     {
-      const std::size_t n = evaluator.of().dimension;
+      const std::size_t n = evaluator.problem.dimension;
       auto search         = local_search(n, evaluations, step);
       search.set_lower_bounds(0.);
       search.set_upper_bounds(1.);
       search.set_min_objective(objective, &evaluator);
-      search.add_inequality_mconstraint(constraints, &evaluator, std::vector<double>(evaluator.of().n_constraints));
+      search.add_inequality_mconstraint(constraints, &evaluator, std::vector<double>(evaluator.problem.n_constraints));
       optimise(search, start, evaluator);
     }
 

@@ -43,7 +43,7 @@ namespace sprag
         mean += sample.value / n;
         signal.values.push_back(sample.value);
       }
-      // Where contact is lost P may cross its mean several times a period: its frequency is that of the strongest line.
+      // P may cross its mean several times a period if contact is lost. Its frequency is that of the strongest line.
       return { begin,
                P.back().time,
                amplitude(P),

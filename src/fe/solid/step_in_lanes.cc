@@ -576,7 +576,7 @@ namespace sprag
     const auto &friction = end.friction;
     state.pressure       = end.pressure[i];
     state.mu             = friction.mu[i];
-    state.slipping       = friction.slipping[i] != 0;
+    state.slipping = state.memory.slipping = friction.slipping[i] != 0;
     dealii::Tensor<1, 2> remembered_traction;
     for (unsigned int d = 0; d < 2; ++d)
     {
@@ -588,15 +588,13 @@ namespace sprag
     }
     state.memory.traction = state.traction;
     state.memory.speed    = friction.speed[i];
-    state.memory.slipping = state.slipping;
     state.memory.point    = state.index;
+    state.memory.step     = of.kind == Kind::in_time ? of.weights.dt : 0.;
     state.elastic_slip    = (state.traction - remembered_traction).norm() / of.slip.stiffness;
     if (of.kind == Kind::at_end)
     {
       state.slip_change[0] += end.shift[i];
       state.slip_change *= of.speed_ratio;
     }
-    else if (of.kind == Kind::in_time)
-      state.memory.step = of.weights.dt;
   }
 } // namespace sprag
