@@ -5,6 +5,6 @@
 
 namespace sprag
 {
-  /// Placeholder of a value that was not found or does not exist.
+  /// Stands for a value that was not found or does not exist.
   inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 } // namespace sprag

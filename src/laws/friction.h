@@ -7,9 +7,6 @@
 
 namespace sprag
 {
-  /// mu and dmu/d|v| at a sliding speed |v| >= 0 [mm/s]. mu(0) is the cone in stick.
-  FrictionValue friction_coefficient(const FrictionLaw &law, double speed);
-
   /// The pieces of a law that consists of such, falls nowhere, and so lets a load slip at one speed alone; the first one from 0.
   /// None of other laws.
   std::vector<FrictionPiece> rising_pieces(const FrictionLaw &law);

@@ -77,6 +77,9 @@ namespace sprag
     double memory_length        = 0.01; ///< of faces sliding on each other, over which a mu that falls follows their speed [mm]
   };
 
+  /// mu and dmu/d|v| at a sliding speed |v| >= 0 [mm/s]. mu(0) is the cone in stick.
+  FrictionValue friction_coefficient(const FrictionLaw &law, double speed);
+
   /// Returns the law as one step sees it: where mu depends on the drive's speed [mm/s] it is a constant of the step.
   FrictionLaw friction_of_step(const FrictionLaw &friction, double drive_speed);
 

@@ -51,26 +51,18 @@ namespace sprag
     }
   } // namespace
 
-  FrictionValue friction_at(const FrictionLaw &law, const double speed)
+  FrictionLag friction_lag(const FrictionLaw &law, const double stiffness, const double slope, const double speed)
   {
-    return friction_coefficient(law, speed);
-  }
-
-  double friction_lag(const FrictionLaw &law, const double stiffness, const double slope, const double speed)
-  {
+    if (slope == 0.)
+      return { 0., 1. };
     if (falls_with_speed(law))
-      return law.memory_length / std::abs(speed);
-    return law.regularisation_speed > 0. ? 0. : std::max(0., slope / stiffness);
+      return { law.memory_length / std::abs(speed), 0. };
+    return { law.regularisation_speed > 0. ? 0. : std::max(0., slope / stiffness), 1. };
   }
 
   SlipLaw slip_law(const FrictionLaw &friction, const double stiffness)
   {
     return { friction, stiffness, {}, falls_with_speed(friction) };
-  }
-
-  double friction_in_stick(const FrictionLaw &law)
-  {
-    return friction_coefficient(law, 0.).coefficient;
   }
 
   FrictionValue slip_friction(const FrictionLaw &law, const double load, const double resistance, const double pressure)

@@ -45,16 +45,16 @@ namespace sprag
   /// mu(|w|) sgn(w), or mu(|w|) w / sqrt(w^2 + v_r^2) with a regularisation speed v_r; w != 0 [mm/s].
   SlidingFriction sliding_friction(const FrictionLaw &law, double speed);
 
-  /// Returns mu and its derivative at a speed >= 0 [mm/s].
-  FrictionValue friction_at(const FrictionLaw &law, double speed);
+  /// Lag of friction in a slide.
+  struct FrictionLag
+  {
+    double time;     ///< [s]; 0: it does not
+    double pressure; ///< 1 if it lags behind pressure and speed, 0 if behind the speed alone
+  };
 
-  /// Returns the time by which friction of a slide at a speed w lags behind what it follows [s]. A mu that falls with speed
-  /// follows it over the memory length L: L / |w|. Else the spring of stick in series delays all friction while mu rises:
-  ///   mu' p / stiffness,   `slope` = mu' p [N s/mm].
-  double friction_lag(const FrictionLaw &law, double stiffness, double slope, double speed);
-
-  /// mu(0), the cone in stick.
-  double friction_in_stick(const FrictionLaw &law);
+  /// A mu that falls with speed follows the speed w of a slide over the memory length L, in the time L / |w|. Else the spring of
+  /// stick in series delays all friction while mu rises, by mu' p / stiffness; `slope` = mu' p [N s/mm].
+  FrictionLag friction_lag(const FrictionLaw &law, double stiffness, double slope, double speed);
 
   /// Friction as a step applies it.
   struct SlipLaw
@@ -74,7 +74,7 @@ namespace sprag
     Several<N, slips> traction;
     Plain<N> mu{};
     Mask<N> slipping{};
-    Several<Plain<N>, slips> slip_speed; ///< mean of the step, see SlipMemory [mm/s]
+    Several<Plain<N>, slips> slip_speed; ///< mean of the step, of plastic slip or of the faces; 0 in stick [mm/s]
     Plain<N> speed{};                    ///< see SlipMemory [mm/s]
     Plain<N> energy{};                   ///< of the tangential spring at the end
     Plain<N> dissipated{};               ///< in the step
@@ -85,7 +85,7 @@ namespace sprag
   struct SlipMemory
   {
     Several<V, slips> traction;
-    Several<V, slips> slip_speed; ///< mean of the last step; 0 after stick unless friction falls with speed [mm/s]
+    Several<V, slips> slip_speed; ///< mean of the last step; 0 after stick [mm/s]
     V speed{};                    ///< that mu follows where it falls with speed [mm/s]
     V step{};                     ///< duration of the last step [s]
   };
@@ -164,7 +164,7 @@ namespace sprag
     for_each_lane(here,
                   [&](const unsigned int i)
                   {
-                    const auto found = friction_at(law, lane_of(w, i));
+                    const auto found = friction_coefficient(law, lane_of(w, i));
                     set_lane(mu, i, found.coefficient);
                     set_lane(slope, i, found.derivative);
                   });
@@ -203,7 +203,7 @@ namespace sprag
     const SizeAndDirection<N, slips> of(trial);
     const N along      = dot(of.direction, shift);
     const N load       = of.size + k * along;
-    const double mu_0  = friction_in_stick(law.friction);
+    const double mu_0  = friction_coefficient(law.friction, 0.).coefficient;
     const auto pressed = value(p) > 0.;
     const auto beyond  = pressed & (value(of.size) > mu_0 * value(p));
     const auto at_rest = value(load) <= mu_0 * value(p);
@@ -297,34 +297,42 @@ namespace sprag
     return result;
   }
 
-  /// Friction that falls with speed: stick with a spring, or slip on the cone. mu follows the speed of the faces, elastic slip
-  /// included, over the memory length; in stick it forgets how fast the point slid. At its own speed of slip a spring without
-  /// mass would run away.
+  /// Traction that falls with speed. mu follows the speed of the faces, elastic slip included, over the memory length; in stick
+  /// it forgets how fast the point slid. At its own speed of slip a spring without mass would run away.
   template <class N, int slips>
-  SPRAG_PART PointFriction<N, slips> remembering(const SlipLaw &law, const SlipMemory<Plain<N>, slips> &memory,
-                                                 const Several<N, slips> &slip, const N &p, const double dt)
+  SPRAG_PART PointFriction<N, slips> following_faces(const SlipLaw &law, const SlipMemory<Plain<N>, slips> &memory,
+                                                     const Several<N, slips> &slip, const N &p, const double dt)
   {
     using V = Plain<N>;
     const SizeAndDirection<N, slips> path(slip);
     const N last  = dot(memory.slip_speed, path.direction);
-    const V share = extrapolated_share(memory, value(last), dt);
+    const V share = select(memory.speed > 0., extrapolated_share(memory, value(last), dt), V{});
     const N v     = (1. + share) * (1. / dt * path.size) - share * last;
     const N w     = remembered_speed(law, memory, path.size, select(value(v) > 0., v, N{}));
     auto result   = return_at_speed(law, stick_traction(law, memory.traction, slip), p, w);
     result.speed  = select(result.slipping, value(w), V{});
-    for (int i = 0; i < slips; ++i)
-    {
-      const V t = value(result.traction[i]), before = memory.traction[i];
-      result.slip_speed[i] = select(value(p) > 0., V(1. / dt * value(slip[i])), V{});
-      result.energy        = result.energy + 0.5 / law.stiffness * t * t;
-      result.dissipated    = result.dissipated + 0.5 * (before + t) * (value(slip[i]) - 1. / law.stiffness * (t - before));
-    }
     return result;
   }
 
+  /// Traction that does not. The slip speed at the end is extrapolated along t from this step and the last (second order).
+  template <class N, int slips>
+  SPRAG_PART PointFriction<N, slips> following_slip(const SlipLaw &law, const SlipMemory<Plain<N>, slips> &memory,
+                                                    const Several<N, slips> &slip, const N &p, const double dt)
+  {
+    using V = Plain<N>;
+    V last{};
+    for (int i = 0; i < slips; ++i)
+      last = last + memory.slip_speed[i] * (law.stiffness * value(slip[i]) + memory.traction[i]);
+    const V share    = extrapolated_share(memory, last, dt);
+    const V duration = dt / (1. + share);
+    Several<V, slips> shift;
+    for (int i = 0; i < slips; ++i)
+      shift[i] = -duration * share * memory.slip_speed[i];
+    return return_to_cone(law, stick_traction(law, memory.traction, slip), p, duration, shift, slip);
+  }
+
   /// Friction at the end of a step of duration dt > 0 [s] in which the contact slips by `slip`: stick with a spring, or slip on
-  /// the cone, where the slip speed at the end is extrapolated along t from this step and the last (second order). With a
-  /// regularisation speed there is no stick.
+  /// the cone. With a regularisation speed there is no stick.
   template <class N, int slips>
   SPRAG_PART PointFriction<N, slips> end_friction(const SlipLaw &law, const SlipMemory<Plain<N>, slips> &memory,
                                                   const Several<N, slips> &slip, const N &p, const double dt)
@@ -333,22 +341,12 @@ namespace sprag
     if (law.friction.regularisation_speed > 0.)
       return regularised(law, memory, slip, p, dt);
     const double k = law.stiffness;
-    if (law.takes_face_speed)
-      return remembering(law, memory, slip, p, dt);
-    V last{};
-    for (int i = 0; i < slips; ++i)
-      last = last + memory.slip_speed[i] * (k * value(slip[i]) + memory.traction[i]);
-    const V share    = extrapolated_share(memory, last, dt);
-    const V duration = dt / (1. + share);
-    Several<V, slips> shift;
-    for (int i = 0; i < slips; ++i)
-      shift[i] = -duration * share * memory.slip_speed[i];
-    auto result = return_to_cone(law, stick_traction(law, memory.traction, slip), p, duration, shift, slip);
+    auto result    = law.takes_face_speed ? following_faces(law, memory, slip, p, dt) : following_slip(law, memory, slip, p, dt);
     for (int i = 0; i < slips; ++i)
     {
       const V t = value(result.traction[i]), before = memory.traction[i];
       const V slipped      = value(slip[i]) - (t - before) / k;
-      result.slip_speed[i] = select(result.slipping, V(slipped / dt), V{});
+      result.slip_speed[i] = select(result.slipping, V((law.takes_face_speed ? value(slip[i]) : slipped) / dt), V{});
       result.energy        = result.energy + 0.5 / k * t * t;
       result.dissipated    = result.dissipated + 0.5 * (before + t) * slipped;
     }

@@ -222,15 +222,14 @@ namespace sprag
       response.memory.slip_speed[s] = friction.slip_speed[s];
     }
     set_response(point, N(end + dashpot), friction, pressure, traction, response);
-    response.memory.speed    = friction.speed;
-    response.memory.slipping = friction.slipping;
-    response.memory.damping  = dashpot.v;
-    response.memory.step     = law.weights.dt;
-    response.energy          = spring_energy(law.normal, point.gap_end) + friction.energy;
-    response.friction        = friction.dissipated;
-    response.damping         = -damped.v * gap_change;
-    response.algorithmic     = delay * work;
-    response.creep           = friction.creep;
+    response.memory.speed   = friction.speed;
+    response.memory.damping = dashpot.v;
+    response.memory.step    = law.weights.dt;
+    response.energy         = spring_energy(law.normal, point.gap_end) + friction.energy;
+    response.friction       = friction.dissipated;
+    response.damping        = -damped.v * gap_change;
+    response.algorithmic    = delay * work;
+    response.creep          = friction.creep;
     return response;
   }
 

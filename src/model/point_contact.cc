@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "model/point_contact.h"
 
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 
 #include <algorithm>
 #include <cmath>
@@ -331,13 +331,13 @@ namespace sprag
   std::vector<FrictionDelay> PointContact::friction_delays(const PortCoordinates &places, const FrictionLaw &law,
                                                            const Evaluation &found) const
   {
-    const double slope = found.sliding.derivative * found.response.pressure;
-    const double time  = slope != 0. ? friction_lag(law, properties.tangential, slope, found.slip_rate) : 0.;
-    if (!(time > 0.))
+    const double slope    = found.sliding.derivative * found.response.pressure;
+    const auto lag        = friction_lag(law, properties.tangential, slope, found.slip_rate);
+    const double friction = lag.pressure * found.sliding.coefficient;
+    if (!(lag.time > 0.))
       return {};
-    const double of_pressure = falls_with_speed(law) ? 0. : found.sliding.coefficient;
-    return { { time, row_on_ports(places, -1. * found.end.slip_row), row_on_ports(places, of_pressure * found.d_pressure),
-               row_on_ports(places, of_pressure * found.d_pressure_rate + slope * found.end.slip_row) } };
+    return { { lag.time, row_on_ports(places, -1. * found.end.slip_row), row_on_ports(places, friction * found.d_pressure),
+               row_on_ports(places, friction * found.d_pressure_rate + slope * found.end.slip_row) } };
   }
 
   /// Returns the local coordinates that are ports.

@@ -20,17 +20,18 @@ namespace sprag
     struct Turns
     {
       double opening; ///< of the lever
-      double spring;  ///< from its rest; half of both with a joint that is free
+      double spring;  ///< half of both with a joint that is free
+      double rest;    ///< of the spring
 
       bool touches() const
       {
-        return spring >= 0.;
+        return spring >= rest;
       }
 
       /// Rotation of the lever; out of contact it is that without moment.
       double of_lever() const
       {
-        return opening - std::min(spring, 0.);
+        return opening - std::min(spring - rest, 0.);
       }
     };
 
@@ -40,9 +41,9 @@ namespace sprag
       const double second = opening(device, 1, x);
       const double rest   = device.spring.rest_angle;
       if (!swings(device))
-        return { { { first, first - rest }, { second, second - rest } } };
-      const double mean = 0.5 * (first + second) - rest;
-      return { { { first, mean }, { second, mean } } };
+        return { { { first, first, rest }, { second, second, rest } } };
+      const double mean = 0.5 * (first + second);
+      return { { { first, mean, rest }, { second, mean, rest } } };
     }
 
     PairedLever lever_at(const Device &device, const unsigned int lever, const Turns &turn, const double x, const double v)
@@ -50,9 +51,8 @@ namespace sprag
       if (!turn.touches())
         return { { { rest_inclination(device) + turn.of_lever(), 0., 0. }, 0., 0., 0., 0., 0. }, false, 0. };
       const auto law = moment_law(device.spring);
-      return { closed_form(geometry_of_lever(device, lever), friction_of_lever(device, lever),
-                           law.moment(turn.spring + device.spring.rest_angle), x, v),
-               true, law.energy(turn.spring + device.spring.rest_angle) };
+      return { closed_form(geometry_of_lever(device, lever), friction_of_lever(device, lever), law.moment(turn.spring), x, v),
+               true, law.energy(turn.spring) };
     }
   } // namespace
 

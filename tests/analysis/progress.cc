@@ -59,15 +59,14 @@ namespace
     std::memset(static_cast<void *>(result.data()), 0, 2 * sizeof(ContactMemory)); // padding is compared as well
     for (unsigned int i = 0; i < 2; ++i)
     {
-      auto &[multiplier, traction, damping, slip_speed, speed, slipping, step, point] = result[i];
-      multiplier                                                                      = first + i;
-      traction[0]                                                                     = first + 10. + i;
-      damping                                                                         = first + 20. + i;
-      slip_speed[0]                                                                   = first + 30. + i;
-      speed                                                                           = first + 35. + i;
-      slipping                                                                        = true;
-      step                                                                            = first + 40. + i;
-      point                                                                           = 50 + i;
+      auto &[multiplier, traction, damping, slip_speed, speed, step, point] = result[i];
+      multiplier                                                            = first + i;
+      traction[0]                                                           = first + 10. + i;
+      damping                                                               = first + 20. + i;
+      slip_speed[0]                                                         = first + 30. + i;
+      speed                                                                 = first + 35. + i;
+      step                                                                  = first + 40. + i;
+      point                                                                 = 50 + i;
     }
     return result;
   }

@@ -94,7 +94,7 @@ namespace sprag
     dealii::FullMatrix<double> factorise_with_schur_complement(const dealii::PETScWrappers::SparseMatrix &matrix,
                                                                const std::vector<unsigned int> &indices);
 
-    // To be called by the first rank while the others take_part().
+    // The first rank calls these while the others take_part().
 
     void solve(const dealii::Vector<double> &right_hand_side, dealii::Vector<double> &solution) const;
 

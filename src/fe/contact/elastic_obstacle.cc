@@ -323,7 +323,7 @@ namespace sprag
     add_curvature(end.of, facet, end.at, coordinates, R, normal, 0., tangent);
     add_curvature(end.of, facet, end.at, coordinates, R, 0., tangential, friction.by_displacement);
     add_product(facet.weight * of.by_speed, end_rows.slip, end_rows.slip, friction.by_velocity);
-    if (of.delay > 0.)
+    if (of.lag.time > 0.)
       friction.delays.push_back(delay_of(of, sliding.speed, rows_on_ports(facet)));
   }
 

@@ -78,16 +78,15 @@ namespace sprag
     of.coupled  = share.coefficient * penalty.normal;
     of.stuck    = sliding.friction == ContactFriction::stuck ? -penalty.tangential : 0.;
     of.by_speed = -share.derivative * state.pressure;
-    of.delay    = of.by_speed != 0. ? friction_lag(law, penalty.tangential, -of.by_speed, speed) : 0.;
-    of.delayed  = falls_with_speed(law) ? 0. : of.coupled;
+    of.lag      = friction_lag(law, penalty.tangential, -of.by_speed, speed);
     return of;
   }
 
   FrictionDelay delay_of(const SlidingTangent &of, const double speed, const FacePointRows &rows)
   {
-    FrictionDelay result{ of.delay, rows.slip, rows.gap, rows.slip };
+    FrictionDelay result{ of.lag.time, rows.slip, rows.gap, rows.slip };
     result.force *= -rows.weight;
-    result.stiffness_row *= -of.delayed;
+    result.stiffness_row *= -of.lag.pressure * of.coupled;
     result.stiffness_row.add(-of.by_speed * speed, rows.stretch);
     result.rate_row *= -of.by_speed;
     return result;

@@ -268,8 +268,7 @@ namespace sprag
     double coupled  = 0.;
     double stuck    = 0.;
     double by_speed = 0.;
-    double delay    = 0.; ///< of what goes with by_speed and a share of what goes with coupled, 0 where there is none [s]
-    double delayed  = 0.; ///< that of coupled
+    FrictionLag lag{ 0., 1. };
   };
 
   /// Sets tractions from the state's gap < 0 and slip and adds them to the sums.

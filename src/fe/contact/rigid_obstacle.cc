@@ -225,7 +225,7 @@ namespace sprag
     add_tangent(point, pressure, tangent);
     add_tangent(point, by_friction, friction.by_displacement);
     add_tangent(point, of.by_speed * outer_product(placed.slip_row, placed.slip_row), friction.by_velocity);
-    if (of.delay > 0.)
+    if (of.lag.time > 0.)
       friction.delays.push_back(delay_of(of, sliding.speed, rows(state)));
   }
 

@@ -576,7 +576,7 @@ namespace sprag
     const auto &friction = end.friction;
     state.pressure       = end.pressure[i];
     state.mu             = friction.mu[i];
-    state.slipping = state.memory.slipping = friction.slipping[i] != 0;
+    state.slipping       = friction.slipping[i] != 0;
     dealii::Tensor<1, 2> remembered_traction;
     for (unsigned int d = 0; d < 2; ++d)
     {
