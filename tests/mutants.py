@@ -36,8 +36,13 @@ UNNAMED = r"^(structure|presets)\."  # these see that a text has changed, or bui
 
 
 def mutants_listed():
+    """Mutants by name. `tests` is a pattern of one suite, whose test of ctest has several beside it, with commas between them."""
     with open(LIST, "rb") as file:
-        return tomllib.load(file)
+        mutants = tomllib.load(file)
+    for mutant in mutants.values():
+        if "tests" in mutant:
+            mutant["tests"] = mutant["tests"].replace("^", "(^|,)").replace("$", "(,|$)")
+    return mutants
 
 
 def mistakes_of(name, mutant):
@@ -180,8 +185,8 @@ def failures_in(output):
     cases = re.findall(r"\[  FAILED  \] (\w\S*)(?:,| \()", output) + re.findall(r"^(?:FAIL|ERROR): (\w+)", output, re.MULTILINE)
     summary = output.rpartition("The following tests FAILED:")[2]
     for name, reason in re.findall(r"^\s*\d+ - (\S+) \(([^)]+)\)", summary, re.MULTILINE):
-        suite = name.partition(".")[2]
-        if reason != "Failed" or not any(suite.partition(".")[0] in case or suite.startswith("test_") for case in cases):
+        suites = [suite.partition(".")[2] for suite in name.split(",")]
+        if reason != "Failed" or not any(suite.partition(".")[0] in case or suite.startswith("test_") for suite in suites for case in cases):
             cases.append(f"{name} ({reason.lower()})")
     return list(dict.fromkeys(cases))
 

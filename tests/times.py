@@ -6,7 +6,7 @@
     tests/times.py --label quick             # those with this label
     tests/times.py --mutants mutants.json    # beside each test the mistakes that it alone sees
 
-A suite of GoogleTest is one test; below it stand its cases of more than a second of wall time (--least SECONDS).
+Suites of GoogleTest are tested six at once; below them stand their cases of more than a second of wall time (--least SECONDS).
 `tests/mutants.py --write mutants.json` writes which cases see which mistake."""
 
 import argparse
@@ -32,11 +32,11 @@ def listed(build):
             yield test["name"], test["command"], properties.get("LABELS", []), properties.get("WORKING_DIRECTORY", str(build))
 
 
-def cases_of(report, suite):
-    """Cases of a suite with their wall time [s]."""
+def cases_of(report):
+    """Cases of GoogleTest with their wall time [s]."""
     if not report.exists():
         return []
-    return [(float(case.get("time", 0)), f"{suite}.{case.get('name')}") for case in xml.etree.ElementTree.parse(report).getroot().iter("testcase") if case.get("status") == "run"]
+    return [(float(case.get("time", 0)), f"{case.get('classname')}.{case.get('name')}") for case in xml.etree.ElementTree.parse(report).getroot().iter("testcase") if case.get("status") == "run"]
 
 
 def timed(test, build):
@@ -48,7 +48,7 @@ def timed(test, build):
         process = subprocess.Popen(command, cwd=folder, env=settings, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
-        return name, usage.ru_utime + usage.ru_stime, process.returncode, cases_of(report, suite_of(name))
+        return name, usage.ru_utime + usage.ru_stime, process.returncode, cases_of(report)
 
 
 def seen_alone(path):
@@ -58,11 +58,6 @@ def seen_alone(path):
         if len(cases) == 1:
             result.setdefault(cases[0], []).append(mistake)
     return result
-
-
-def suite_of(name):
-    """BeamStatics of model.BeamStatics."""
-    return name.partition(".")[2].partition(".")[0]
 
 
 def main(arguments):

@@ -187,19 +187,21 @@ TEST(Identification, CountsCorrelatedRowsAsFewer)
 TEST(Identification, FindsOffsetsAndLag)
 {
   const Scene truth             = device();
-  const auto rows               = sampled(truth, 2e-3);
-  const std::size_t rows_behind = 3;
+  const auto rows               = sampled(truth, 3e-3);
+  const std::size_t rows_behind = 2;
   const auto unknowns           = { Unknown::friction_constant, Unknown::stiffness, Unknown::force_offsets, Unknown::lag };
   const double offset           = 0.7;
   const Truth values            = { { "mu", 0.73 }, { "k", 7.4e4 }, { "offset_P", offset }, { "offset_Q", 0. }, { "lag", 6e-3 } };
-  expect_honest(guess(truth, unknowns), values,
-                [&](const unsigned int seed)
-                {
-                  auto stroke = measured(rows, { 0.2, 0. }, seed, rows_behind);
-                  for (double &value : stroke.channels[0].values)
-                    value += offset;
-                  return stroke;
-                });
+  expect_honest(
+      guess(truth, unknowns), values,
+      [&](const unsigned int seed)
+      {
+        auto stroke = measured(rows, { 0.2, 0. }, seed, rows_behind);
+        for (double &value : stroke.channels[0].values)
+          value += offset;
+        return stroke;
+      },
+      seeds / 2);
 }
 
 TEST(Identification, FindsTheFrictionLawWhereTheSpeedVaries)
@@ -207,12 +209,17 @@ TEST(Identification, FindsTheFrictionLawWhereTheSpeedVaries)
   Scene truth                 = model_a();
   truth.analysis              = device().analysis;
   truth.drive                 = Drive(DriveProfile::harmonic, 0., 65., 180., 1.);
-  const auto rows             = sampled(truth, 1e-3);
+  const auto rows             = sampled(truth, 3e-3);
   Scene scene                 = truth;
   scene.friction.law          = CoulombFriction{ 0.6 };
   const Truth law             = { { "mu_0", 0.3491 }, { "mu_1", 4.422e-3 }, { "mu_2", -9.235e-6 }, { "k", 7.4e4 } };
   scene.identification.sought = { Unknown::friction_polynomial, Unknown::stiffness };
-  expect_honest(scene, law, [&](const unsigned int seed) { return measured(rows, { 0.1, 0. }, seed); });
+  expect_honest(
+      scene, law,
+      [&](const unsigned int seed) {
+        return measured(rows, { 0.1, 0. }, seed);
+      },
+      seeds / 2);
 }
 
 TEST(Identification, FindsATableOfFrictionSlow)

@@ -16,7 +16,7 @@ namespace sprag
   }
 
   /// Gap and slips of a point of the lever against the cylinder, with derivatives by the coordinates (displacement along xi, eta
-  /// and zeta, theta, x, tilt, skew): dual numbers of dual numbers.
+  /// and zeta, theta, x, tilt, skew).
   struct SurfaceKinematics
   {
     static constexpr int n = 7;
@@ -29,37 +29,56 @@ namespace sprag
     std::array<double, 2> slip{};
     std::array<Row, 2> slip_row;
     std::array<Curvature, 2> slip_curvature;
+  };
 
-    SurfaceKinematics(const RigidCylinder &cylinder, const RigidCylinder::Pose &at, const dealii::Point<3> &point)
+  /// Finds them for points at one pose of the cylinder, by dual numbers of dual numbers.
+  class KinematicsAtPose
+  {
+  public:
+    KinematicsAtPose(const RigidCylinder &cylinder, const RigidCylinder::Pose &at)
+        : shape(cylinder.shape())
+        , pose(cylinder_pose(variable_at(at.x, 4), variable_at(at.theta, 3), variable_at(cylinder.slopes()[0] + at.turned[0], 5),
+                             variable_at(cylinder.slopes()[1] + at.turned[1], 6)))
     {
-      using N          = Dual<Dual<double, n>, n>;
-      const auto place = [](const double value, const int i)
-      {
-        N result;
-        result.v      = variable<Dual<double, n>>(value, i);
-        result.d[i].v = 1.;
-        return result;
-      };
-      const auto slope = [&](const unsigned int i) { return place(cylinder.slopes()[i] + at.turned[i], 5 + i); };
-      const auto pose  = cylinder_pose(place(at.x, 4), place(at.theta, 3), slope(0), slope(1));
-      const auto found = seen(cylinder.shape(), pose, Triple<N>{ place(point[0], 0), place(point[1], 1), place(point[2], 2) });
-      const N round    = cylinder.shape().radius *
+    }
+
+    SurfaceKinematics operator()(const dealii::Point<3> &point) const
+    {
+      SurfaceKinematics result;
+      const auto found =
+          seen(shape, pose, Triple<N>{ variable_at(point[0], 0), variable_at(point[1], 1), variable_at(point[2], 2) });
+      const N round = shape.radius *
                       angle_between(1., 0., dot(found.from_centre, pose.axes.upward), -dot(found.from_centre, pose.axes.right));
-      set(found.gap, gap, gap_row, gap_curvature);
-      set(round, slip[0], slip_row[0], slip_curvature[0]);
-      set(found.along, slip[1], slip_row[1], slip_curvature[1]);
+      set(found.gap, result.gap, result.gap_row, result.gap_curvature);
+      set(round, result.slip[0], result.slip_row[0], result.slip_curvature[0]);
+      set(found.along, result.slip[1], result.slip_row[1], result.slip_curvature[1]);
+      return result;
     }
 
   private:
-    static void set(const Dual<Dual<double, n>, n> &of, double &value, Row &row, Curvature &curvature)
+    static constexpr int n = SurfaceKinematics::n;
+    using N                = Dual<Dual<double, n>, n>;
+
+    static N variable_at(const double value, const int i)
     {
-      value = of.v.v;
+      N result;
+      result.v      = variable<Dual<double, n>>(value, i);
+      result.d[i].v = 1.;
+      return result;
+    }
+
+    static void set(const N &from, double &value, SurfaceKinematics::Row &row, SurfaceKinematics::Curvature &curvature)
+    {
+      value = from.v.v;
       for (unsigned int i = 0; i < n; ++i)
       {
-        row[i] = of.v.d[i];
+        row[i] = from.v.d[i];
         for (unsigned int j = 0; j < n; ++j)
-          curvature[i][j] = of.d[i].d[j];
+          curvature[i][j] = from.d[i].d[j];
       }
     }
+
+    const RigidCylinder::Shape shape;
+    const CylinderPose<N> pose;
   };
 } // namespace sprag

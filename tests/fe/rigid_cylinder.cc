@@ -28,7 +28,7 @@ namespace
 
   SurfaceKinematics at(const RigidCylinder &cylinder, const Coordinates &q)
   {
-    return { cylinder, cylinder.pose(q[4], q[3], { { q[5], q[6] } }), dealii::Point<3>(q[0], q[1], q[2]) };
+    return KinematicsAtPose(cylinder, cylinder.pose(q[4], q[3], { { q[5], q[6] } }))(dealii::Point<3>(q[0], q[1], q[2]));
   }
 
   /// Central differences of what a function tells of the kinematics.

@@ -86,7 +86,7 @@ class Oscillator:
     speed, stroke = 112.0, 20.0
     frequency = 290.0
 
-    def __init__(self, growth, step=4e-5):
+    def __init__(self, growth, step=1e-4):
         self.turn = self.stroke / self.speed
         self.growth = growth
         self.step = step
@@ -196,14 +196,14 @@ class PlotTest(PictureTest):
         self.expect_pictures(self.plot(self.folder / "a"), TRANSIENT)
 
     def test_transient_run_going_on(self):
-        for rows, names in ((3, []), (4000, []), (4500, ["reversal.png"])):
+        for rows, names in ((3, []), (1800, ["reversal.png"])):
             with make_transient(self.folder / f"a{rows}", rows=rows, libver="latest") as file:
                 file.swmr_mode = True
                 pictures = ["forces-over-time.png", "forces-over-x.png", "energy.png", *names]
                 self.expect_pictures(self.plot(self.folder / f"a{rows}", own_process=True), pictures)
 
     def test_transient_run_just_begun_or_without_quasi_static_values(self):
-        file = make_transient(self.folder / "a", rows=4500)
+        file = make_transient(self.folder / "a", rows=1800)
         file["table/P_quasi_static"][:] = np.nan
         for name in ("energy_residual", "drive_work", "kinetic_energy"):
             file[f"table/{name}"][:] = np.nan

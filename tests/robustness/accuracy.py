@@ -57,7 +57,7 @@ class Accuracy(RunTest):
         self.assertNotEqual(steps[0], steps[1])
 
     def test_rows_of_a_study_are_runs_by_themselves(self):
-        self.expect_rows_alone("model-a", (), "Accuracy/Target", ("0.1", "0.005"), lambda file: file["summary/steps"][()])
+        self.expect_rows_alone("model-a", (), "Accuracy/Target", ("0.1", "0.02"), lambda file: file["summary/steps"][()])
 
     def test_rows_of_a_study_keep_their_defaults(self):
         changes = ("Analysis/Model=beam", "Study/Type=transient", "Drive/Start=60")

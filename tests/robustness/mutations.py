@@ -261,7 +261,7 @@ class Case:
         self.what = f"{tool}, {self.what}"
 
 
-KINDS = {"mesh": 10, "table": 18, "hdf5_table": 14, "measured": 8, "scene": 6, "earlier": 3, "picture": 1}
+KINDS = {"mesh": 5, "table": 9, "hdf5_table": 7, "measured": 4, "scene": 3, "earlier": 2, "picture": 1}
 ORIGINALS = Path()
 
 

@@ -34,10 +34,6 @@ def run(ranks, folder, changes):
     return finished([*mpi, *command(folder, changes)])
 
 
-def mpirun_of_one(words, scene):
-    return ["mpirun", "-n", "1", words[0], scene, *words[2:]]
-
-
 def finished(words, **options):
     return subprocess.run(words, capture_output=True, text=True, check=False, timeout=TIMEOUT, env=ALONE, **options)
 
@@ -93,6 +89,16 @@ class RanksTest(RunTest):
         with h5py.File(folder / "result.h5") as file:
             return {name: file[group][name][:] for name in names}
 
+    def ranks_apart(self, *places):
+        """A study by two ranks, each with a working directory and an --output of its own."""
+        changes = {"Analysis/Type": "study", "Study/Type": "stability", "Analysis/Model": "beam", "Stability/Roles": "off"}
+        changes["Study/Vary"] = "Friction/Factor = 0.5 ... 1.5 : 200"
+        words = []
+        for place, output in places:
+            (self.folder / place).mkdir(exist_ok=True)
+            words += [":", "-n", "1", "-wdir", str(self.folder / place), *command(output, changes)]
+        return finished(["mpirun", *words[1:]])
+
 
 class Ranks(RanksTest):
     def test_do_not_change_motions(self):
@@ -120,32 +126,11 @@ class Ranks(RanksTest):
             self.assertLess(apart, 1e-5 if name.startswith("centre_across") else 1e-8, name)
         self.expect_alike(fields[2], fields[1])
 
-    def ranks_apart(self, *places):
-        """A study by two ranks, each with a working directory and an --output of its own."""
-        changes = {"Analysis/Type": "study", "Study/Type": "stability", "Analysis/Model": "beam", "Stability/Roles": "off"}
-        changes["Study/Vary"] = "Friction/Factor = 0.5 ... 1.5 : 200"
-        words = []
-        for place, output in places:
-            (self.folder / place).mkdir(exist_ok=True)
-            words += [":", "-n", "1", "-wdir", str(self.folder / place), *command(output, changes)]
-        return finished(["mpirun", *words[1:]])
-
     def test_of_another_output_are_refused(self):
         done = self.ranks_apart(("here", "one"), ("here", "two"))
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertEqual(done.stderr.count("or to another --output"), 1, done.stderr)
         self.assertEqual(list((self.folder / "here").iterdir()), [])
-
-    def test_one_that_fails_alone_ends_all(self):
-        done = self.ranks_apart(("here", "output"), ("there", "output"))
-        self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertEqual(done.stderr.count("output/study.journal cannot be written"), 1, done.stderr)
-        words = command(self.output, SETTINGS)
-        for own, other in ((0, 1), (1, 0)):
-            scenes = [words[1], str(self.folder / "missing.prm")]
-            done = finished([*mpirun_of_one(words, scenes[own]), ":", *mpirun_of_one(words, scenes[other])[1:]])
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertEqual(done.stderr.count("missing.prm: cannot be read"), 1, done.stderr)
 
     def test_that_cannot_help_are_refused(self):
         for changes, reason in (({}, "run in several processes"), ({**MESH, "Mesh/Face size": "8"}, "displacements are too few for 2")):

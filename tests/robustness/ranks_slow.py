@@ -20,7 +20,22 @@ def ranks_of(mpirun):
     return sorted(int(word) for word in sum(words, []))
 
 
+def mpirun_of_one(words, scene):
+    return ["mpirun", "-n", "1", words[0], scene, *words[2:]]
+
+
 class SlowRanks(RanksTest):
+    def test_one_that_fails_alone_ends_all(self):
+        done = self.ranks_apart(("here", "output"), ("there", "output"))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(done.stderr.count("output/study.journal cannot be written"), 1, done.stderr)
+        words = command(self.output, SETTINGS)
+        for own, other in ((0, 1), (1, 0)):
+            scenes = [words[1], str(self.folder / "missing.prm")]
+            done = finished([*mpirun_of_one(words, scenes[own]), ":", *mpirun_of_one(words, scenes[other])[1:]])
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertEqual(done.stderr.count("missing.prm: cannot be read"), 1, done.stderr)
+
     def test_do_not_change_slides(self):
         changes = {"Stability/Critical": "none", "Stability/Roles": "off"}
         self.expect_same_data("stability", changes, "modes", ("frequency", "growth_rate"), 1e-8)

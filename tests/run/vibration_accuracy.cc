@@ -50,7 +50,7 @@ TEST(VibrationAccuracy, ToldErrorsHoldTheChangeToAFinerMesh)
   const Scene scene = slide(0.5);
   DynamicsMaker maker(false);
   const auto coarse = judge(scene, maker);
-  const auto fine   = judge(slide(0.125), maker);
+  const auto fine   = judge(slide(0.2), maker);
   const auto errors = told(scene);
   ASSERT_EQ(errors.size(), 2u);
   const double growth    = std::abs(coarse.growth_rate() / fine.growth_rate() - 1.);

@@ -12,17 +12,17 @@ import tempfile
 import traceback
 from pathlib import Path
 
+from matplotlib import image
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from layout import problems
 
-print_png = FigureCanvasAgg.print_png
-
 
 def print_checked(canvas, path, **options):
+    """Writes what problems() has drawn."""
     for text in problems(canvas.figure):
         print(f"layout of {Path(path).name}: {text}", file=sys.stderr, flush=True)
-    print_png(canvas, path, **options)
+    image.imsave(path, canvas.buffer_rgba(), format="png", origin="upper", dpi=canvas.figure.dpi, **options)
 
 
 def run(script, arguments):

@@ -129,7 +129,7 @@ TEST(ElasticCylinder, MeetsTheGeneralPath)
 {
   Scene scene             = on_solid_cylinder(with_face_size(coarse(), 2.), 7e4);
   scene.drive             = Drive(DriveProfile::triangle, 0., 65., 112., 0.5);
-  scene.analysis.step     = 5.;
+  scene.analysis.step     = 13.;
   const auto once         = run_scene(scene);
   scene.analysis.solution = Solution::general;
   const auto general      = run_scene(scene);

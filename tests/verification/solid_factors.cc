@@ -83,10 +83,13 @@ namespace
     std::vector<dealii::types::global_dof_index> dofs(body.dofs().get_fe().n_dofs_per_cell());
     for (const auto &cell : body.dofs().active_cell_iterators())
     {
+      if (cell->material_id() == material_id::hub)
+        continue;
       cell->get_dof_indices(dofs);
-      for (unsigned int i = 0; i < dofs.size() && cell->material_id() != material_id::hub; ++i)
+      const auto &matrix = stiffness(cell);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
         for (unsigned int j = 0; j < dofs.size() && !body.is_held(dofs[i]); ++j)
-          left[dofs[i]] -= stiffness(cell)(i, j) * displacements[dofs[j]];
+          left[dofs[i]] -= matrix(i, j) * displacements[dofs[j]];
     }
     EXPECT_LT(size_of(left), 1e-8);
   }
