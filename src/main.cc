@@ -36,14 +36,14 @@ namespace sprag
       rlimit limit = {};
       if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= least_stack)
         return;
-      const auto given = limit.rlim_cur;
-      limit.rlim_cur   = least_stack;
+      const auto soft_limit = limit.rlim_cur;
+      limit.rlim_cur        = least_stack;
       if (limit.rlim_max < least_stack || ::setrlimit(RLIMIT_STACK, &limit) != 0)
-        throw InputError("the stack may have " + std::to_string(given / 1024) + " kB by ulimit -s: must be at least " +
+        throw InputError("the stack may have " + std::to_string(soft_limit / 1024) + " kB by ulimit -s: must be at least " +
                          std::to_string(least_stack / 1024) + " kB");
     }
 
-    std::string fate_of(const WorkEnd &end)
+    std::string describe_end(const WorkEnd &end)
     {
       const bool by_user = end.asked || end.signal == SIGINT || end.signal == SIGTERM || end.signal == SIGHUP;
       if (by_user)
@@ -60,10 +60,10 @@ namespace sprag
       const bool ended_itself = end.signal == 0 && end.status <= bad_input;
       if (ended_itself && end.status != analysis_failed)
         return end.status;
-      const std::string fate = fate_of(end);
+      const std::string fate = describe_end(end);
       const bool unfinished  = finish(arguments, scene, fate, since);
       if (unfinished)
-        add_to_log(folder_of(arguments, scene), fate);
+        add_to_log(result_folder(arguments, scene), fate);
       return ended_itself && !unfinished ? analysis_failed : tell(fate);
     }
 
@@ -74,7 +74,7 @@ namespace sprag
     }
 
     /// Cells of a map or runs of a study.
-    std::size_t pieces_of(const Scene &scene)
+    std::size_t count_pieces(const Scene &scene)
     {
       if (scene.analysis.type == AnalysisType::map)
         return std::size_t(scene.map.first.points) * scene.map.second.points;
@@ -87,9 +87,10 @@ namespace sprag
     /// More than there are pieces would only wait.
     unsigned int processes_for(const Arguments &arguments, const Scene &scene)
     {
-      const unsigned int wanted = arguments.jobs > 0 ? arguments.jobs : available_cores();
-      return works_in_parallel(scene.analysis.type) && pieces_of(scene) < wanted ? static_cast<unsigned int>(pieces_of(scene))
-                                                                                 : wanted;
+      const unsigned int n_jobs = arguments.jobs > 0 ? arguments.jobs : available_cores();
+      return works_in_parallel(scene.analysis.type) && count_pieces(scene) < n_jobs
+                 ? static_cast<unsigned int>(count_pieces(scene))
+                 : n_jobs;
     }
 
     bool needs_models(const Arguments &arguments, const Scene &scene)
@@ -119,10 +120,10 @@ namespace sprag
       {
         require_memory(scene);
         if (!arguments.quiet)
-          print_cost(std::cout, cost_of_formulas(scene));
+          print_cost(std::cout, formula_cost(scene));
         return tell_validity(arguments, scene, scene_warnings(scene));
       }
-      const std::string folder = folder_of(arguments, scene);
+      const std::string folder = result_folder(arguments, scene);
       claim_folder(folder, scene, arguments.overwrite);
       require_memory(scene);
       RunOptions options{ folder, arguments.quiet };
@@ -138,10 +139,10 @@ namespace sprag
         std::cout << default_parameters_text();
         return success;
       }
-      const Scene scene            = scene_of(arguments);
+      const Scene scene            = load_scene(arguments);
       const unsigned int processes = processes_for(arguments, scene);
       const bool on_all_cores      = is_for_all_cores(arguments, scene, processes);
-      if (const auto end = on_all_cores ? look_after(SIGTERM, grace_of_processes) : look_after(SIGKILL, grace))
+      if (const auto end = on_all_cores ? look_after(SIGTERM, process_grace) : look_after(SIGKILL, grace))
         return conclude(*end, arguments, scene, since);
       if (on_all_cores)
         become_mpirun(argv, processes);
@@ -150,7 +151,8 @@ namespace sprag
       hdf5::silence();
       catch_interrupts();
       RunLog log(argc, argv);
-      return outcome_of(arguments, scene, since, {}, [&](const Scene &given) { do_without_models(arguments, given, log); })
+      return run_to_outcome(arguments, scene, since, {},
+                            [&](const Scene &run_scene) { do_without_models(arguments, run_scene, log); })
           .status;
     }
   } // namespace
@@ -162,7 +164,7 @@ int main(int argc, char **argv)
   Arguments arguments;
   if (const auto status = read_arguments(argc, argv, arguments))
     return *status;
-  const std::timespec since = time_of_files();
+  const std::timespec since = file_time();
   try
   {
     require_stack();

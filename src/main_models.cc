@@ -39,11 +39,11 @@ namespace sprag
     /// Processes of another program or scene than the first's would wait for what never comes, or give other results.
     void require_alike_processes(const Scene &scene, const std::string &folder)
     {
-      Fingerprint of_all;
-      of_all.add(program_fingerprint());
-      of_all.add(parameters_text(scene));
-      of_all.add(folder);
-      const auto fingerprints = gather(MPI_COMM_WORLD, of_all.text());
+      Fingerprint run_fingerprint;
+      run_fingerprint.add(program_fingerprint());
+      run_fingerprint.add(parameters_text(scene));
+      run_fingerprint.add(folder);
+      const auto fingerprints = gather(MPI_COMM_WORLD, run_fingerprint.text());
       for (std::size_t rank = 1; rank < fingerprints.size(); ++rank)
         if (fingerprints[rank] != fingerprints[0])
           throw InputError(
@@ -51,32 +51,32 @@ namespace sprag
               " of mpirun runs another program or scene than process 0, or to another --output: start the same on all machines");
     }
 
-    unsigned int processes_of(const Rank &rank)
+    unsigned int count_processes(const Rank &rank)
     {
       return rank.is_alone ? 1 : MPI::n_mpi_processes(MPI_COMM_WORLD);
     }
 
     void execute(const Arguments &arguments, const Scene &scene, const Rank &rank, RunLog &log)
     {
-      require_useful_processes(scene, processes_of(rank));
+      require_useful_processes(scene, count_processes(rank));
       if (arguments.validate)
       {
-        const std::string folder = folder_of(arguments, scene);
-        require_memory(scene, processes_of(rank), folder);
+        const std::string folder = result_folder(arguments, scene);
+        require_memory(scene, count_processes(rank), folder);
         const auto warnings = validate(scene);
         if (!rank.is_first)
           return;
         if (!arguments.quiet)
-          print_expectations(scene, processes_of(rank), folder);
+          print_expectations(scene, count_processes(rank), folder);
         return tell_validity(arguments, scene, warnings);
       }
-      const std::string folder = folder_of(arguments, scene);
+      const std::string folder = result_folder(arguments, scene);
       if (!rank.is_alone)
         require_alike_processes(scene, folder);
       const auto claim = [&]
       {
         claim_folder(folder, scene, arguments.overwrite);
-        require_memory(scene, processes_of(rank), folder);
+        require_memory(scene, count_processes(rank), folder);
       };
       if (rank.is_alone)
         claim();
@@ -85,7 +85,7 @@ namespace sprag
       if (!rank.is_first && shares_body(scene))
         return help_first_rank(MPI_COMM_WORLD);
       RunOptions options{ folder, arguments.quiet, rank.is_first };
-      options.processes = processes_of(rank);
+      options.processes = count_processes(rank);
       options.verbose   = arguments.verbose;
       options.log       = rank.is_first ? &log : nullptr;
       std::optional<RanksAtHand> others;
@@ -112,7 +112,7 @@ namespace sprag
       if (rank.is_alone)
         return;
       using Clock          = std::chrono::steady_clock;
-      const auto end       = Clock::now() + std::chrono::duration<double>(grace_of_processes);
+      const auto end       = Clock::now() + std::chrono::duration<double>(process_grace);
       MPI_Request together = MPI_REQUEST_NULL;
       MPI_Ibarrier(MPI_COMM_WORLD, &together);
       for (int done = 0; MPI_Test(&together, &done, MPI_STATUS_IGNORE) == MPI_SUCCESS && done == 0;)
@@ -130,20 +130,20 @@ namespace sprag
     int exit_status(const Arguments &arguments, const std::optional<Scene> &scene, const std::timespec &since, const Rank &rank,
                     RunLog &log)
     {
-      const auto work = [&](const Scene &given)
+      const auto work = [&](const Scene &run_scene)
       {
         try
         {
-          execute(arguments, given, rank, log);
+          execute(arguments, run_scene, rank, log);
         }
         catch (const dealii::ExceptionBase &error)
         {
-          throw std::runtime_error(message_of(error));
+          throw std::runtime_error(error_message(error));
         }
       };
       try
       {
-        const auto outcome = outcome_of(arguments, scene, since, rank, work);
+        const auto outcome = run_to_outcome(arguments, scene, since, rank, work);
         wait_for_others(outcome, rank);
         return outcome.status;
       }
@@ -165,12 +165,12 @@ int main(int argc, char **argv)
     return *status;
   if (arguments.trust_scripts)
     trust_scripts();
-  const std::timespec since = time_of_files();
+  const std::timespec since = file_time();
   std::optional<Scene> scene;
   if (!under_mpi())
     try
     {
-      scene = scene_of(arguments);
+      scene = load_scene(arguments);
       set_up_mpi_for_one();
     }
     catch (const InputError &error)

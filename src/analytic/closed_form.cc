@@ -71,7 +71,7 @@ namespace sprag
       };
     }
 
-    Advance of_pair(const Scene &scene)
+    Advance pair_advance(const Scene &scene)
     {
       return [&scene, works = std::array<Work, 2>()](const DrivePoint &from, const DrivePoint &to) mutable
       {
@@ -87,8 +87,8 @@ namespace sprag
 
     Advance make_advance(const Scene &scene)
     {
-      if (number_of_levers(scene) == 2)
-        return of_pair(scene);
+      if (count_levers(scene) == 2)
+        return pair_advance(scene);
       return scene.support.type == SupportType::sprung ? on_sprung_support(scene) : on_rigid_support(scene);
     }
   } // namespace

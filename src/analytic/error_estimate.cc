@@ -22,7 +22,7 @@ namespace sprag
                              [](const ErrorPart &a, const ErrorPart &b) { return a.value < b.value; });
   }
 
-  double share_of_finer(const double ratio, const double order)
+  double finer_share(const double ratio, const double order)
   {
     return 1. / (std::pow(ratio, order) - 1.);
   }

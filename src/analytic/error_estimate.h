@@ -32,5 +32,5 @@ namespace sprag
 
   /// Returns the error of the finer of two results over their difference, coarse less fine, where sizes are `ratio` > 1 apart and
   /// the error goes with a power `order` > 0 of the size (Richardson).
-  double share_of_finer(double ratio, double order);
+  double finer_share(double ratio, double order);
 } // namespace sprag

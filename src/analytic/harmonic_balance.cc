@@ -34,8 +34,8 @@ namespace sprag
   {
     constexpr unsigned int looks = 160;
     const double w = frequency, push = system.mass * w * w * base_amplitude;
-    const double largest  = std::min(system.damper.reach, 1e3 * base_amplitude);
-    const auto unbalanced = [&](const double A)
+    const double largest = std::min(system.damper.reach, 1e3 * base_amplitude);
+    const auto residual  = [&](const double A)
     {
       const auto [a, b] = first_harmonic(system.damper, A, w);
       return std::hypot((system.stiffness - system.mass * w * w) * A + a, b) - push;
@@ -46,16 +46,16 @@ namespace sprag
       return HarmonicBalance{ A, std::hypot(system.stiffness * A + a, b) / push };
     };
     std::vector<HarmonicBalance> found;
-    double from = 1e-6 * largest, before = unbalanced(from);
+    double from = 1e-6 * largest, before = residual(from);
     if (before >= 0.)
       found.push_back({ 0., 1. });
     for (unsigned int i = 1; i <= looks; ++i)
     {
-      const double to = largest * std::pow(1e-6, 1. - static_cast<double>(i) / looks), behind = unbalanced(to);
+      const double to = largest * std::pow(1e-6, 1. - static_cast<double>(i) / looks), behind = residual(to);
       if (std::isfinite(behind) && before * behind < 0.)
       {
         boost::uintmax_t most = 100;
-        const auto root       = boost::math::tools::toms748_solve(unbalanced, from, to, before, behind,
+        const auto root       = boost::math::tools::toms748_solve(residual, from, to, before, behind,
                                                                   boost::math::tools::eps_tolerance<double>(48), most);
         found.push_back(found_at(0.5 * (root.first + root.second)));
       }

@@ -28,7 +28,7 @@ namespace sprag
         const auto &g          = scene.geometry;
         ClosedFormState state  = closed_form(scene, point.x, point.v);
         const auto &contact    = state.contact;
-        const double signed_mu = direction_of(point.v) * state.mu;
+        const double signed_mu = drive_direction(point.v) * state.mu;
         const double s_x       = -std::cos(contact.theta) - (g.cylinder_radius - g.interface_offset) * contact.theta_x;
         const double theta_xx =
             (std::cos(contact.theta) * contact.theta_x * contact.s - std::sin(contact.theta) * s_x) / (contact.s * contact.s);
@@ -103,7 +103,7 @@ namespace sprag
     hand_on(0.);
     for (; !clock.finished(); clock.advance())
     {
-      const double end = clock.end_of_step();
+      const double end = clock.step_end();
       const auto work  = work_between(lever, drive, time, end);
       row              = lever.row(drive.at(end));
       ledger.add(end, stored(row), work);

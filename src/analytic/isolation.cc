@@ -102,8 +102,8 @@ namespace sprag
       double square, base_square;
     };
 
-    constexpr unsigned int sections_of_random = 12;
-    constexpr double quantile_of_sections     = 2.20; ///< 97.5 % of Student's t with 11 degrees of freedom
+    constexpr unsigned int random_sections = 12;
+    constexpr double section_quantile      = 2.20; ///< 97.5 % of Student's t with 11 degrees of freedom
 
     /// Returns half of the interval of 95 % about the ratio of root mean squares, by the jackknife: the ratio is taken again and
     /// again without one of the sections.
@@ -124,7 +124,7 @@ namespace sprag
         mean += ratio / n;
       for (const double ratio : without)
         squares += (ratio - mean) * (ratio - mean);
-      return quantile_of_sections * std::sqrt((n - 1.) / n * squares);
+      return section_quantile * std::sqrt((n - 1.) / n * squares);
     }
 
     /// State from which an interrupted run resumes, beside its findings and the table.
@@ -161,11 +161,11 @@ namespace sprag
     class Follower
     {
     public:
-      Follower(const Scene &given, IsolatedTable &table, IsolationFindings &of_run, const RecordTable &recorder,
+      Follower(const Scene &scene_, IsolatedTable &table, IsolationFindings &findings_, const RecordTable &recorder,
                const TableKeeper *const table_keeper)
-          : scene(given)
+          : scene(scene_)
           , settings(scene.isolation)
-          , found(of_run)
+          , found(findings_)
           , record(recorder)
           , keeper(table_keeper)
           , motion(table)
@@ -214,12 +214,12 @@ namespace sprag
         found.rms_acceleration = state.time > 0. ? std::sqrt(course.square / state.time) : 0.;
         found.energy_residual  = course.largest_energy > 0. ? course.largest_residual / course.largest_energy : 0.;
         if (is_harmonic)
-          take_ratios_of_periods();
+          take_period_ratios();
         else if (motion.largest_base_acceleration() > 0.)
         {
           found.peak = motion.largest_acceleration() / motion.largest_base_acceleration();
           found.rms  = std::sqrt(state.square / state.base_square);
-          if (course.sections.size() == sections_of_random)
+          if (course.sections.size() == random_sections)
           {
             const double half = half_interval(course.sections);
             found.rms_low     = std::max(0., found.rms - half);
@@ -256,7 +256,7 @@ namespace sprag
       double section_end() const
       {
         return settings.base == BaseMotionType::random
-                   ? std::min(1., static_cast<double>(course.sections.size() + 1) / sections_of_random) * settings.duration
+                   ? std::min(1., static_cast<double>(course.sections.size() + 1) / random_sections) * settings.duration
                    : std::numeric_limits<double>::infinity();
       }
 
@@ -345,7 +345,7 @@ namespace sprag
         course.has_ended = repeats && settings.end == IsolationEnd::steady_state;
       }
 
-      void take_ratios_of_periods()
+      void take_period_ratios()
       {
         found.periods = std::min<unsigned int>(found.periods, static_cast<unsigned int>(course.periods.size()));
         if (found.periods == 0)
@@ -375,12 +375,12 @@ namespace sprag
   {
     if (settings.output_step)
       return *settings.output_step;
-    const double natural = 2. * M_PI * std::sqrt(settings.mass / settings.stiffness);
-    const auto base      = base_motion(settings);
-    const double of_base = std::min(0.01 * natural, 0.1 * base.shortest_period);
+    const double natural   = 2. * M_PI * std::sqrt(settings.mass / settings.stiffness);
+    const auto base        = base_motion(settings);
+    const double base_step = std::min(0.01 * natural, 0.1 * base.shortest_period);
     // Rows as fine as a record show its whole spectrum.
     const bool is_record = settings.base == BaseMotionType::record && !base.kinks.empty();
-    return is_record ? std::min(of_base, base.kinks.back() / static_cast<double>(base.kinks.size())) : of_base;
+    return is_record ? std::min(base_step, base.kinks.back() / static_cast<double>(base.kinks.size())) : base_step;
   }
 
   void run_isolation(const Scene &scene, IsolatedTable &table, IsolationFindings &findings, const RecordTable &record,

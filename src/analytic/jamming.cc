@@ -60,7 +60,7 @@ namespace sprag
     const double e = device.geometry.interface_offset;
     JammingMargin margin;
     // Without an offset the margin is 1 everywhere; then the shortest s moving back is told.
-    const auto rank  = [](const JammingMargin &at) { return std::make_tuple(at.margin(), at.s, direction_of(at.v)); };
+    const auto rank  = [](const JammingMargin &at) { return std::make_tuple(at.margin(), at.s, drive_direction(at.v)); };
     bool begins      = true;
     const auto visit = [&](const DrivePoint &point)
     {
@@ -85,7 +85,7 @@ namespace sprag
     const auto at_mu = [](const double mu) { return std::isfinite(mu) ? "mu = " + formatted("%.4g", mu) : "no mu"; };
     std::string text = "Jamming:      margin " + formatted("%.4g", 100. * margin.flexible.value_or(margin.margin())) + " %" +
                        (margin.flexible ? " of a beam" : "") + ", least at x = " + mm(margin.x) + " moving " +
-                       (direction_of(margin.v) < 0 ? "backward" : "forward") + "; a rigid lever locks at " +
+                       (drive_direction(margin.v) < 0 ? "backward" : "forward") + "; a rigid lever locks at " +
                        at_mu(margin.critical_mu);
     if (margin.flexible_critical_mu)
       text += ", a beam on the layer's contact law at " + at_mu(*margin.flexible_critical_mu);

@@ -26,7 +26,7 @@ namespace sprag
 
     double margin() const
     {
-      return 1. + direction_of(v) * mu_e / s;
+      return 1. + drive_direction(v) * mu_e / s;
     }
 
     std::optional<double> flexible;             ///< margin of the lever as a beam, there; none: not asked for, or no equilibrium

@@ -21,7 +21,7 @@ namespace sprag
     };
 
     /// Rests and repeated places stay as they are.
-    std::vector<Stroke> strokes_of(const StrokeCurve &curve)
+    std::vector<Stroke> split_strokes(const StrokeCurve &curve)
     {
       std::vector<Stroke> strokes;
       for (std::size_t i = 0; i < curve.size(); ++i)
@@ -55,7 +55,7 @@ namespace sprag
     }
 
     /// Over the reference's peak.
-    double error_of(const Stroke &stroke, const Stroke &reference, double StrokePoint::*force)
+    double compute_error(const Stroke &stroke, const Stroke &reference, double StrokePoint::*force)
     {
       double peak = 0., largest = unknown;
       for (const auto &point : reference.points)
@@ -76,7 +76,7 @@ namespace sprag
 
   StrokeErrors stroke_errors(const StrokeCurve &curve, const StrokeCurve &reference)
   {
-    const auto found = strokes_of(curve), expected = strokes_of(reference);
+    const auto found = split_strokes(curve), expected = split_strokes(reference);
     if (found.empty() || found.size() != expected.size() || found.front().forward != expected.front().forward)
       return { unknown, unknown };
     StrokeErrors errors{ 0., 0. };
@@ -84,7 +84,7 @@ namespace sprag
     {
       const auto join = [&](double &error, double StrokePoint::*force)
       {
-        const double more = error_of(found[i], expected[i], force);
+        const double more = compute_error(found[i], expected[i], force);
         error             = std::isnan(more) || std::isnan(error) ? unknown : std::max(error, more);
       };
       join(errors.P, &StrokePoint::P);
@@ -134,7 +134,7 @@ namespace sprag
       return found == all.end() ? none : found->second;
     }
 
-    std::optional<double> number_of(const std::vector<Entry> &summary, const std::string &name)
+    std::optional<double> find_number(const std::vector<Entry> &summary, const std::string &name)
     {
       for (const auto &entry : summary)
         if (const double *number = std::get_if<double>(&entry.value); number != nullptr && entry.name == name)
@@ -143,35 +143,35 @@ namespace sprag
     }
 
     /// The entries of a quantity that have a number to compare with.
-    std::vector<std::string> entries_of(const Compared &compared, const std::vector<Entry> &summary)
+    std::vector<std::string> entry_names(const Compared &compared, const std::vector<Entry> &summary)
     {
       std::vector<std::string> names;
       const std::regex pattern(compared.pattern);
       for (const auto &entry : summary)
         if (std::regex_match(entry.name, pattern))
-          if (const auto number = number_of(summary, entry.name); number && *number != 0.)
+          if (const auto number = find_number(summary, entry.name); number && *number != 0.)
             names.push_back(entry.name);
       return names;
     }
 
     /// The largest of a quantity's entries.
-    double error_of(const std::vector<std::string> &entries, const std::vector<Entry> &summary,
-                    const std::vector<Entry> &reference)
+    double compute_error(const std::vector<std::string> &entries, const std::vector<Entry> &summary,
+                         const std::vector<Entry> &reference)
     {
       double largest = 0.;
       for (const auto &name : entries)
       {
-        const auto number = number_of(summary, name);
+        const auto number = find_number(summary, name);
         if (!number)
           return unknown;
-        const double expected = *number_of(reference, name);
+        const double expected = *find_number(reference, name);
         largest               = std::max(largest, std::abs((*number - expected) / expected));
       }
       return largest;
     }
   } // namespace
 
-  std::vector<Measure> measures_of(const AnalysisType type, const Comparable &reference)
+  std::vector<Measure> make_measures(const AnalysisType type, const Comparable &reference)
   {
     std::vector<Measure> measures;
     if (!reference.curve.empty())
@@ -182,13 +182,13 @@ namespace sprag
       measures = { { "P", "P" + meaning }, { "Q", "Q" + meaning } };
     }
     for (const auto &compared : compared_entries(type))
-      if (const auto entries = entries_of(compared, reference.summary); !entries.empty())
+      if (const auto entries = entry_names(compared, reference.summary); !entries.empty())
         measures.push_back({ compared.name, (entries.size() > 1 ? "worst of " : "") + entries.front() +
                                                 (entries.size() > 1 ? " ... " + entries.back() : "") });
     return measures;
   }
 
-  std::vector<double> errors_of(const AnalysisType type, const Comparable &run, const Comparable &reference)
+  std::vector<double> compute_errors(const AnalysisType type, const Comparable &run, const Comparable &reference)
   {
     std::vector<double> errors;
     if (!reference.curve.empty())
@@ -197,8 +197,8 @@ namespace sprag
       errors            = { P, Q };
     }
     for (const auto &compared : compared_entries(type))
-      if (const auto entries = entries_of(compared, reference.summary); !entries.empty())
-        errors.push_back(error_of(entries, run.summary, reference.summary));
+      if (const auto entries = entry_names(compared, reference.summary); !entries.empty())
+        errors.push_back(compute_error(entries, run.summary, reference.summary));
     return errors;
   }
 } // namespace sprag

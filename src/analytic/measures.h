@@ -51,8 +51,8 @@ namespace sprag
   };
 
   /// Lists the quantities that runs of this analysis are compared by, as far as the reference knows them.
-  std::vector<Measure> measures_of(AnalysisType type, const Comparable &reference);
+  std::vector<Measure> make_measures(AnalysisType type, const Comparable &reference);
 
-  /// Returns the errors of a run in the order of measures_of(), relative, NaN where the run does not know the quantity.
-  std::vector<double> errors_of(AnalysisType type, const Comparable &run, const Comparable &reference);
+  /// Returns the errors of a run in the order of make_measures(), relative, NaN where the run does not know the quantity.
+  std::vector<double> compute_errors(AnalysisType type, const Comparable &run, const Comparable &reference);
 } // namespace sprag

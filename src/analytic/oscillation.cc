@@ -36,8 +36,8 @@ namespace sprag
     using Samples = std::vector<Sample>;
 
     /// The rows from `begin` to `end` with numbers in both columns; of two at one instant, before and after a jump, the second.
-    Samples samples_of(const std::vector<Row> &rows, const Column column, const Column reference, const double begin,
-                       const double end)
+    Samples collect_samples(const std::vector<Row> &rows, const Column column, const Column reference, const double begin,
+                            const double end)
     {
       Samples result;
       for (const auto &row : rows)
@@ -171,7 +171,7 @@ namespace sprag
       return signal;
     }
 
-    Ringing ringing_of(const Samples &window)
+    Ringing detect_ringing(const Samples &window)
     {
       return window.size() < 2 ? Ringing{} : ringing(resampled(window), noise_in(window));
     }
@@ -186,7 +186,7 @@ namespace sprag
     }
 
     /// `least`: P that never counts [N].
-    Verdict verdict_of(const Oscillation &oscillation, const double least)
+    Verdict classify(const Oscillation &oscillation, const double least)
     {
       if (std::isnan(oscillation.rms))
         return Verdict::unknown;
@@ -238,7 +238,7 @@ namespace sprag
       const Samples window         = up_to(after_reversal, oscillation.window_end);
       if (window.size() < 2)
         return;
-      const Ringing found     = ringing_of(window);
+      const Ringing found     = detect_ringing(window);
       oscillation.frequency   = found.frequency;
       oscillation.growth_rate = found.growth_rate;
       oscillation.overshoot_P = overshoot(up_to(after_turn, oscillation.window_end), oscillation.window_begin);
@@ -251,7 +251,7 @@ namespace sprag
       if (face_size > 0.)
         oscillation.passing_frequency =
             passing_frequency(oscillation, speed_along(rows, oscillation.window_begin, oscillation.window_end), face_size);
-      oscillation.verdict = verdict_of(oscillation, negligible(rows));
+      oscillation.verdict = classify(oscillation, negligible(rows));
     }
 
     void add_force_along_x(const Samples &after_turn, const double begin, const double end, double &excess, double &frequency,
@@ -261,7 +261,7 @@ namespace sprag
       if (window.size() < 2)
         return;
       excess    = overshoot(up_to(after_turn, end), begin);
-      frequency = ringing_of(window).frequency;
+      frequency = detect_ringing(window).frequency;
       distance  = rms(window);
     }
 
@@ -274,10 +274,10 @@ namespace sprag
       result.window_begin = turn.time + reversal_duration / 2.;
       const double end    = std::min(next_reversal, rows.empty() ? turn.time : rows.back()[Column::time]);
       result.window_end   = std::max(std::min(result.window_begin + window_length, end), result.window_begin);
-      add_normal_force(result, samples_of(rows, Column::P, Column::P_quasi_static, turn.time, end), rows, face_size);
-      add_force_along_x(samples_of(rows, Column::Q, Column::Q_quasi_static, turn.time, end), result.window_begin,
+      add_normal_force(result, collect_samples(rows, Column::P, Column::P_quasi_static, turn.time, end), rows, face_size);
+      add_force_along_x(collect_samples(rows, Column::Q, Column::Q_quasi_static, turn.time, end), result.window_begin,
                         result.window_end, result.overshoot_Q, result.frequency_Q, result.rms_Q);
-      add_force_along_x(samples_of(rows, Column::Q_support, Column::Q_quasi_static, turn.time, end), result.window_begin,
+      add_force_along_x(collect_samples(rows, Column::Q_support, Column::Q_quasi_static, turn.time, end), result.window_begin,
                         result.window_end, result.overshoot_Q_support, result.frequency_Q_support, result.rms_Q_support);
       return result;
     }
@@ -321,26 +321,26 @@ namespace sprag
     std::vector<Entry> entries;
     for (std::size_t i = 0; i < oscillations.size(); ++i)
     {
-      const auto &found    = oscillations[i];
-      const std::string of = "reversal_" + std::to_string(i + 1) + '_';
-      append<Entry>(entries, { { of + "verdict", verdict_name(found.verdict) },
-                               { of + "time", found.time },
-                               { of + "x", found.x },
-                               { of + "frequency", found.frequency },
-                               { of + "frequency_Q", found.frequency_Q },
-                               { of + "frequency_Q_support", found.frequency_Q_support },
-                               { of + "growth_rate", found.growth_rate },
-                               { of + "open_share", found.open_share },
-                               { of + "overshoot_P", found.overshoot_P },
-                               { of + "overshoot_Q", found.overshoot_Q },
-                               { of + "overshoot_Q_support", found.overshoot_Q_support },
-                               { of + "rms", found.rms },
-                               { of + "rms_end", found.rms_end },
-                               { of + "P_scale", found.scale },
-                               { of + "passing_frequency", found.passing_frequency },
-                               { of + "rms_Q", found.rms_Q },
-                               { of + "rms_Q_support", found.rms_Q_support },
-                               { of + "extent", found.extent } });
+      const auto &found        = oscillations[i];
+      const std::string prefix = "reversal_" + std::to_string(i + 1) + '_';
+      append<Entry>(entries, { { prefix + "verdict", verdict_name(found.verdict) },
+                               { prefix + "time", found.time },
+                               { prefix + "x", found.x },
+                               { prefix + "frequency", found.frequency },
+                               { prefix + "frequency_Q", found.frequency_Q },
+                               { prefix + "frequency_Q_support", found.frequency_Q_support },
+                               { prefix + "growth_rate", found.growth_rate },
+                               { prefix + "open_share", found.open_share },
+                               { prefix + "overshoot_P", found.overshoot_P },
+                               { prefix + "overshoot_Q", found.overshoot_Q },
+                               { prefix + "overshoot_Q_support", found.overshoot_Q_support },
+                               { prefix + "rms", found.rms },
+                               { prefix + "rms_end", found.rms_end },
+                               { prefix + "P_scale", found.scale },
+                               { prefix + "passing_frequency", found.passing_frequency },
+                               { prefix + "rms_Q", found.rms_Q },
+                               { prefix + "rms_Q_support", found.rms_Q_support },
+                               { prefix + "extent", found.extent } });
     }
     return entries;
   }

@@ -115,7 +115,7 @@ namespace sprag
       return interpolated_peak(magnitudes, peak) * resolution;
     }
 
-    double growth_of_envelope(const Signal &signal, const double frequency, const double noise)
+    double envelope_growth(const Signal &signal, const double frequency, const double noise)
     {
       const double samples = 1. / (frequency * signal.step);
       const auto n_periods = static_cast<std::size_t>(static_cast<double>(signal.values.size()) / samples);
@@ -244,16 +244,16 @@ namespace sprag
     };
     const auto shifted = [&](const std::size_t lag)
     {
-      double by_step = 0., of_step = 0., of_lag = 0.;
+      double by_step = 0., step_square = 0., lag_square = 0.;
       for (std::size_t i = lag + 1; i < n; ++i)
       {
         const double change = values[i] - values[i - lag], step = values[i - lag - 1] - values[i - lag];
         by_step += change * step;
-        of_step += step * step;
-        of_lag += change * change;
+        step_square += step * step;
+        lag_square += change * change;
       }
-      const double share = std::clamp(by_step / of_step, 0., 1.);
-      return Shifted{ share, (of_lag - share * (2. * by_step - share * of_step)) / static_cast<double>(n - lag - 1) };
+      const double share = std::clamp(by_step / step_square, 0., 1.);
+      return Shifted{ share, (lag_square - share * (2. * by_step - share * step_square)) / static_cast<double>(n - lag - 1) };
     };
 
     bool has_left = false;
@@ -283,8 +283,8 @@ namespace sprag
     const auto coarse = spectral_peak(part);
     if (!coarse)
       return {};
-    const double growth          = growth_of_envelope(without_trend(part), *coarse, noise);
+    const double growth          = envelope_growth(without_trend(part), *coarse, noise);
     const auto [frequency, wave] = refined(part, *coarse, std::isfinite(growth) ? growth : 0.);
-    return { frequency, growth_of_envelope(wave, frequency, noise) };
+    return { frequency, envelope_growth(wave, frequency, noise) };
   }
 } // namespace sprag

@@ -24,9 +24,9 @@ namespace sprag
                          dimensionless_forward,
                          dimensionless_backward };
       const auto &at = scene.geometry;
-      for (unsigned int i = 0; i < scene.slope.number_of_points; ++i)
+      for (unsigned int i = 0; i < scene.slope.n_points; ++i)
       {
-        const double mu = scene.slope.maximum_coefficient * i / (scene.slope.number_of_points - 1.);
+        const double mu = scene.slope.maximum_coefficient * i / (scene.slope.n_points - 1.);
         sweep.rows.push_back({ mu, representative_slope(at, scene.spring.stiffness, mu, 1),
                                representative_slope(at, scene.spring.stiffness, mu, -1), dimensionless_slope(at, mu, 1),
                                dimensionless_slope(at, mu, -1) });
@@ -45,9 +45,9 @@ namespace sprag
       for (const double ratio : scene.slope.offset_ratios)
       {
         const double end = std::min(scene.slope.maximum_inclination, std::asin(1. - ratio));
-        for (unsigned int i = 1; i <= scene.slope.number_of_points; ++i)
+        for (unsigned int i = 1; i <= scene.slope.n_points; ++i)
         {
-          const double inclination = end * i / scene.slope.number_of_points;
+          const double inclination = end * i / scene.slope.n_points;
           const Geometry geometry{ 1., ratio, (1. - ratio) / std::sin(inclination), 0. };
           sweep.rows.push_back(
               { inclination, ratio, dimensionless_slope(geometry, mu, 1), dimensionless_slope(geometry, mu, -1) });

@@ -10,7 +10,7 @@ namespace sprag
       : ends(drive.kinks())
       , first(step)
       , largest(std::ldexp(step, static_cast<int>(doublings)))
-      , wanted(step)
+      , nominal_step(step)
   {
     ends.push_back(drive.duration());
     begin_segment();
@@ -19,25 +19,25 @@ namespace sprag
   void StepClock::begin_segment()
   {
     passed = 0;
-    count  = std::max(1ul, static_cast<unsigned long>(std::ceil((ends[segment] - begin) / wanted - 1e-6)));
+    count  = std::max(1ul, static_cast<unsigned long>(std::ceil((ends[segment] - begin) / nominal_step - 1e-6)));
     // A count that can be halved often leaves room to grow; it shortens the step by an eighth at most.
-    for (double step = wanted; step < 0.99 * largest && count >= 8; step *= 2.)
-      if (const unsigned long unit = 2ul * static_cast<unsigned long>(std::lround(step / wanted)); count >= 8 * unit)
+    for (double step = nominal_step; step < 0.99 * largest && count >= 8; step *= 2.)
+      if (const unsigned long unit = 2ul * static_cast<unsigned long>(std::lround(step / nominal_step)); count >= 8 * unit)
         count = (count + unit - 1) / unit * unit;
   }
 
-  double StepClock::end_of_step() const
+  double StepClock::step_end() const
   {
     return passed + 1 == count ? ends[segment] : begin + static_cast<double>(passed + 1) * duration();
   }
 
   bool StepClock::grow()
   {
-    if (wanted >= 0.99 * largest || count % 2 != 0 || passed % 2 != 0 || count - passed < 2)
+    if (nominal_step >= 0.99 * largest || count % 2 != 0 || passed % 2 != 0 || count - passed < 2)
       return false;
     count /= 2;
     passed /= 2;
-    wanted *= 2.;
+    nominal_step *= 2.;
     return true;
   }
 
@@ -52,7 +52,7 @@ namespace sprag
 
   void visit(Archive &archive, StepClock &clock)
   {
-    auto &[ends, first, largest, wanted, segment, begin, count, passed] = clock;
-    archive(ends, first, largest, wanted, segment, begin, count, passed);
+    auto &[ends, first, largest, nominal_step, segment, begin, count, passed] = clock;
+    archive(ends, first, largest, nominal_step, segment, begin, count, passed);
   }
 } // namespace sprag

@@ -27,7 +27,7 @@ namespace sprag
     }
 
     /// Returns the end of the present step [s].
-    double end_of_step() const;
+    double step_end() const;
 
     bool finished() const
     {
@@ -38,7 +38,7 @@ namespace sprag
     {
       count *= 2;
       passed *= 2;
-      wanted *= 0.5;
+      nominal_step *= 0.5;
     }
 
     /// Doubles the step where that leaves a whole number of them, up to the largest one; returns whether it did.
@@ -54,7 +54,7 @@ namespace sprag
     std::vector<double> ends; ///< of the segments
     double first;
     double largest;
-    double wanted;
+    double nominal_step;
     std::size_t segment  = 0;
     double begin         = 0.;
     unsigned long count  = 1; ///< steps of the segment

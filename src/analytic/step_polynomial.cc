@@ -15,14 +15,14 @@ namespace sprag
     {
       std::vector<double> result = { 0. };
       if (polynomial.size() > 2)
-        for (const double turn : sign_changes(derivative_of(polynomial)))
+        for (const double turn : sign_changes(differentiate(polynomial)))
           result.push_back(turn);
       result.push_back(1.);
       return result;
     }
   } // namespace
 
-  double value_of(const StepPolynomial &polynomial, const double share)
+  double evaluate(const StepPolynomial &polynomial, const double share)
   {
     double value = 0.;
     for (auto c = polynomial.rbegin(); c != polynomial.rend(); ++c)
@@ -30,7 +30,7 @@ namespace sprag
     return value;
   }
 
-  StepPolynomial derivative_of(const StepPolynomial &polynomial)
+  StepPolynomial differentiate(const StepPolynomial &polynomial)
   {
     StepPolynomial result;
     for (std::size_t i = 1; i < polynomial.size(); ++i)
@@ -67,7 +67,7 @@ namespace sprag
   {
     std::vector<double> result;
     const auto pieces = monotone_pieces(polynomial);
-    const auto value  = [&](const double share) { return value_of(polynomial, share); };
+    const auto value  = [&](const double share) { return evaluate(polynomial, share); };
     for (std::size_t i = 1; i < pieces.size(); ++i)
     {
       const double from = pieces[i - 1], to = pieces[i], before = value(from), behind = value(to);
@@ -87,9 +87,9 @@ namespace sprag
     const auto pieces          = monotone_pieces(polynomial);
     double scale               = 0.;
     for (const double share : pieces)
-      scale = std::max(scale, std::abs(value_of(polynomial, share)));
+      scale = std::max(scale, std::abs(evaluate(polynomial, share)));
     for (std::size_t i = 1; i < pieces.size(); ++i)
-      if (value_of(polynomial, pieces[i]) < -round_off * scale)
+      if (evaluate(polynomial, pieces[i]) < -round_off * scale)
         return Bracket{ pieces[i - 1], pieces[i] };
     return {};
   }

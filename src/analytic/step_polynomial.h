@@ -11,9 +11,9 @@ namespace sprag
   /// A polynomial over the share of a step, 0 to 1: the coefficients of its powers, the constant first.
   using StepPolynomial = std::vector<double>;
 
-  double value_of(const StepPolynomial &polynomial, double share);
+  double evaluate(const StepPolynomial &polynomial, double share);
 
-  StepPolynomial derivative_of(const StepPolynomial &polynomial);
+  StepPolynomial differentiate(const StepPolynomial &polynomial);
 
   /// An end of a step: a quantity with its first and second derivative over the share.
   struct StepEnd

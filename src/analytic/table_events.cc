@@ -23,7 +23,7 @@ namespace sprag
     auto z          = quintic({ now.z, now.rate * h, a0 * h * h }, { end[0], end[1] * h, a1 * h * h });
     // In a short step z hardly changes, and round-off of the difference would turn its rate.
     const bool is_short = h < 1e-2 * longest_step;
-    auto rate           = is_short ? cubic({ now.rate, a0 * h, 0. }, { end[1], a1 * h, 0. }) : derivative_of(z);
+    auto rate           = is_short ? cubic({ now.rate, a0 * h, 0. }, { end[1], a1 * h, 0. }) : differentiate(z);
     auto room           = z;
     for (double &c : rate)
       c *= direction;
@@ -83,14 +83,14 @@ namespace sprag
     const double a0 = absolute_at(from.z, from.rate, first), a1 = absolute_at(now.z, now.rate, last);
     const auto z               = quintic({ from.z, from.rate * h, rests() ? 0. : (a0 - first.a) * h * h },
                                          { now.z, now.rate * h, rests() ? 0. : (a1 - last.a) * h * h });
-    const auto rate            = derivative_of(z);
+    const auto rate            = differentiate(z);
     std::vector<double> values = { a0 };
     for (const double share : { 0.25, 0.5, 0.75 })
-      values.push_back(absolute_at(value_of(z, share), h > 0. ? value_of(rate, share) / h : from.rate, base_at(share)));
+      values.push_back(absolute_at(evaluate(z, share), h > 0. ? evaluate(rate, share) / h : from.rate, base_at(share)));
     values.push_back(a1);
     const auto curve = quartic(values);
-    for (const double share : sign_changes(derivative_of(curve)))
-      values.push_back(value_of(curve, share));
+    for (const double share : sign_changes(differentiate(curve)))
+      values.push_back(evaluate(curve, share));
     for (const double value : values)
       peak_acceleration = std::max(peak_acceleration, std::abs(value));
     peak_displacement = std::max(peak_displacement, std::abs(now.z));
@@ -119,8 +119,8 @@ namespace sprag
     const double taken    = step_to_event(duration, end, event);
     check_locking(taken, end);
     take(taken, end);
-    now.time       = event == TableEvent::none && now.time + taken >= end_of_step(until) * (1. - epsilon) ? end_of_step(until)
-                                                                                                          : now.time + taken;
+    now.time =
+        event == TableEvent::none && now.time + taken >= step_end(until) * (1. - epsilon) ? step_end(until) : now.time + taken;
     events_at_once = taken > 1e-9 * longest_step ? 0 : events_at_once + 1;
     if (events_at_once > 100)
       fail("the table turns again and again at one instant. Try an Initial displacement that is a little different");

@@ -20,7 +20,7 @@ namespace sprag
 
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-    int sign_of(const double value)
+    int signum(const double value)
     {
       return value < 0. ? -1 : 1;
     }
@@ -33,19 +33,19 @@ namespace sprag
 
   IsolationSystem isolation_system(const Scene &scene)
   {
-    return { scene.isolation.mass, scene.isolation.stiffness, damper_of(scene), base_motion(scene.isolation) };
+    return { scene.isolation.mass, scene.isolation.stiffness, make_damper(scene), base_motion(scene.isolation) };
   }
 
-  TableMotion::TableMotion(IsolationSystem of_table, const double z, const double rate, const double error)
-      : system(std::move(of_table))
+  TableMotion::TableMotion(IsolationSystem system_, const double z, const double rate, const double error)
+      : system(std::move(system_))
       , tolerance(error)
       , longest_step(std::min(2. * M_PI / system.natural_frequency(), system.base.shortest_period) / steps_a_period)
       , next_step(0.1 * longest_step)
   {
     now.z     = z;
     now.rate  = rate;
-    side      = sign_of(z != 0. ? z : rate);
-    direction = rate != 0. ? sign_of(rate) : 0;
+    side      = signum(z != 0. ? z : rate);
+    direction = rate != 0. ? signum(rate) : 0;
     if (rate == 0.)
       set_out(way_out());
     begin();
@@ -96,7 +96,7 @@ namespace sprag
   void TableMotion::set_out(const int towards)
   {
     direction = towards;
-    side      = now.z == 0. && towards != 0 ? towards : sign_of(now.z);
+    side      = now.z == 0. && towards != 0 ? towards : signum(now.z);
   }
 
   BasePoint TableMotion::base() const
@@ -178,7 +178,7 @@ namespace sprag
     peak_acceleration = std::max(peak_acceleration, std::abs(acceleration()));
   }
 
-  double TableMotion::end_of_step(const double until) const
+  double TableMotion::step_end(const double until) const
   {
     return piece == system.base.kinks.size() ? until : std::min(until, system.base.kinks[piece]);
   }
@@ -191,7 +191,7 @@ namespace sprag
 
   TableEvent TableMotion::advance_at_rest(const double until)
   {
-    const double end   = std::min(end_of_step(until), now.time + system.base.shortest_period / steps_a_period);
+    const double end   = std::min(step_end(until), now.time + system.base.shortest_period / steps_a_period);
     const auto held    = [this](const double time) { return -excess(system.base.at(time, piece)); };
     const double begin = now.time;
     std::optional<double> loose; // an instant at which it moves
@@ -201,7 +201,7 @@ namespace sprag
     const double at_begin = jerk(begin);
     if (!loose && at_begin * jerk(end) < 0.)
     {
-      const double extreme = falling_root([&](const double time) { return sign_of(at_begin) * jerk(time); }, begin, end);
+      const double extreme = falling_root([&](const double time) { return signum(at_begin) * jerk(time); }, begin, end);
       if (held(extreme) < 0.)
         loose = extreme;
     }
@@ -218,7 +218,7 @@ namespace sprag
   /// A step of the error asked for; returns its duration.
   double TableMotion::accepted_step(const double until, Values &end)
   {
-    const double room = end_of_step(until) - now.time;
+    const double room = step_end(until) - now.time;
     for (double duration = std::min({ next_step, longest_step, room });;)
     {
       double error        = 0.;

@@ -81,7 +81,7 @@ namespace sprag
     void derivatives(const Values &values, Values &rates, double time) const;
     Values tried(double duration, double &error) const;
     Values stepped(double duration) const;
-    double end_of_step(double until) const;
+    double step_end(double until) const;
     TableEvent advance_at_rest(double until);
     TableEvent advance_moving(double until);
     double accepted_step(double until, Values &end);

@@ -22,7 +22,7 @@ namespace sprag
     position += size;
   }
 
-  std::size_t Archive::size_of(std::size_t items)
+  std::size_t Archive::transfer_size(std::size_t items)
   {
     raw(&items, sizeof(items));
     if (reading && items > kept.size() - position)

@@ -65,7 +65,7 @@ namespace sprag
     void raw(void *data, std::size_t size);
 
     /// Visits the number of items; a number that the bytes left cannot hold is no such number.
-    std::size_t size_of(std::size_t items);
+    std::size_t transfer_size(std::size_t items);
 
     template <class Item>
     void item(Item &one)
@@ -78,14 +78,14 @@ namespace sprag
 
     void item(std::string &text)
     {
-      text.resize(size_of(text.size()));
+      text.resize(transfer_size(text.size()));
       raw(text.data(), text.size());
     }
 
     template <class Item>
     void item(std::vector<Item> &items)
     {
-      items.resize(size_of(items.size()));
+      items.resize(transfer_size(items.size()));
       if constexpr (std::is_trivially_copyable_v<Item>)
         raw(items.data(), items.size() * sizeof(Item));
       else

@@ -22,18 +22,18 @@ namespace sprag
   };
 
   template <class N>
-  struct PlainOf
+  struct PlainType
   {
     using type = N;
   };
   template <class T, int n>
-  struct PlainOf<Dual<T, n>> : PlainOf<T>
+  struct PlainType<Dual<T, n>> : PlainType<T>
   {
   };
 
   /// The numbers below all derivatives: double or Lanes.
   template <class N>
-  using Plain = typename PlainOf<N>::type;
+  using Plain = typename PlainType<N>::type;
 
   /// Is true where C is a constant to dual numbers over T: it has none of their derivatives.
   template <class C, class T>
@@ -101,11 +101,11 @@ namespace sprag
   }
 
   /// Number `lane` of some, and the same with another there.
-  SPRAG_PART double lane_of(const double a, unsigned int)
+  SPRAG_PART double at_lane(const double a, unsigned int)
   {
     return a;
   }
-  SPRAG_PART double lane_of(const Lanes &a, const unsigned int lane)
+  SPRAG_PART double at_lane(const Lanes &a, const unsigned int lane)
   {
     return a[lane];
   }
@@ -118,20 +118,20 @@ namespace sprag
     a[lane] = to;
   }
 
-  /// Calls of_lane(lane) where the mask is set.
-  template <class OfLane>
-  SPRAG_PART void for_each_lane(const bool mask, const OfLane &of_lane)
+  /// Calls visit(lane) where the mask is set.
+  template <class LaneVisitor>
+  SPRAG_PART void for_each_lane(const bool mask, const LaneVisitor &visit)
   {
     if (mask)
-      of_lane(0u);
+      visit(0u);
   }
-  template <class OfLane>
-  SPRAG_PART void for_each_lane(const LaneMask &mask, const OfLane &of_lane)
+  template <class LaneVisitor>
+  SPRAG_PART void for_each_lane(const LaneMask &mask, const LaneVisitor &visit)
   {
     if (any(mask))
       for (unsigned int lane = 0; lane < n_lanes; ++lane)
         if (mask[lane])
-          of_lane(lane);
+          visit(lane);
   }
 
   template <class T, int n>

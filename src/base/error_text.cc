@@ -9,13 +9,13 @@
 
 namespace sprag
 {
-  std::string message_of(const std::exception &error)
+  std::string error_message(const std::exception &error)
   {
-    const auto *of_dealii = dynamic_cast<const dealii::ExceptionBase *>(&error);
-    if (of_dealii == nullptr)
+    const auto *dealii_error = dynamic_cast<const dealii::ExceptionBase *>(&error);
+    if (dealii_error == nullptr)
       return error.what();
     std::ostringstream text;
-    of_dealii->print_info(text);
+    dealii_error->print_info(text);
     return single_spaced(text.str());
   }
 } // namespace sprag

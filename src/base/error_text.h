@@ -7,5 +7,5 @@
 namespace sprag
 {
   /// Returns a library's message in one line, without what it says about its sources.
-  std::string message_of(const std::exception &error);
+  std::string error_message(const std::exception &error);
 } // namespace sprag

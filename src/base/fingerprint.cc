@@ -17,11 +17,11 @@ namespace sprag
   {
     namespace fs = std::filesystem;
 
-    std::optional<std::string> content_of(const fs::path &file)
+    std::optional<std::string> read_content(const fs::path &file)
     {
       try
       {
-        return content_of_file(file, largest_mesh);
+        return read_whole_file(file, largest_mesh);
       }
       catch (const InputError &)
       {
@@ -31,7 +31,7 @@ namespace sprag
 
     void add_file(const fs::path &file, Fingerprint &key, std::set<fs::path> &seen)
     {
-      const auto content = content_of(file);
+      const auto content = read_content(file);
       if (!content || !seen.insert(fs::absolute(file).lexically_normal()).second)
         return;
       key.add(*content);
@@ -79,7 +79,7 @@ namespace sprag
 
   std::string content_fingerprint(const std::string &file)
   {
-    if (!content_of(file))
+    if (!read_content(file))
       return "unreadable";
     Fingerprint key;
     std::set<fs::path> seen;

@@ -31,7 +31,7 @@ namespace sprag::hdf5
     return names;
   }
 
-  std::vector<std::string> attributes_of(const Handle &dataset)
+  std::vector<std::string> attribute_names(const Handle &dataset)
   {
     std::vector<std::string> names;
     const auto add = [](hid_t, const char *const name, const H5A_info_t *, void *const list) -> herr_t

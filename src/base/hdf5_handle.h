@@ -76,7 +76,7 @@ namespace sprag::hdf5
   std::vector<std::string> names_in(const Handle &group);
 
   /// Returns the names of the attributes of a dataset in alphabetical order.
-  std::vector<std::string> attributes_of(const Handle &dataset);
+  std::vector<std::string> attribute_names(const Handle &dataset);
 
   /// Returns the text of an attribute; none where there is no such text.
   std::optional<std::string> text_attribute(const Handle &dataset, const std::string &name);

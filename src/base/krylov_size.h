@@ -8,14 +8,14 @@ namespace sprag
   constexpr unsigned int krylov_block_width = 4;
 
   /// Returns how many columns a restart keeps: those wanted and two or three blocks more.
-  constexpr unsigned int kept_columns(const unsigned int wanted)
+  constexpr unsigned int kept_columns(const unsigned int n_modes)
   {
-    return (wanted / krylov_block_width + 3) * krylov_block_width;
+    return (n_modes / krylov_block_width + 3) * krylov_block_width;
   }
 
   /// Returns how many columns the space has at most.
-  constexpr unsigned int most_columns(const unsigned int wanted)
+  constexpr unsigned int most_columns(const unsigned int n_modes)
   {
-    return 4 * kept_columns(wanted);
+    return 4 * kept_columns(n_modes);
   }
 } // namespace sprag

@@ -10,7 +10,7 @@ namespace sprag
   {
     constexpr std::uint64_t most_at_once = 1 << 30; // MPI counts by int
 
-    int number_of(const MPI_Comm ranks)
+    int count_ranks(const MPI_Comm ranks)
     {
       int initialised = 0, number = 1;
       MPI_Initialized(&initialised);
@@ -32,7 +32,7 @@ namespace sprag
 
   bool is_alone(const MPI_Comm ranks)
   {
-    return number_of(ranks) == 1;
+    return count_ranks(ranks) == 1;
   }
 
   std::string broadcast_bytes(const MPI_Comm ranks, std::string bytes)
@@ -44,7 +44,7 @@ namespace sprag
 
   std::vector<std::string> gather_bytes(const MPI_Comm ranks, const std::string &bytes)
   {
-    std::vector<std::string> all(number_of(ranks), bytes);
+    std::vector<std::string> all(count_ranks(ranks), bytes);
     for (std::size_t rank = 0; all.size() > 1 && rank < all.size(); ++rank)
       send(ranks, static_cast<int>(rank), all[rank]);
     return all;

@@ -16,7 +16,7 @@ namespace sprag
     constexpr double difference       = 1e-5; ///< of an unknown: central differences are then good to 1e-10
     constexpr std::size_t most_rounds = 200;
 
-    std::vector<double> values_of(const gsl_vector *const vector)
+    std::vector<double> to_vector(const gsl_vector *const vector)
     {
       std::vector<double> result(vector->size);
       for (std::size_t i = 0; i < result.size(); ++i)
@@ -26,7 +26,7 @@ namespace sprag
 
     int evaluate(const gsl_vector *const at, void *const residuals, gsl_vector *const result)
     {
-      const auto found = (*static_cast<const Residuals *>(residuals))(values_of(at));
+      const auto found = (*static_cast<const Residuals *>(residuals))(to_vector(at));
       for (std::size_t i = 0; i < found.size(); ++i)
         gsl_vector_set(result, i, found[i]);
       return GSL_SUCCESS;
@@ -34,7 +34,7 @@ namespace sprag
 
     int differentiate(const gsl_vector *const at, void *const residuals, gsl_matrix *const result)
     {
-      const auto found = jacobian(*static_cast<const Residuals *>(residuals), values_of(at));
+      const auto found = jacobian(*static_cast<const Residuals *>(residuals), to_vector(at));
       std::copy(found.begin(), found.end(), result->data);
       return GSL_SUCCESS;
     }
@@ -78,7 +78,7 @@ namespace sprag
     gsl_multifit_nlinear_init(&begin.vector, &problem, workspace.get());
     int reason = 0;
     gsl_multifit_nlinear_driver(most_rounds, 1e-10, 1e-14, 0., nullptr, nullptr, &reason, workspace.get());
-    return values_of(gsl_multifit_nlinear_position(workspace.get()));
+    return to_vector(gsl_multifit_nlinear_position(workspace.get()));
   }
 
   SingularValues singular_values(const std::vector<double> &matrix, const std::size_t columns)
@@ -89,7 +89,7 @@ namespace sprag
     const auto values     = Vector(gsl_vector_alloc(columns), gsl_vector_free);
     std::copy(matrix.begin(), matrix.end(), left->data);
     gsl_linalg_SV_decomp_jacobi(left.get(), directions.get(), values.get());
-    return { values_of(values.get()),
+    return { to_vector(values.get()),
              { left->data, left->data + rows * columns },
              { directions->data, directions->data + columns * columns } };
   }

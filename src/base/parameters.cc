@@ -178,17 +178,17 @@ namespace sprag
     std::string kept = is_number ? without_unit(rule, value) : value;
     if (rule.kind == Rule::Kind::numbers)
     {
-      std::vector<std::string> given = split(value, ','), parts;
-      for (const auto &part : given)
+      std::vector<std::string> specified = split(value, ','), parts;
+      for (const auto &part : specified)
         parts.push_back(without_unit(rule, part));
-      kept = parts == given ? value : boost::algorithm::join(parts, ", ");
+      kept = parts == specified ? value : boost::algorithm::join(parts, ", ");
     }
     if (const auto broken = violation(rule, kept))
       throw InputError(*broken);
     return kept;
   }
 
-  std::vector<double> list_of_numbers(const std::string &value)
+  std::vector<double> parse_numbers(const std::string &value)
   {
     std::vector<double> numbers;
     for (const auto &part : split(value, ','))
@@ -266,7 +266,7 @@ namespace sprag
       {
         try
         {
-          std::istringstream input(content_of_file(settings.file, largest_scene));
+          std::istringstream input(read_whole_file(settings.file, largest_scene));
           read_all(input);
         }
         catch (const InputError &error)
@@ -351,12 +351,12 @@ namespace sprag
         const auto slash  = text.find('/');
         if (equals == std::string::npos || slash > equals)
           return mistake("--set", text, "must have the form Section/Name=value");
-        const std::string given_section = single_spaced(text.substr(0, slash));
-        const std::string name          = single_spaced(text.substr(slash + 1, equals - slash - 1));
-        const std::string value         = trim(text.substr(equals + 1));
-        const auto meant                = section_meant(given_section);
-        if (!meant || *meant != given_section)
-          mistake("--set", given_section + "/" + name + " = " + value, "no such section" + did_you_mean(meant));
+        const std::string written_section = single_spaced(text.substr(0, slash));
+        const std::string name            = single_spaced(text.substr(slash + 1, equals - slash - 1));
+        const std::string value           = trim(text.substr(equals + 1));
+        const auto meant                  = section_meant(written_section);
+        if (!meant || *meant != written_section)
+          mistake("--set", written_section + "/" + name + " = " + value, "no such section" + did_you_mean(meant));
         if (meant)
           assign("--set", *meant + "/" + name, value, true);
       }
@@ -367,13 +367,13 @@ namespace sprag
         if (found == nullptr)
           return unknown_name(place, name, value);
 
-        if (const auto before = settings.given.find(name); before != settings.given.end() && !again_allowed)
+        if (const auto before = settings.specified.find(name); before != settings.specified.end() && !again_allowed)
           mistake(place, name + " = " + value, "must be set once only, it is at " + before->second.place + " already");
         else
           try
           {
-            const auto kept      = kept_value(found->rule, value);
-            settings.given[name] = { place, kept, kept == value ? "" : value };
+            const auto kept          = kept_value(found->rule, value);
+            settings.specified[name] = { place, kept, kept == value ? "" : value };
           }
           catch (const InputError &broken)
           {
@@ -455,7 +455,7 @@ namespace sprag
   {
     Settings settings{ file, {}, {}, {} };
     for (const auto &[name, value] : values)
-      settings.given[name] = { file, value };
+      settings.specified[name] = { file, value };
     Reader{ declared, settings }.read_overrides(overrides);
     return settings;
   }
@@ -465,9 +465,10 @@ namespace sprag
     const Parameter *parameter = find_parameter(declared, name);
     if (parameter == nullptr)
       throw std::logic_error(name + " is not declared");
-    const auto given      = settings.given.find(name);
-    const Setting setting = given == settings.given.end() ? Setting{ settings.file, parameter->default_value } : given->second;
-    const auto &value     = setting.written.empty() ? setting.value : setting.written;
+    const auto specified = settings.specified.find(name);
+    const Setting setting =
+        specified == settings.specified.end() ? Setting{ settings.file, parameter->default_value } : specified->second;
+    const auto &value = setting.written.empty() ? setting.value : setting.written;
     settings.mistakes.push_back(setting.place + ": " + name + " = " + value + ": " + rule);
   }
 } // namespace sprag

@@ -62,7 +62,7 @@ namespace sprag
   std::string kept_value(const Rule &rule, const std::string &value);
 
   /// Reads the numbers of a comma-separated list that keeps its rule.
-  std::vector<double> list_of_numbers(const std::string &value);
+  std::vector<double> parse_numbers(const std::string &value);
 
   // Parameter files as dealii::ParameterHandler knows them, except that every mistake in them is found, not only the first, and
   // that no library is loaded for them.
@@ -100,10 +100,10 @@ namespace sprag
   /// Everything that a parameter file and the overrides give, mistakes included.
   struct Settings
   {
-    std::string file;                     ///< as given by the user
-    std::map<std::string, Setting> given; ///< by full name; only declared parameters and values that keep their rule
-    std::set<std::string> doubtful;       ///< full names whose value is unknown because of a mistake
-    std::vector<std::string> mistakes;    ///< a line each: "PLACE: Section/Name = value: RULE"
+    std::string file;                         ///< as given by the user
+    std::map<std::string, Setting> specified; ///< by full name; only declared parameters and values that keep their rule
+    std::set<std::string> doubtful;           ///< full names whose value is unknown because of a mistake
+    std::vector<std::string> mistakes;        ///< a line each: "PLACE: Section/Name = value: RULE"
   };
 
   /// Reads the file, then the overrides "Section/Name=value", the later of two with the same name counting. Throws nothing: an
@@ -123,6 +123,6 @@ namespace sprag
 
   /// Writes every parameter with its documentation as a comment, in .prm form: the given values, defaults elsewhere. What was
   /// written with a unit is a comment behind its value. The text can be read back.
-  std::string parameters_text(const std::vector<Parameter> &declared, const ParameterValues &given,
+  std::string parameters_text(const std::vector<Parameter> &declared, const ParameterValues &specified,
                               const ParameterValues &written = {});
 } // namespace sprag

@@ -11,15 +11,15 @@ namespace sprag
 {
   namespace
   {
-    constexpr std::size_t width_of_comments = 74;
+    constexpr std::size_t comment_width = 74;
 
     /// Breaks a text between words, where there is room for them.
-    std::vector<std::string> lines_of(const std::string &text)
+    std::vector<std::string> split_lines(const std::string &text)
     {
       std::vector<std::string> lines;
       std::istringstream words(text);
       for (std::string word; words >> word;)
-        if (!lines.empty() && lines.back().size() + 1 + word.size() <= width_of_comments)
+        if (!lines.empty() && lines.back().size() + 1 + word.size() <= comment_width)
           lines.back() += " " + word;
         else
           lines.push_back(word);
@@ -53,7 +53,7 @@ namespace sprag
         const Parameter &parameter = entry.parameter;
         if (&entry != &entries.front())
           text << '\n';
-        for (const auto &line : lines_of(documentation(parameter)))
+        for (const auto &line : split_lines(documentation(parameter)))
           text << "  # " << line << '\n';
         text << "  set " << std::setw(name) << parameter.name << " = ";
         const std::string by_default = escaped(parameter.default_value);
@@ -69,18 +69,19 @@ namespace sprag
     }
   } // namespace
 
-  std::string parameters_text(const std::vector<Parameter> &declared, const ParameterValues &given,
+  std::string parameters_text(const std::vector<Parameter> &declared, const ParameterValues &specified,
                               const ParameterValues &written)
   {
     std::vector<std::string> sections;
     std::map<std::string, std::vector<Entry>> entries;
     for (const auto &parameter : declared)
     {
-      const auto value = given.find(full_name(parameter));
+      const auto value = specified.find(full_name(parameter));
       const auto text  = written.find(full_name(parameter));
       if (entries.count(parameter.section) == 0)
         sections.push_back(parameter.section);
-      entries[parameter.section].push_back({ parameter, escaped(value == given.end() ? parameter.default_value : value->second),
+      entries[parameter.section].push_back({ parameter,
+                                             escaped(value == specified.end() ? parameter.default_value : value->second),
                                              text == written.end() ? "" : text->second });
     }
     std::ostringstream text;

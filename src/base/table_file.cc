@@ -51,7 +51,7 @@ namespace sprag
     }
 
     /// Splits at white space outside of brackets, which belong to the word before them.
-    Names words_of(const std::string &line)
+    Names split_words(const std::string &line)
     {
       Names words;
       int depth   = 0;
@@ -70,12 +70,12 @@ namespace sprag
       return words;
     }
 
-    Names cells_of(const std::string &line)
+    Names split_cells(const std::string &line)
     {
       const auto separator = line.find(';') != std::string::npos ? ';' : line.find('\t') != std::string::npos ? '\t' : ',';
       Names cells;
       if (line.find(separator) == std::string::npos)
-        cells = words_of(line);
+        cells = split_words(line);
       else
         boost::algorithm::split(cells, line, [separator](const char c) { return c == separator; });
       for (auto &cell : cells)
@@ -111,7 +111,7 @@ namespace sprag
     }
 
     /// "Q [N]", "Q (N)" or "Q/N"
-    NamedColumn column_of(const std::string &cell)
+    NamedColumn parse_column(const std::string &cell)
     {
       const auto name = [&](const std::size_t end)
       { return boost::algorithm::trim_right_copy_if(cell.substr(0, end), boost::algorithm::is_any_of("/ ")); };
@@ -146,7 +146,7 @@ namespace sprag
 
       std::pair<std::vector<NamedColumn>, Chosen> read()
       {
-        std::istringstream input(content_of_file(file, largest_table));
+        std::istringstream input(read_whole_file(file, largest_table));
         std::string line, comment;
         for (number = 1; std::getline(input, line); ++number)
         {
@@ -158,7 +158,7 @@ namespace sprag
             comment = trim(line.substr(hash + 1));
           if (row.empty())
             continue;
-          auto cells = cells_of(row);
+          auto cells = split_cells(row);
           if (!named && row.find('\t') != std::string::npos) // several of which may align two columns
             cells.erase(std::remove(cells.begin(), cells.end(), ""), cells.end());
           if (!columns.empty() || !read_header(cells, row, comment))
@@ -193,15 +193,15 @@ namespace sprag
       /// brackets is it, as numpy.savetxt() writes; without any there are two columns.
       bool read_header(const Names &cells, const std::string &line, const std::string &comment)
       {
-        const bool is_header  = std::none_of(cells.begin(), cells.end(), is_like_number);
-        const auto of_comment = cells_of(comment);
-        const bool commented  = !is_header && of_comment.size() == cells.size() && comment.find('[') != std::string::npos;
+        const bool is_header     = std::none_of(cells.begin(), cells.end(), is_like_number);
+        const auto comment_cells = split_cells(comment);
+        const bool commented     = !is_header && comment_cells.size() == cells.size() && comment.find('[') != std::string::npos;
         if (!is_header && !commented && named)
           throw InputError(file + ":" + std::to_string(number) + ": " + line +
                            ": must be the names of the columns with their units, as in 'time [s], Q [N]'");
         if (is_header || commented)
-          for (const auto &cell : commented ? of_comment : cells)
-            columns.push_back(column_of(cell));
+          for (const auto &cell : commented ? comment_cells : cells)
+            columns.push_back(parse_column(cell));
         else
           columns.resize(2);
         try
@@ -239,7 +239,7 @@ namespace sprag
         }
       }
 
-      std::string rule_of_a_row(const std::string &line) const
+      std::string row_rule(const std::string &line) const
       {
         return line + ": must be " + (columns.size() == 2 ? "two" : std::to_string(columns.size())) + " numbers";
       }
@@ -247,11 +247,11 @@ namespace sprag
       void tell_width(const Names &cells, const std::string &line)
       {
         const auto pointed = with_points(line);
-        if (const auto meant = cells_of(pointed); pointed != line && meant.size() == columns.size() && are_numbers(meant))
+        if (const auto meant = split_cells(pointed); pointed != line && meant.size() == columns.size() && are_numbers(meant))
           tell_decimal_comma(line);
         else
           mistake(named ? "has " + std::to_string(cells.size()) + " cells, the header " + std::to_string(columns.size())
-                        : rule_of_a_row(line));
+                        : row_rule(line));
       }
 
       void tell_cell(const std::string &cell, const std::string &line)
@@ -259,7 +259,7 @@ namespace sprag
         if (with_decimal_point(cell))
           tell_decimal_comma(line);
         else
-          mistake(named ? cell + ": must be a number" : rule_of_a_row(line));
+          mistake(named ? cell + ": must be a number" : row_rule(line));
       }
 
       void tell_decimal_comma(const std::string &line)
@@ -278,7 +278,7 @@ namespace sprag
     }
 
     /// Vectors of MATLAB have two dimensions, one of which is 1. None where more are above that.
-    std::optional<std::size_t> length_of(const Handle &dataset)
+    std::optional<std::size_t> dataset_length(const Handle &dataset)
     {
       const Handle space(H5Dget_space(dataset.id()), H5Sclose);
       const int dimensions = H5Sget_simple_extent_ndims(space.id());
@@ -297,7 +297,7 @@ namespace sprag
       const Handle dataset(H5Dopen2(group.id(), column.name.c_str(), H5P_DEFAULT), H5Dclose);
       if (dataset.id() < 0)
         throw InputError(what + "is none");
-      const auto rows = length_of(dataset);
+      const auto rows = dataset_length(dataset);
       if (!rows)
         throw InputError(what + "must have one dimension, or one above 1");
       const Handle storage(H5Dget_create_plist(dataset.id()), H5Pclose);
@@ -310,7 +310,7 @@ namespace sprag
       column.values.resize(*rows);
       if (*rows > 0 && H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, column.values.data()) < 0)
         throw InputError(what + "cannot be read");
-      for (const auto &attribute : hdf5::attributes_of(dataset))
+      for (const auto &attribute : hdf5::attribute_names(dataset))
         if (lower(attribute) == "unit" || lower(attribute) == "units")
         {
           const auto unit = hdf5::text_attribute(dataset, attribute);
@@ -543,12 +543,12 @@ namespace sprag
     }
   } // namespace
 
-  NamedColumns read_columns(const std::string &file, const std::vector<ColumnNames> &wanted)
+  NamedColumns read_columns(const std::string &file, const std::vector<ColumnNames> &requested)
   {
     const auto choose = [&](const std::vector<NamedColumn> &header)
     {
       Chosen result;
-      for (const auto &names : wanted)
+      for (const auto &names : requested)
         result.push_back(column_called(header, names));
       return result;
     };

@@ -31,7 +31,7 @@ namespace sprag
   // prints nothing.
 
   /// Reads the columns of these names. A text must have a header; an empty cell is NaN.
-  NamedColumns read_columns(const std::string &file, const std::vector<ColumnNames> &wanted);
+  NamedColumns read_columns(const std::string &file, const std::vector<ColumnNames> &requested);
 
   /// Reads two columns of finite numbers. The names in a header may hold other words beside those asked for; without header, and
   /// under one of two columns that names neither, the first column is the first.

@@ -126,7 +126,7 @@ namespace sprag
     return candidate ? "; did you mean '" + *candidate + "'?" : "";
   }
 
-  std::string identifier_of(const std::string &name)
+  std::string to_identifier(const std::string &name)
   {
     std::string result;
     for (const char c : name)

@@ -60,5 +60,5 @@ namespace sprag
   std::string did_you_mean(const std::optional<std::string> &candidate);
 
   /// Returns a name as an identifier: in small letters, with underscores for all that is neither letter nor digit.
-  std::string identifier_of(const std::string &name);
+  std::string to_identifier(const std::string &name);
 } // namespace sprag

@@ -37,9 +37,9 @@ namespace sprag
     /// Null where there is no such unit. Numbers are exponents alone, but the 1 of "1/s": "5 mm 20" is no length.
     Unit parsed(const std::string &text)
     {
-      static const std::regex not_of_a_unit("[^-A-Za-z0-9 ./*^()%\\x80-\\xff]|(^|[^A-Za-z0-9)^\\x80-\\xff-])[0-9]");
+      static const std::regex non_unit("[^-A-Za-z0-9 ./*^()%\\x80-\\xff]|(^|[^A-Za-z0-9)^\\x80-\\xff-])[0-9]");
       const std::string unit = text == "-" ? "" : boost::starts_with(text, "1/") ? "(s/s)" + text.substr(1) : text;
-      const bool is_unit     = unit == "1" || !std::regex_search(unit, not_of_a_unit);
+      const bool is_unit     = unit == "1" || !std::regex_search(unit, non_unit);
       return { is_unit ? ut_parse(all_units(), unit.c_str(), UT_UTF8) : nullptr, ut_free };
     }
 
@@ -72,17 +72,17 @@ namespace sprag
   {
     if (from == to)
       return 1.;
-    const Unit own = parsed(to), given = parsed(from);
-    if (!given)
+    const Unit own = parsed(to), source = parsed(from);
+    if (!source)
       throw InputError("there is no unit '" + from + "'");
     if (!own)
       throw InputError("no unit can be converted to " + to);
-    if (const auto factor = quotient(given, own))
+    if (const auto factor = quotient(source, own))
       return *factor;
     static const std::regex gravity("(^|[^A-Za-z])g(?![A-Za-z])");
     if (const Unit accelerated = parsed(std::regex_replace(from, gravity, "$1gravity")); accelerated)
       if (const auto factor = quotient(accelerated, own))
         return *factor;
-    throw InputError("'" + from + "' " + dimension(given) + ", " + (to.empty() ? "a bare number" : to) + ' ' + dimension(own));
+    throw InputError("'" + from + "' " + dimension(source) + ", " + (to.empty() ? "a bare number" : to) + ' ' + dimension(own));
   }
 } // namespace sprag

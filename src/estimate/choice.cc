@@ -58,7 +58,7 @@ namespace sprag
     return budget == 0. || expected_cost(with_settings(scene, choice.settings)).cpu_seconds <= budget;
   }
 
-  std::string text_of(const std::vector<ChosenSetting> &settings)
+  std::string to_text(const std::vector<ChosenSetting> &settings)
   {
     std::string text;
     for (const auto &setting : settings)
@@ -66,7 +66,7 @@ namespace sprag
     return text;
   }
 
-  Scene plane_of(Scene scene)
+  Scene to_plane(Scene scene)
   {
     scene.analysis.dimension         = 2;
     scene.accuracy.is_dimension_open = false;
@@ -102,7 +102,7 @@ namespace sprag
     const bool in_space = chosen.analysis.dimension == 3;
     Choice choice;
     if (scene.accuracy.is_asked_for())
-      choice = choose_in_plane(in_space ? plane_of(chosen) : chosen, announce);
+      choice = choose_in_plane(in_space ? to_plane(chosen) : chosen, announce);
     choice.settings.insert(choice.settings.begin(), dimension.begin(), dimension.end());
     return choice;
   }
@@ -122,10 +122,10 @@ namespace sprag
     }
   } // namespace
 
-  Resolved resolved(const Scene &given, const Announce &announce)
+  Resolved resolved(const Scene &original, const Announce &announce)
   {
-    Resolved result{ with_own_face_size(prepared(given)), std::nullopt };
-    if (given.analysis.type == AnalysisType::study || !given.accuracy.leaves_open())
+    Resolved result{ with_own_face_size(prepared(original)), std::nullopt };
+    if (original.analysis.type == AnalysisType::study || !original.accuracy.leaves_open())
       return result;
     result.choice = choose_settings(result.scene, announce);
     result.scene  = with_own_face_size(prepared(with_settings(result.scene, result.choice->settings)));

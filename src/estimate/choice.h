@@ -38,7 +38,7 @@ namespace sprag
   bool is_paid(const Scene &scene, const Choice &choice);
 
   /// Returns the scene in the plane, its cylinder true.
-  Scene plane_of(Scene scene);
+  Scene to_plane(Scene scene);
 
   /// Chooses two or three dimensions for Analysis/Dimension = auto by a probe, the same coarse mesh in both: three where the
   /// plane is off by more than Accuracy/Target, or 1 %, in one of Accuracy/Quantity. Throws AnalysisError where a probe has no
@@ -68,7 +68,7 @@ namespace sprag
 
   /// Computes what a scene as it was read needs for a run: its leaf spring, and what it leaves open. The runs of a study are
   /// resolved one by one. Throws InputError where a scene is refused, AnalysisError as choose_settings() does.
-  Resolved resolved(const Scene &given, const Announce &announce = solve_silently);
+  Resolved resolved(const Scene &original, const Announce &announce = solve_silently);
 
   /// Chooses for a run without inertia to meet a relative error `target` > 0.
   class StaticChoice
@@ -118,7 +118,7 @@ namespace sprag
   };
 
   /// Returns "Mesh/Face size = 0.6; Analysis/Step = 2".
-  std::string text_of(const std::vector<ChosenSetting> &settings);
+  std::string to_text(const std::vector<ChosenSetting> &settings);
 
   /// Prints what was chosen and why.
   void print_choice(std::ostream &stream, const Scene &scene, const Choice &choice);

@@ -25,7 +25,7 @@ namespace sprag
   namespace
   {
     constexpr double default_target = 0.01;
-    constexpr double faces_of_probe = 1.5; ///< across the contact where P is largest: both probes have the same
+    constexpr double probe_faces    = 1.5; ///< across the contact where P is largest: both probes have the same
     constexpr double most_faces     = 40.; ///< along the way of the contact
     constexpr unsigned int across   = 6;   ///< elements of a probe
     constexpr const char *pressure  = "largest_pressure";
@@ -37,11 +37,11 @@ namespace sprag
       double error;
     };
 
-    Scene with_mesh_of_probe(Scene scene)
+    Scene with_probe_mesh(Scene scene)
     {
       const auto [from, to]       = swept_contact(scene);
       const double width          = estimated_contact_width(scene, contact_reference(scene).P);
-      scene.mesh.face_size        = std::max({ scene.mesh.face_size, width / faces_of_probe, (to - from) / most_faces });
+      scene.mesh.face_size        = std::max({ scene.mesh.face_size, width / probe_faces, (to - from) / most_faces });
       scene.mesh.faces_in_contact = 0.;
       scene.mesh.elements_across  = std::min(scene.mesh.elements_across, across);
       scene.analysis.dimension    = 3;
@@ -50,10 +50,10 @@ namespace sprag
 
     std::vector<Off> off_along_drive(const Scene &scene)
     {
-      const Scene solid = with_mesh_of_probe(scene);
-      const Scene plane = plane_of(solid);
+      const Scene solid = with_probe_mesh(scene);
+      const Scene plane = to_plane(solid);
       const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
-      const auto places  = places_of(scene.drive);
+      const auto places  = drive_samples(scene.drive);
       const double start = scene.drive.at(0.).x;
       Mesh mesh;
       make_mesh(plane, mesh);
@@ -71,7 +71,7 @@ namespace sprag
       return result;
     }
 
-    SlideStability slide_of(Scene scene)
+    SlideStability find_slide(Scene scene)
     {
       scene.analysis.type  = AnalysisType::stability; // of which a whole lever is taken
       scene.analysis.model = ModelType::condensed;
@@ -81,9 +81,9 @@ namespace sprag
 
     std::vector<Off> off_in_slide(const Scene &scene)
     {
-      const Scene solid   = with_mesh_of_probe(scene);
-      const auto in_space = slide_of(solid);
-      const auto in_plane = slide_of(plane_of(solid));
+      const Scene solid   = with_probe_mesh(scene);
+      const auto in_space = find_slide(solid);
+      const auto in_plane = find_slide(to_plane(solid));
       std::vector<Off> result{ { "frequency", std::abs(in_plane.frequency() / in_space.frequency() - 1.) } };
       if (scene.analysis.type == AnalysisType::stability)
         result.push_back({ "growth_rate", std::abs(in_plane.growth_rate() / in_space.growth_rate() - 1.) });
@@ -92,11 +92,11 @@ namespace sprag
       return result;
     }
 
-    bool is_wanted(const Scene &scene, const std::string &quantity)
+    bool is_needed(const Scene &scene, const std::string &quantity)
     {
-      const auto &wanted = scene.accuracy.quantities;
+      const auto &requested = scene.accuracy.quantities;
       return scene.analysis.type == AnalysisType::transient || // P rings with the slide's frequency
-             std::find(wanted.begin(), wanted.end(), quantity) != wanted.end();
+             std::find(requested.begin(), requested.end(), quantity) != requested.end();
     }
   } // namespace
 
@@ -108,9 +108,9 @@ namespace sprag
     std::vector<std::string> texts;
     for (const auto &[quantity, error] : off)
     {
-      const bool wanted = is_wanted(scene, quantity);
-      suffices          = suffices && (!wanted || error <= target);
-      texts.push_back(percent(error) + " in " + quantity + (wanted ? "" : " (not asked for)"));
+      const bool asked_for = is_needed(scene, quantity);
+      suffices             = suffices && (!asked_for || error <= target);
+      texts.push_back(percent(error) + " in " + quantity + (asked_for ? "" : " (not asked for)"));
     }
     return { "Analysis/Dimension", suffices ? "2" : "3",
              "the plane is off by " + boost::algorithm::join(texts, ", ") + " on the same coarse mesh, for " + percent(target) +

@@ -25,15 +25,15 @@ namespace sprag
   namespace
   {
     // Shares of the target that the causes of an error may use up.
-    constexpr double share_of_mesh    = 0.3;
-    constexpr double share_of_penalty = 0.2;
-    constexpr double share_of_modes   = 0.1;
-    constexpr double share_of_steps   = 0.4;
-    constexpr double share_of_model   = 0.8;
+    constexpr double mesh_share    = 0.3;
+    constexpr double penalty_share = 0.2;
+    constexpr double mode_share    = 0.1;
+    constexpr double step_share    = 0.4;
+    constexpr double model_share   = 0.8;
 
-    constexpr double stiffest       = 0.5; ///< penalty over the stiffest that a mesh takes
-    constexpr double faces_of_probe = 3.;  ///< across the contact where P is largest
-    constexpr double finest         = 8.;  ///< Mesh/Face size of the probe over that of a run
+    constexpr double stiffest    = 0.5; ///< penalty over the stiffest that a mesh takes
+    constexpr double probe_faces = 3.;  ///< across the contact where P is largest
+    constexpr double finest      = 8.;  ///< Mesh/Face size of the probe over that of a run
 
     double difference(const SlideStability &found, const SlideStability &other, const std::vector<std::string> &quantities)
     {
@@ -62,8 +62,8 @@ namespace sprag
     {
       const auto wants = [&](const std::string &quantity)
       {
-        const auto &wanted = scene.accuracy.quantities;
-        return std::find(wanted.begin(), wanted.end(), quantity) != wanted.end();
+        const auto &requested = scene.accuracy.quantities;
+        return std::find(requested.begin(), requested.end(), quantity) != requested.end();
       };
       const double least = wants("overshoot") ? 2. : 1.; // it goes with the square of the frequency
       if (scene.analysis.type != AnalysisType::transient || scene.drive.reversals().empty() || !wants("P"))
@@ -80,8 +80,8 @@ namespace sprag
     }
   } // namespace
 
-  VibrationChoice::VibrationChoice(const Scene &given)
-      : scene(given)
+  VibrationChoice::VibrationChoice(const Scene &scene_)
+      : scene(scene_)
   {
     if (!is_meshed(scene.analysis.model))
       return;
@@ -90,15 +90,15 @@ namespace sprag
     DynamicsMaker maker(true, 2);
     Scene fine          = held_scene(scene);
     fine.analysis.model = ModelType::condensed;
-    face_size           = estimated_contact_width(scene, contact_reference(scene).P) / faces_of_probe;
+    face_size           = estimated_contact_width(scene, contact_reference(scene).P) / probe_faces;
     fine.mesh.face_size = face_size;
     const auto found    = judge(fine, maker);
     const auto change   = [&](const Scene &other) { return factor * difference(found, judge(other, maker), quantities); };
     penalties           = maker.make(fine).meshed.penalties;
-    penalty_error       = change(with_penalties(fine, penalties, 1. / softer)) * share_of_finer(softer, 1.);
+    penalty_error       = change(with_penalties(fine, penalties, 1. / softer)) * finer_share(softer, 1.);
     for (unsigned int modes = 5; modes < fine.condensed.modes; modes *= 2)
       mode_errors.emplace_back(modes, change(with_modes(fine, modes)));
-    mesh_error = change(with_coarser_mesh(with_penalties(fine, penalties, 1.))) * share_of_finer(coarser, order_of_forces(scene));
+    mesh_error = change(with_coarser_mesh(with_penalties(fine, penalties, 1.))) * finer_share(coarser, force_order(scene));
     if (scene.accuracy.is_model_open)
     {
       Scene beam          = fine;
@@ -109,14 +109,14 @@ namespace sprag
 
   bool VibrationChoice::takes_beam(const double target) const
   {
-    const double share = scene.analysis.type == AnalysisType::transient ? 1. - share_of_steps : share_of_model;
+    const double share = scene.analysis.type == AnalysisType::transient ? 1. - step_share : model_share;
     return scene.accuracy.is_model_open && beam_error <= share * target;
   }
 
   double VibrationChoice::add_mesh(const double target, Choice &choice) const
   {
-    const double order = order_of_forces(scene);
-    const double ideal = face_size * std::pow(share_of_mesh * target / std::max(mesh_error, 1e-12), 1. / order);
+    const double order = force_order(scene);
+    const double ideal = face_size * std::pow(mesh_share * target / std::max(mesh_error, 1e-12), 1. / order);
     const double size  = std::clamp(ideal, face_size / finest, coarser * face_size);
     choice.error += mesh_error * std::pow(size / face_size, order);
     choice.settings.push_back({ "Mesh/Face size", rounded_text(size),
@@ -128,12 +128,12 @@ namespace sprag
 
   void VibrationChoice::add_penalty(const double target, const double size, Choice &choice) const
   {
-    Scene sized          = scene;
-    sized.mesh.face_size = size;
-    const double most    = std::max(1., stiffest * largest_penalty(sized) / penalties.normal);
-    const double wanted  = std::max(1., penalty_error / (share_of_penalty * target));
-    const double factor  = std::min(wanted, most);
-    if (factor < wanted)
+    Scene sized                = scene;
+    sized.mesh.face_size       = size;
+    const double most          = std::max(1., stiffest * largest_penalty(sized) / penalties.normal);
+    const double needed_factor = std::max(1., penalty_error / (penalty_share * target));
+    const double factor        = std::min(needed_factor, most);
+    if (factor < needed_factor)
       choice.limit = "A stiffer Contact/Penalty is too stiff for this mesh.";
     choice.error += penalty_error / factor;
     if (factor > 1.)
@@ -144,7 +144,7 @@ namespace sprag
   void VibrationChoice::add_modes(const double target, Choice &choice) const
   {
     for (const auto &[modes, error] : mode_errors)
-      if (error <= share_of_modes * target)
+      if (error <= mode_share * target)
       {
         choice.error += error;
         choice.settings.push_back({ "Condensed/Modes", std::to_string(modes), percent(error) + " off a probe with more" });
@@ -173,8 +173,8 @@ namespace sprag
       add_modes(target, choice);
     if (scene.analysis.type == AnalysisType::transient && is_open(scene, "Time/Tolerance") && is_open(scene, "Time/Step"))
     {
-      choice.error += share_of_steps * target;
-      choice.settings.push_back({ "Time/Tolerance", rounded_text(share_of_steps * target), "errors of P are about as large" });
+      choice.error += step_share * target;
+      choice.settings.push_back({ "Time/Tolerance", rounded_text(step_share * target), "errors of P are about as large" });
     }
     return choice;
   }

@@ -30,40 +30,40 @@ namespace sprag
   namespace
   {
     // Shares of the target that the causes of an error may use up.
-    constexpr double share_of_mesh            = 0.35;
-    constexpr double share_of_mesh_in_contact = 0.6; ///< of pressure and width, which rows hardly change
-    constexpr double share_of_rows            = 0.3;
-    constexpr double share_of_model           = 0.7;
+    constexpr double mesh_share         = 0.35;
+    constexpr double contact_mesh_share = 0.6; ///< of pressure and width, which rows hardly change
+    constexpr double row_share          = 0.3;
+    constexpr double model_share        = 0.7;
 
-    constexpr double faces_of_probe         = 4.;    ///< across the contact where P is largest
+    constexpr double probe_faces            = 4.;    ///< across the contact where P is largest
     constexpr double least_faces            = 3.;    ///< likewise, where pressure or width are wanted
-    constexpr double most_faces_of_probe    = 300.;  ///< along the way of the contact
-    constexpr double error_of_reversal      = 0.025; ///< of P and Q behind a reversal, times the square of the faces in contact
-    constexpr double share_of_reversal      = 0.6;
+    constexpr double most_probe_faces       = 300.;  ///< along the way of the contact
+    constexpr double reversal_error         = 0.025; ///< of P and Q behind a reversal, times the square of the faces in contact
+    constexpr double reversal_share         = 0.6;
     constexpr double extrapolated           = 0.8; ///< face size over a probe's, below which another probe is solved
     constexpr unsigned int most_refinements = 2;
     constexpr double finest                 = 16.; ///< Mesh/Face size of the probe over that of a run
 
-    double order_of(const Scene &scene, const std::string &quantity)
+    double convergence_order(const Scene &scene, const std::string &quantity)
     {
-      return quantity == "largest_pressure" ? order_of_pressure(scene) : order_of_forces(scene);
+      return quantity == "largest_pressure" ? pressure_order(scene) : force_order(scene);
     }
 
-    bool is_of_forces(const std::string &quantity)
+    bool is_force_quantity(const std::string &quantity)
     {
       return quantity == "P" || quantity == "Q" || quantity == "loop_area";
     }
 
     double share_for(const std::string &quantity)
     {
-      return is_of_forces(quantity) ? share_of_mesh : share_of_mesh_in_contact;
+      return is_force_quantity(quantity) ? mesh_share : contact_mesh_share;
     }
 
-    constexpr double rows_of_probe = 30.; ///< steps of a run that cost as much as the probe and the coarser one
+    constexpr double probe_rows = 30.; ///< steps of a run that cost as much as the probe and the coarser one
 
-    ExpectedCost cost_of_probe(Scene fine)
+    ExpectedCost probe_cost(Scene fine)
     {
-      fine.analysis.step = (fine.drive.maximum() - fine.drive.minimum()) / rows_of_probe;
+      fine.analysis.step = (fine.drive.maximum() - fine.drive.minimum()) / probe_rows;
       return expected_cost(fine);
     }
 
@@ -83,7 +83,7 @@ namespace sprag
       return repeated(levers, places, scene.drive.at(0.).x, { scene.analysis.step, scene.analysis.minimum_step, scene.contact });
     }
 
-    std::vector<Row> of_closed_form(const Scene &scene, std::vector<Row> rows)
+    std::vector<Row> with_closed_form(const Scene &scene, std::vector<Row> rows)
     {
       for (Row &row : rows)
       {
@@ -96,13 +96,13 @@ namespace sprag
 
     /// Returns by how much the largest P or Q behind the reversal of the closed form, which jumps there, is off that of finite
     /// elements, which turn over the contact's width.
-    double change_of_jump(const std::string &quantity, const std::vector<Row> &rows, const Row &jump)
+    double jump_change(const std::string &quantity, const std::vector<Row> &rows, const Row &jump)
     {
       const Column column   = quantity == "P" ? Column::P : Column::Q;
       const auto has_turned = friction_has_turned(rows);
       double peak           = 0.;
       for (std::size_t i = 0; i < rows.size(); ++i)
-        if (has_turned[i] && direction_of(rows[i][Column::v]) == direction_of(jump[Column::v]))
+        if (has_turned[i] && drive_direction(rows[i][Column::v]) == drive_direction(jump[Column::v]))
           peak = std::max(peak, std::abs(rows[i][column]));
       return peak > 0. ? std::abs(std::abs(jump[column]) - peak) / largest(rows, column) : 0.;
     }
@@ -116,8 +116,8 @@ namespace sprag
     }
   } // namespace
 
-  StaticChoice::StaticChoice(const Scene &given, const Announce &announce)
-      : scene(given)
+  StaticChoice::StaticChoice(const Scene &scene_, const Announce &announce)
+      : scene(scene_)
       , enforcement_is_open(scene.contact.enforcement == Enforcement::penalty && is_open(scene, "Contact/Enforcement") &&
                             is_open(scene, "Contact/Penalty"))
   {
@@ -126,7 +126,7 @@ namespace sprag
       scene.contact.enforcement = Enforcement::augmented_lagrangian;
     const auto [from, to] = swept_contact(scene);
     width                 = estimated_contact_width(scene, contact_reference(scene).P);
-    solve_probes(std::max(width / faces_of_probe, (to - from) / most_faces_of_probe));
+    solve_probes(std::max(width / probe_faces, (to - from) / most_probe_faces));
     const double target   = scene.accuracy.target;
     const auto is_too_far = [&]
     { return longest_face(target) < extrapolated * face_size && is_paid(with_budget_left(scene, since), meeting(target)); };
@@ -134,7 +134,7 @@ namespace sprag
     {
       const Scene fine = with_face_size(scene, longest_face(target));
       require_memory(fine);
-      const auto cost = cost_of_probe(fine);
+      const auto cost = probe_cost(fine);
       if (!announce(announcement(fine, cost), cost.cpu_seconds))
         break;
       solve_probes(fine.mesh.face_size);
@@ -146,27 +146,27 @@ namespace sprag
   {
     face_size         = size;
     const Scene fine  = with_face_size(scene, size);
-    const auto places = places_of(scene.drive);
+    const auto places = drive_samples(scene.drive);
     const auto turn   = scene.accuracy.is_model_open ? places_behind_reversal(scene.drive, 2. * width) : std::vector<Row>{};
-    auto wanted       = joined(places, turn);
-    std::sort(wanted.begin(), wanted.end(), [](const Row &a, const Row &b) { return a[Column::time] < b[Column::time]; });
+    auto sampled      = joined(places, turn);
+    std::sort(sampled.begin(), sampled.end(), [](const Row &a, const Row &b) { return a[Column::time] < b[Column::time]; });
     if (!turn.empty()) // the closed form alone jumps there
-      wanted.erase(std::find_if(wanted.begin(), wanted.end(),
-                                [&](const Row &row) { return row[Column::time] == turn.front()[Column::time]; }));
-    const auto solved = probe(fine, wanted);
-    const auto rows   = rows_at(times_of(places), solved);
-    const auto jump   = of_closed_form(scene, turn);
+      sampled.erase(std::find_if(sampled.begin(), sampled.end(),
+                                 [&](const Row &row) { return row[Column::time] == turn.front()[Column::time]; }));
+    const auto solved = probe(fine, sampled);
+    const auto rows   = rows_at(sample_times(places), solved);
+    const auto jump   = with_closed_form(scene, turn);
     const auto coarse = probe(with_coarser_mesh(fine), places);
-    const auto closed = of_closed_form(scene, rows);
+    const auto closed = with_closed_form(scene, rows);
     errors.clear();
     closed_form_errors.clear();
     for (const auto &quantity : scene.accuracy.quantities)
     {
-      errors.push_back(relative_change(quantity, rows, coarse) * share_of_finer(coarser, order_of(scene, quantity)));
-      closed_form_errors.push_back(is_of_forces(quantity) ? relative_change(quantity, rows, closed)
-                                                          : std::numeric_limits<double>::infinity());
+      errors.push_back(relative_change(quantity, rows, coarse) * finer_share(coarser, convergence_order(scene, quantity)));
+      closed_form_errors.push_back(is_force_quantity(quantity) ? relative_change(quantity, rows, closed)
+                                                               : std::numeric_limits<double>::infinity());
       if (!jump.empty() && (quantity == "P" || quantity == "Q"))
-        closed_form_errors.back() = std::max(closed_form_errors.back(), change_of_jump(quantity, solved, jump.front()));
+        closed_form_errors.back() = std::max(closed_form_errors.back(), jump_change(quantity, solved, jump.front()));
     }
   }
 
@@ -178,30 +178,31 @@ namespace sprag
     {
       const auto &quantity = scene.accuracy.quantities[i];
       const double share   = share_for(quantity) * target / std::max(errors[i], 1e-12);
-      if (!is_of_forces(quantity))
-        result = std::min(result, face_size * faces_of_probe / least_faces);
-      result = std::min(result, face_size * std::pow(share, 1. / order_of(scene, quantity)));
+      if (!is_force_quantity(quantity))
+        result = std::min(result, face_size * probe_faces / least_faces);
+      result = std::min(result, face_size * std::pow(share, 1. / convergence_order(scene, quantity)));
     }
     return std::max(result, face_size / finest);
   }
 
   void StaticChoice::add_mesh(const double target, Choice &choice) const
   {
-    const auto &wanted      = scene.accuracy.quantities;
-    const bool wants_peaks  = std::count(wanted.begin(), wanted.end(), "P") + std::count(wanted.begin(), wanted.end(), "Q") > 0;
-    const bool has_reversal = wants_peaks && !scene.drive.reversals().empty();
-    const double of_probe   = longest_face(target);
-    const double longest    = std::max(face_size / finest, width * std::sqrt(share_of_reversal * target / error_of_reversal));
-    const bool is_shorter   = has_reversal && longest < of_probe;
-    const double size       = is_shorter ? longest : of_probe;
-    bool is_short_enough    = true;
+    const auto &requested = scene.accuracy.quantities;
+    const bool wants_peaks =
+        std::count(requested.begin(), requested.end(), "P") + std::count(requested.begin(), requested.end(), "Q") > 0;
+    const bool has_reversal      = wants_peaks && !scene.drive.reversals().empty();
+    const double probe_face_size = longest_face(target);
+    const double longest         = std::max(face_size / finest, width * std::sqrt(reversal_share * target / reversal_error));
+    const bool is_shorter        = has_reversal && longest < probe_face_size;
+    const double size            = is_shorter ? longest : probe_face_size;
+    bool is_short_enough         = true;
     if (has_reversal)
-      choice.error = error_of_reversal * std::pow(size / width, 2);
+      choice.error = reversal_error * std::pow(size / width, 2);
     for (std::size_t i = 0; i < errors.size(); ++i)
     {
-      const double error = errors[i] * std::pow(size / face_size, order_of(scene, wanted[i]));
+      const double error = errors[i] * std::pow(size / face_size, convergence_order(scene, requested[i]));
       choice.error       = std::max(choice.error, error);
-      is_short_enough    = is_short_enough && error <= 1.01 * share_for(wanted[i]) * target;
+      is_short_enough    = is_short_enough && error <= 1.01 * share_for(requested[i]) * target;
     }
     choice.settings.push_back(
         { "Mesh/Face size", rounded_text(size),
@@ -217,18 +218,19 @@ namespace sprag
 
   Choice StaticChoice::meeting(const double target) const
   {
-    const auto &wanted     = scene.accuracy.quantities;
-    const bool wants_loop  = std::count(wanted.begin(), wanted.end(), "loop_area") > 0;
-    const bool forces_only = std::all_of(wanted.begin(), wanted.end(), is_of_forces);
-    const double of_closed = *std::max_element(closed_form_errors.begin(), closed_form_errors.end());
-    const bool closed_form = scene.accuracy.is_model_open && of_closed <= share_of_model * target;
+    const auto &requested          = scene.accuracy.quantities;
+    const bool wants_loop          = std::count(requested.begin(), requested.end(), "loop_area") > 0;
+    const bool forces_only         = std::all_of(requested.begin(), requested.end(), is_force_quantity);
+    const double closed_form_error = *std::max_element(closed_form_errors.begin(), closed_form_errors.end());
+    const bool closed_form         = scene.accuracy.is_model_open && closed_form_error <= model_share * target;
     Choice choice;
     if (scene.accuracy.is_model_open)
       choice.settings.push_back({ "Analysis/Model", closed_form ? "closed form" : "finite element",
-                                  std::isfinite(of_closed) ? "the closed form is " + percent(of_closed) + " off a probe"
-                                                           : "the closed form does not tell what is wanted" });
+                                  std::isfinite(closed_form_error)
+                                      ? "the closed form is " + percent(closed_form_error) + " off a probe"
+                                      : "the closed form does not tell what is wanted" });
     if (closed_form)
-      choice.error = of_closed;
+      choice.error = closed_form_error;
     else if (is_open(scene, "Mesh/Face size") && scene.mesh.file.empty())
       add_mesh(target, choice);
     if (enforcement_is_open && !closed_form)
@@ -237,9 +239,9 @@ namespace sprag
       choice.settings.push_back({ "Mesh/Faces in contact", "0", "no pressure is wanted" });
     if (is_open(scene, "Analysis/Step"))
     {
-      const double step = largest_row_spacing(scene, share_of_rows * target, wants_loop);
+      const double step = largest_row_spacing(scene, row_share * target, wants_loop);
       choice.settings.push_back({ "Analysis/Step", rounded_text(step), "lines between rows follow the closed form" });
-      choice.error += share_of_rows * target;
+      choice.error += row_share * target;
     }
     return choice;
   }

@@ -67,12 +67,12 @@ namespace sprag
     return scene;
   }
 
-  double order_of_forces(const Scene &scene)
+  double force_order(const Scene &scene)
   {
     return scene.mesh.degree == 1 ? 1.6 : 2.;
   }
 
-  double order_of_pressure(const Scene &scene)
+  double pressure_order(const Scene &scene)
   {
     return scene.contact.enforcement == Enforcement::augmented_lagrangian ? 2. : 3.;
   }
@@ -81,7 +81,7 @@ namespace sprag
   {
     // The error of the coarser of two is that of the finer and their difference.
     const bool is_file  = !scene.mesh.file.empty();
-    const double share  = share_of_finer(coarser, order) + (is_file ? 1. : 0.);
+    const double share  = finer_share(coarser, order) + (is_file ? 1. : 0.);
     const auto &smaller = is_file ? "Give elements of Mesh/File sides" : "Try a Mesh/Face size";
     return { "mesh", share * change,
              scene.mesh.degree == 1 ? std::string("Try Mesh/Degree = 2") + (is_file ? "." : " or a smaller Mesh/Face size.")
@@ -91,7 +91,7 @@ namespace sprag
   ErrorPart penalty_part(const Scene &scene, const double change)
   {
     const bool has_inertia = scene.analysis.type != AnalysisType::quasi_static;
-    return { "penalty", share_of_finer(softer, 1.) * change,
+    return { "penalty", finer_share(softer, 1.) * change,
              has_inertia ? "Try twice the Contact/Penalty."
                          : "Try twice the Contact/Penalty or Contact/Enforcement = augmented Lagrangian." };
   }

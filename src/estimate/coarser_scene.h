@@ -40,11 +40,11 @@ namespace sprag
 
   /// Returns the order in which forces and frequencies converge with the face size: 2, and 1.6 with displacements of degree 1, as
   /// measured.
-  double order_of_forces(const Scene &scene);
+  double force_order(const Scene &scene);
 
   /// Returns the order in which pressures do: 3, and 2 of the augmented Lagrangian, whose averaged tractions follow a narrow
   /// contact less closely, as measured.
-  double order_of_pressure(const Scene &scene);
+  double pressure_order(const Scene &scene);
 
   /// Returns the part of the mesh, from the change on with_compared_mesh() and the order of convergence.
   ErrorPart mesh_part(const Scene &scene, double change, double order);

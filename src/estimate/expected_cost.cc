@@ -26,19 +26,19 @@ namespace sprag
   namespace
   {
     // CPU times are those measured where slowness() = 1 [s].
-    constexpr double start             = 0.2;
-    constexpr double of_static_step    = 9.;    ///< Newton iterations
-    constexpr double of_step_in_time   = 2.5;   ///< Newton iterations
-    constexpr double steps_of_reversal = 20.;   ///< without inertia, through stick
-    constexpr double usual_tolerance   = 5e-3;  ///< Time/Tolerance at which meshed levers take twice a beam's steps
-    constexpr double table_steps       = 6000.; ///< of levers under a table in a second of motion at that tolerance
-    constexpr double elastic_cylinder  = 2.;    ///< a step with one over a step without
-    constexpr double second_lever      = 2.2;   ///< the same
+    constexpr double start                     = 0.2;
+    constexpr double static_step_iterations    = 9.;    ///< Newton iterations
+    constexpr double transient_step_iterations = 2.5;   ///< Newton iterations
+    constexpr double reversal_steps            = 20.;   ///< without inertia, through stick
+    constexpr double usual_tolerance           = 5e-3;  ///< Time/Tolerance at which meshed levers take twice a beam's steps
+    constexpr double table_steps               = 6000.; ///< of levers under a table in a second of motion at that tolerance
+    constexpr double elastic_cylinder          = 2.;    ///< a step with one over a step without
+    constexpr double second_lever              = 2.2;   ///< the same
 
     double parts(const Scene &scene)
     {
       return (scene.cylinder.type == CylinderType::rigid ? 1. : elastic_cylinder) *
-             (number_of_levers(scene) == 2 && scene.pair.type == PairType::full ? second_lever : 1.);
+             (count_levers(scene) == 2 && scene.pair.type == PairType::full ? second_lever : 1.);
     }
 
     /// Steps that a run took; none before it.
@@ -47,7 +47,7 @@ namespace sprag
     double static_steps(const Scene &scene, const StepsTaken &taken)
     {
       const double turns = 1. + static_cast<double>(scene.drive.reversals().size());
-      return taken.value_or(expected_rows(scene) + steps_of_reversal * turns);
+      return taken.value_or(expected_rows(scene) + reversal_steps * turns);
     }
 
     /// CPU times that a run takes once and for each of its steps or slides, where slowness() = 1 [s].
@@ -85,7 +85,7 @@ namespace sprag
 
     /// CPU times of held slides [s]: once for the basis (in three dimensions modes and one slide) and fields, and each for a
     /// slide.
-    Times times_of_slides(const Scene &scene)
+    Times slide_times(const Scene &scene)
     {
       const double N        = expected_size(scene).displacements;
       const bool has_fields = scene.output.fields != FieldOutput::none;
@@ -109,7 +109,7 @@ namespace sprag
       return steps * (ripples ? 1. + std::min(1., scene.time.tolerance / usual_tolerance) : 1.);
     }
 
-    double steps_of_table(const Scene &scene)
+    double count_table_steps(const Scene &scene)
     {
       const double tolerance = scene.time.tolerance;
       return scene.isolation.duration *
@@ -127,11 +127,11 @@ namespace sprag
       HeldWork work;
       if (scene.analysis.type != AnalysisType::stability)
         return work;
-      constexpr double values_of_damping = 7., limits_of_stick = 2.;
+      constexpr double damping_values = 7., stick_limits = 2.;
       const double verdict = least_slides(scene);
       work.slides          = verdict;
       if (scene.stability.ranges == "none" && scene.stability.damping)
-        work.slides += (values_of_damping + limits_of_stick) * verdict;
+        work.slides += (damping_values + stick_limits) * verdict;
       if (scene.stability.roles)
         work.slides += 6.;
       for (const auto &range : critical_searches(scene).value_or(std::vector<ParameterRange>()))
@@ -144,11 +144,11 @@ namespace sprag
       return work;
     }
 
-    void add_run(const std::function<Scene()> &scene_of_run, ExpectedCost &sum)
+    void add_run(const std::function<Scene()> &make_run_scene, ExpectedCost &sum)
     {
       try
       {
-        const auto run = expected_cost(scene_of_run());
+        const auto run = expected_cost(make_run_scene());
         sum.cpu_seconds += std::max(0., run.cpu_seconds - start);
         sum.bytes   = std::max(sum.bytes, run.bytes);
         sum.unknown = sum.unknown.empty() ? run.unknown : sum.unknown;
@@ -161,20 +161,20 @@ namespace sprag
 
     constexpr std::size_t most_estimates = 100; ///< of a study's runs; they stand for the others
 
-    ExpectedCost of_study(const Scene &study)
+    ExpectedCost expected_study_cost(const Scene &study)
     {
       ExpectedCost sum{ start, 0., {} };
-      const auto points        = points_of(study.study);
+      const auto points        = make_study_points(study.study);
       const std::size_t stride = 1 + points.size() / most_estimates;
       for (std::size_t i = 0; i < points.size(); i += stride)
         add_run([&] { return scene_at(study, points[i]); }, sum);
       sum.cpu_seconds = start + static_cast<double>(stride) * (sum.cpu_seconds - start);
       if (!study.study.reference_values.empty())
-        add_run([&] { return scene_of_reference(study); }, sum);
+        add_run([&] { return reference_scene(study); }, sum);
       return sum;
     }
 
-    double seconds_of(const Scene &scene, const StepsTaken &taken = {})
+    double estimate_seconds(const Scene &scene, const StepsTaken &taken = {})
     {
       const auto sum = [&](const Times &times, const double number)
       { return start + times.once + number * times.each * parts(scene); };
@@ -185,16 +185,16 @@ namespace sprag
       case AnalysisType::transient:
         return sum(times_with_inertia(scene), taken ? *taken : steps_in_time(scene));
       case AnalysisType::isolation:
-        return sum(times_with_inertia(scene), steps_of_table(scene));
+        return sum(times_with_inertia(scene), count_table_steps(scene));
       case AnalysisType::modal:
       case AnalysisType::stability:
       {
-        const auto times = times_of_slides(scene);
+        const auto times = slide_times(scene);
         const auto work  = held_work(scene);
         return sum({ work.meshes * times.once, times.each }, work.slides);
       }
       case AnalysisType::map: // both ways, in models that are kept from cell to cell
-        return sum({ 0., 0.2 * times_of_slides(scene).each * std::max(2., static_cast<double>(least_slides(scene))) },
+        return sum({ 0., 0.2 * slide_times(scene).each * std::max(2., static_cast<double>(least_slides(scene))) },
                    scene.map.first.points * scene.map.second.points);
       default:
         return std::numeric_limits<double>::quiet_NaN();
@@ -205,15 +205,15 @@ namespace sprag
   ExpectedCost expected_cost(const Scene &scene)
   {
     if (follows_formulas(scene))
-      return cost_of_formulas(scene);
+      return formula_cost(scene);
     if (scene.analysis.type == AnalysisType::study)
-      return of_study(scene);
+      return expected_study_cost(scene);
     ExpectedCost cost{ 0., expected_memory(scene), {} };
     if (needs_mesh(scene) && !scene.mesh.file.empty())
       cost.unknown = "the mesh is from a file.";
     try
     {
-      cost.cpu_seconds = slowness() * seconds_of(scene);
+      cost.cpu_seconds = slowness() * estimate_seconds(scene);
     }
     catch (const AnalysisError &error)
     {
@@ -234,7 +234,7 @@ namespace sprag
     const bool in_time = scene.analysis.type == AnalysisType::transient;
     StepsTaken taken;
     if (found != summary.end())
-      taken = std::get<double>(found->value) / (in_time ? of_step_in_time : of_static_step);
-    return seconds_of(scene, taken);
+      taken = std::get<double>(found->value) / (in_time ? transient_step_iterations : static_step_iterations);
+    return estimate_seconds(scene, taken);
   }
 } // namespace sprag

@@ -22,18 +22,18 @@ namespace sprag
 {
   namespace
   {
-    constexpr double way_of_difference = 1e-3; ///< to both sides, over the cylinder's radius
+    constexpr double difference_step = 1e-3; ///< to both sides, over the cylinder's radius
 
     /// Angular acceleration of the ideal lever [rad/s^2]; 0 where the drive turns near by, or begins or ends.
     double angular_acceleration(const Scene &scene, const double time)
     {
       const auto &drive = scene.drive;
       const auto at     = drive.at(time);
-      const double span = way_of_difference * scene.geometry.cylinder_radius / std::abs(at.v);
+      const double span = difference_step * scene.geometry.cylinder_radius / std::abs(at.v);
       if (time < span || time + span > drive.duration())
         return 0.;
       const auto before = drive.at(time - span), after = drive.at(time + span);
-      const bool turns = direction_of(before.v) != direction_of(at.v) || direction_of(after.v) != direction_of(at.v);
+      const bool turns = drive_direction(before.v) != drive_direction(at.v) || drive_direction(after.v) != drive_direction(at.v);
       if (turns || std::max({ before.x, at.x, after.x }) >= pivot_contact(scene.geometry))
         return 0.;
       const auto theta = [&](const DrivePoint &point) { return kinematics(scene.geometry, point.x).theta; };
@@ -50,7 +50,7 @@ namespace sprag
       {
         const auto ideal = closed_form(scene, row[Column::x], row[Column::v]);
         const double moment =
-            ideal.P * (ideal.contact.s + direction_of(row[Column::v]) * ideal.mu * scene.geometry.interface_offset);
+            ideal.P * (ideal.contact.s + drive_direction(row[Column::v]) * ideal.mu * scene.geometry.interface_offset);
         change = std::max(change, std::abs(J * angular_acceleration(scene, row[Column::time]) / moment) * row[Column::P]);
       }
     return change / largest(rows, Column::P);
@@ -71,14 +71,14 @@ namespace sprag
 
   void StressComparison::look_at(const State &state, const Row &row)
   {
-    const auto of_run =
+    const auto run_sample =
         std::find_if(samples.begin(), samples.end(), [&](const StressSample &sample) { return sample.time == state.drive.time; });
-    if (of_run == samples.end())
+    if (run_sample == samples.end())
       return;
     StressSample found;
     for (const auto &displacement : model.body_displacements(state.coordinates, state.forces))
       sprag::look_at(fields, fields.at(displacement), row, found);
-    pairs.push_back({ *of_run, found });
+    pairs.push_back({ *run_sample, found });
   }
 
   std::optional<StressChanges> StressComparison::changes() const
@@ -102,7 +102,7 @@ namespace sprag
                           peak->run.layer_edge + more > near_edge * peak->run.layer };
   }
 
-  std::vector<double> times_of(const std::vector<StressSample> &samples)
+  std::vector<double> sample_times(const std::vector<StressSample> &samples)
   {
     std::vector<double> times;
     for (const auto &sample : samples)
@@ -112,29 +112,29 @@ namespace sprag
 
   namespace
   {
-    constexpr unsigned int samples_of_stroke = 6, samples_in_space = 3;
+    constexpr unsigned int samples_per_stroke = 6, samples_in_space = 3;
 
     /// Sets the samples of a run, and returns them with the rows of its passage through stick between.
-    std::vector<Row> choose_rows(const std::vector<Row> &rows, const unsigned int of_stroke, const std::vector<double> &times,
+    std::vector<Row> choose_rows(const std::vector<Row> &rows, const unsigned int n_per_stroke, const std::vector<double> &times,
                                  Probes &probes)
     {
-      probes.run     = slide_samples(rows, of_stroke, times);
+      probes.run     = slide_samples(rows, n_per_stroke, times);
       probes.passage = passage_rows(rows);
-      auto chosen    = times_of(probes.run);
-      append(chosen, times_of(probes.passage));
+      auto chosen    = sample_times(probes.run);
+      append(chosen, sample_times(probes.passage));
       return rows_at(chosen, rows);
     }
 
     void set_other(const std::vector<Row> &rows, Probes &probes)
     {
-      probes.other         = rows_at(times_of(probes.run), rows);
-      probes.other_passage = rows_at(times_of(probes.passage), rows);
+      probes.other         = rows_at(sample_times(probes.run), rows);
+      probes.other_passage = rows_at(sample_times(probes.passage), rows);
     }
 
     void set_soft(const std::vector<Row> &rows, Probes &probes)
     {
-      probes.soft         = rows_at(times_of(probes.run), rows);
-      probes.soft_passage = rows_at(times_of(probes.passage), rows);
+      probes.soft         = rows_at(sample_times(probes.run), rows);
+      probes.soft_passage = rows_at(sample_times(probes.passage), rows);
     }
 
     /// Gives a model its own penalties back.
@@ -169,9 +169,9 @@ namespace sprag
                       const QuasiStaticSettings &settings, const std::vector<StressSample> &stresses)
   {
     Probes result;
-    const auto times   = times_of(stresses);
+    const auto times   = sample_times(stresses);
     const double start = rows.front()[Column::x];
-    const auto chosen  = choose_rows(rows, samples_of_stroke, times, result);
+    const auto chosen  = choose_rows(rows, samples_per_stroke, times, result);
     Mesh mesh;
     const Scene other = with_compared_mesh(with_penalties(scene, levers.penalties(), 1.));
     make_mesh(other, mesh);
@@ -211,13 +211,13 @@ namespace sprag
       return scene.contact.enforcement == Enforcement::augmented_lagrangian;
     }
 
-    constexpr double least_faces_of_reversal = 4.;
-    constexpr double least_across            = 1e-6; ///< over the width [1 or N], below which round-off is left
+    constexpr double least_reversal_faces = 4.;
+    constexpr double least_across         = 1e-6; ///< over the width [1 or N], below which round-off is left
 
     /// Width of the contact where its pressure is largest, in faces.
     double faces_in_contact(const Scene &scene, const std::vector<Row> &samples)
     {
-      const auto *const row = row_of_largest(samples, [](const Row &sample) { return sample[Column::largest_pressure]; });
+      const auto *const row = find_largest_row(samples, [](const Row &sample) { return sample[Column::largest_pressure]; });
       return row == nullptr ? 0. : (*row)[Column::contact_width] / scene.mesh.face_size;
     }
 
@@ -226,10 +226,10 @@ namespace sprag
     void add_reversal(const Scene &scene, const Probes &probes, ErrorEstimate &estimate)
     {
       // A narrower contact does not converge with the order of forces yet.
-      const bool is_narrow = faces_in_contact(scene, probes.run) < least_faces_of_reversal;
-      const double order   = is_narrow ? 1. : order_of_forces(scene);
+      const bool is_narrow = faces_in_contact(scene, probes.run) < least_reversal_faces;
+      const double order   = is_narrow ? 1. : force_order(scene);
       const auto change    = [&](const std::vector<Row> &other)
-      { return other.empty() ? 0. : change_of_peak(estimate.quantity, probes.passage, other); };
+      { return other.empty() ? 0. : peak_change(estimate.quantity, probes.passage, other); };
       auto part  = mesh_part(scene, change(probes.other_passage), order);
       part.value = part.value + penalty_part(scene, change(probes.soft_passage)).value - total_error(estimate);
       part.name  = "reversal";
@@ -240,7 +240,7 @@ namespace sprag
     ErrorEstimate estimate(const Scene &scene, const Probes &probes, const std::string &quantity, const std::string &relative_to)
     {
       const auto change  = [&](const std::vector<Row> &other) { return relative_change(quantity, probes.run, other); };
-      const double order = quantity == "largest_pressure" ? order_of_pressure(scene) : order_of_forces(scene);
+      const double order = quantity == "largest_pressure" ? pressure_order(scene) : force_order(scene);
       ErrorEstimate result{ quantity, relative_to, { mesh_part(scene, change(probes.other), order) }, {} };
       if (!probes.soft.empty())
         result.parts.push_back(penalty_part(scene, change(probes.soft)));
@@ -267,17 +267,18 @@ namespace sprag
           result = std::fmax(result, std::abs(other[i].across.at(index) - probes.run[i].across.at(index)));
         return result / peak;
       };
-      ErrorEstimate result{ quantity, "its peak", { mesh_part(scene, change(probes.other), order_of_forces(scene)) }, {} };
+      ErrorEstimate result{ quantity, "its peak", { mesh_part(scene, change(probes.other), force_order(scene)) }, {} };
       if (!probes.soft.empty())
         result.parts.push_back(penalty_part(scene, change(probes.soft)));
       return result;
     }
 
     /// Error of the work on strokes of a single step, as of a parabola that is level at one of its ends.
-    double error_of_lone_steps(const std::vector<Row> &rows)
+    double lone_step_error(const std::vector<Row> &rows)
     {
-      const auto turns_at = [&](const std::size_t i)
-      { return i == 0 || i + 1 == rows.size() || direction_of(rows[i][Column::v]) != direction_of(rows[i + 1][Column::v]); };
+      const auto turns_at = [&](const std::size_t i) {
+        return i == 0 || i + 1 == rows.size() || drive_direction(rows[i][Column::v]) != drive_direction(rows[i + 1][Column::v]);
+      };
       double error = 0.;
       for (std::size_t i = 1; i < rows.size(); ++i)
         if (turns_at(i - 1) && turns_at(i))
@@ -287,14 +288,14 @@ namespace sprag
     }
 
     /// Error of the work by the trapezoidal rule, by Richardson extrapolation from pairs of steps.
-    double error_of_trapezoids(const std::vector<Row> &rows)
+    double trapezoid_error(const std::vector<Row> &rows)
     {
-      double error = error_of_lone_steps(rows);
+      double error = lone_step_error(rows);
       for (std::size_t i = 2; i < rows.size(); i += 2)
       {
         const std::vector<Row> both = { rows[i - 2], rows[i - 1], rows[i] };
-        if (direction_of(both[0][Column::v]) == direction_of(both[2][Column::v]))
-          error += (work_of_drive({ both[0], both[2] }) - work_of_drive(both)) / 3.;
+        if (drive_direction(both[0][Column::v]) == drive_direction(both[2][Column::v]))
+          error += (compute_drive_work({ both[0], both[2] }) - compute_drive_work(both)) / 3.;
       }
       return error;
     }
@@ -306,7 +307,7 @@ namespace sprag
       if (std::abs(rows.back()[Column::drive_work]) < least_loop * largest(rows, Column::drive_work))
         return { "loop_area", "", {}, "No estimate: what is left of the drive's work is a difference of much larger ones." };
       auto result = estimate(scene, probes, "loop_area", "it");
-      result.parts.push_back({ "step", std::abs(error_of_trapezoids(rows) / rows.back()[Column::drive_work]),
+      result.parts.push_back({ "step", std::abs(trapezoid_error(rows) / rows.back()[Column::drive_work]),
                                "Try an Analysis/Step 0.7 times as large." });
       return result;
     }
@@ -320,9 +321,9 @@ namespace sprag
                  "",
                  {},
                  "No estimate: in the layer the stress rises to a cusp where the contact ends; a finer mesh finds more of it." };
-      auto lever  = mesh_part(scene, probes.stress->lever, order_of_forces(scene));
+      auto lever  = mesh_part(scene, probes.stress->lever, force_order(scene));
       auto layer  = mesh_part(scene, probes.stress->layer, scene.mesh.degree);
-      layer.value = std::max(layer.value, mesh_part(scene, probes.pressure_with_stress, order_of_pressure(scene)).value);
+      layer.value = std::max(layer.value, mesh_part(scene, probes.pressure_with_stress, pressure_order(scene)).value);
       lever.name  = "mesh_of_lever";
       layer.name  = "mesh_of_layer";
       ErrorEstimate result{ "largest_stress", "that of the lever or of the layer", { lever, layer }, {} };
@@ -365,16 +366,16 @@ namespace sprag
       const bool forces_follow = faces > 1.;
       const bool all_follows   = expected_pressure_error(faces, scene.mesh.degree) <= follows_pressure;
       const double scatter     = smoothed_largest_pressure(rows, scene.mesh.face_size).scatter;
-      const auto told          = [&](const std::string &quantity, const std::string &relative_to, const bool is_followed)
+      const auto make_estimate = [&](const std::string &quantity, const std::string &relative_to, const bool is_followed)
       {
         const double least = quantity == "largest_pressure" ? scatter : 0.;
         return unless_narrow(with_scatter(estimate(scene, probes, quantity, relative_to), least), faces, is_followed);
       };
-      std::vector<ErrorEstimate> result = { told("P", "its peak", forces_follow),
-                                            told("Q", "its peak", forces_follow),
+      std::vector<ErrorEstimate> result = { make_estimate("P", "its peak", forces_follow),
+                                            make_estimate("Q", "its peak", forces_follow),
                                             unless_narrow(loop_area(scene, probes, rows), faces, forces_follow),
-                                            told("largest_pressure", "it", all_follows),
-                                            told("contact_width", "the largest one", all_follows),
+                                            make_estimate("largest_pressure", "it", all_follows),
+                                            make_estimate("contact_width", "the largest one", all_follows),
                                             unless_narrow(largest_stress(scene, probes), faces, all_follows) };
       if (scene.analysis.dimension == 3)
         for (const auto &quantity : across)

@@ -56,7 +56,7 @@ namespace sprag
   };
 
   /// Returns the times of states [s].
-  std::vector<double> times_of(const std::vector<StressSample> &samples);
+  std::vector<double> sample_times(const std::vector<StressSample> &samples);
 
   /// Some states of a run in full sliding, and what other models make of them in single steps from one to the next.
   struct Probes

@@ -10,13 +10,13 @@ namespace sprag
 {
   namespace
   {
-    constexpr double middle_of_contact = 0.4; ///< on both sides of the largest pressure, over the width of the contact
+    constexpr double contact_middle = 0.4; ///< on both sides of the largest pressure, over the width of the contact
   }
 
   void look_at(const BodyFields &fields, const std::vector<NodalField> &nodal, const Row &row, StressSample &sample)
   {
     const double middle = row[Column::largest_pressure_xi];
-    const double reach  = middle_of_contact * row[Column::contact_width];
+    const double reach  = contact_middle * row[Column::contact_width];
     sample.time         = row[Column::time];
     for (std::size_t i = 0; i < nodal.size(); ++i)
     {

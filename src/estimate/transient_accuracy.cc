@@ -32,7 +32,7 @@ namespace sprag
     {
       const double time         = scene.drive.reversals().front();
       scene.stability.position  = scene.drive.at(time).x;
-      const bool is_backward    = direction_of(scene.drive.at(time, Drive::Side::after).v) < 0;
+      const bool is_backward    = drive_direction(scene.drive.at(time, Drive::Side::after).v) < 0;
       scene.stability.direction = is_backward ? Direction::backward : Direction::forward;
       if (scene.analysis.model == ModelType::finite_element)
         scene.analysis.model = ModelType::condensed;
@@ -81,28 +81,28 @@ namespace sprag
       const double measured = turned.frequency;
       if (!(measured > 0.))
         throw NoEstimate{ "P does not ring behind the first reversal." };
-      const Scene held        = slide_behind_reversal(scene);
-      const auto found        = judge(held, maker);
-      const auto frequency_of = [&](const SlideStability &slide)
+      const Scene held           = slide_behind_reversal(scene);
+      const auto found           = judge(held, maker);
+      const auto slide_frequency = [&](const SlideStability &slide)
       { return eigenvalue_near(slide, measured).imag() / (2. * M_PI); };
-      const auto decay_of = [&](const SlideStability &slide) { return -eigenvalue_near(slide, measured).real(); };
-      if (!(frequency_of(found) > 0.) || !(eigenvalue_near(found, measured).real() < 0.))
+      const auto decay_rate = [&](const SlideStability &slide) { return -eigenvalue_near(slide, measured).real(); };
+      if (!(slide_frequency(found) > 0.) || !(eigenvalue_near(found, measured).real() < 0.))
         throw NoEstimate{ "the slide behind the first reversal does not ring down." };
       const double turn  = scene.drive.reversals().front();
-      const double omega = 2. * M_PI * frequency_of(found);
+      const double omega = 2. * M_PI * slide_frequency(found);
       const auto by_step = [&](const double dt) { return std::abs(algorithmic_slowing(scene.time.spectral_radius, omega * dt)); };
-      const auto slowing = slowing_of(rows, turn, turned.window_end, 1. / frequency_of(found), by_step);
+      const auto slowing = estimate_slowing(rows, turn, turned.window_end, 1. / slide_frequency(found), by_step);
       const double lag   = change_by_frequency(rows, turn, turned.window_end) / largest(rows, Column::P);
       const std::string step =
           scene.time.tolerance > 0. ? "Try a third of the Time/Tolerance." : "Try a Time/Step 0.7 times as large.";
-      std::vector<ErrorPart> of_frequency, of_decay;
+      std::vector<ErrorPart> frequency_parts, decay_parts;
       if (is_meshed(scene.analysis.model))
       {
         const auto probes = probe_slide(held, dynamics.penalties, maker);
-        of_frequency      = parts_of_slide(held, found, probes, frequency_of);
-        of_decay          = parts_of_slide(held, found, probes, decay_of);
+        frequency_parts   = slide_error_parts(held, found, probes, slide_frequency);
+        decay_parts       = slide_error_parts(held, found, probes, decay_rate);
       }
-      for (const auto &part : of_frequency)
+      for (const auto &part : frequency_parts)
         if (!(part.value < too_far))
           throw NoEstimate{ "with another " + part.name + (part.name == "mesh" ? ", or elsewhere between its nodes," : "") +
                             " the slide behind the first reversal has no vibration of this frequency." };
@@ -113,16 +113,16 @@ namespace sprag
       if (const double fitted = -turned.growth_rate; fitted > 0.)
       {
         const double scheme = algorithmic_damping(scene.time.spectral_radius, omega * slowing.first_step);
-        decay               = { "decay", "it", with_step(of_decay, scheme * omega / fitted, step), {} };
+        decay               = { "decay", "it", with_step(decay_parts, scheme * omega / fitted, step), {} };
         // Steps and passing elements keep the envelope up, to which the decay is fitted; the slide's own decay knows neither.
-        decay.parts.push_back({ "fit", std::abs(decay_of(found) / fitted - 1.), step });
+        decay.parts.push_back({ "fit", std::abs(decay_rate(found) / fitted - 1.), step });
       }
-      ErrorEstimate overshoot{ "overshoot", "it", with_step(times(of_frequency, 2.), first_swing, step), {} };
+      ErrorEstimate overshoot{ "overshoot", "it", with_step(times(frequency_parts, 2.), first_swing, step), {} };
       if (is_meshed(scene.analysis.model) && faces < fewest_faces)
         overshoot.parts.push_back({ "turn", std::min(most_by_place, by_place / faces), "Try a smaller Mesh/Face size." });
-      return { { "P", "its peak", with_step(times(of_frequency, lag), slowing.P / largest(rows, Column::P), step), {} },
+      return { { "P", "its peak", with_step(times(frequency_parts, lag), slowing.P / largest(rows, Column::P), step), {} },
                overshoot,
-               { "frequency", "it", with_step(of_frequency, slowing.frequency, step), {} },
+               { "frequency", "it", with_step(frequency_parts, slowing.frequency, step), {} },
                decay };
     }
   } // namespace

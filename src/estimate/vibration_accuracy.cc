@@ -15,7 +15,7 @@ namespace sprag
   namespace
   {
     /// Shifts of the slide over the length of a face element, to see how far its place between the nodes matters.
-    constexpr double shares_of_face[] = { 0.25, 0.5, 0.75 };
+    constexpr double face_shares[] = { 0.25, 0.5, 0.75 };
 
     /// Modes that a lever with one alone is compared with.
     constexpr unsigned int several_modes = 4;
@@ -28,7 +28,7 @@ namespace sprag
     {
       const Scene held    = held_scene(scene);
       const auto dynamics = maker.make(held);
-      for (const double share : shares_of_face)
+      for (const double share : face_shares)
       {
         DrivePoint drive  = held_drive(scene);
         const double away = share * scene.mesh.face_size;
@@ -49,21 +49,21 @@ namespace sprag
       other.condensed.modes = several_modes;
       Scene more            = scene;
       more.condensed.modes  = several_modes;
-      DynamicsMaker of_more;
-      result.other_modes = judge(more, of_more);
+      DynamicsMaker finer_maker;
+      result.other_modes = judge(more, finer_maker);
     }
-    DynamicsMaker of_other;
-    result.other_mesh = judge(other, of_other);
+    DynamicsMaker other_maker;
+    result.other_mesh = judge(other, other_maker);
     return result;
   }
 
-  std::vector<ErrorPart> parts_of_slide(const Scene &scene, const SlideStability &found, const SlideProbes &probes,
-                                        const std::function<double(const SlideStability &)> &value)
+  std::vector<ErrorPart> slide_error_parts(const Scene &scene, const SlideStability &found, const SlideProbes &probes,
+                                           const std::function<double(const SlideStability &)> &value)
   {
     const auto difference = [&](const SlideStability &a, const SlideStability &b)
     { return std::abs((value(a) - value(b)) / value(found)); };
     const auto &on_mesh = probes.other_modes ? *probes.other_modes : found;
-    ErrorPart mesh      = mesh_part(scene, difference(probes.other_mesh, on_mesh), order_of_forces(scene));
+    ErrorPart mesh      = mesh_part(scene, difference(probes.other_mesh, on_mesh), force_order(scene));
     double least = value(found), most = value(found);
     for (const auto &slide : probes.elsewhere)
     {
@@ -89,7 +89,7 @@ namespace sprag
       const auto probes = probe_slide(scene, dynamics.penalties, maker);
       if (!(probes.other_mesh.frequency() > 0.) || !(probes.soft.frequency() > 0.))
         throw NoEstimate{ "on another mesh or with a softer penalty the mode that grows most does not oscillate." };
-      const auto parts = [&](const auto &value) { return parts_of_slide(scene, found, probes, value); };
+      const auto parts = [&](const auto &value) { return slide_error_parts(scene, found, probes, value); };
       return std::vector<ErrorEstimate>{
         { "growth_rate",
           "it, and beyond 100 % the verdict may flip",

@@ -27,8 +27,8 @@ namespace sprag
   /// Returns the parts of the error of a value of the slide, relative to it, from what the probes change by Richardson; what
   /// another number of modes changes counts whole. That of the mesh is at least the range of values at places between two nodes:
   /// where few faces are in contact, two meshes may agree by chance.
-  std::vector<ErrorPart> parts_of_slide(const Scene &scene, const SlideStability &found, const SlideProbes &probes,
-                                        const std::function<double(const SlideStability &)> &value);
+  std::vector<ErrorPart> slide_error_parts(const Scene &scene, const SlideStability &found, const SlideProbes &probes,
+                                           const std::function<double(const SlideStability &)> &value);
 
   /// Estimates the errors of growth_rate and frequency of a meshed lever's held slide: the same slide is judged with a third of
   /// the penalty and on a mesh of twice the Mesh/Face size, and the change tells the error by Richardson as it does in

@@ -72,7 +72,7 @@ namespace sprag
 
   namespace
   {
-    FrictionValue value_of(const CoulombFriction &law, const double /*speed*/)
+    FrictionValue evaluate(const CoulombFriction &law, const double /*speed*/)
     {
       return { law.coefficient, 0. };
     }
@@ -81,7 +81,7 @@ namespace sprag
                                                     { 200., -7.086e-7, 1.058e-3, 0.6809 },
                                                     { 750., 0., 0., 1.076 } };
 
-    FrictionValue value_of(const CorkOnAluminium & /*law*/, const double v)
+    FrictionValue evaluate(const CorkOnAluminium & /*law*/, const double v)
     {
       const auto *piece = std::begin(cork_on_aluminium);
       while (std::next(piece) != std::end(cork_on_aluminium) && v >= std::next(piece)->from)
@@ -89,7 +89,7 @@ namespace sprag
       return { (piece->quadratic * v + piece->linear) * v + piece->constant, 2. * piece->quadratic * v + piece->linear };
     }
 
-    FrictionValue value_of(const StribeckFriction &law, const double speed)
+    FrictionValue evaluate(const StribeckFriction &law, const double speed)
     {
       const double u    = speed / law.speed;
       const double fall = (law.at_rest - law.kinetic) * std::exp(-std::pow(u, law.exponent));
@@ -97,7 +97,7 @@ namespace sprag
                law.viscous - fall * law.exponent * std::pow(u, law.exponent - 1.) / law.speed };
     }
 
-    FrictionValue value_of(const TabulatedFriction &law, const double speed)
+    FrictionValue evaluate(const TabulatedFriction &law, const double speed)
     {
       return law.value(speed);
     }
@@ -105,7 +105,7 @@ namespace sprag
 
   FrictionValue friction_coefficient(const FrictionLaw &law, const double speed)
   {
-    const auto value = std::visit([speed](const auto &choice) { return value_of(choice, speed); }, law.law);
+    const auto value = std::visit([speed](const auto &choice) { return evaluate(choice, speed); }, law.law);
     return { law.factor * value.coefficient, law.factor * value.derivative };
   }
 
@@ -130,14 +130,14 @@ namespace sprag
     if (const auto *const stribeck = std::get_if<StribeckFriction>(&law.law))
     {
       const double steepest = stribeck->speed * std::pow(1. - 1. / stribeck->exponent, 1. / stribeck->exponent);
-      return value_of(*stribeck, steepest).derivative < 0.;
+      return evaluate(*stribeck, steepest).derivative < 0.;
     }
     if (const auto *const table = std::get_if<TabulatedFriction>(&law.law))
       return table->falls();
     return false;
   }
 
-  FrictionLaw friction_of_step(const FrictionLaw &friction, const double drive_speed)
+  FrictionLaw step_friction(const FrictionLaw &friction, const double drive_speed)
   {
     FrictionLaw law = friction;
     if (law.speed == FrictionSpeed::drive)

@@ -81,7 +81,7 @@ namespace sprag
   FrictionValue friction_coefficient(const FrictionLaw &law, double speed);
 
   /// Returns the law as one step sees it: where mu depends on the drive's speed [mm/s] it is a constant of the step.
-  FrictionLaw friction_of_step(const FrictionLaw &friction, double drive_speed);
+  FrictionLaw step_friction(const FrictionLaw &friction, double drive_speed);
 
   /// mu = (quadratic v + linear) v + constant from a speed on [mm/s].
   struct FrictionPiece

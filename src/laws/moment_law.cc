@@ -66,7 +66,7 @@ namespace sprag
   MomentLaw::MomentLaw(const double stiffness_at_rest, std::vector<Sample> samples)
       : k(stiffness_at_rest)
       , excess_samples(samples)
-      , given(std::move(samples))
+      , tabulated(std::move(samples))
   {
     for (auto &sample : excess_samples)
     {
@@ -143,6 +143,6 @@ namespace sprag
 
   const std::vector<Sample> &MomentLaw::samples() const
   {
-    return given;
+    return tabulated;
   }
 } // namespace sprag

@@ -48,6 +48,6 @@ namespace sprag
     double rest = 0.;                   ///< turn [rad]
     std::vector<Sample> excess_samples; ///< moments and stiffnesses above k
     std::vector<double> energies;       ///< of the excess, at the samples
-    std::vector<Sample> given;
+    std::vector<Sample> tabulated;
   };
 } // namespace sprag

@@ -123,7 +123,7 @@ namespace sprag
     for_each_lane(unknown,
                   [&](const unsigned int i)
                   {
-                    const auto found = slip_friction(law.friction, lane_of(load, i), lane_of(resistance, i), lane_of(p, i));
+                    const auto found = slip_friction(law.friction, at_lane(load, i), at_lane(resistance, i), at_lane(p, i));
                     set_lane(mu, i, found.coefficient);
                     set_lane(slope, i, found.derivative);
                   });
@@ -164,7 +164,7 @@ namespace sprag
     for_each_lane(here,
                   [&](const unsigned int i)
                   {
-                    const auto found = friction_coefficient(law, lane_of(w, i));
+                    const auto found = friction_coefficient(law, at_lane(w, i));
                     set_lane(mu, i, found.coefficient);
                     set_lane(slope, i, found.derivative);
                   });
@@ -178,13 +178,13 @@ namespace sprag
     const auto pressed = value(p) > 0.;
     V mu{}, slope{};
     set_friction(law.friction, pressed, value(w), mu, slope);
-    const SizeAndDirection<N, slips> of(trial);
+    const SizeAndDirection<N, slips> split(trial);
     const N cone = chained(mu, slope, w) * p;
     PointFriction<N, slips> result;
     result.mu       = mu;
-    result.slipping = pressed & (value(of.size) > value(cone));
+    result.slipping = pressed & (value(split.size) > value(cone));
     for (int i = 0; i < slips; ++i)
-      result.traction[i] = select(pressed, select(result.slipping, cone * of.direction[i], trial[i]), N{});
+      result.traction[i] = select(pressed, select(result.slipping, cone * split.direction[i], trial[i]), N{});
     return result;
   }
 
@@ -200,12 +200,12 @@ namespace sprag
   {
     using V        = Plain<N>;
     const double k = law.stiffness;
-    const SizeAndDirection<N, slips> of(trial);
-    const N along      = dot(of.direction, shift);
-    const N load       = of.size + k * along;
+    const SizeAndDirection<N, slips> split(trial);
+    const N along      = dot(split.direction, shift);
+    const N load       = split.size + k * along;
     const double mu_0  = friction_coefficient(law.friction, 0.).coefficient;
     const auto pressed = value(p) > 0.;
-    const auto beyond  = pressed & (value(of.size) > mu_0 * value(p));
+    const auto beyond  = pressed & (value(split.size) > mu_0 * value(p));
     const auto at_rest = value(load) <= mu_0 * value(p);
     const auto slides  = beyond & negated(at_rest);
     N mu               = N{} + mu_0;
@@ -213,7 +213,7 @@ namespace sprag
     {
       V guess = value(along);
       for (int i = 0; i < slips; ++i)
-        guess = guess + value(slip[i]) * value(of.direction[i]);
+        guess = guess + value(slip[i]) * value(split.direction[i]);
       V found{}, slope{};
       const V resistance = k * duration;
       find_slip(law, slides, value(load), resistance, value(p), V(guess / duration), found, slope);
@@ -222,9 +222,9 @@ namespace sprag
     }
     PointFriction<N, slips> result;
     result.mu       = select(pressed, value(mu), V{});
-    result.slipping = beyond & (at_rest | (value(mu) * value(p) <= value(of.size)));
+    result.slipping = beyond & (at_rest | (value(mu) * value(p) <= value(split.size)));
     for (int i = 0; i < slips; ++i)
-      result.traction[i] = select(pressed, select(result.slipping, mu * p * of.direction[i], trial[i]), N{});
+      result.traction[i] = select(pressed, select(result.slipping, mu * p * split.direction[i], trial[i]), N{});
     return result;
   }
 
@@ -257,7 +257,7 @@ namespace sprag
     const double length = law.friction.memory_length;
     V share{};
     for_each_lane(memory.speed > 0.,
-                  [&](const unsigned int i) { set_lane(share, i, std::exp(-lane_of(value(path), i) / length)); });
+                  [&](const unsigned int i) { set_lane(share, i, std::exp(-at_lane(value(path), i) / length)); });
     return v + chained(share, V(-1. / length * share), path) * (memory.speed - v);
   }
 
@@ -279,15 +279,15 @@ namespace sprag
     const auto pressed = value(p) > 0.;
     V mu{}, slope{};
     set_friction(law.friction, pressed, value(followed), mu, slope);
-    const N root    = square_root(w * w + v_r * v_r);
-    const N along   = chained(mu, slope, followed) * w / root;
-    const V of_rest = (1. + share) / dt * mu * v_r * v_r / (value(root) * value(root) * value(root));
-    result.mu       = mu;
-    result.slipping = pressed;
-    result.speed    = select(pressed, value(followed), V{});
+    const N root         = square_root(w * w + v_r * v_r);
+    const N along        = chained(mu, slope, followed) * w / root;
+    const V rest_tangent = (1. + share) / dt * mu * v_r * v_r / (value(root) * value(root) * value(root));
+    result.mu            = mu;
+    result.slipping      = pressed;
+    result.speed         = select(pressed, value(followed), V{});
     for (int i = 0; i < slips; ++i)
     {
-      const N at_rest      = of_rest * slip[i] + (i == 0 ? value(along) : V{});
+      const N at_rest      = rest_tangent * slip[i] + (i == 0 ? value(along) : V{});
       result.traction[i]   = select(pressed, p * select(path.is_nothing, at_rest, along * path.direction[i]), N{});
       result.slip_speed[i] = select(pressed, V(1. / dt * value(slip[i])), V{});
       result.dissipated    = result.dissipated + 0.5 * (memory.traction[i] + value(result.traction[i])) * value(slip[i]);

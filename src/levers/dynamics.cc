@@ -46,7 +46,7 @@ namespace sprag
     }
     if (scene.analysis.dimension == 3)
       return make_solid(scene, scene.condensed.modes);
-    result.lever = lever_of(scene);
+    result.lever = find_meshed_lever(scene);
     const PhaseTimer::Scope scope(time, "model");
     const double relaxation = contact_reference(scene).relaxation;
     result.meshed           = scene.analysis.model == ModelType::condensed
@@ -77,7 +77,7 @@ namespace sprag
     if (scene.analysis.dimension == 3)
       return make_solid(scene, modes);
     Dynamics result;
-    result.lever = lever_of(scene);
+    result.lever = find_meshed_lever(scene);
     const PhaseTimer::Scope scope(time, "model");
     const auto &all   = result.lever->condensed;
     const auto lowest = [&](const auto &basis)
@@ -87,7 +87,7 @@ namespace sprag
     return result;
   }
 
-  std::shared_ptr<const MeshedLever> DynamicsMaker::lever_of(const Scene &scene)
+  std::shared_ptr<const MeshedLever> DynamicsMaker::find_meshed_lever(const Scene &scene)
   {
     const auto key   = body_key(scene);
     const auto found = std::find_if(levers.begin(), levers.end(), [&](const auto &lever) { return lever.first == key; });

@@ -83,7 +83,7 @@ namespace sprag
     double saved = 0.;
     PhaseTimer time;
 
-    std::shared_ptr<const MeshedLever> lever_of(const Scene &scene);
+    std::shared_ptr<const MeshedLever> find_meshed_lever(const Scene &scene);
     std::shared_ptr<const MeshedLever> make_lever(const Scene &scene, const std::string &key);
     Dynamics make_solid(const Scene &scene, unsigned int n_modes);
   };

@@ -13,7 +13,7 @@ namespace sprag
     LeverOnMesh result{ std::make_unique<Mesh>(), nullptr };
     make_mesh(scene, *result.mesh);
     auto properties           = lever_properties(scene);
-    properties.penalty_factor = penalty_of_indentation;
+    properties.penalty_factor = indentation_penalty;
     result.model              = std::make_unique<StaticLever<2>>(*result.mesh, std::move(properties));
     return result;
   }

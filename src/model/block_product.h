@@ -21,7 +21,7 @@ namespace sprag
 
   /// Ranges that increasing numbers make up.
   template <class Iterator>
-  std::vector<NumberRange> ranges_of(Iterator number, const Iterator end)
+  std::vector<NumberRange> find_ranges(Iterator number, const Iterator end)
   {
     std::vector<NumberRange> result;
     for (; number != end; ++number)

@@ -12,24 +12,24 @@ namespace sprag
   /// Returns the absolute value of the largest change of a lever's gap by a small change of the ports [mm].
   template <class Contact>
   double largest_gap_change(const Contact &contact, const typename Contact::Evaluation &found,
-                            const dealii::Vector<double> &change_of_ports)
+                            const dealii::Vector<double> &port_change)
   {
     double largest = 0.;
     for (unsigned int lever = 0; lever < Contact::levers; ++lever)
-      largest = std::max(largest, std::abs(contact.gap_change(found, change_of_ports, lever)));
+      largest = std::max(largest, std::abs(contact.gap_change(found, port_change, lever)));
     return largest;
   }
 
   /// Returns the change of the gap that a complex change of the ports moves most.
   template <class Contact>
   std::complex<double> largest_gap_change(const Contact &contact, const typename Contact::Evaluation &found,
-                                          const ComplexVector &change_of_ports)
+                                          const ComplexVector &port_change)
   {
     std::complex<double> largest;
     for (unsigned int lever = 0; lever < Contact::levers; ++lever)
     {
-      const std::complex<double> gap(contact.gap_change(found, change_of_ports[0], lever),
-                                     contact.gap_change(found, change_of_ports[1], lever));
+      const std::complex<double> gap(contact.gap_change(found, port_change[0], lever),
+                                     contact.gap_change(found, port_change[1], lever));
       if (std::abs(gap) > std::abs(largest))
         largest = gap;
     }

@@ -143,7 +143,7 @@ namespace sprag
                     const PointFriction<StepNumber<slips>, slips> &end, const StepNumber<slips> &pressure,
                     const Several<StepNumber<slips>, slips> &traction, StepResponse<n, slips> &response)
   {
-    const auto row_of = [&](const StepNumber<slips> &a)
+    const auto to_row = [&](const StepNumber<slips> &a)
     {
       auto row = a.d[0] * point.gap_row_end + a.d[1 + slips] * point.gap_rate_row;
       for (unsigned int r = 0; r < slips; ++r)
@@ -154,13 +154,13 @@ namespace sprag
     response.mu       = end.mu;
     response.slipping = end.slipping;
     response.force    = pressure.v * point.gap_row;
-    response.tangent  = outer_product(point.gap_row, row_of(pressure)) + pressure.v * point.gap_curvature;
+    response.tangent  = outer_product(point.gap_row, to_row(pressure)) + pressure.v * point.gap_curvature;
     for (unsigned int s = 0; s < slips; ++s)
     {
       response.traction[s]      = end.traction[s].v;
       response.mean_traction[s] = traction[s].v;
       response.force -= traction[s].v * point.slip_row[s];
-      response.tangent -= outer_product(point.slip_row[s], row_of(traction[s])) + traction[s].v * point.slip_curvature[s];
+      response.tangent -= outer_product(point.slip_row[s], to_row(traction[s])) + traction[s].v * point.slip_curvature[s];
     }
     response.memory.traction = response.traction;
   }

@@ -8,9 +8,9 @@
 #include "model/frame_coupling.h"
 #include "model/growth.h"
 #include "model/hub_spring.h"
-#include "model/kept_iteration.h"
 #include "model/lever_frame.h"
 #include "model/linearisation.h"
+#include "model/modified_newton.h"
 #include "model/port_newton.h"
 #include "model/port_step.h"
 #include "model/steady_slides.h"
@@ -107,9 +107,9 @@ namespace sprag
           rates ? structure->port_kinematics(accepted) : Kinematic{ structure->port_positions(accepted, near), {}, {} };
       const Kinematic drifted = rates ? unaccelerated(begin, weights) : Kinematic{};
       const auto free         = structure->free_ports(accepted, near);
-      const OfLevers turned   = turns_of(frame.ports, begin.position);
+      const PerLever turned   = lever_rotations(frame.ports, begin.position);
       dealii::Vector<double> rate;
-      const auto evaluate = [&](const dealii::Vector<double> &z, const Wanted wanted = Wanted::with_tangent) -> PortEvaluation
+      const auto evaluate = [&](const dealii::Vector<double> &z, const Request request = Request::with_tangent) -> PortEvaluation
       {
         if (rates)
         {
@@ -117,9 +117,9 @@ namespace sprag
           rate.add(weights.rate(), z, -weights.rate(), drifted.position);
         }
         contact->evaluate(
-            PortStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights, &accepted.surface_contact, wanted }, found);
+            PortStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights, &accepted.surface_contact, request }, found);
         coupling.add_forces(begin, z, weights, found.forces);
-        hub_spring.add_forces(turned, turns_of(frame.ports, z), weights, found.forces);
+        hub_spring.add_forces(turned, lever_rotations(frame.ports, z), weights, found.forces);
         return { &found.forces, found.overlap() };
       };
 
@@ -144,7 +144,7 @@ namespace sprag
       structure->add_work(accepted, motion, outcome.work);
       outcome.work += found.work();
       coupling.add_work(begin, z, weights, outcome.work);
-      hub_spring.add_work(turned, turns_of(frame.ports, z), weights, outcome.work);
+      hub_spring.add_work(turned, lever_rotations(frame.ports, z), weights, outcome.work);
       outcome.error  = weights.wants_error ? largest_gap_change(*contact, found, structure->port_error(accepted, motion)) : 0.;
       outcome.motion = std::move(motion);
       return outcome;
@@ -258,9 +258,9 @@ namespace sprag
         observe_lever(motion, 1, x, second);
         row.add_second_lever(second);
       }
-      const double of_support           = frame.support_stiffness * support.position + frame.support_damping * support.velocity;
+      const double support_force        = frame.support_stiffness * support.position + frame.support_damping * support.velocity;
       row[Column::support_displacement] = support.position;
-      row[Column::Q_support]            = (frame.ports.sprung ? of_support : row.drive_force()) / frame.ports.levers;
+      row[Column::Q_support]            = (frame.ports.sprung ? support_force : row.drive_force()) / frame.ports.levers;
     }
 
     double drive_force(const Motion &) const override
@@ -293,14 +293,14 @@ namespace sprag
     FrameCoupling coupling;
     HubSpringExcess hub_spring;
     SteadySlides<Structure, Contact> slides;
-    KeptFactors factors;
+    JacobianFactors factors;
 
-    OfLevers turns(const Motion &motion) const
+    PerLever turns(const Motion &motion) const
     {
       PortSelection rotations;
       for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
         rotations.push_back(frame.ports.rotation(lever));
-      return turns_of(frame.ports, structure->port_positions(motion, rotations));
+      return lever_rotations(frame.ports, structure->port_positions(motion, rotations));
     }
 
     /// `x` from the pivot frame's origin.
@@ -326,7 +326,7 @@ namespace sprag
     const PortSelection &reachable_ports(const Motion &motion) const
     {
       const double u = frame.ports.sprung ? structure->port_state(motion, frame.ports.support()).position : 0.;
-      return contact->reachable_ports(motion.drive.x - u, inclinations_of(frame, turns(motion)));
+      return contact->reachable_ports(motion.drive.x - u, compute_inclinations(frame, turns(motion)));
     }
 
     /// Touching at x = 0. Further on as slowly slid there from x = 0, with friction as in a motion forward and mu at rest.
@@ -374,20 +374,20 @@ namespace sprag
     /// The contact's forces about a held slide, those of the hub's spring and the coupling with a sprung support.
     PortPerturbation perturbation(const SlidingState &slide, const bool in_contact)
     {
-      const auto turns_of_slide = turns_of(frame.ports, slide.ports);
-      const auto theta          = inclinations_of(frame, turns_of_slide);
+      const auto slide_rotations = lever_rotations(frame.ports, slide.ports);
+      const auto theta           = compute_inclinations(frame, slide_rotations);
       contact->reachable_ports(slide.drive.x, theta);
-      const auto of_contact = in_contact ? contact->linearise(slide, found) : PortPerturbation();
-      auto ports            = of_contact.ports;
+      const auto contact_perturbation = in_contact ? contact->linearise(slide, found) : PortPerturbation();
+      auto ports                      = contact_perturbation.ports;
       for (const auto &others : { coupling.coupled_ports(), hub_spring.loaded_ports() })
         ports.insert(ports.end(), others.begin(), others.end());
       std::sort(ports.begin(), ports.end());
       ports.erase(std::unique(ports.begin(), ports.end()), ports.end());
 
       PortPerturbation result(std::move(ports));
-      result.add(of_contact);
+      result.add(contact_perturbation);
       coupling.add_inertia(result.ports, theta, result.inertia);
-      hub_spring.add_stiffness(result.ports, turns_of_slide, result.pressure);
+      hub_spring.add_stiffness(result.ports, slide_rotations, result.pressure);
       return result;
     }
 
@@ -468,7 +468,7 @@ namespace sprag
       const auto is_unique = [&](const double share)
       {
         const auto ports = slides.last_equilibrium().ports;
-        return uniqueness({ ports, drive, speed, nullptr, ContactFriction::sliding, Wanted::with_tangent, share }) > 0.;
+        return uniqueness({ ports, drive, speed, nullptr, ContactFriction::sliding, Request::with_tangent, share }) > 0.;
       };
       std::vector<BranchPoint> branch = { { 0., found.overlap() } };
       for (double step = 0.25; branch.back().share < 1. && step > smallest_step;)

@@ -17,7 +17,7 @@
 
 namespace sprag
 {
-  struct KeptTangent;
+  struct StoredJacobian;
 
   /// The state of a model in time. The analysis owns it: a step makes a new one, which is kept only when it is accepted.
   struct Motion
@@ -26,9 +26,9 @@ namespace sprag
     Kinematic coordinates;             ///< of the structure
     dealii::Vector<double> face_force; ///< elastic forces in the static face shapes [N]; empty without such shapes
     std::vector<ContactMemory> contact;
-    PortLoads forces;                            ///< of the step that led here: where the search for the next ones starts
-    std::vector<PointMemory<2>> surface_contact; ///< in three dimensions, in place of `contact`
-    std::shared_ptr<const KeptTangent> tangent;  ///< of a step on the way here; null without
+    PortLoads forces;                              ///< of the step that led here: where the search for the next ones starts
+    std::vector<PointMemory<2>> surface_contact;   ///< in three dimensions, in place of `contact`
+    std::shared_ptr<const StoredJacobian> tangent; ///< of a step on the way here; null without
   };
 
   // Stores the memory of a contact, along a line or on a surface.

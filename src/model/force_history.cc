@@ -69,12 +69,12 @@ namespace sprag
       std::size_t n = 0;
       for (; n < places.size(); ++n)
       {
-        const auto &[ports, of_ports] = places[n].forces;
+        const auto &[ports, port_values] = places[n].forces;
         while (next[n] < ports.size() && ports[next[n]] < result.ports[i])
           ++next[n];
         if (next[n] == ports.size() || ports[next[n]] != result.ports[i])
           break;
-        values[n] = of_ports[next[n]];
+        values[n] = port_values[next[n]];
       }
       result.values[i] = std::inner_product(values.begin(), values.begin() + n, shares[n].begin(), 0.);
     }

@@ -47,7 +47,7 @@ namespace sprag
     }
 
     /// Mass products of the coupling with the accelerations of (p_eta, p_xi, u).
-    Vector<double> mass_product(const PortLayout &ports, const OfLevers &theta, const Kinematic &q)
+    Vector<double> mass_product(const PortLayout &ports, const PerLever &theta, const Kinematic &q)
     {
       Vector<double> result(ports.size());
       for (unsigned int lever = 0; lever < ports.levers; ++lever)
@@ -77,7 +77,7 @@ namespace sprag
       return;
     const Kinematic at = at_end(begin, end, w);
     add_ports(coupled_ports(), forces);
-    const auto place = [&](const unsigned int port) { return place_of(port, forces.ports); };
+    const auto place = [&](const unsigned int port) { return find_index(port, forces.ports); };
     for (unsigned int lever = 0; lever < layout.levers; ++lever)
     {
       const Local q       = weighted(layout, lever, rest, begin, at, w);
@@ -123,16 +123,16 @@ namespace sprag
     return result;
   }
 
-  void FrameCoupling::add_inertia(const std::vector<unsigned int> &ports, const OfLevers &theta,
+  void FrameCoupling::add_inertia(const std::vector<unsigned int> &ports, const PerLever &theta,
                                   FullMatrix<double> &inertia) const
   {
     if (!layout.sprung)
       return;
-    const unsigned int support = place_of(layout.support(), ports);
+    const unsigned int support = find_index(layout.support(), ports);
     const auto couple          = [&](const unsigned int port, const double mass)
     {
-      inertia(place_of(port, ports), support) += mass;
-      inertia(support, place_of(port, ports)) += mass;
+      inertia(find_index(port, ports), support) += mass;
+      inertia(support, find_index(port, ports)) += mass;
     };
     for (unsigned int lever = 0; lever < layout.levers; ++lever)
     {
@@ -146,7 +146,7 @@ namespace sprag
     if (!layout.sprung)
       return;
     const Kinematic after = at_end(begin, end, w);
-    OfLevers theta{};
+    PerLever theta{};
     for (unsigned int lever = 0; lever < layout.levers; ++lever)
       theta[lever] = weighted(layout, lever, rest, begin, after, w).theta;
     work.algorithmic +=

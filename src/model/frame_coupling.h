@@ -19,7 +19,7 @@ namespace sprag
                     PortForces &forces) const;
 
     /// Adds the coupling's mass at inclinations theta to the matrix of those ports, which must hold its own.
-    void add_inertia(const std::vector<unsigned int> &ports, const OfLevers &theta, dealii::FullMatrix<double> &inertia) const;
+    void add_inertia(const std::vector<unsigned int> &ports, const PerLever &theta, dealii::FullMatrix<double> &inertia) const;
 
     /// The ports it acts on, increasing; none without a sprung support.
     std::vector<unsigned int> coupled_ports() const;

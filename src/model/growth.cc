@@ -76,14 +76,14 @@ namespace sprag
     const double rate      = std::norm(lambda);
     const double energy    = rate * mass + potential;
 
-    auto &growth       = result.growth;
-    const auto delayed = perturbation.by_delays(lambda, z);
-    auto friction      = powers(perturbation.friction, z);
-    double of_velocity = rate * form(perturbation.friction_rate, z);
+    auto &growth         = result.growth;
+    const auto delayed   = perturbation.by_delays(lambda, z);
+    auto friction        = powers(perturbation.friction, z);
+    double velocity_part = rate * form(perturbation.friction_rate, z);
     for (unsigned int a = 0; a < z.size(); ++a)
     {
       friction[a] += std::conj(z[a]) * delayed.by_displacement[a];
-      of_velocity += (std::conj(lambda * z[a]) * delayed.by_velocity[a]).real();
+      velocity_part += (std::conj(lambda * z[a]) * delayed.by_velocity[a]).real();
     }
     for (unsigned int a = 0; a < friction.size(); ++a)
     {
@@ -96,14 +96,14 @@ namespace sprag
       else
         growth.friction_support += share;
     }
-    growth.friction_speed    = of_velocity / energy;
+    growth.friction_speed    = velocity_part / energy;
     growth.contact_damping   = rate * form(perturbation.pressure_rate, z) / energy;
     growth.structure_damping = -rate * forms.damping / energy;
 
     result.energy = { forms.spring / potential, forms.elastic / potential, forms.support / potential, contact / potential };
     normalise(mass, layout.rotation(), mode, ports);
     if (layout.levers == 2)
-      result.mirroring = mirroring_of(ports, layout);
+      result.mirroring = symmetric_share(ports, layout);
     result.mode  = std::move(mode);
     result.ports = std::move(ports);
     return result;

@@ -35,12 +35,12 @@ namespace sprag
       return { mean.value + delay * (law.excess(end) - law.excess(begin)), mean.derivative + delay * law.excess_stiffness(end) };
     }
 
-    double opening(const OfLevers &turns)
+    double opening(const PerLever &turns)
     {
       return 0.5 * (turns[0] + turns[1]);
     }
 
-    double swing(const OfLevers &turns)
+    double swing(const PerLever &turns)
     {
       return 0.5 * (turns[0] - turns[1]);
     }
@@ -51,7 +51,7 @@ namespace sprag
       : layout(ports)
       , law(std::move(moment_law))
       , joined(joined_by_free_joint)
-      , given_back(joined ? (1. - swing_stiffness) * law.linear_stiffness() : 0.)
+      , coupling_stiffness(joined ? (1. - swing_stiffness) * law.linear_stiffness() : 0.)
   {
   }
 
@@ -65,10 +65,10 @@ namespace sprag
     add_ports(loaded_ports(), forces);
     for (unsigned int i = 0; i < layout.levers; ++i)
     {
-      const unsigned int row = place_of(layout.rotation(i), forces.ports);
+      const unsigned int row = find_index(layout.rotation(i), forces.ports);
       forces.values[row] += moments.values[i];
       for (unsigned int j = 0; j < layout.levers && forces.has_tangent; ++j)
-        forces.tangent(row, place_of(layout.rotation(j), forces.ports)) += moments.tangent[i][j];
+        forces.tangent(row, find_index(layout.rotation(j), forces.ports)) += moments.tangent[i][j];
     }
   }
 
@@ -87,15 +87,16 @@ namespace sprag
     return result;
   }
 
-  HubSpringExcess::Moments HubSpringExcess::of_step(const OfLevers &begin, const OfLevers &end, const StepWeights &weights) const
+  HubSpringExcess::Moments HubSpringExcess::step_moments(const PerLever &begin, const PerLever &end,
+                                                         const StepWeights &weights) const
   {
     const double delay = weights.delay();
     if (joined)
     {
       const auto excess = delayed_excess(law, opening(begin), opening(end), delay);
       return spread(excess.value, excess.derivative,
-                    given_back * (weights.stiffness() * swing(end) + weights.alpha_f * swing(begin)),
-                    given_back * weights.stiffness());
+                    coupling_stiffness * (weights.stiffness() * swing(end) + weights.alpha_f * swing(begin)),
+                    coupling_stiffness * weights.stiffness());
     }
     Moments result;
     for (unsigned int i = 0; i < layout.levers; ++i)
@@ -107,11 +108,11 @@ namespace sprag
     return result;
   }
 
-  HubSpringExcess::Moments HubSpringExcess::at(const OfLevers &turns, const bool swing_is_held) const
+  HubSpringExcess::Moments HubSpringExcess::at(const PerLever &turns, const bool swing_is_held) const
   {
     if (joined)
-      return spread(law.excess(opening(turns)), law.excess_stiffness(opening(turns)), given_back * swing(turns),
-                    swing_is_held ? given_back : 0.);
+      return spread(law.excess(opening(turns)), law.excess_stiffness(opening(turns)), coupling_stiffness * swing(turns),
+                    swing_is_held ? coupling_stiffness : 0.);
     Moments result;
     for (unsigned int i = 0; i < layout.levers; ++i)
     {
@@ -121,44 +122,45 @@ namespace sprag
     return result;
   }
 
-  void HubSpringExcess::add_forces(const OfLevers &begin, const OfLevers &end, const StepWeights &weights,
+  void HubSpringExcess::add_forces(const PerLever &begin, const PerLever &end, const StepWeights &weights,
                                    PortForces &forces) const
   {
     if (is_active())
-      add(of_step(begin, end, weights), forces);
+      add(step_moments(begin, end, weights), forces);
   }
 
-  void HubSpringExcess::add_forces(const OfLevers &turns, const bool swing_is_held, PortForces &forces) const
+  void HubSpringExcess::add_forces(const PerLever &turns, const bool swing_is_held, PortForces &forces) const
   {
     if (is_active())
       add(at(turns, swing_is_held), forces);
   }
 
-  void HubSpringExcess::add_work(const OfLevers &begin, const OfLevers &end, const StepWeights &weights, StepWork &work) const
+  void HubSpringExcess::add_work(const PerLever &begin, const PerLever &end, const StepWeights &weights, StepWork &work) const
   {
-    const auto of_excess = [&](const double from, const double to)
+    const auto excess_work = [&](const double from, const double to)
     { return weights.delay() * (law.excess(to) - law.excess(from)) * (to - from); };
     if (joined)
     {
       const double change = swing(end) - swing(begin);
-      work.algorithmic += 2. * (of_excess(opening(begin), opening(end)) - weights.delay() * given_back * change * change);
+      work.algorithmic +=
+          2. * (excess_work(opening(begin), opening(end)) - weights.delay() * coupling_stiffness * change * change);
       return;
     }
     for (unsigned int i = 0; i < layout.levers; ++i)
-      work.algorithmic += of_excess(begin[i], end[i]);
+      work.algorithmic += excess_work(begin[i], end[i]);
   }
 
-  double HubSpringExcess::energy(const OfLevers &turns) const
+  double HubSpringExcess::energy(const PerLever &turns) const
   {
     if (joined)
-      return 2. * law.excess_energy(opening(turns)) - given_back * swing(turns) * swing(turns);
+      return 2. * law.excess_energy(opening(turns)) - coupling_stiffness * swing(turns) * swing(turns);
     double total = 0.;
     for (unsigned int i = 0; i < layout.levers; ++i)
       total += law.excess_energy(turns[i]);
     return total;
   }
 
-  void HubSpringExcess::add_stiffness(const std::vector<unsigned int> &ports, const OfLevers &turns,
+  void HubSpringExcess::add_stiffness(const std::vector<unsigned int> &ports, const PerLever &turns,
                                       dealii::FullMatrix<double> &stiffness) const
   {
     if (!is_active())
@@ -166,7 +168,7 @@ namespace sprag
     const auto moments = at(turns, true);
     for (unsigned int i = 0; i < layout.levers; ++i)
       for (unsigned int j = 0; j < layout.levers; ++j)
-        stiffness(place_of(layout.rotation(i), ports), place_of(layout.rotation(j), ports)) += moments.tangent[i][j];
+        stiffness(find_index(layout.rotation(i), ports), find_index(layout.rotation(j), ports)) += moments.tangent[i][j];
   }
 
   std::vector<unsigned int> HubSpringExcess::loaded_ports() const

@@ -21,20 +21,20 @@ namespace sprag
 
     /// Adds the forces of a step from some turns of the hubs to others: the mean over the turn (discrete gradient) with
     /// generalised-alpha's delay, so that no energy is made.
-    void add_forces(const OfLevers &begin, const OfLevers &end, const StepWeights &weights, PortForces &forces) const;
+    void add_forces(const PerLever &begin, const PerLever &end, const StepWeights &weights, PortForces &forces) const;
 
     /// Adds the forces at turns of the hubs. Where nothing else holds the swing of joined springs, the tangent is that of springs
     /// which leave it where it is.
-    void add_forces(const OfLevers &turns, bool swing_is_held, PortForces &forces) const;
+    void add_forces(const PerLever &turns, bool swing_is_held, PortForces &forces) const;
 
     /// Adds the algorithmic dissipation of the step.
-    void add_work(const OfLevers &begin, const OfLevers &end, const StepWeights &weights, StepWork &work) const;
+    void add_work(const PerLever &begin, const PerLever &end, const StepWeights &weights, StepWork &work) const;
 
     /// [N mm]
-    double energy(const OfLevers &turns) const;
+    double energy(const PerLever &turns) const;
 
     /// Adds the derivative of the forces to the matrix of those ports, which hold loaded_ports().
-    void add_stiffness(const std::vector<unsigned int> &ports, const OfLevers &turns,
+    void add_stiffness(const std::vector<unsigned int> &ports, const PerLever &turns,
                        dealii::FullMatrix<double> &stiffness) const;
 
     /// The rotations, or none where it does nothing.
@@ -44,19 +44,19 @@ namespace sprag
     /// Moments on the hubs and their derivatives by the turns.
     struct Moments
     {
-      OfLevers values{};
-      std::array<OfLevers, 2> tangent{};
+      PerLever values{};
+      std::array<PerLever, 2> tangent{};
     };
 
     bool is_active() const;
-    Moments of_step(const OfLevers &begin, const OfLevers &end, const StepWeights &weights) const;
-    Moments at(const OfLevers &turns, bool swing_is_held) const;
+    Moments step_moments(const PerLever &begin, const PerLever &end, const StepWeights &weights) const;
+    Moments at(const PerLever &turns, bool swing_is_held) const;
     Moments spread(double excess, double stiffness, double moment, double moment_stiffness) const;
     void add(const Moments &moments, PortForces &forces) const;
 
     const PortLayout layout;
     const MomentLaw law;
     const bool joined;
-    const double given_back; ///< stiffness against swinging that the joint takes from the structure's [N mm/rad]
+    const double coupling_stiffness; ///< stiffness against swinging that the joint takes from the structure's [N mm/rad]
   };
 } // namespace sprag

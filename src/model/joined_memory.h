@@ -12,11 +12,11 @@ namespace sprag
 
   /// Returns the entries of one lever, with the numbers that its points have alone.
   template <int slips>
-  std::vector<PointMemory<slips>> memory_of_lever(const unsigned int lever, const unsigned int points,
-                                                  const std::vector<PointMemory<slips>> &of_pair)
+  std::vector<PointMemory<slips>> lever_memory(const unsigned int lever, const unsigned int points,
+                                               const std::vector<PointMemory<slips>> &pair_memory)
   {
     std::vector<PointMemory<slips>> result;
-    for (auto entry : of_pair)
+    for (auto entry : pair_memory)
       if (entry.point / points == lever)
       {
         entry.point -= lever * points;

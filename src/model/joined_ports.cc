@@ -7,49 +7,50 @@ namespace sprag
 {
   using dealii::Vector;
 
-  Vector<double> ports_of_lever(const PortLayout &layout, const unsigned int lever, const Vector<double> &of_all)
+  Vector<double> extract_lever_ports(const PortLayout &layout, const unsigned int lever, const Vector<double> &all_ports)
   {
-    if (of_all.size() == 0)
+    if (all_ports.size() == 0)
       return {};
-    const unsigned int n = layout.of_a_lever();
+    const unsigned int n = layout.ports_per_lever();
     Vector<double> result(n + (layout.sprung ? 1 : 0));
-    std::copy_n(of_all.begin() + layout.first(lever), n, result.begin());
+    std::copy_n(all_ports.begin() + layout.first(lever), n, result.begin());
     if (layout.sprung)
-      result[n] = of_all[layout.support()];
+      result[n] = all_ports[layout.support()];
     return result;
   }
 
   unsigned int joined_port(const PortLayout &layout, const unsigned int lever, const unsigned int port)
   {
-    return port < layout.of_a_lever() ? layout.first(lever) + port : layout.support();
+    return port < layout.ports_per_lever() ? layout.first(lever) + port : layout.support();
   }
 
-  void join_forces(const PortLayout &layout, const std::vector<const PortForces *> &of_levers, PortForces &result)
+  void join_forces(const PortLayout &layout, const std::vector<const PortForces *> &per_lever, PortForces &result)
   {
-    if (of_levers.size() == 1)
+    if (per_lever.size() == 1)
     {
-      result = *of_levers.front();
+      result = *per_lever.front();
       return;
     }
     result.ports.clear();
-    for (unsigned int lever = 0; lever < of_levers.size(); ++lever)
-      for (const unsigned int port : of_levers[lever]->ports)
-        if (port < layout.of_a_lever())
+    for (unsigned int lever = 0; lever < per_lever.size(); ++lever)
+      for (const unsigned int port : per_lever[lever]->ports)
+        if (port < layout.ports_per_lever())
           result.ports.push_back(joined_port(layout, lever, port));
     const auto support = static_cast<unsigned int>(result.ports.size());
-    if (std::any_of(of_levers.begin(), of_levers.end(),
-                    [&](const auto &forces) { return !forces->ports.empty() && forces->ports.back() == layout.of_a_lever(); }))
+    if (std::any_of(per_lever.begin(), per_lever.end(),
+                    [&](const auto &forces)
+                    { return !forces->ports.empty() && forces->ports.back() == layout.ports_per_lever(); }))
       result.ports.push_back(layout.support());
 
-    result.has_tangent = std::all_of(of_levers.begin(), of_levers.end(), [](const auto &forces) { return forces->has_tangent; });
+    result.has_tangent = std::all_of(per_lever.begin(), per_lever.end(), [](const auto &forces) { return forces->has_tangent; });
     result.values.reinit(static_cast<unsigned int>(result.ports.size()));
-    const auto n_of_tangent = result.has_tangent ? result.ports.size() : 0;
-    result.tangent.reinit(n_of_tangent, n_of_tangent);
+    const auto tangent_size = result.has_tangent ? result.ports.size() : 0;
+    result.tangent.reinit(tangent_size, tangent_size);
     unsigned int first = 0; // place of the lever's first port
-    for (const auto &forces : of_levers)
+    for (const auto &forces : per_lever)
     {
       const auto n   = static_cast<unsigned int>(forces->ports.size());
-      const auto own = n > 0 && forces->ports.back() == layout.of_a_lever() ? n - 1 : n;
+      const auto own = n > 0 && forces->ports.back() == layout.ports_per_lever() ? n - 1 : n;
       for (unsigned int a = 0; a < n; ++a)
       {
         const unsigned int row = a < own ? first + a : support;

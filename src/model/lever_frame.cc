@@ -26,7 +26,7 @@ namespace sprag
       frame.lengths[ports.slope(slope)] = 0.5 * device.lever.width;
     for (unsigned int lever = 0; lever < ports.levers; ++lever)
     {
-      frame.geometries.push_back(device_of_lever(device, lever).geometry);
+      frame.geometries.push_back(lever_device(device, lever).geometry);
       frame.lengths[ports.rotation(lever)] = device.geometry.pivot_distance;
     }
     return frame;

@@ -37,10 +37,10 @@ namespace sprag
     {
       for (unsigned int i = 0; i < matrix.m(); ++i)
       {
-        Complex of_row;
+        Complex row_product;
         for (unsigned int j = 0; j < matrix.n(); ++j)
-          of_row += matrix(i, j) * z[j];
-        sum[i] += factor * of_row;
+          row_product += matrix(i, j) * z[j];
+        sum[i] += factor * row_product;
       }
     }
 
@@ -67,7 +67,7 @@ namespace sprag
   {
     std::vector<unsigned int> places;
     for (const unsigned int port : other.ports)
-      places.push_back(place_of(port, ports));
+      places.push_back(find_index(port, ports));
     for (const auto matrix : { &PortPerturbation::pressure, &PortPerturbation::friction, &PortPerturbation::pressure_rate,
                                &PortPerturbation::friction_rate, &PortPerturbation::inertia })
       for (unsigned int i = 0; i < places.size(); ++i)

@@ -19,14 +19,14 @@ namespace sprag
     double speed;                                  ///< of the cylinder's surface along the lever [mm/s], != 0
     const dealii::Vector<double> *rates = nullptr; ///< of the ports, which add to the slip; none: at rest
     ContactFriction friction            = ContactFriction::sliding;
-    Wanted wanted                       = Wanted::with_tangent;
+    Request request                     = Request::with_tangent;
     double friction_share               = 1.; ///< times mu of the law, 0 to 1: a friction on the way to the scene's
   };
 
   /// The law that a slide sees.
-  inline FrictionLaw friction_of_slide(const FrictionLaw &friction, const SlidingState &sliding)
+  inline FrictionLaw slide_friction(const FrictionLaw &friction, const SlidingState &sliding)
   {
-    FrictionLaw law = friction_of_step(friction, sliding.drive.v);
+    FrictionLaw law = step_friction(friction, sliding.drive.v);
     law.factor *= sliding.friction_share;
     return law;
   }

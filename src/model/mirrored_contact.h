@@ -27,28 +27,28 @@ namespace sprag
     /// Result of an evaluation.
     struct Evaluation
     {
-      std::array<typename Contact::Evaluation, 2> of_lever;
+      std::array<typename Contact::Evaluation, 2> per_lever;
       PortForces forces;
       bool within_reach   = true;
       unsigned int points = 0; ///< of a lever, see joined_memory()
 
       auto memory() const
       {
-        return joined_memory(points, of_lever[0].memory(), of_lever[1].memory());
+        return joined_memory(points, per_lever[0].memory(), per_lever[1].memory());
       }
       StepWork work() const
       {
-        StepWork result = of_lever[0].work();
-        result += of_lever[1].work();
+        StepWork result = per_lever[0].work();
+        result += per_lever[1].work();
         return result;
       }
       double energy() const
       {
-        return of_lever[0].energy() + of_lever[1].energy();
+        return per_lever[0].energy() + per_lever[1].energy();
       }
       double overlap() const
       {
-        return std::max(of_lever[0].overlap(), of_lever[1].overlap());
+        return std::max(per_lever[0].overlap(), per_lever[1].overlap());
       }
     };
 
@@ -64,15 +64,15 @@ namespace sprag
     {
       for (unsigned int lever = 0; lever < levers; ++lever)
       {
-        const auto memory = memory_of_lever(lever, points, step.memory);
+        const auto memory = lever_memory(lever, points, step.memory);
         const auto surface =
-            step.surface_memory != nullptr ? memory_of_lever(lever, points, *step.surface_memory) : std::vector<PointMemory<2>>();
-        const Kinematic begin{ ports_of(lever, step.begin.position), ports_of(lever, step.begin.velocity),
-                               ports_of(lever, step.begin.acceleration) };
-        const auto end  = ports_of(lever, step.end);
-        const auto rate = ports_of(lever, step.end_rate);
-        contact[lever]->evaluate(PortStep{ step.from, memory, step.to, begin, end, rate, step.weights, &surface, step.wanted },
-                                 found.of_lever[lever]);
+            step.surface_memory != nullptr ? lever_memory(lever, points, *step.surface_memory) : std::vector<PointMemory<2>>();
+        const Kinematic begin{ lever_ports(lever, step.begin.position), lever_ports(lever, step.begin.velocity),
+                               lever_ports(lever, step.begin.acceleration) };
+        const auto end  = lever_ports(lever, step.end);
+        const auto rate = lever_ports(lever, step.end_rate);
+        contact[lever]->evaluate(PortStep{ step.from, memory, step.to, begin, end, rate, step.weights, &surface, step.request },
+                                 found.per_lever[lever]);
       }
       join(found);
     }
@@ -80,22 +80,22 @@ namespace sprag
     void complete(Evaluation &found) const
     {
       for (unsigned int lever = 0; lever < levers; ++lever)
-        contact[lever]->complete(found.of_lever[lever]);
+        contact[lever]->complete(found.per_lever[lever]);
     }
 
     void evaluate_sliding(const SlidingState &state, Evaluation &found) const
     {
-      of_levers(state, found,
-                [&](const unsigned int lever, const SlidingState &own)
-                { contact[lever]->evaluate_sliding(own, found.of_lever[lever]); });
+      for_each_lever(state, found,
+                     [&](const unsigned int lever, const SlidingState &own)
+                     { contact[lever]->evaluate_sliding(own, found.per_lever[lever]); });
     }
 
     PortPerturbation linearise(const SlidingState &state, Evaluation &found) const
     {
       std::array<PortPerturbation, 2> own;
-      of_levers(state, found,
-                [&](const unsigned int lever, const SlidingState &sliding)
-                { own[lever] = contact[lever]->linearise(sliding, found.of_lever[lever]); });
+      for_each_lever(state, found,
+                     [&](const unsigned int lever, const SlidingState &sliding)
+                     { own[lever] = contact[lever]->linearise(sliding, found.per_lever[lever]); });
       PortPerturbation result(found.forces.ports);
       for (unsigned int lever = 0; lever < levers; ++lever)
       {
@@ -106,12 +106,12 @@ namespace sprag
       return result;
     }
 
-    const PortSelection &reachable_ports(const double x, const OfLevers &theta)
+    const PortSelection &reachable_ports(const double x, const PerLever &theta)
     {
       reachable.clear();
       for (unsigned int lever = 0; lever < levers; ++lever)
         for (const unsigned int port : contact[lever]->reachable_ports(x, { { theta[lever] } }))
-          if (port < layout.of_a_lever())
+          if (port < layout.ports_per_lever())
             reachable.push_back(layout.first(lever) + port);
       if (layout.sprung)
         reachable.push_back(layout.support());
@@ -120,45 +120,45 @@ namespace sprag
 
     void widen_reach()
     {
-      for (const auto &of_lever : contact)
-        of_lever->widen_reach();
+      for (const auto &lever_contact : contact)
+        lever_contact->widen_reach();
     }
 
     auto touch(const dealii::Vector<double> &ports, const DrivePoint &drive, Evaluation &found) const
     {
-      const auto of_lever = [&](const unsigned int lever)
-      { return contact[lever]->touch(ports_of(lever, ports), drive, found.of_lever[lever]); };
-      const auto first  = of_lever(0);
-      const auto memory = joined_memory(points, first, of_lever(1));
+      const auto touch_lever = [&](const unsigned int lever)
+      { return contact[lever]->touch(lever_ports(lever, ports), drive, found.per_lever[lever]); };
+      const auto first  = touch_lever(0);
+      const auto memory = joined_memory(points, first, touch_lever(1));
       join(found);
       return memory;
     }
 
-    double gap_change(const Evaluation &found, const dealii::Vector<double> &change_of_ports, const unsigned int lever) const
+    double gap_change(const Evaluation &found, const dealii::Vector<double> &port_change, const unsigned int lever) const
     {
-      return contact[lever]->gap_change(found.of_lever[lever], ports_of(lever, change_of_ports));
+      return contact[lever]->gap_change(found.per_lever[lever], lever_ports(lever, port_change));
     }
 
     /// Mean slip of the first lever [mm].
     double mean_slip(const Evaluation &found, const dealii::Vector<double> &from, const double from_x,
                      const dealii::Vector<double> &to, const double to_x) const
     {
-      return contact[0]->mean_slip(found.of_lever[0], ports_of(0, from), from_x, ports_of(0, to), to_x);
+      return contact[0]->mean_slip(found.per_lever[0], lever_ports(0, from), from_x, lever_ports(0, to), to_x);
     }
 
     void observe(const Evaluation &found, Row &row, const unsigned int lever) const
     {
-      contact[lever]->observe(found.of_lever[lever], row);
+      contact[lever]->observe(found.per_lever[lever], row);
     }
 
     double drive_force(const Evaluation &found) const
     {
-      return contact[0]->drive_force(found.of_lever[0]) + contact[1]->drive_force(found.of_lever[1]);
+      return contact[0]->drive_force(found.per_lever[0]) + contact[1]->drive_force(found.per_lever[1]);
     }
 
     SurfaceShape surface_shape(const dealii::Vector<double> &displacements, const unsigned int lever) const
     {
-      return contact[lever]->surface_shape(ports_of(lever, displacements));
+      return contact[lever]->surface_shape(lever_ports(lever, displacements));
     }
 
     /// Points of the face of either lever.
@@ -168,13 +168,13 @@ namespace sprag
     }
     FaceState face_state(const Evaluation &found, const DrivePoint &drive) const
     {
-      return joined_faces(contact[0]->face_state(found.of_lever[0], drive), contact[1]->face_state(found.of_lever[1], drive));
+      return joined_faces(contact[0]->face_state(found.per_lever[0], drive), contact[1]->face_state(found.per_lever[1], drive));
     }
 
     void visit_history(Archive &archive)
     {
-      for (const auto &of_lever : contact)
-        of_lever->visit_history(archive);
+      for (const auto &lever_contact : contact)
+        lever_contact->visit_history(archive);
     }
 
   private:
@@ -183,30 +183,30 @@ namespace sprag
     const unsigned int points;
     PortSelection reachable;
 
-    dealii::Vector<double> ports_of(const unsigned int lever, const dealii::Vector<double> &of_pair) const
+    dealii::Vector<double> lever_ports(const unsigned int lever, const dealii::Vector<double> &pair_ports) const
     {
-      return ports_of_lever(layout, lever, of_pair);
+      return extract_lever_ports(layout, lever, pair_ports);
     }
 
     /// Evaluates both contacts, each at its own ports.
     template <class Evaluate>
-    void of_levers(const SlidingState &state, Evaluation &found, const Evaluate &evaluate) const
+    void for_each_lever(const SlidingState &state, Evaluation &found, const Evaluate &evaluate) const
     {
       for (unsigned int lever = 0; lever < levers; ++lever)
       {
-        const auto ports = ports_of(lever, state.ports);
-        const auto rates = state.rates != nullptr ? ports_of(lever, *state.rates) : dealii::Vector<double>();
+        const auto ports = lever_ports(lever, state.ports);
+        const auto rates = state.rates != nullptr ? lever_ports(lever, *state.rates) : dealii::Vector<double>();
         evaluate(lever, SlidingState{ ports, state.drive, state.speed, state.rates != nullptr ? &rates : nullptr, state.friction,
-                                      state.wanted, state.friction_share });
+                                      state.request, state.friction_share });
       }
       join(found);
     }
 
     void join(Evaluation &found) const
     {
-      const auto &of = found.of_lever;
-      join_forces(layout, { &of[0].forces, &of[1].forces }, found.forces);
-      found.within_reach = of[0].within_reach && of[1].within_reach;
+      const auto &evaluations = found.per_lever;
+      join_forces(layout, { &evaluations[0].forces, &evaluations[1].forces }, found.forces);
+      found.within_reach = evaluations[0].within_reach && evaluations[1].within_reach;
       found.points       = points;
     }
   };

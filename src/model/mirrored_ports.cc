@@ -14,7 +14,7 @@ namespace sprag
     constexpr auto matrices = { &PortPerturbation::pressure, &PortPerturbation::friction, &PortPerturbation::pressure_rate,
                                 &PortPerturbation::friction_rate, &PortPerturbation::inertia };
 
-    FullMatrix<double> of_coupled_levers(const FullMatrix<double> &mirroring, const FullMatrix<double> &opposite)
+    FullMatrix<double> coupled_compliance(const FullMatrix<double> &mirroring, const FullMatrix<double> &opposite)
     {
       const auto n = mirroring.m();
       FullMatrix<double> result(2 * n);
@@ -28,8 +28,8 @@ namespace sprag
     }
   } // namespace
 
-  MirroredPorts::MirroredPorts(const PortLayout &of_lever)
-      : pair(of_lever)
+  MirroredPorts::MirroredPorts(const PortLayout &lever_layout)
+      : pair(lever_layout)
   {
     pair.levers = 2;
   }
@@ -46,67 +46,67 @@ namespace sprag
 
   unsigned int MirroredPorts::structure_size() const
   {
-    return pair.of_a_lever() + (pair.sprung ? 1 : 0);
+    return pair.ports_per_lever() + (pair.sprung ? 1 : 0);
   }
 
-  bool MirroredPorts::is_support(const unsigned int port_of_pair) const
+  bool MirroredPorts::is_support(const unsigned int pair_port) const
   {
-    return pair.sprung && port_of_pair == pair.support();
+    return pair.sprung && pair_port == pair.support();
   }
 
-  unsigned int MirroredPorts::port_of_structure(const unsigned int port_of_pair) const
+  unsigned int MirroredPorts::structure_port(const unsigned int pair_port) const
   {
-    return is_support(port_of_pair) ? pair.of_a_lever() : port_of_pair % pair.of_a_lever();
+    return is_support(pair_port) ? pair.ports_per_lever() : pair_port % pair.ports_per_lever();
   }
 
-  PortSelection MirroredPorts::of_structure(const PortSelection &of_pair) const
+  PortSelection MirroredPorts::structure_ports(const PortSelection &paired) const
   {
-    const auto second = std::lower_bound(of_pair.begin(), of_pair.end(), pair.first(1));
-    const auto beyond = std::lower_bound(second, of_pair.end(), pair.support());
-    PortSelection of_second, result;
-    std::transform(second, beyond, std::back_inserter(of_second),
-                   [&](const unsigned int port) { return port_of_structure(port); });
-    std::set_union(of_pair.begin(), second, of_second.begin(), of_second.end(), std::back_inserter(result));
-    if (beyond != of_pair.end())
-      result.push_back(port_of_structure(*beyond));
+    const auto second = std::lower_bound(paired.begin(), paired.end(), pair.first(1));
+    const auto beyond = std::lower_bound(second, paired.end(), pair.support());
+    PortSelection second_ports, result;
+    std::transform(second, beyond, std::back_inserter(second_ports),
+                   [&](const unsigned int port) { return structure_port(port); });
+    std::set_union(paired.begin(), second, second_ports.begin(), second_ports.end(), std::back_inserter(result));
+    if (beyond != paired.end())
+      result.push_back(structure_port(*beyond));
     return result;
   }
 
   Vector<double> MirroredPorts::displacements(const Vector<double> &mirroring, const Vector<double> &opposite) const
   {
     Vector<double> result(pair.size());
-    for (unsigned int i = 0; i < pair.of_a_lever(); ++i)
+    for (unsigned int i = 0; i < pair.ports_per_lever(); ++i)
     {
       result[pair.first(0) + i] = share() * (mirroring[i] + opposite[i]);
       result[pair.first(1) + i] = share() * (mirroring[i] - opposite[i]);
     }
     if (pair.sprung)
-      result[pair.support()] = share() * mirroring[pair.of_a_lever()];
+      result[pair.support()] = share() * mirroring[pair.ports_per_lever()];
     return result;
   }
 
-  PortState MirroredPorts::state(const unsigned int port_of_pair, const PortState &mirroring, const PortState &opposite) const
+  PortState MirroredPorts::state(const unsigned int pair_port, const PortState &mirroring, const PortState &opposite) const
   {
-    if (is_support(port_of_pair))
+    if (is_support(pair_port))
       return { share() * mirroring.position, share() * mirroring.velocity };
-    const double side = port_of_pair < pair.first(1) ? share() : -share();
+    const double side = pair_port < pair.first(1) ? share() : -share();
     return { share() * mirroring.position + side * opposite.position, share() * mirroring.velocity + side * opposite.velocity };
   }
 
-  PortForces MirroredPorts::forces(const PortForces &of_pair, const unsigned int motion) const
+  PortForces MirroredPorts::forces(const PortForces &paired, const unsigned int motion) const
   {
     PortForces result;
-    result.ports = of_structure(of_pair.ports);
-    if (motion == 1 && !result.ports.empty() && result.ports.back() == pair.of_a_lever())
+    result.ports = structure_ports(paired.ports);
+    if (motion == 1 && !result.ports.empty() && result.ports.back() == pair.ports_per_lever())
       result.ports.pop_back();
     result.values.reinit(static_cast<unsigned int>(result.ports.size()));
-    for (unsigned int a = 0; a < of_pair.ports.size(); ++a)
+    for (unsigned int a = 0; a < paired.ports.size(); ++a)
     {
-      const unsigned int port = of_pair.ports[a];
+      const unsigned int port = paired.ports[a];
       if (is_support(port) && motion == 1)
         continue;
       const bool against = motion == 1 && port >= pair.first(1);
-      result.values[place_of(port_of_structure(port), result.ports)] += (against ? -share() : share()) * of_pair.values[a];
+      result.values[find_index(structure_port(port), result.ports)] += (against ? -share() : share()) * paired.values[a];
     }
     return result;
   }
@@ -115,46 +115,46 @@ namespace sprag
                                            const bool alike) const
   {
     PortCompliance result;
-    const auto &of_lever = mirroring.blocks().front().matrix;
+    const auto &lever_compliance = mirroring.blocks().front().matrix;
     if (alike)
       for (unsigned int lever = 0; lever < 2; ++lever)
-        result.append(of_lever);
+        result.append(lever_compliance);
     else
-      result.append(of_coupled_levers(*of_lever, *opposite.blocks().front().matrix));
+      result.append(coupled_compliance(*lever_compliance, *opposite.blocks().front().matrix));
     if (pair.sprung)
-      result.append(0.5 * mirroring(pair.of_a_lever(), pair.of_a_lever()));
+      result.append(0.5 * mirroring(pair.ports_per_lever(), pair.ports_per_lever()));
     return result;
   }
 
-  FullMatrix<double> MirroredPorts::displacements_by(const std::vector<unsigned int> &of_both,
-                                                     const std::vector<unsigned int> &of_pair) const
+  FullMatrix<double> MirroredPorts::displacements_by(const std::vector<unsigned int> &both_ports,
+                                                     const std::vector<unsigned int> &paired) const
   {
-    FullMatrix<double> result(of_pair.size(), of_both.size());
-    for (unsigned int a = 0; a < of_pair.size(); ++a)
+    FullMatrix<double> result(paired.size(), both_ports.size());
+    for (unsigned int a = 0; a < paired.size(); ++a)
     {
-      const unsigned int port            = port_of_structure(of_pair[a]);
-      result(a, place_of(port, of_both)) = share();
-      if (!is_support(of_pair[a]))
-        result(a, place_of(structure_size() + port, of_both)) = of_pair[a] < pair.first(1) ? share() : -share();
+      const unsigned int port                 = structure_port(paired[a]);
+      result(a, find_index(port, both_ports)) = share();
+      if (!is_support(paired[a]))
+        result(a, find_index(structure_size() + port, both_ports)) = paired[a] < pair.first(1) ? share() : -share();
     }
     return result;
   }
 
-  PortPerturbation MirroredPorts::on_both(const PortPerturbation &of_pair) const
+  PortPerturbation MirroredPorts::on_both(const PortPerturbation &paired) const
   {
-    if (of_pair.ports.empty())
-      return of_pair;
+    if (paired.ports.empty())
+      return paired;
     PortPerturbation result;
-    result.ports = of_structure(of_pair.ports);
+    result.ports = structure_ports(paired.ports);
     for (const unsigned int port : PortSelection(result.ports))
-      if (port != pair.of_a_lever())
+      if (port != pair.ports_per_lever())
         result.ports.push_back(structure_size() + port);
     const auto n  = static_cast<unsigned int>(result.ports.size());
-    const auto by = displacements_by(result.ports, of_pair.ports);
+    const auto by = displacements_by(result.ports, paired.ports);
     for (const auto matrix : matrices)
     {
       (result.*matrix).reinit(n, n);
-      (result.*matrix).triple_product(of_pair.*matrix, by, by, true, false);
+      (result.*matrix).triple_product(paired.*matrix, by, by, true, false);
     }
     const auto transformed = [&](const Vector<double> &row)
     {
@@ -162,7 +162,7 @@ namespace sprag
       by.Tvmult(on_structures, row);
       return on_structures;
     };
-    for (const auto &delay : of_pair.delays)
+    for (const auto &delay : paired.delays)
       result.delays.push_back(
           { delay.time, transformed(delay.force), transformed(delay.stiffness_row), transformed(delay.rate_row) });
     return result;
@@ -171,8 +171,8 @@ namespace sprag
   /// Places of the ports of a structure: the first, and beyond the last.
   std::pair<unsigned int, unsigned int> MirroredPorts::range(const PortPerturbation &both, const unsigned int motion) const
   {
-    const unsigned int of_opposite = place_of(structure_size(), both.ports);
-    return motion == 0 ? std::pair(0u, of_opposite) : std::pair(of_opposite, static_cast<unsigned int>(both.ports.size()));
+    const unsigned int opposite_begin = find_index(structure_size(), both.ports);
+    return motion == 0 ? std::pair(0u, opposite_begin) : std::pair(opposite_begin, static_cast<unsigned int>(both.ports.size()));
   }
 
   bool MirroredPorts::couples(const PortPerturbation &both) const
@@ -190,7 +190,7 @@ namespace sprag
     return between > round_off * within;
   }
 
-  PortPerturbation MirroredPorts::on_structure(const PortPerturbation &of_pair, const PortPerturbation &both,
+  PortPerturbation MirroredPorts::on_structure(const PortPerturbation &paired, const PortPerturbation &both,
                                                const unsigned int motion) const
   {
     const auto [begin, end] = range(both, motion);
@@ -205,20 +205,20 @@ namespace sprag
       (result.*matrix).fill(both.*matrix, 0, 0, begin, begin);
     }
     // A delay of the first lever stands for that and the second lever's, each at its share.
-    const auto of_structure = [first = begin, last = end](const Vector<double> &row)
+    const auto structure_row = [first = begin, last = end](const Vector<double> &row)
     {
       Vector<double> values(row.begin() + first, row.begin() + last);
       values /= share();
       return values;
     };
-    for (unsigned int i = 0; i < of_pair.delays.size(); ++i)
-      if (const auto &delay = both.delays[i]; is_of_first_lever(of_pair.ports, of_pair.delays[i]))
+    for (unsigned int i = 0; i < paired.delays.size(); ++i)
+      if (const auto &delay = both.delays[i]; acts_on_first_lever(paired.ports, paired.delays[i]))
         result.delays.push_back(
-            { delay.time, of_structure(delay.force), of_structure(delay.stiffness_row), of_structure(delay.rate_row) });
+            { delay.time, structure_row(delay.force), structure_row(delay.stiffness_row), structure_row(delay.rate_row) });
     return result;
   }
 
-  bool MirroredPorts::is_of_first_lever(const std::vector<unsigned int> &ports, const FrictionDelay &delay) const
+  bool MirroredPorts::acts_on_first_lever(const std::vector<unsigned int> &ports, const FrictionDelay &delay) const
   {
     for (unsigned int a = 0; a < ports.size(); ++a)
       if (ports[a] < pair.support() && delay.force[a] != 0.)

@@ -24,13 +24,13 @@ namespace sprag
     MirroredStructure(std::unique_ptr<Structure> mirroring, std::unique_ptr<Structure> opposite, const bool alike_)
         : parts{ { std::move(mirroring), std::move(opposite) } }
         , alike(alike_)
-        , of_pair(parts[0]->ports())
+        , mirrored(parts[0]->ports())
     {
     }
 
     const PortLayout &ports() const
     {
-      return of_pair.layout();
+      return mirrored.layout();
     }
 
     Motion rest() const
@@ -60,48 +60,49 @@ namespace sprag
 
     Motion deform(const PortForces &forces) const
     {
-      return joined(parts[0]->deform(of_pair.forces(forces, 0)), parts[1]->deform(of_pair.forces(forces, 1)));
+      return joined(parts[0]->deform(mirrored.forces(forces, 0)), parts[1]->deform(mirrored.forces(forces, 1)));
     }
 
     dealii::Vector<double> port_positions(const Motion &motion) const
     {
-      return of_pair.displacements(parts[0]->port_positions(part_of(motion, 0)), parts[1]->port_positions(part_of(motion, 1)));
+      return mirrored.displacements(parts[0]->port_positions(motion_part(motion, 0)),
+                                    parts[1]->port_positions(motion_part(motion, 1)));
     }
 
     dealii::Vector<double> port_positions(const Motion &motion, const PortSelection &selected) const
     {
-      const auto local = of_pair.of_structure(selected);
-      return of_pair.displacements(parts[0]->port_positions(part_of(motion, 0), local),
-                                   parts[1]->port_positions(part_of(motion, 1), local));
+      const auto local = mirrored.structure_ports(selected);
+      return mirrored.displacements(parts[0]->port_positions(motion_part(motion, 0), local),
+                                    parts[1]->port_positions(motion_part(motion, 1), local));
     }
 
     PortState port_state(const Motion &motion, const unsigned int port) const
     {
-      const unsigned int local = of_pair.port_of_structure(port);
-      return of_pair.state(port, parts[0]->port_state(part_of(motion, 0), local),
-                           parts[1]->port_state(part_of(motion, 1), local));
+      const unsigned int local = mirrored.structure_port(port);
+      return mirrored.state(port, parts[0]->port_state(motion_part(motion, 0), local),
+                            parts[1]->port_state(motion_part(motion, 1), local));
     }
 
     Kinematic port_kinematics(const Motion &motion) const
     {
-      const auto mirroring = parts[0]->port_kinematics(part_of(motion, 0));
-      const auto opposite  = parts[1]->port_kinematics(part_of(motion, 1));
-      return { of_pair.displacements(mirroring.position, opposite.position),
-               of_pair.displacements(mirroring.velocity, opposite.velocity),
-               of_pair.displacements(mirroring.acceleration, opposite.acceleration) };
+      const auto mirroring = parts[0]->port_kinematics(motion_part(motion, 0));
+      const auto opposite  = parts[1]->port_kinematics(motion_part(motion, 1));
+      return { mirrored.displacements(mirroring.position, opposite.position),
+               mirrored.displacements(mirroring.velocity, opposite.velocity),
+               mirrored.displacements(mirroring.acceleration, opposite.acceleration) };
     }
 
     dealii::Vector<double> free_ports(const Motion &accepted, const PortSelection &selected) const
     {
-      const auto local = of_pair.of_structure(selected);
-      return of_pair.displacements(parts[0]->free_ports(part_of(accepted, 0), local),
-                                   parts[1]->free_ports(part_of(accepted, 1), local));
+      const auto local = mirrored.structure_ports(selected);
+      return mirrored.displacements(parts[0]->free_ports(motion_part(accepted, 0), local),
+                                    parts[1]->free_ports(motion_part(accepted, 1), local));
     }
 
     Motion advance(const Motion &accepted, const PortForces &forces, const DrivePoint &to) const
     {
-      Motion result = joined(parts[0]->advance(part_of(accepted, 0), of_pair.forces(forces, 0), to),
-                             parts[1]->advance(part_of(accepted, 1), of_pair.forces(forces, 1), to));
+      Motion result = joined(parts[0]->advance(motion_part(accepted, 0), mirrored.forces(forces, 0), to),
+                             parts[1]->advance(motion_part(accepted, 1), mirrored.forces(forces, 1), to));
       result.drive  = to;
       return result;
     }
@@ -109,39 +110,39 @@ namespace sprag
     void add_work(const Motion &begin, const Motion &end, StepWork &work) const
     {
       for (unsigned int part = 0; part < 2; ++part)
-        parts[part]->add_work(part_of(begin, part), part_of(end, part), work);
+        parts[part]->add_work(motion_part(begin, part), motion_part(end, part), work);
     }
 
     StoredEnergy stored_energy(const Motion &motion) const
     {
-      StoredEnergy sum     = parts[0]->stored_energy(part_of(motion, 0));
-      const auto of_second = parts[1]->stored_energy(part_of(motion, 1));
-      sum.kinetic += of_second.kinetic;
-      sum.spring += of_second.spring;
-      sum.elastic += of_second.elastic;
-      sum.layer += of_second.layer;
-      sum.support += of_second.support;
+      StoredEnergy sum         = parts[0]->stored_energy(motion_part(motion, 0));
+      const auto second_energy = parts[1]->stored_energy(motion_part(motion, 1));
+      sum.kinetic += second_energy.kinetic;
+      sum.spring += second_energy.spring;
+      sum.elastic += second_energy.elastic;
+      sum.layer += second_energy.layer;
+      sum.support += second_energy.support;
       return sum;
     }
 
     dealii::Vector<double> port_error(const Motion &begin, const Motion &end) const
     {
-      return of_pair.displacements(parts[0]->port_error(part_of(begin, 0), part_of(end, 0)),
-                                   parts[1]->port_error(part_of(begin, 1), part_of(end, 1)));
+      return mirrored.displacements(parts[0]->port_error(motion_part(begin, 0), motion_part(end, 0)),
+                                    parts[1]->port_error(motion_part(begin, 1), motion_part(end, 1)));
     }
 
     /// Vibrations of both motions. Forces that do not mirror as the levers do couple them, which must be small structures then.
     std::vector<StructureMode> vibrations(const PortPerturbation &forces, const unsigned int number)
     {
-      const auto both = of_pair.on_both(forces);
+      const auto both = mirrored.on_both(forces);
       std::vector<StructureMode> result;
-      if (Structure::is_small && of_pair.couples(both))
-        result = vibrations_of_both(both);
+      if (Structure::is_small && mirrored.couples(both))
+        result = pair_vibrations(both);
       else
         for (unsigned int part = 0; part < 2; ++part)
-          for (auto &mode : parts[part]->vibrations(of_pair.on_structure(forces, both, part), number))
+          for (auto &mode : parts[part]->vibrations(mirrored.on_structure(forces, both, part), number))
             result.push_back(in_place(std::move(mode), part));
-      result.erase(std::remove_if(result.begin(), result.end(), [&](const auto &mode) { return is_of_idle_support(mode); }),
+      result.erase(std::remove_if(result.begin(), result.end(), [&](const auto &mode) { return is_idle_support(mode); }),
                    result.end());
       std::sort(result.begin(), result.end(),
                 [](const auto &a, const auto &b) { return std::abs(a.eigenvalue) < std::abs(b.eigenvalue); });
@@ -150,23 +151,24 @@ namespace sprag
 
     double damping_form(const Motion &velocities) const
     {
-      return parts[0]->damping_form(part_of(velocities, 0)) + parts[1]->damping_form(part_of(velocities, 1));
+      return parts[0]->damping_form(motion_part(velocities, 0)) + parts[1]->damping_form(motion_part(velocities, 1));
     }
 
     /// A lever's part of what a function finds for a motion of either structure.
     template <class Find>
-    dealii::Vector<double> of_lever(const Motion &motion, const unsigned int lever, const Find &find) const
+    dealii::Vector<double> lever_vector(const Motion &motion, const unsigned int lever, const Find &find) const
     {
-      auto result = find(0, part_of(motion, 0));
-      result.add(lever == 0 ? 1. : -1., find(1, part_of(motion, 1)));
+      auto result = find(0, motion_part(motion, 0));
+      result.add(lever == 0 ? 1. : -1., find(1, motion_part(motion, 1)));
       result *= MirroredPorts::share();
       return result;
     }
 
     dealii::Vector<double> elastic_displacement(const Motion &motion, const unsigned int lever) const
     {
-      return of_lever(motion, lever,
-                      [&](const unsigned int part, const Motion &of) { return parts[part]->elastic_displacement(of); });
+      return lever_vector(motion, lever,
+                          [&](const unsigned int part, const Motion &part_motion)
+                          { return parts[part]->elastic_displacement(part_motion); });
     }
 
     void visit_history(Archive &archive)
@@ -178,14 +180,14 @@ namespace sprag
   private:
     const std::array<std::unique_ptr<Structure>, 2> parts;
     const bool alike;
-    const MirroredPorts of_pair;
+    const MirroredPorts mirrored;
     StepWeights joined_for{}; ///< step of the compliance; of dt = 0 in statics
     PortCompliance joined_compliance;
 
     void use_compliance(const StepWeights &weights)
     {
       joined_for        = weights;
-      joined_compliance = of_pair.compliance(parts[0]->compliance(), parts[1]->compliance(), alike);
+      joined_compliance = mirrored.compliance(parts[0]->compliance(), parts[1]->compliance(), alike);
     }
 
     static dealii::Vector<double> half(const dealii::Vector<double> &whole, const unsigned int part)
@@ -203,7 +205,7 @@ namespace sprag
       return result;
     }
 
-    static Motion part_of(const Motion &motion, const unsigned int part)
+    static Motion motion_part(const Motion &motion, const unsigned int part)
     {
       const auto &q = motion.coordinates;
       Motion result;
@@ -224,25 +226,25 @@ namespace sprag
       return result;
     }
 
-    std::vector<StructureMode> vibrations_of_both([[maybe_unused]] const PortPerturbation &of_both) const
+    std::vector<StructureMode> pair_vibrations([[maybe_unused]] const PortPerturbation &pair_perturbation) const
     {
       if constexpr (Structure::is_small)
-        return parts[0]->vibrations_with(*parts[1], of_both);
+        return parts[0]->vibrations_with(*parts[1], pair_perturbation);
       return {};
     }
 
     /// The second structure's coordinate of the support, which nothing moves, is a mode that the pair does not have.
-    bool is_of_idle_support(const StructureMode &mode) const
+    bool is_idle_support(const StructureMode &mode) const
     {
       if (!ports().sprung)
         return false;
-      double size = 0., of_support = 0.;
+      double size = 0., support_size = 0.;
       for (const auto &part : mode.coordinates)
       {
         size += part.norm_sqr();
-        of_support += part[part.size() - 1] * part[part.size() - 1];
+        support_size += part[part.size() - 1] * part[part.size() - 1];
       }
-      return of_support > 0.999 * size;
+      return support_size > 0.999 * size;
     }
 
     static StructureMode in_place(StructureMode mode, const unsigned int part)

@@ -93,7 +93,7 @@ namespace sprag
     return std::abs(a.eigenvalue - b.eigenvalue) <= tie * std::abs(a.eigenvalue);
   }
 
-  double mirroring_of(const ComplexVector &ports, const PortLayout &layout)
+  double symmetric_share(const ComplexVector &ports, const PortLayout &layout)
   {
     const auto found = products(ports, ports, layout);
     return found.crossed.real() / found.own.real();

@@ -14,7 +14,7 @@ namespace sprag
   bool are_tied(const StructureMode &a, const StructureMode &b);
 
   /// Degree to which the levers mirror each other in a mode of a pair: 1 where they do, -1 where the second does the opposite.
-  double mirroring_of(const ComplexVector &ports, const PortLayout &layout);
+  double symmetric_share(const ComplexVector &ports, const PortLayout &layout);
 
   /// Two modes of a pair with one eigenvalue, as levers have that feel nothing of each other, are known up to their combinations.
   /// Puts the combination that mirrors most in place of the first and the one orthogonal to it in place of the second: where the

@@ -14,7 +14,7 @@ namespace sprag
 
   namespace
   {
-    FullMatrix<double> inverse_of(const FullMatrix<double> &matrix)
+    FullMatrix<double> inverse_matrix(const FullMatrix<double> &matrix)
     {
       LAPACKFullMatrix<double> lapack(static_cast<unsigned int>(matrix.m()));
       lapack = matrix;
@@ -47,8 +47,8 @@ namespace sprag
       if (loaded.empty())
         return;
       forces *= share;
-      const auto rows = ranges_of(selected.begin(), std::lower_bound(selected.begin(), selected.end(), forces.size()));
-      for (const auto &columns : ranges_of(loaded.begin(), loaded.end()))
+      const auto rows = find_ranges(selected.begin(), std::lower_bound(selected.begin(), selected.end(), forces.size()));
+      for (const auto &columns : find_ranges(loaded.begin(), loaded.end()))
         for (const auto &row : rows)
           add_block_product(compliance, row, columns, forces.begin() + columns.begin, displacements.begin() + row.begin);
     }
@@ -120,24 +120,24 @@ namespace sprag
     return motion;
   }
 
-  PortCompliance ModalStructure::port_compliance(const FullMatrix<double> &inverse, const double share_of_static) const
+  PortCompliance ModalStructure::port_compliance(const FullMatrix<double> &inverse, const double static_share) const
   {
     // Without a matrix of all ports beside it, whose room in memory would not serve again.
-    const unsigned int n = data.ports.of_a_lever();
-    FullMatrix<double> of_lever(n), half(n_ports(), n_modes()), shapes(n, n_modes()), own(n, n_modes());
+    const unsigned int n = data.ports.ports_per_lever();
+    FullMatrix<double> lever_compliance(n), half(n_ports(), n_modes()), shapes(n, n_modes()), own(n, n_modes());
     data.shapes.mmult(half, inverse);
     shapes.fill(data.shapes);
     own.fill(half);
-    own.mTmult(of_lever, shapes);
+    own.mTmult(lever_compliance, shapes);
     for (unsigned int i = 0; i < data.face_compliance.m(); ++i)
       for (unsigned int j = 0; j < data.face_compliance.n(); ++j)
-        of_lever(i, j) += share_of_static * data.face_compliance(i, j);
+        lever_compliance(i, j) += static_share * data.face_compliance(i, j);
     PortCompliance result;
-    result.append(std::move(of_lever));
+    result.append(std::move(lever_compliance));
     if (data.ports.sprung)
     {
-      const double *const of_support = &half(data.ports.support(), 0);
-      result.append(std::inner_product(of_support, of_support + n_modes(), &data.shapes(data.ports.support(), 0), 0.));
+      const double *const support_row = &half(data.ports.support(), 0);
+      result.append(std::inner_product(support_row, support_row + n_modes(), &data.shapes(data.ports.support(), 0), 0.));
     }
     return result;
   }
@@ -161,7 +161,7 @@ namespace sprag
     effective.add(weights.damping(), data.damping);
     for (unsigned int i = 0; i < n_modes(); ++i)
       effective(i, i) += weights.mass() + weights.stiffness() * data.stiffness[i];
-    step->inverse    = inverse_of(effective);
+    step->inverse    = inverse_matrix(effective);
     step->compliance = port_compliance(step->inverse, 1. / static_weight(weights));
     return step;
   }
@@ -317,10 +317,10 @@ namespace sprag
     for (unsigned int i = 0; i < n_modes(); ++i)
       work.algorithmic += w.delay() * data.stiffness[i] * change[i] * change[i];
 
-    Vector<double> change_of_force = end.face_force;
-    if (change_of_force.size() > 0)
-      change_of_force -= begin.face_force;
-    const double static_change = quadratic_form(data.face_compliance, change_of_force);
+    Vector<double> force_change = end.face_force;
+    if (force_change.size() > 0)
+      force_change -= begin.face_force;
+    const double static_change = quadratic_form(data.face_compliance, force_change);
     work.damping += data.relaxation / w.dt * static_change;
     work.algorithmic += w.delay() * static_change;
   }
@@ -372,16 +372,16 @@ namespace sprag
 
   std::vector<StructureMode> ModalStructure::vibrations_with(const ModalStructure &other, const PortPerturbation &forces) const
   {
-    auto modes                 = modal_vibrations(stacked(data, other.data), forces);
-    const std::size_t of_this  = data.face_compliance.m();
-    const std::size_t of_other = other.data.face_compliance.m();
+    auto modes                   = modal_vibrations(stacked(data, other.data), forces);
+    const std::size_t own_size   = data.face_compliance.m();
+    const std::size_t other_size = other.data.face_compliance.m();
     for (auto &mode : modes)
       for (auto &force : mode.face_force)
       {
-        Vector<double> joined(static_cast<unsigned int>(of_this + of_other));
-        std::copy_n(force.begin(), of_this, joined.begin());
-        if (of_other > 0)
-          std::copy_n(force.begin() + n_ports(), of_other, joined.begin() + of_this);
+        Vector<double> joined(static_cast<unsigned int>(own_size + other_size));
+        std::copy_n(force.begin(), own_size, joined.begin());
+        if (other_size > 0)
+          std::copy_n(force.begin() + n_ports(), other_size, joined.begin() + own_size);
         force = joined;
       }
     return modes;

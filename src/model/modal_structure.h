@@ -108,7 +108,7 @@ namespace sprag
     std::vector<unsigned int> loaded_ports(const Motion &motion, unsigned int first_selected) const;
     double port_position(const Motion &motion, const std::vector<unsigned int> &loaded, unsigned int port) const;
     std::unique_ptr<Step> make_step(const StepWeights &weights) const;
-    PortCompliance port_compliance(const dealii::FullMatrix<double> &inverse, double share_of_static) const;
+    PortCompliance port_compliance(const dealii::FullMatrix<double> &inverse, double static_share) const;
     dealii::Vector<double> modal_forces(const PortForces &forces) const;
     double static_weight(const StepWeights &w) const;
 

@@ -42,8 +42,8 @@ namespace sprag
       {
         LAPACKFullMatrix<double> a(size());
         LAPACKFullMatrix<double> e(size());
-        a = of_state;
-        e = of_rate;
+        a = state_matrix;
+        e = rate_matrix;
         try
         {
           a.compute_lu_factorization();
@@ -87,8 +87,8 @@ namespace sprag
       const unsigned int n_forces;
       unsigned int n_static = 0; ///< of the forces, the first ones
       FullMatrix<double> shapes; ///< a row a force
-      FullMatrix<double> of_state;
-      FullMatrix<double> of_rate;
+      FullMatrix<double> state_matrix;
+      FullMatrix<double> rate_matrix;
 
       unsigned int size() const
       {
@@ -128,33 +128,33 @@ namespace sprag
           for (unsigned int b = 0; b < n_static; ++b)
             compliance(a, b) = data.face_compliance(forces.ports[a], forces.ports[b]);
         }
-        of_state.reinit(size(), size());
-        of_rate.reinit(size(), size());
+        state_matrix.reinit(size(), size());
+        rate_matrix.reinit(size(), size());
         for (unsigned int i = 0; i < n; ++i)
         {
-          of_state(i, n + i) = 1.;
-          of_rate(i, i)      = 1.;
-          of_state(n + i, i) -= data.stiffness[i];
-          of_rate(n + i, n + i) += 1.;
+          state_matrix(i, n + i) = 1.;
+          rate_matrix(i, i)      = 1.;
+          state_matrix(n + i, i) -= data.stiffness[i];
+          rate_matrix(n + i, n + i) += 1.;
           for (unsigned int j = 0; j < n; ++j)
-            of_state(n + i, n + j) -= data.damping(i, j);
+            state_matrix(n + i, n + j) -= data.damping(i, j);
         }
         for (unsigned int a = 0; a < n_static; ++a)
         {
-          of_state(at_u + a, at_u + a) -= 1.;
-          of_rate(at_u + a, at_u + a) += data.relaxation;
+          state_matrix(at_u + a, at_u + a) -= 1.;
+          rate_matrix(at_u + a, at_u + a) += data.relaxation;
         }
         const auto stiffness = forces.immediate_stiffness();
         const auto damping   = forces.immediate_damping();
-        add_product(transposed, stiffness, shapes, 1., n, 0, of_state);
-        add_product(transposed, damping, shapes, 1., n, n, of_state);
-        add_product(transposed, stiffness, into_static, 1., n, at_u, of_state);
-        add_product(transposed, damping, into_static, -1., n, at_u, of_rate);
-        add_product(transposed, forces.inertia, shapes, 1., n, n, of_rate);
-        add_product(compliance, stiffness, shapes, 1., at_u, 0, of_state);
-        add_product(compliance, damping, shapes, 1., at_u, n, of_state);
-        add_product(compliance, stiffness, into_static, 1., at_u, at_u, of_state);
-        add_product(compliance, damping, into_static, -1., at_u, at_u, of_rate);
+        add_product(transposed, stiffness, shapes, 1., n, 0, state_matrix);
+        add_product(transposed, damping, shapes, 1., n, n, state_matrix);
+        add_product(transposed, stiffness, into_static, 1., n, at_u, state_matrix);
+        add_product(transposed, damping, into_static, -1., n, at_u, rate_matrix);
+        add_product(transposed, forces.inertia, shapes, 1., n, n, rate_matrix);
+        add_product(compliance, stiffness, shapes, 1., at_u, 0, state_matrix);
+        add_product(compliance, damping, shapes, 1., at_u, n, state_matrix);
+        add_product(compliance, stiffness, into_static, 1., at_u, at_u, state_matrix);
+        add_product(compliance, damping, into_static, -1., at_u, at_u, rate_matrix);
         if (n_delays() > 0)
           assemble_delays(transposed, into_static, compliance);
       }
@@ -171,8 +171,8 @@ namespace sprag
         for (unsigned int i = 0; i < n_delays(); ++i)
         {
           const auto &delay = forces.delays[i];
-          of_state(at_tau + i, at_tau + i) -= 1.;
-          of_rate(at_tau + i, at_tau + i) += delay.time;
+          state_matrix(at_tau + i, at_tau + i) -= 1.;
+          rate_matrix(at_tau + i, at_tau + i) += delay.time;
           for (unsigned int a = 0; a < n_forces; ++a)
           {
             force(a, i)     = delay.force[a];
@@ -180,12 +180,12 @@ namespace sprag
             rate(i, a)      = delay.rate_row[a];
           }
         }
-        add_product(transposed, force, one_delay, 1., n, at_tau, of_state);
-        add_product(compliance, force, one_delay, 1., at_u, at_tau, of_state);
-        add_product(stiffness, one_force, shapes, 1., at_tau, 0, of_state);
-        add_product(rate, one_force, shapes, 1., at_tau, n, of_state);
-        add_product(stiffness, one_force, into_static, 1., at_tau, at_u, of_state);
-        add_product(rate, one_force, into_static, -1., at_tau, at_u, of_rate);
+        add_product(transposed, force, one_delay, 1., n, at_tau, state_matrix);
+        add_product(compliance, force, one_delay, 1., at_u, at_tau, state_matrix);
+        add_product(stiffness, one_force, shapes, 1., at_tau, 0, state_matrix);
+        add_product(rate, one_force, shapes, 1., at_tau, n, state_matrix);
+        add_product(stiffness, one_force, into_static, 1., at_tau, at_u, state_matrix);
+        add_product(rate, one_force, into_static, -1., at_tau, at_u, rate_matrix);
       }
 
       std::vector<Complex> port_amplitudes(const Eigenpair &pair) const
@@ -204,25 +204,25 @@ namespace sprag
       /// Residual in modes and static shapes over the sum of the terms' sizes, by their parts in the displacements.
       double backward_error(const Complex lambda, const Eigenpair &pair, const std::vector<Complex> &f) const
       {
-        double of_modes   = 0.;
-        double of_statics = 0.;
+        double modal_norm  = 0.;
+        double static_norm = 0.;
         for (unsigned int a = 0; a < n_static; ++a)
         {
           Complex by_modes;
           for (unsigned int i = 0; i < n; ++i)
             by_modes += shapes(a, i) * Complex(pair.vector[0][i], pair.vector[1][i]);
-          of_modes += std::norm(by_modes);
-          of_statics += std::norm(Complex(pair.vector[0][2 * n + a], pair.vector[1][2 * n + a]));
+          modal_norm += std::norm(by_modes);
+          static_norm += std::norm(Complex(pair.vector[0][2 * n + a], pair.vector[1][2 * n + a]));
         }
-        if (of_statics == 0.)
-          return error_of_modes(lambda, pair, f);
-        of_modes   = std::sqrt(of_modes);
-        of_statics = std::sqrt(of_statics);
-        return (of_modes * error_of_modes(lambda, pair, f) + of_statics * error_of_statics(lambda, pair, f)) /
-               (of_modes + of_statics);
+        if (static_norm == 0.)
+          return modal_error(lambda, pair, f);
+        modal_norm  = std::sqrt(modal_norm);
+        static_norm = std::sqrt(static_norm);
+        return (modal_norm * modal_error(lambda, pair, f) + static_norm * static_error(lambda, pair, f)) /
+               (modal_norm + static_norm);
       }
 
-      double error_of_modes(const Complex lambda, const Eigenpair &pair, const std::vector<Complex> &f) const
+      double modal_error(const Complex lambda, const Eigenpair &pair, const std::vector<Complex> &f) const
       {
         double residual = 0.;
         double size     = 0.;
@@ -248,7 +248,7 @@ namespace sprag
         return std::sqrt(residual / size);
       }
 
-      double error_of_statics(const Complex lambda, const Eigenpair &pair, const std::vector<Complex> &f) const
+      double static_error(const Complex lambda, const Eigenpair &pair, const std::vector<Complex> &f) const
       {
         double residual = 0.;
         double size     = 0.;

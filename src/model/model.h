@@ -39,9 +39,9 @@ namespace sprag
   /// The equilibrium of a trial state, as one evaluation found it.
   struct Evaluation
   {
-    double residual = 0.; ///< falls to round-off at equilibrium; unit of the model's choice, for the line search alone
-    double overlap  = 0.; ///< largest p / penalty over the contact points [mm]
-    std::any of_model{};  ///< contacts and forces in the model's own terms
+    double residual = 0.;  ///< falls to round-off at equilibrium; unit of the model's choice, for the line search alone
+    double overlap  = 0.;  ///< largest p / penalty over the contact points [mm]
+    std::any model_data{}; ///< contacts and forces in the model's own terms
   };
 
   /// Quasi-static mechanics of a scene at one fidelity. Analyses know nothing of bodies, meshes and dimensions.
@@ -72,7 +72,7 @@ namespace sprag
     virtual double penetration(const Evaluation &found) const = 0;
 
     /// Returns why an equilibrium is beyond what the model can tell; empty if it is not.
-    virtual std::string objection(const State &state, const Evaluation &found) const = 0;
+    virtual std::string check_validity(const State &state, const Evaluation &found) const = 0;
 
     /// Gives a state the multipliers of the next augmentation.
     virtual void augment(const Evaluation &found, State &trial) const = 0;

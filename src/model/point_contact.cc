@@ -12,7 +12,7 @@ namespace sprag
 
   namespace
   {
-    constexpr int n_nodal_of_element = 4;
+    constexpr int n_element_dofs = 4;
 
     /// Cubic shapes of an element of length h at s h from its first node, 0 <= s <= 1, and their derivatives along it; for
     /// deflection and slope of the first node, then of the second.
@@ -27,7 +27,7 @@ namespace sprag
       {
       }
 
-      N shape[n_nodal_of_element], slope[n_nodal_of_element], curvature[n_nodal_of_element];
+      N shape[n_element_dofs], slope[n_element_dofs], curvature[n_element_dofs];
     };
   } // namespace
 
@@ -36,9 +36,9 @@ namespace sprag
   struct PointContact::Surface
   {
     N xi, eta;
-    N tangent[2];                ///< d(xi, eta)/d(place)
-    N shape[n_nodal_of_element]; ///< deflection by the element's coordinates, and its derivative along the lever
-    N slope[n_nodal_of_element];
+    N tangent[2];            ///< d(xi, eta)/d(place)
+    N shape[n_element_dofs]; ///< deflection by the element's coordinates, and its derivative along the lever
+    N slope[n_element_dofs];
   };
 
   /// Two elements around the point across from the circle's centre: the contact stays between their ends for a step.
@@ -72,7 +72,7 @@ namespace sprag
     return q;
   }
 
-  unsigned int PointContact::first_of_element(const unsigned int window, const double xi) const
+  unsigned int PointContact::first_element_port(const unsigned int window, const double xi) const
   {
     return properties.mesh.elements > 0 && xi >= (window + 1) * properties.mesh.element_length() ? 2 : 0;
   }
@@ -88,14 +88,14 @@ namespace sprag
     if (mesh.elements > 0)
     {
       const double h = mesh.element_length();
-      const HermiteShapes<N> of(h, 1. / h * xi - (window + first_of_element(window, value(xi)) / 2));
-      for (unsigned int a = 0; a < n_nodal_of_element; ++a)
+      const HermiteShapes<N> shapes(h, 1. / h * xi - (window + first_element_port(window, value(xi)) / 2));
+      for (unsigned int a = 0; a < n_element_dofs; ++a)
       {
-        at.shape[a] = of.shape[a];
-        at.slope[a] = of.slope[a];
-        w           = w + nodal[a] * of.shape[a];
-        w_slope     = w_slope + nodal[a] * of.slope[a];
-        w_curvature = w_curvature + nodal[a] * of.curvature[a];
+        at.shape[a] = shapes.shape[a];
+        at.slope[a] = shapes.slope[a];
+        w           = w + nodal[a] * shapes.shape[a];
+        w_slope     = w_slope + nodal[a] * shapes.slope[a];
+        w_curvature = w_curvature + nodal[a] * shapes.curvature[a];
       }
     }
     at.xi         = xi - arm * w_slope;
@@ -113,7 +113,7 @@ namespace sprag
     Closest result{ c.xi, 1. };
     for (unsigned int i = 0; i < 20 && properties.mesh.elements > 0; ++i)
     {
-      const auto *const nodal = &q[first_of_element(window, result.xi)];
+      const auto *const nodal = &q[first_element_port(window, result.xi)];
       const auto at           = surface(window, nodal, variable<N>(result.xi, 0));
       const N slope           = (at.xi - c.xi) * at.tangent[0] + (at.eta - c.eta) * at.tangent[1];
       const double change     = slope.v / slope.d[0];
@@ -128,20 +128,20 @@ namespace sprag
   double PointContact::gap(const unsigned int window, const Local &q) const
   {
     const double xi = closest(window, q).xi;
-    const auto at   = surface(window, &q[first_of_element(window, xi)], xi);
+    const auto at   = surface(window, &q[first_element_port(window, xi)], xi);
     const auto c    = cylinder_centre(properties.geometry, q[x_index], q[theta_index]);
     return std::hypot(at.xi - c.xi, at.eta - c.eta) - properties.geometry.cylinder_radius;
   }
 
   PointContact::Configuration PointContact::configure(const unsigned int window, const Local &q) const
   {
-    constexpr int n_used = n_nodal_of_element + 2; // coordinates of the element, theta, x
+    constexpr int n_used = n_element_dofs + 2; // coordinates of the element, theta, x
     using N              = Dual<double, n_used>;
     const auto foot      = closest(window, q);
-    const auto first     = first_of_element(window, foot.xi);
+    const auto first     = first_element_port(window, foot.xi);
     const auto circle    = placed_circle(properties.geometry, variable<N>(q[x_index], 5), variable<N>(q[theta_index], 4));
-    Several<N, n_nodal_of_element> nodal;
-    for (unsigned int a = 0; a < n_nodal_of_element; ++a)
+    Several<N, n_element_dofs> nodal;
+    for (unsigned int a = 0; a < n_element_dofs; ++a)
       nodal[a] = variable<N>(q[first + a], a);
 
     // Another step of Newton's method tells how the closest point moves with the coordinates.
@@ -157,14 +157,14 @@ namespace sprag
     const auto set_row = [&](const unsigned int i, const Several<N, 4> &at_point, Local &row, LocalMatrix &curvature)
     {
       const unsigned int index[n_used] = { first, first + 1, first + 2, first + 3, theta_index, x_index };
-      const bool is_nodal              = i < n_nodal_of_element;
-      const N of =
-          is_nodal ? at.shape[i] * at_point[1] - arm * (at.slope[i] * at_point[0]) : at_point[i - n_nodal_of_element + 2];
-      row[index[i]] = of.v;
+      const bool is_nodal              = i < n_element_dofs;
+      const N number =
+          is_nodal ? at.shape[i] * at_point[1] - arm * (at.slope[i] * at_point[0]) : at_point[i - n_element_dofs + 2];
+      row[index[i]] = number.v;
       for (unsigned int j = 0; j < n_used; ++j)
-        curvature[index[i]][index[j]] = of.d[j];
+        curvature[index[i]][index[j]] = number.d[j];
     };
-    for (unsigned int i = properties.mesh.elements > 0 ? 0 : n_nodal_of_element; i < n_used; ++i)
+    for (unsigned int i = properties.mesh.elements > 0 ? 0 : n_element_dofs; i < n_used; ++i)
     {
       set_row(i, point.gap_row, result.gap_row, result.gap_curvature);
       set_row(i, point.slip_row, result.slip_row, result.slip_curvature);
@@ -177,9 +177,9 @@ namespace sprag
     return result;
   }
 
-  double PointContact::gap_change(const Evaluation &found, const Vector<double> &change_of_ports, unsigned int) const
+  double PointContact::gap_change(const Evaluation &found, const Vector<double> &port_change, unsigned int) const
   {
-    return found.end.gap_row * rates(found.window, change_of_ports, 0.);
+    return found.end.gap_row * rates(found.window, port_change, 0.);
   }
 
   double PointContact::mean_slip(const Evaluation &found, const Vector<double> &from, const double from_x,
@@ -199,14 +199,14 @@ namespace sprag
     for (unsigned int i = 1; i <= parts * mesh.elements; ++i)
     {
       const unsigned int element = (i - 1) / parts;
-      const HermiteShapes<double> of(mesh.element_length(), static_cast<double>(i) / parts - element);
+      const HermiteShapes<double> shapes(mesh.element_length(), static_cast<double>(i) / parts - element);
       double w     = 0.;
       double slope = 0.;
       for (unsigned int a = 0; a < 4; ++a)
         if (const unsigned int port = 2 * element + a; port >= 2)
         {
-          w += of.shape[a] * displacements[port - 2];
-          slope += of.slope[a] * displacements[port - 2];
+          w += shapes.shape[a] * displacements[port - 2];
+          slope += shapes.slope[a] * displacements[port - 2];
         }
       shape.xi.push_back(i * mesh.element_length() / parts);
       shape.across.push_back(w);
@@ -253,15 +253,15 @@ namespace sprag
     auto kinematics       = step_kinematics(step, end_rates, found);
     kinematics.slip_change[0] += surface;
     StepContactLaw law;
-    law.normal            = properties.normal;
-    law.damping           = properties.damping;
-    law.slip              = slip_law(friction_of_step(properties.friction, step.to.v), properties.tangential);
-    law.weights           = step.weights;
-    auto &response        = found.response;
-    response              = step_response(kinematics, step.memory.front(), law);
-    found.slip_rate       = found.end.slip_row * end_rates + surface / step.weights.dt;
-    const double of_drive = -response.force[x_index] * (step.to.x - step.from.x) + response.mean_traction[0] * surface;
-    found.works           = { of_drive, response.friction, response.damping, response.algorithmic, response.creep };
+    law.normal              = properties.normal;
+    law.damping             = properties.damping;
+    law.slip                = slip_law(step_friction(properties.friction, step.to.v), properties.tangential);
+    law.weights             = step.weights;
+    auto &response          = found.response;
+    response                = step_response(kinematics, step.memory.front(), law);
+    found.slip_rate         = found.end.slip_row * end_rates + surface / step.weights.dt;
+    const double drive_work = -response.force[x_index] * (step.to.x - step.from.x) + response.mean_traction[0] * surface;
+    found.works             = { drive_work, response.friction, response.damping, response.algorithmic, response.creep };
     sum_forces(found);
   }
 
@@ -271,7 +271,7 @@ namespace sprag
     found.window      = window_at(state.ports, state.drive.x);
     const auto &end = found.end = configure(found.window, coordinates(found.window, state.ports, state.drive.x));
     const Local rate            = state.rates == nullptr ? Local() : rates(found.window, *state.rates, 0.);
-    const auto law              = friction_of_slide(properties.friction, state);
+    const auto law              = slide_friction(properties.friction, state);
     using N                     = Dual<double, 2>; // of the gap and its rate
     const auto gap              = variable<N>(end.gap, 0);
     const auto spring           = spring_force(properties.normal, gap);
@@ -324,7 +324,7 @@ namespace sprag
     result.friction      = matrix_on_ports(places, friction_tangent(state.friction, found));
     result.pressure_rate = matrix_on_ports(places, outer_product(found.end.gap_row, found.d_pressure_rate));
     result.friction_rate = matrix_on_ports(places, -1. * outer_product(found.end.slip_row, d_traction_rate));
-    result.delays        = friction_delays(places, friction_of_slide(properties.friction, state), found);
+    result.delays        = friction_delays(places, slide_friction(properties.friction, state), found);
     return result;
   }
 
@@ -363,7 +363,7 @@ namespace sprag
       forces.ports.push_back(place.port);
   }
 
-  const PortSelection &PointContact::reachable_ports(double, const OfLevers &) const
+  const PortSelection &PointContact::reachable_ports(double, const PerLever &) const
   {
     return all;
   }

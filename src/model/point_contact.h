@@ -105,14 +105,14 @@ namespace sprag
     PortPerturbation linearise(const SlidingState &state, Evaluation &found) const;
 
     /// Returns the ports that the contact may reach: all.
-    const PortSelection &reachable_ports(double x, const OfLevers &theta) const;
+    const PortSelection &reachable_ports(double x, const PerLever &theta) const;
     void widen_reach()
     {
     }
     /// Evaluates the contact at rest without force.
     std::vector<ContactMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive, Evaluation &found) const;
     /// Returns by how much a small change of the ports changes the gap [mm].
-    double gap_change(const Evaluation &found, const dealii::Vector<double> &change_of_ports, unsigned int lever = 0) const;
+    double gap_change(const Evaluation &found, const dealii::Vector<double> &port_change, unsigned int lever = 0) const;
 
     /// Returns the slip from one configuration to another [mm].
     double mean_slip(const Evaluation &found, const dealii::Vector<double> &from, double from_x, const dealii::Vector<double> &to,
@@ -154,7 +154,7 @@ namespace sprag
     unsigned int window_at(const dealii::Vector<double> &ports, double x) const;
     Local coordinates(unsigned int window, const dealii::Vector<double> &ports, double x) const;
     Local rates(unsigned int window, const dealii::Vector<double> &port_rates, double v) const;
-    unsigned int first_of_element(unsigned int window, double xi) const;
+    unsigned int first_element_port(unsigned int window, double xi) const;
     template <class N, class Nodal>
     Surface<N> surface(unsigned int window, const Nodal &nodal, const N &xi) const;
     Closest closest(unsigned int window, const Local &q) const;

@@ -7,7 +7,7 @@ namespace sprag
 {
   using dealii::FullMatrix;
 
-  unsigned int place_of(const unsigned int port, const std::vector<unsigned int> &ports)
+  unsigned int find_index(const unsigned int port, const std::vector<unsigned int> &ports)
   {
     return static_cast<unsigned int>(std::lower_bound(ports.begin(), ports.end(), port) - ports.begin());
   }

@@ -9,7 +9,7 @@
 namespace sprag
 {
   /// The place where a port stands, or would stand, among increasing ones.
-  unsigned int place_of(unsigned int port, const std::vector<unsigned int> &ports);
+  unsigned int find_index(unsigned int port, const std::vector<unsigned int> &ports);
 
   /// Compliance G of the ports of a linear structure: the displacement of each by a unit force on each, symmetric. Ports that
   /// follow each other make up blocks, and those of different blocks feel nothing of each other: the levers of a pair, say, and
@@ -30,7 +30,7 @@ namespace sprag
       /// The place of its first port among increasing ones, and that beyond the last.
       std::pair<unsigned int, unsigned int> places_among(const std::vector<unsigned int> &ports) const
       {
-        return { place_of(begin, ports), place_of(end(), ports) };
+        return { find_index(begin, ports), find_index(end(), ports) };
       }
     };
 

@@ -27,7 +27,7 @@ namespace sprag
   }
 
   /// Returns the ports of the coordinates, in their order.
-  inline std::vector<unsigned int> ports_of(const PortCoordinates &coordinates)
+  inline std::vector<unsigned int> collect_ports(const PortCoordinates &coordinates)
   {
     std::vector<unsigned int> result;
     for (const auto &coordinate : coordinates)

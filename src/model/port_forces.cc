@@ -12,7 +12,7 @@ namespace sprag
 {
   using namespace dealii;
 
-  void sum_forces(const std::vector<PortForces> &loaded, std::vector<unsigned int> &place_of_port, PortForces &sum)
+  void sum_forces(const std::vector<PortForces> &loaded, std::vector<unsigned int> &port_places, PortForces &sum)
   {
     sum.ports.clear();
     for (const auto &some : loaded)
@@ -21,7 +21,7 @@ namespace sprag
     sum.ports.erase(std::unique(sum.ports.begin(), sum.ports.end()), sum.ports.end());
     const auto n = static_cast<unsigned int>(sum.ports.size());
     for (unsigned int a = 0; a < n; ++a)
-      place_of_port[sum.ports[a]] = a;
+      port_places[sum.ports[a]] = a;
 
     sum.values.reinit(n);
     sum.tangent.reinit(n, n);
@@ -29,10 +29,10 @@ namespace sprag
     for (const auto &some : loaded)
       for (unsigned int i = 0; i < some.ports.size(); ++i)
       {
-        const unsigned int row = place_of_port[some.ports[i]];
+        const unsigned int row = port_places[some.ports[i]];
         sum.values[row] += some.values[i];
         for (unsigned int j = 0; j < some.ports.size(); ++j)
-          sum.tangent(row, place_of_port[some.ports[j]]) += some.tangent(i, j);
+          sum.tangent(row, port_places[some.ports[j]]) += some.tangent(i, j);
       }
   }
 
@@ -46,7 +46,7 @@ namespace sprag
     result.values.reinit(n);
     std::vector<unsigned int> places;
     for (const unsigned int port : forces.ports)
-      places.push_back(place_of(port, result.ports));
+      places.push_back(find_index(port, result.ports));
     for (unsigned int i = 0; i < places.size(); ++i)
       result.values[places[i]] = forces.values[i];
     result.has_tangent = forces.has_tangent;
@@ -78,9 +78,9 @@ namespace sprag
     {
       const auto [first, last] = block.places_among(ports);
       const auto [begin, end]  = block.places_among(selected);
-      const auto rows          = ranges_of(selected.begin() + begin, selected.begin() + end);
+      const auto rows          = find_ranges(selected.begin() + begin, selected.begin() + end);
       const double *values     = forces.begin() + first;
-      for (const auto &loaded : ranges_of(ports.begin() + first, ports.begin() + last))
+      for (const auto &loaded : find_ranges(ports.begin() + first, ports.begin() + last))
       {
         const NumberRange columns{ loaded.begin - block.begin, loaded.end - block.begin };
         for (const auto &row : rows)

@@ -22,11 +22,11 @@ namespace sprag
   /// Gives forces further ports, increasing, where they are 0 so far.
   void add_ports(const std::vector<unsigned int> &others, PortForces &forces);
 
-  /// Sums up forces that share ports, whose own may come in any order. `place_of_port` is room for a number a port.
-  void sum_forces(const std::vector<PortForces> &loaded, std::vector<unsigned int> &place_of_port, PortForces &sum);
+  /// Sums up forces that share ports, whose own may come in any order. `port_places` is room for a number a port.
+  void sum_forces(const std::vector<PortForces> &loaded, std::vector<unsigned int> &port_places, PortForces &sum);
 
   /// Output requested of a contact. One that does not keep its tangent always finds both.
-  enum class Wanted
+  enum class Request
   {
     forces,
     with_tangent

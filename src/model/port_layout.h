@@ -6,7 +6,7 @@
 namespace sprag
 {
   /// A value for each lever; the second counts in a mirrored pair alone.
-  using OfLevers = std::array<double, 2>;
+  using PerLever = std::array<double, 2>;
 
   /// Ports of a lever: first those of its friction face or axis in lever axes, then the compressions of its force sensors, which
   /// are only read, then tilt and skew of a cylinder whose axis is free on its shaft, beyond those of the scene, then the hub's
@@ -23,20 +23,20 @@ namespace sprag
     unsigned int slopes  = 0; ///< 2: those of the cylinder's axis may change
 
     /// The layout of one lever alone.
-    PortLayout of_one_lever() const
+    PortLayout single_lever() const
     {
       PortLayout result = *this;
       result.levers     = 1;
       return result;
     }
 
-    unsigned int of_a_lever() const
+    unsigned int ports_per_lever() const
     {
       return surface + sensors + slopes + (sprung && has_inertia ? 3 : 1);
     }
     unsigned int first(const unsigned int lever) const
     {
-      return lever * of_a_lever();
+      return lever * ports_per_lever();
     }
     unsigned int sensor(const unsigned int number, const unsigned int lever = 0) const
     {
@@ -62,7 +62,7 @@ namespace sprag
     }
     unsigned int support() const
     {
-      return levers * of_a_lever();
+      return levers * ports_per_lever();
     }
     unsigned int size() const
     {
@@ -70,19 +70,19 @@ namespace sprag
     }
 
     /// The lever, 0 or 1, of a port that is not the support's.
-    unsigned int lever_of(const unsigned int port) const
+    unsigned int port_lever(const unsigned int port) const
     {
-      return port / of_a_lever();
+      return port / ports_per_lever();
     }
 
     /// Returns true if a port is one of the face of either lever.
     bool is_surface(const unsigned int port) const
     {
-      return port < support() && port % of_a_lever() < surface;
+      return port < support() && port % ports_per_lever() < surface;
     }
     bool is_rotation(const unsigned int port) const
     {
-      return port < support() && port % of_a_lever() == surface + sensors + slopes;
+      return port < support() && port % ports_per_lever() == surface + sensors + slopes;
     }
     bool is_slope(const unsigned int port) const
     {

@@ -16,6 +16,6 @@ namespace sprag
     const dealii::Vector<double> &end_rate;
     StepWeights weights;
     const std::vector<PointMemory<2>> *surface_memory = nullptr; ///< of the contact of a surface, in place of `memory`
-    Wanted wanted                                     = Wanted::with_tangent;
+    Request request                                   = Request::with_tangent;
   };
 } // namespace sprag

@@ -11,11 +11,11 @@ namespace sprag
 {
   namespace
   {
-    std::unique_ptr<PointContact> contact_of(const Device &device, const BeamMesh &mesh, const PortLayout &ports,
-                                             const unsigned int lever)
+    std::unique_ptr<PointContact> make_contact(const Device &device, const BeamMesh &mesh, const PortLayout &ports,
+                                               const unsigned int lever)
     {
       const auto reference = contact_reference(device);
-      const Device own     = device_of_lever(device, lever);
+      const Device own     = lever_device(device, lever);
       PointContactProperties properties;
       properties.geometry            = own.geometry;
       properties.mesh                = mesh;
@@ -40,13 +40,13 @@ namespace sprag
       for (unsigned int lever = 0; lever < ports.levers; ++lever)
         for (unsigned int slope = 1; slope < mesh.ports(); slope += 2)
           frame.lengths[ports.first(lever) + slope] = mesh.element_length();
-      const auto contact = [&](const unsigned int lever) { return contact_of(device, mesh, ports.of_one_lever(), lever); };
+      const auto contact = [&](const unsigned int lever) { return make_contact(device, mesh, ports.single_lever(), lever); };
       return assemble_lever(std::move(structure), std::move(frame), contact, 1);
     };
-    const auto of_lever = [&](const Device &of) { return std::make_unique<ModalStructure>(beam_modes(of, mesh)); };
-    if (number_of_levers(device) == 1)
-      return assembled(of_lever(device));
-    return assembled(std::make_unique<MirroredStructure<ModalStructure>>(of_lever(device), of_lever(swinging_device(device)),
+    const auto make_modal = [&](const Device &single) { return std::make_unique<ModalStructure>(beam_modes(single, mesh)); };
+    if (count_levers(device) == 1)
+      return assembled(make_modal(device));
+    return assembled(std::make_unique<MirroredStructure<ModalStructure>>(make_modal(device), make_modal(swinging_device(device)),
                                                                          !swings_otherwise(device)));
   }
 } // namespace sprag

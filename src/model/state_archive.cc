@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "model/state_archive.h"
 
-#include "model/kept_tangent.h"
+#include "model/stored_jacobian.h"
 
 #include <algorithm>
 

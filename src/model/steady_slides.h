@@ -6,9 +6,9 @@
 #include "model/force_history.h"
 #include "model/hub_spring.h"
 #include "model/joined_ports.h"
-#include "model/kept_iteration.h"
 #include "model/lever_frame.h"
 #include "model/linearisation.h"
+#include "model/modified_newton.h"
 #include "model/port_step.h"
 #include "model/state_archive.h"
 #include "scene/closed_form.h"
@@ -16,7 +16,7 @@
 namespace sprag
 {
   /// Inclinations of the levers by turns of their hubs [rad].
-  inline OfLevers inclinations_of(const LeverFrame &frame, const OfLevers &turns)
+  inline PerLever compute_inclinations(const LeverFrame &frame, const PerLever &turns)
   {
     return { { frame.rest_inclination + turns[0], frame.rest_inclination + turns[1] } };
   }
@@ -38,7 +38,7 @@ namespace sprag
     {
       dealii::Vector<double> ports;
       PortLoads forces;
-      OfLevers ideal{}; ///< inclinations of the levers in ideal contact
+      PerLever ideal{}; ///< inclinations of the levers in ideal contact
     };
 
     /// All are kept by reference.
@@ -81,7 +81,7 @@ namespace sprag
     {
       if constexpr (Contact::keeps_tangent)
       {
-        const auto *forces = solve_with_kept_tangent(drive);
+        const auto *forces = solve_with_stored_jacobian(drive);
         if (forces == nullptr)
           forces = solve(drive, 1.);
         if (forces != nullptr)
@@ -132,8 +132,8 @@ namespace sprag
     Equilibrium last;           ///< from which the next one starts
     ForceHistory followed;      ///< by follow(), where the contact keeps a tangent
     double followed_speed = 0.; ///< v of the last of them
-    std::shared_ptr<const KeptTangent> kept;
-    KeptFactors factors;
+    std::shared_ptr<const StoredJacobian> kept;
+    JacobianFactors factors;
 
     /// Returns true if a drive goes on from the last that was followed.
     bool goes_on(const DrivePoint &drive) const
@@ -142,7 +142,7 @@ namespace sprag
     }
 
     /// A turn of the hub, from the last equilibrium with the change of ideal contact.
-    double guessed_turn(const unsigned int lever, const OfLevers &ideal) const
+    double guessed_turn(const unsigned int lever, const PerLever &ideal) const
     {
       const unsigned int hub = frame.ports.rotation(lever);
       return (last.ports.size() > 0 ? last.ports[hub] - last.ideal[lever] : -frame.rest_inclination) + ideal[lever];
@@ -152,12 +152,12 @@ namespace sprag
     PortEvaluation evaluate(const SlidingState &state)
     {
       contact.evaluate_sliding(state, found);
-      hub_spring.add_forces(turns_of(frame.ports, state.ports), true, found.forces);
+      hub_spring.add_forces(lever_rotations(frame.ports, state.ports), true, found.forces);
       return { &found.forces, found.overlap() };
     }
 
     /// See follow(). Null where that does not converge.
-    const PortForces *solve_with_kept_tangent(const DrivePoint &drive)
+    const PortForces *solve_with_stored_jacobian(const DrivePoint &drive)
     {
       if (last.forces.ports.empty())
         return nullptr;
@@ -169,10 +169,10 @@ namespace sprag
       const PortLoads guess             = in_line ? followed.guess_at(drive.x) : turned_forces(free, near, ideal);
       dealii::Vector<double> z          = free;
       const double speed                = sliding_speed(frame.geometries.front(), drive.x, drive.v);
-      const auto at                     = [&](const dealii::Vector<double> &ports, const Wanted wanted) {
-        return evaluate({ ports, drive, speed, nullptr, ContactFriction::sliding, wanted });
+      const auto at                     = [&](const dealii::Vector<double> &ports, const Request request) {
+        return evaluate({ ports, drive, speed, nullptr, ContactFriction::sliding, request });
       };
-      const auto solved = KeptIteration({ structure.compliance(), free, frame.lengths, near }, at, StepWeights{}, factors)
+      const auto solved = ModifiedNewton({ structure.compliance(), free, frame.lengths, near }, at, StepWeights{}, factors)
                               .solve(guess, kept, z, left_out_in_time);
       if (!solved.newton.converged || !found.within_reach)
       {
@@ -184,21 +184,21 @@ namespace sprag
     }
 
     /// The last forces, those of each lever as much larger as its hub turns.
-    PortLoads turned_forces(const dealii::Vector<double> &free, const PortSelection &near, const OfLevers &ideal) const
+    PortLoads turned_forces(const dealii::Vector<double> &free, const PortSelection &near, const PerLever &ideal) const
     {
       dealii::Vector<double> z(free.size());
       add_response(structure.compliance(), last.forces.ports, last.forces.values, near, z);
-      OfLevers growth{ { 1., 1. } };
+      PerLever growth{ { 1., 1. } };
       for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
         if (const unsigned int hub = frame.ports.rotation(lever); z[hub] != 0.)
           growth[lever] = (guessed_turn(lever, ideal) - free[hub]) / z[hub];
       PortLoads result = last.forces;
       for (unsigned int i = 0; i < result.ports.size(); ++i)
-        result.values[i] *= growth[std::min(frame.ports.lever_of(result.ports[i]), frame.ports.levers - 1)];
+        result.values[i] *= growth[std::min(frame.ports.port_lever(result.ports[i]), frame.ports.levers - 1)];
       return result;
     }
 
-    const PortForces *accept(const dealii::Vector<double> &z, const OfLevers &ideal, const PortForces &forces)
+    const PortForces *accept(const dealii::Vector<double> &z, const PerLever &ideal, const PortForces &forces)
     {
       last = { z, { forces.ports, forces.values }, ideal };
       return &forces;
@@ -222,7 +222,7 @@ namespace sprag
 
       const double speed = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
       const auto at      = [&](const dealii::Vector<double> &ports) {
-        return evaluate({ ports, drive, speed, nullptr, friction, Wanted::with_tangent, share });
+        return evaluate({ ports, drive, speed, nullptr, friction, Request::with_tangent, share });
       };
       const auto solved = solve_ports({ structure.compliance(), free, frame.lengths, near }, at, z);
       if (!solved.newton.converged)
@@ -236,9 +236,9 @@ namespace sprag
     }
 
     /// Inclinations of the levers in ideal contact [rad].
-    OfLevers ideal_inclinations(const double x) const
+    PerLever ideal_inclinations(const double x) const
     {
-      OfLevers result{};
+      PerLever result{};
       for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
         result[lever] = kinematics(frame.geometries[lever], x).theta;
       return result;

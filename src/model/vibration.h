@@ -75,7 +75,7 @@ namespace sprag
   /// Points along the lever and how a mode moves them in lever axes [mm per unit of the mode].
   struct ModeShape
   {
-    struct OfLever
+    struct LeverShape
     {
       std::array<std::vector<double>, 2> along;
       std::array<std::vector<double>, 2> across;     ///< away from the cylinder, without the rotation of the axes
@@ -83,8 +83,8 @@ namespace sprag
       std::complex<double> rotation{};               ///< [rad]
     };
 
-    std::vector<double> xi;       ///< undeformed [mm]
-    std::vector<OfLever> levers;  ///< one, or both of a mirrored pair, each in its own axes
-    std::complex<double> support; ///< [mm]
+    std::vector<double> xi;         ///< undeformed [mm]
+    std::vector<LeverShape> levers; ///< one, or both of a mirrored pair, each in its own axes
+    std::complex<double> support;   ///< [mm]
   };
 } // namespace sprag

@@ -24,7 +24,7 @@ namespace sprag
   namespace
   {
     /// None where the blocks are not as they were written.
-    std::optional<std::string> content_of(const std::string &blocks)
+    std::optional<std::string> verified_content(const std::string &blocks)
     {
       Archive archive(blocks);
       std::string result;
@@ -60,7 +60,7 @@ namespace sprag
     if (blocks.size() < size)
       return {};
     blocks.resize(size);
-    auto result = content_of(blocks);
+    auto result = verified_content(blocks);
     if (!result)
       return {};
     file = OpenFile(path, O_WRONLY | O_APPEND);
@@ -105,8 +105,8 @@ namespace sprag
 
     double seconds_between()
     {
-      const char *const given = std::getenv(checkpoint_variable);
-      return given != nullptr ? std::atof(given) : default_checkpoint_seconds;
+      const char *const environment_value = std::getenv(checkpoint_variable);
+      return environment_value != nullptr ? std::atof(environment_value) : default_checkpoint_seconds;
     }
 
     struct Content
@@ -137,7 +137,7 @@ namespace sprag
       return content;
     }
 
-    std::string parameters_of(const Scene &scene)
+    std::string checkpoint_parameters(const Scene &scene)
     {
       Fingerprint sum;
       sum.add(parameters_text(scene));
@@ -157,15 +157,15 @@ namespace sprag
   bool has_checkpoint(const std::string &folder, const Scene &scene)
   {
     const auto content = content_in(folder + '/' + checkpoint_name);
-    return content && content->parameters == parameters_of(scene);
+    return content && content->parameters == checkpoint_parameters(scene);
   }
 
   Checkpoint::Checkpoint(const Scene &scene, const RunOptions &options)
       : is_kept(options.in_memory == nullptr)
       , quiet(options.quiet)
       , folder(options.folder)
-      , parameters(is_kept ? parameters_of(scene) : "")
-      , key_of_scene(is_kept ? scene_key(scene) : "")
+      , parameters(is_kept ? checkpoint_parameters(scene) : "")
+      , own_scene_key(is_kept ? scene_key(scene) : "")
       , interval(seconds_between())
       , journal(folder + '/' + row_journal_name)
       , next(Clock::now() + std::chrono::duration_cast<Clock::duration>(interval))
@@ -179,7 +179,7 @@ namespace sprag
   std::string Checkpoint::key() const
   {
     Fingerprint sum;
-    sum.add(key_of_scene);
+    sum.add(own_scene_key);
     sum.add(program_fingerprint());
     return sum.text();
   }
@@ -292,7 +292,7 @@ namespace sprag
 
   void Checkpoint::finish(const std::string &status) const
   {
-    if (status != interruption && !is_wanted)
+    if (status != interruption && !is_needed)
       remove();
   }
 

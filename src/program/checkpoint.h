@@ -117,7 +117,7 @@ namespace sprag
       }
       catch (const AnalysisError &)
       {
-        is_wanted = true;
+        is_needed = true;
         throw;
       }
     }
@@ -138,7 +138,7 @@ namespace sprag
     const bool is_kept;
     const bool quiet;
     const std::string folder;
-    const std::string parameters, key_of_scene;
+    const std::string parameters, own_scene_key;
     const std::chrono::duration<double> interval;
     RowJournal journal;
     std::function<void(RowJournal &)> records;
@@ -147,7 +147,7 @@ namespace sprag
     std::string progress_found, rows_found;
     Clock::time_point next;
     bool has_failed = false;
-    bool is_wanted  = false; ///< whatever becomes of the run
+    bool is_needed  = false; ///< whatever becomes of the run
 
     std::string key() const;
     void find();

@@ -13,9 +13,9 @@ namespace sprag
 {
   namespace
   {
-    constexpr double start_of_formulas = 0.03;   ///< [s]
-    constexpr double row_of_formulas   = 4e-6;   ///< [s]
-    constexpr double usual_calculation = 3.3e-3; ///< that slowness() refers to [s]
+    constexpr double formula_start_seconds = 0.03;   ///< [s]
+    constexpr double formula_row_seconds   = 4e-6;   ///< [s]
+    constexpr double usual_calculation     = 3.3e-3; ///< that slowness() refers to [s]
 
     /// Sines, roots and divisions that wait for each other.
     double calculated()
@@ -46,9 +46,9 @@ namespace sprag
     return found;
   }
 
-  ExpectedCost cost_of_formulas(const Scene &scene)
+  ExpectedCost formula_cost(const Scene &scene)
   {
-    return { slowness() * (start_of_formulas + row_of_formulas * expected_rows(scene)), expected_memory(scene), {} };
+    return { slowness() * (formula_start_seconds + formula_row_seconds * expected_rows(scene)), expected_memory(scene), {} };
   }
 
   void print_cost(std::ostream &stream, const ExpectedCost &cost)

@@ -17,7 +17,7 @@ namespace sprag
   };
 
   /// Estimates the cost of what follows_formulas().
-  ExpectedCost cost_of_formulas(const Scene &scene);
+  ExpectedCost formula_cost(const Scene &scene);
 
   /// Returns how much longer than on the machine that the constants of estimates were measured on a short calculation takes here,
   /// as found at the first call.

@@ -43,7 +43,7 @@ namespace sprag
 
   const std::vector<ColumnInfo> &isolation_columns()
   {
-    static const auto columns = columns_of_pages(
+    static const auto columns = page_columns(
         "isolation", "time x_base z z_rate table_acceleration damper_force base_acceleration kinetic_energy spring_energy "
                      "damper_energy dissipated_energy base_work energy_residual rests");
     return columns;

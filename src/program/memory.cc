@@ -90,10 +90,10 @@ namespace sprag
         return has_plate ? std::ceil(length / coarse) * std::max(2., scene.lever.depth / coarse) : 0.;
       constexpr double around_hub = 8.;
       const double side           = frame_hub_radius + frame_wall;
-      const double of_root =
+      const double root_cells =
           (root + side) / coarse * scene.geometry.interface_offset / coarse + around_hub * 2. * (root + 3. * side) / coarse;
-      return of_root + (has_plate ? (length - root) / coarse * (2. + rows_behind_flange(scene))
-                                  : elements_along_face(scene) * rows_behind_flange(scene));
+      return root_cells + (has_plate ? (length - root) / coarse * (2. + rows_behind_flange(scene))
+                                     : elements_along_face(scene) * rows_behind_flange(scene));
     }
 
     double cylinder_elements(const Scene &scene)
@@ -107,8 +107,8 @@ namespace sprag
     }
 
     /// While their vector grows there are two of most.
-    constexpr double bytes_of_row = 2. * sizeof(Row);
-    constexpr double most_rows    = 1e7;
+    constexpr double row_bytes = 2. * sizeof(Row);
+    constexpr double most_rows = 1e7;
 
     std::string step_parameter(const Scene &scene)
     {
@@ -117,7 +117,7 @@ namespace sprag
       return scene.analysis.type == AnalysisType::transient ? "Time/Step" : "Analysis/Step";
     }
 
-    void require_number_of_rows(const Scene &scene)
+    void require_row_limit(const Scene &scene)
     {
       const double rows = expected_rows(scene);
       if (rows <= most_rows)
@@ -145,7 +145,7 @@ namespace sprag
     }
 
     /// Measured, see tests/run/memory.cc: within 1.3 times what those runs have.
-    Cost cost_of(const Scene &scene)
+    Cost compute_cost(const Scene &scene)
     {
       if (scene.analysis.type != AnalysisType::quasi_static)
       {
@@ -164,39 +164,39 @@ namespace sprag
     constexpr double bar_behind_plate = 1.5;
 
     /// Matrices of the ports that a lever in three dimensions keeps: a few, and one for each duration of its steps.
-    constexpr double matrices_of_ports = 20.;
+    constexpr double port_matrices = 20.;
 
     /// Modes, and matrices of the part of the face that a contact in three dimensions can reach.
-    double bytes_of_solid_modes(const Scene &scene, const double displacements, const double ports)
+    double solid_mode_bytes(const Scene &scene, const double displacements, const double ports)
     {
       if (scene.analysis.type == AnalysisType::quasi_static)
         return 0.;
       const auto [begin, end] = reachable_contact(scene);
       const double reached    = ports * std::min(1., (end - begin) / scene.mesh.face_size / elements_along_face(scene));
       const bool has_two      = scene.analysis.type == AnalysisType::isolation || scene.pair.type == PairType::full;
-      const double kept       = (has_two ? 2. : 1.) * matrices_of_ports;
+      const double kept       = (has_two ? 2. : 1.) * port_matrices;
       const double sought_in  = 2. * most_columns(scene.condensed.modes); // these and their inertia
       return 8. * (sought_in * displacements + kept * reached * reached);
     }
 
     /// Bytes of the factors of a whole body in three dimensions, over displacements^(4/3).
-    constexpr double bytes_of_factors = 99.;
+    constexpr double factor_bytes = 99.;
 
     /// Bytes of all matrices of a body in three dimensions, likewise.
-    constexpr double bytes_of_solid = 215.;
+    constexpr double solid_bytes = 215.;
 
-    double bytes_of_solid_factors(const Scene &scene)
+    double solid_factor_bytes(const Scene &scene)
     {
-      return bytes_of_factors * std::pow(expected_size(scene).displacements, 4. / 3.);
+      return factor_bytes * std::pow(expected_size(scene).displacements, 4. / 3.);
     }
 
-    double bytes_of_matrices(const Scene &scene)
+    double matrix_bytes(const Scene &scene)
     {
       const auto [displacements, ports] = expected_size(scene);
       if (scene.analysis.dimension == 3)
-        return bytes_of_solid * std::pow(displacements, 4. / 3.) + bytes_of_solid_modes(scene, displacements, ports);
+        return solid_bytes * std::pow(displacements, 4. / 3.) + solid_mode_bytes(scene, displacements, ports);
       const double levers       = scene.pair.type == PairType::full && !is_factorised_once(scene) ? 2. : 1.;
-      const auto [each, copies] = cost_of(scene);
+      const auto [each, copies] = compute_cost(scene);
       const double bar          = scene.plate.type == PlateType::none ? 1. : bar_behind_plate;
       return levers * bar * (each * displacements + copies * 8. * ports * ports);
     }
@@ -221,7 +221,7 @@ namespace sprag
       return formatted(bytes < 99.5e9 ? "%.2g GB" : "%.3g GB", bytes / 1e9);
     }
 
-    double of_libraries(const Scene &scene)
+    double library_memory(const Scene &scene)
     {
       if (follows_formulas(scene))
         return 0.013e9;
@@ -245,13 +245,13 @@ namespace sprag
   namespace
   {
     /// The judges by condensed finite elements keep the model of the slides beside that in time.
-    double memory_of_design(Scene scene)
+    double design_memory(Scene scene)
     {
       const auto &judges      = scene.design.judged_by;
       const bool is_condensed = std::count(judges.begin(), judges.end(), DesignJudge::condensed) > 0;
       scene.analysis.type     = AnalysisType::stability;
       scene.analysis.model    = is_condensed ? ModelType::condensed : ModelType::beam;
-      return of_libraries(scene) + 2. * bytes_of_matrices(scene);
+      return library_memory(scene) + 2. * matrix_bytes(scene);
     }
   } // namespace
 
@@ -276,11 +276,11 @@ namespace sprag
   double expected_memory(const Scene &scene, const unsigned int processes)
   {
     if (scene.analysis.type == AnalysisType::design)
-      return memory_of_design(scene);
-    const double rows = expected_rows(scene) * bytes_of_row;
+      return design_memory(scene);
+    const double rows = expected_rows(scene) * row_bytes;
     if (shares_body(scene))
-      return processes * of_libraries(scene) + (processes == 1 ? 1. : shared_over_whole) * bytes_of_matrices(scene) + rows;
-    return processes * (of_libraries(scene) + bytes_of_matrices(scene)) + rows;
+      return processes * library_memory(scene) + (processes == 1 ? 1. : shared_over_whole) * matrix_bytes(scene) + rows;
+    return processes * (library_memory(scene) + matrix_bytes(scene)) + rows;
   }
 
   std::optional<FactorFiles> factor_files(const Scene &scene, const unsigned int processes, const std::string &folder)
@@ -290,14 +290,14 @@ namespace sprag
     const bool can_be_in_files = scene.analysis.dimension == 3 && scene.analysis.type == AnalysisType::quasi_static;
     if (!can_be_in_files || folder.empty() || needed <= available.bytes)
       return std::nullopt;
-    FactorFiles result{ factor_folder(folder), needed, available, 0., bytes_of_solid_factors(scene) };
+    FactorFiles result{ factor_folder(folder), needed, available, 0., solid_factor_bytes(scene) };
     result.memory_with_files = needed - kept_in_files * result.bytes;
     const bool fits          = result.memory_with_files <= available.bytes && file_room * result.bytes <= free_on_disk(folder) &&
                       result.folder.size() < longest_folder;
     return fits ? std::optional(result) : std::nullopt;
   }
 
-  std::string text_of(const FactorFiles &files)
+  std::string to_text(const FactorFiles &files)
   {
     return "in memory alone the run would need about " + gigabytes(files.memory) + ", and " + gigabytes(files.available.bytes) +
            " are " + files.available.reason + ": the factors of the whole lever are kept in files, " + gigabytes(files.bytes) +
@@ -306,12 +306,12 @@ namespace sprag
 
   void require_memory(const Scene &scene, const unsigned int processes, const std::string &folder)
   {
-    require_number_of_rows(scene);
+    require_row_limit(scene);
     const double needed  = expected_memory(scene, processes);
     const auto available = available_memory();
     if (needed <= available.bytes || factor_files(scene, processes, folder))
       return;
-    const double rows     = expected_rows(scene) * bytes_of_row;
+    const double rows     = expected_rows(scene) * row_bytes;
     const std::string has = ": the run needs about " + gigabytes(needed) + " of memory, and " + gigabytes(available.bytes) +
                             " are " + available.reason + ". ";
     if (rows > needed / 2.)

@@ -45,7 +45,7 @@ namespace sprag
   std::optional<FactorFiles> factor_files(const Scene &scene, unsigned int processes, const std::string &folder);
 
   /// Returns a clause that tells all numbers.
-  std::string text_of(const FactorFiles &files);
+  std::string to_text(const FactorFiles &files);
 
   /// Throws InputError where expected_memory() exceeds what the system has left and there are no factor_files(), as without a
   /// folder; the message tells both and what to change. It throws too where the run would have more than 1e7 rows, which no

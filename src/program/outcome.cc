@@ -78,7 +78,7 @@ namespace sprag
     return {};
   }
 
-  std::string folder_of(const Arguments &arguments, const Scene &scene)
+  std::string result_folder(const Arguments &arguments, const Scene &scene)
   {
     return arguments.folder.empty() ? "output/" + scene.name : arguments.folder;
   }
@@ -88,7 +88,7 @@ namespace sprag
     return !arguments.validate && !arguments.print_parameters;
   }
 
-  Scene scene_of(const Arguments &arguments)
+  Scene load_scene(const Arguments &arguments)
   {
     if (arguments.file.empty())
       throw InputError("FILE.prm is missing; try --help");
@@ -119,7 +119,7 @@ namespace sprag
     }
   } // namespace
 
-  std::timespec time_of_files()
+  std::timespec file_time()
   {
     std::timespec result = {};
     clock_gettime(CLOCK_REALTIME_COARSE, &result);
@@ -141,23 +141,23 @@ namespace sprag
   bool finish(const Arguments &arguments, const Scene &scene, const std::string &status, const std::timespec &since)
   {
     return is_run(arguments) &&
-           finish_abandoned(folder_of(arguments, scene) + "/result.h5", parameters_text(scene), status, since);
+           finish_abandoned(result_folder(arguments, scene) + "/result.h5", parameters_text(scene), status, since);
   }
 
   void tell_validity(const Arguments &arguments, const Scene &scene, const Warnings &warnings)
   {
     if (!arguments.quiet)
-      std::cout << text_of(warnings) << arguments.file << ": valid, " << count_text(warnings) << '\n';
+      std::cout << to_text(warnings) << arguments.file << ": valid, " << count_text(warnings) << '\n';
     check_warnings(scene, warnings);
   }
 
-  Outcome outcome_of(const Arguments &arguments, std::optional<Scene> scene, const std::timespec &since, const Rank &rank,
-                     const std::function<void(const Scene &)> &work)
+  Outcome run_to_outcome(const Arguments &arguments, std::optional<Scene> scene, const std::timespec &since, const Rank &rank,
+                         const std::function<void(const Scene &)> &work)
   {
     try
     {
       if (!scene)
-        scene = scene_of(arguments);
+        scene = load_scene(arguments);
       work(*scene);
       return {};
     }

@@ -42,18 +42,18 @@ namespace sprag
   std::optional<int> read_arguments(int argc, char **argv, Arguments &arguments);
 
   /// Returns the folder for results, named or after the scene.
-  std::string folder_of(const Arguments &arguments, const Scene &scene);
+  std::string result_folder(const Arguments &arguments, const Scene &scene);
 
   /// Returns whether an analysis is asked for, and not only a look at the scene.
   bool is_run(const Arguments &arguments);
 
   /// Reads the scene. Throws InputError, also where no file is named.
-  Scene scene_of(const Arguments &arguments);
+  Scene load_scene(const Arguments &arguments);
 
   // The program reports its outcome by messages on the standard error, its exit status and the files in the folder.
 
   /// Returns the time by the clock of file systems.
-  std::timespec time_of_files();
+  std::timespec file_time();
 
   /// Prints what is wrong with the input and returns the exit status.
   int tell(const InputError &error);
@@ -84,6 +84,6 @@ namespace sprag
   /// Does `work` with the scene and returns its outcome; what is thrown is told, and what it leaves unfinished gets its end.
   /// A scene that is not given is read from the arguments. Errors of input and analysis come on all ranks alike and are told by
   /// the first; any other may be one rank's own: it passes through where the rank is not alone.
-  Outcome outcome_of(const Arguments &arguments, std::optional<Scene> scene, const std::timespec &since, const Rank &rank,
-                     const std::function<void(const Scene &)> &work);
+  Outcome run_to_outcome(const Arguments &arguments, std::optional<Scene> scene, const std::timespec &since, const Rank &rank,
+                         const std::function<void(const Scene &)> &work);
 } // namespace sprag

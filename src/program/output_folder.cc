@@ -30,7 +30,7 @@ namespace sprag
     constexpr std::chrono::milliseconds lock_patience(3000);
 
     /// " (process 123)" of whoever has the lock, as far as the system tells.
-    std::string holder_of(const OpenFile &folder)
+    std::string find_holder(const OpenFile &folder)
     {
       const std::string inode = ":" + std::to_string(folder.status().st_ino) + " ";
       std::ifstream locks("/proc/locks");
@@ -53,7 +53,7 @@ namespace sprag
       if (!opened.is_open() || held.is_same_as(opened))
         return false;
       if (!opened.lock(lock_patience) && errno == EWOULDBLOCK)
-        throw InputError("--output = " + folder + ": another run writes there" + holder_of(opened) +
+        throw InputError("--output = " + folder + ": another run writes there" + find_holder(opened) +
                          ". Wait for its end or choose another folder");
       held = std::move(opened);
       return true;

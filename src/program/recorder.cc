@@ -88,8 +88,8 @@ namespace sprag
         std::string bytes;
         FaceState face;
         records(bytes);
-        Archive of_face(std::move(bytes));
-        of_face(face);
+        Archive face_archive(std::move(bytes));
+        face_archive(face);
         writer.append(face);
       }
     }
@@ -138,7 +138,7 @@ namespace sprag
   {
     progress.finish();
     const bool in_time = scene.analysis.type == AnalysisType::transient;
-    auto summary       = in_time ? transient_summary(scene, rows) : summary_of(scene, rows);
+    auto summary       = in_time ? transient_summary(scene, rows) : make_summary(scene, rows);
     add_pair(rows, summary);
     append(summary, stress);
     append(warnings, row_warnings(scene, rows));

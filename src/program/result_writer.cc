@@ -6,7 +6,7 @@
 #include "base/system/peak_memory.h"
 #include "base/version.h"
 #include "program/in_memory.h"
-#include "report/brief.h"
+#include "report/console_summary.h"
 #include "report/report.h"
 #include "report/summary_table.h"
 #include "results/entries.h"
@@ -52,11 +52,11 @@ namespace sprag
       require_writable(options.folder);
   }
 
-  ResultWriter::ResultWriter(const Scene &of_scene, const RunOptions &of_options, PhaseTimer &of_run,
+  ResultWriter::ResultWriter(const Scene &scene_, const RunOptions &options_, PhaseTimer &timer_,
                              const std::vector<ColumnInfo> &columns, const FacePoints &points)
-      : scene(of_scene)
-      , options(of_options)
-      , timer(of_run)
+      : scene(scene_)
+      , options(options_)
+      , timer(timer_)
   {
     if (options.in_memory != nullptr)
     {
@@ -96,7 +96,7 @@ namespace sprag
       print_accuracy(std::cout, end.accuracy);
     }
     else if (!options.quiet)
-      print_brief(std::cout, answer, end.accuracy, PhaseTimer::cpu_seconds());
+      print_console_summary(std::cout, answer, end.accuracy, PhaseTimer::cpu_seconds());
     return end;
   }
 } // namespace sprag

@@ -18,16 +18,16 @@ namespace sprag
     /// The margin of the lever of a pair that is closer to jamming.
     JammingMargin least_margin(const Device &device, const FindMargin &margin)
     {
-      if (number_of_levers(device) == 1)
+      if (count_levers(device) == 1)
         return margin(device);
-      const auto of_lever = [&](const unsigned int lever)
+      const auto lever_margin = [&](const unsigned int lever)
       {
-        Device alone = device_of_lever(device, lever);
+        Device alone = lever_device(device, lever);
         alone.pair   = {};
         return margin(alone);
       };
-      const auto first  = of_lever(0);
-      const auto second = of_lever(1);
+      const auto first  = lever_margin(0);
+      const auto second = lever_margin(1);
       return first.margin() <= second.margin() ? first : second;
     }
 
@@ -47,7 +47,7 @@ namespace sprag
     void print_end(const std::string &end, const Warnings &warnings, const RunOptions &options)
     {
       if (!options.quiet && options.is_first)
-        std::cout << text_of(warnings) << end << count_text(warnings) << std::endl;
+        std::cout << to_text(warnings) << end << count_text(warnings) << std::endl;
     }
   } // namespace
 

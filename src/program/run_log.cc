@@ -42,12 +42,12 @@ namespace sprag
       return text + '\n';
     }
 
-    std::string given_parameters(const Scene &scene)
+    std::string specified_parameters(const Scene &scene)
     {
       std::string text;
       if (scene.parameters)
         for (const auto &[name, value] : *scene.parameters)
-          if (scene.given.count(name) > 0)
+          if (scene.specified.count(name) > 0)
             text += "  " + name + " = " + value + '\n';
       return "Scene:   " + scene.name + ", with\n" + text + '\n';
     }
@@ -87,8 +87,8 @@ namespace sprag
   class RunLog::Tee : public std::streambuf
   {
   public:
-    Tee(std::ostream &of_stream, std::shared_ptr<Record> into)
-        : stream(of_stream)
+    Tee(std::ostream &stream_, std::shared_ptr<Record> into)
+        : stream(stream_)
         , shown(stream.rdbuf(this))
         , record(std::move(into))
     {
@@ -143,8 +143,8 @@ namespace sprag
     const bool goes_on = has_progress(folder, scene);
     record->file.open(log_in(folder), goes_on ? std::ios::app : std::ios::trunc);
     const auto head = record->text.find('\n', record->text.find('\n') + 1) + 1;
-    record->file << (goes_on ? "\n" : "") << record->text.substr(0, head) << given_parameters(scene) << record->text.substr(head)
-                 << std::flush;
+    record->file << (goes_on ? "\n" : "") << record->text.substr(0, head) << specified_parameters(scene)
+                 << record->text.substr(head) << std::flush;
   }
 
   void add_to_log(const std::string &folder, const std::string &line)

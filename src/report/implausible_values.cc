@@ -22,9 +22,9 @@ namespace sprag
       std::string known; ///< of extremes that there are
       std::vector<std::string> mistaken;
 
-      bool is_plausible(const double of_value) const
+      bool is_plausible(const double candidate) const
       {
-        return of_value >= low && of_value <= high;
+        return candidate >= low && candidate <= high;
       }
     };
 
@@ -124,7 +124,7 @@ namespace sprag
     std::string found, remedy;
     for (const auto &judged : judged_values(scene))
     {
-      if (scene.given.count(judged.parameter) == 0 || judged.is_plausible(judged.value))
+      if (scene.specified.count(judged.parameter) == 0 || judged.is_plausible(judged.value))
         continue;
       const bool is_small = judged.value < judged.low;
       found += (found.empty() ? "" : " ") + judged.parameter + " = " + rounded_text(judged.value) + ' ' + judged.unit + " is " +

@@ -29,9 +29,9 @@ namespace sprag
       bool is_second = false;
     };
 
-    constexpr double admitted_error     = 0.05;
-    constexpr double admitted_share     = 0.25;        ///< of the way in contact, where the contact is narrower than that takes
-    constexpr double error_of_element[] = { 5., 0.8 }; ///< of degree 1 and 2
+    constexpr double admitted_error  = 0.05;
+    constexpr double admitted_share  = 0.25;        ///< of the way in contact, where the contact is narrower than that takes
+    constexpr double element_error[] = { 5., 0.8 }; ///< of degree 1 and 2
 
     Peak largest(const std::vector<Row> &rows, const Column column, const Column place)
     {
@@ -45,7 +45,7 @@ namespace sprag
       {
         look_at(row, row[column], row[place], row[Column::contact_width], false);
         if (!row.second_lever().empty())
-          look_at(row, row.of_second_lever(column), row.of_second_lever(place), row.of_second_lever(Column::contact_width), true);
+          look_at(row, row.second_value(column), row.second_value(place), row.second_value(Column::contact_width), true);
       }
       return result;
     }
@@ -53,7 +53,7 @@ namespace sprag
     /// Elements in contact that leave the admitted error.
     double enough_elements(const unsigned int degree)
     {
-      return std::cbrt(error_of_element[degree - 1] / admitted_error);
+      return std::cbrt(element_error[degree - 1] / admitted_error);
     }
 
     /// Width below which a share of the way in contact lies [mm]; 0 without a way.
@@ -91,7 +91,7 @@ namespace sprag
 
     std::string direction(const Row &row)
     {
-      return direction_of(row[Column::v]) > 0 ? "forward" : "backward";
+      return drive_direction(row[Column::v]) > 0 ? "forward" : "backward";
     }
   } // namespace
 
@@ -107,11 +107,11 @@ namespace sprag
 
     /// Rows of the stroke of a row, itself included, without those in which the contact has not yet moved by its width since a
     /// reversal; none where that is one of them.
-    std::vector<std::size_t> settled_stroke(const std::vector<Row> &rows, const std::size_t of)
+    std::vector<std::size_t> settled_stroke(const std::vector<Row> &rows, const std::size_t peak_row)
     {
       const auto is_along = [&](const std::size_t i)
-      { return direction_of(rows[i][Column::v]) == direction_of(rows[of][Column::v]); };
-      std::size_t begin = of, end = of + 1;
+      { return drive_direction(rows[i][Column::v]) == drive_direction(rows[peak_row][Column::v]); };
+      std::size_t begin = peak_row, end = peak_row + 1;
       while (begin > 0 && is_along(begin - 1))
         --begin;
       while (end < rows.size() && is_along(end))
@@ -122,7 +122,7 @@ namespace sprag
         while (begin < end && std::abs(rows[begin][Column::x] - turned_at) <= rows[begin][Column::contact_width])
           ++begin;
       }
-      if (begin > of)
+      if (begin > peak_row)
         return {};
       std::vector<std::size_t> result(end - begin);
       std::iota(result.begin(), result.end(), begin);
@@ -135,8 +135,8 @@ namespace sprag
     const auto peak = largest(rows, Column::largest_pressure, Column::largest_pressure_xi);
     if (!peak.row)
       return {};
-    const auto pressure_of = [&](const std::size_t i)
-    { return peak.is_second ? rows[i].of_second_lever(Column::largest_pressure) : rows[i][Column::largest_pressure]; };
+    const auto pressure_at = [&](const std::size_t i)
+    { return peak.is_second ? rows[i].second_value(Column::largest_pressure) : rows[i][Column::largest_pressure]; };
     const auto near_by = settled_stroke(rows, static_cast<std::size_t>(peak.row - rows.data()));
     if (near_by.empty())
       return { peak.value, 0. };
@@ -149,7 +149,7 @@ namespace sprag
       auto &mean = means[std::lround(rows[i][Column::x] / bin)];
       ++mean.rows;
       mean.x += (rows[i][Column::x] - mean.x) / mean.rows;
-      mean.pressure += (pressure_of(i) - mean.pressure) / mean.rows;
+      mean.pressure += (pressure_at(i) - mean.pressure) / mean.rows;
     }
     std::vector<double> x, pressure;
     for (const auto &[number, mean] : means)
@@ -184,7 +184,7 @@ namespace sprag
 
   double expected_pressure_error(const double elements, const unsigned int degree)
   {
-    return std::min(1., error_of_element[degree - 1] / std::pow(elements, 3));
+    return std::min(1., element_error[degree - 1] / std::pow(elements, 3));
   }
 
   Warnings coarse_contact_warnings(const Scene &scene, const std::vector<Row> &rows)

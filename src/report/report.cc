@@ -28,16 +28,16 @@ namespace sprag
 
     using Rows = std::vector<std::reference_wrapper<const Row>>;
 
-    int direction_of(const Row &row)
+    int drive_direction(const Row &row)
     {
-      return sprag::direction_of(row[Column::v]);
+      return sprag::drive_direction(row[Column::v]);
     }
 
     /// A pair that presses on a cylinder off its middle begins in stick, and so does what goes back at once from where the
     /// cylinder was slid forward.
     bool begins_in_stick(const Row &first)
     {
-      return first[Column::P] > 0. && first[Column::friction_resultant] * direction_of(first) <= 0.;
+      return first[Column::P] > 0. && first[Column::friction_resultant] * drive_direction(first) <= 0.;
     }
 
     /// Returns true if the table stands still in a row: friction then depends on the motion before.
@@ -54,9 +54,9 @@ namespace sprag
       double turned_at = begins_in_stick(rows.front()) ? rows.front()[Column::x] : std::numeric_limits<double>::quiet_NaN();
       for (std::size_t i = 0; i < rows.size(); ++i)
       {
-        if (i > 0 && direction_of(rows[i]) != direction_of(rows[i - 1]))
+        if (i > 0 && drive_direction(rows[i]) != drive_direction(rows[i - 1]))
           turned_at = rows[i - 1][Column::x];
-        if (direction_of(rows[i]) == direction && !rests(rows, i) && !(std::abs(rows[i][Column::x] - turned_at) < apart))
+        if (drive_direction(rows[i]) == direction && !rests(rows, i) && !(std::abs(rows[i][Column::x] - turned_at) < apart))
           result.emplace_back(rows[i]);
       }
       return result;
@@ -68,7 +68,7 @@ namespace sprag
       const auto has_turned = friction_has_turned(rows);
       Rows result;
       for (std::size_t i = 0; i < rows.size(); ++i)
-        if (direction_of(rows[i]) == direction && has_turned[i] && !rests(rows, i))
+        if (drive_direction(rows[i]) == direction && has_turned[i] && !rests(rows, i))
           result.emplace_back(rows[i]);
       return result;
     }
@@ -85,7 +85,7 @@ namespace sprag
       return peak > 0. ? off / peak : std::numeric_limits<double>::quiet_NaN();
     }
 
-    constexpr double largest_change_of_mu = 0.05; ///< over which C_Q has a meaning, over the largest mu
+    constexpr double largest_mu_change = 0.05; ///< over which C_Q has a meaning, over the largest mu
 
     /// C of the least-squares fit Q = C x + D x^2 over 0 < x <= 10 mm; NaN with fewer than three rows there, or where mu changes
     /// on the way.
@@ -101,7 +101,7 @@ namespace sprag
           x.push_back(row[Column::x]);
           Q.push_back(row[Column::Q]);
         }
-      const bool changes = largest_mu - least_mu > largest_change_of_mu * largest_mu;
+      const bool changes = largest_mu - least_mu > largest_mu_change * largest_mu;
       return x.size() < 3 || changes ? std::numeric_limits<double>::quiet_NaN() : slope_at_origin(x, Q);
     }
 
@@ -115,7 +115,7 @@ namespace sprag
     /// Without a slope at x = 0 where a pair is opened there or a preload presses.
     bool begins_closed(const Scene &scene)
     {
-      return scene.spring.rest_angle == 0. && (number_of_levers(scene) == 1 || scene.pair.cylinder_offset == 0.);
+      return scene.spring.rest_angle == 0. && (count_levers(scene) == 1 || scene.pair.cylinder_offset == 0.);
     }
 
     void add_stroke(const Scene &scene, const Rows &turned, const Rows &settled, const std::string &way,
@@ -132,10 +132,10 @@ namespace sprag
 
   void add_closed_form(const Scene &scene, Row &row)
   {
-    const double moved = row[Column::support_displacement];
-    const double x     = row[Column::x] - (std::isnan(moved) ? 0. : moved);
-    const double v     = row[Column::v];
-    const auto state   = number_of_levers(scene) == 2 ? pair_closed_form(scene, x, v)[0].state : closed_form(scene, x, v);
+    const double moved             = row[Column::support_displacement];
+    const double x                 = row[Column::x] - (std::isnan(moved) ? 0. : moved);
+    const double v                 = row[Column::v];
+    const auto state               = count_levers(scene) == 2 ? pair_closed_form(scene, x, v)[0].state : closed_form(scene, x, v);
     row[Column::theta_closed_form] = state.contact.theta;
     if (state.P < 0. || !std::isfinite(state.P))
       return;
@@ -157,7 +157,7 @@ namespace sprag
     }
   } // namespace
 
-  std::vector<Entry> summary_of(const Scene &scene, const std::vector<Row> &rows)
+  std::vector<Entry> make_summary(const Scene &scene, const std::vector<Row> &rows)
   {
     std::vector<Entry> entries;
     if (rows.empty())
@@ -198,13 +198,13 @@ namespace sprag
   {
     if (rows.empty() || rows.front().second_lever().empty())
       return;
-    const auto difference = [](const Row &row) { return row[Column::P] - row.of_second_lever(Column::P); };
+    const auto difference = [](const Row &row) { return row[Column::P] - row.second_value(Column::P); };
     append<Entry>(entries, { { "peak_lateral_force", signed_peak(rows, [](const Row &row) { return row.lateral_force(); }) },
                              { "peak_swing", signed_peak(rows, [](const Row &row) { return row.swing(); }) },
                              { "peak_difference_P", signed_peak(rows, difference) } });
   }
 
-  double value_of(const std::vector<Entry> &entries, const std::string &name)
+  double find_value(const std::vector<Entry> &entries, const std::string &name)
   {
     const auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry &e) { return e.name == name; });
     if (entry == entries.end())

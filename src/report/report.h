@@ -18,13 +18,13 @@ namespace sprag
   /// Sums up a run without inertia: peaks of P and Q each way, slopes C_Q of the rows near x = 0, loop area and friction
   /// work, largest deviations from the closed form relative to the stroke's peak (the first 2 mm after a reversal apart),
   /// penetration and cone violation, cost in iterations.
-  std::vector<Entry> summary_of(const Scene &scene, const std::vector<Row> &rows);
+  std::vector<Entry> make_summary(const Scene &scene, const std::vector<Row> &rows);
 
   /// Adds what the levers of a full pair do differently, and their force across the path; nothing for a single lever.
   void add_pair(const std::vector<Row> &rows, std::vector<Entry> &entries);
 
   /// Returns the value of the entry of this name; throws std::out_of_range if there is none.
-  double value_of(const std::vector<Entry> &entries, const std::string &name);
+  double find_value(const std::vector<Entry> &entries, const std::string &name);
 
   /// Returns the largest deviation of P, Q and theta on both strokes in a summary [-]; NaN if one of them is unknown.
   double largest_deviation(const std::vector<Entry> &summary);

@@ -19,10 +19,10 @@ namespace sprag
   namespace
   {
     // With the overlap a fifth of the approach the largest pressure of model A is 7 % low and its contact 12 % wide.
-    constexpr double largest_overlap_of_approach = 0.2;
+    constexpr double largest_approach_penetration = 0.2;
 
     // The lever is turned less by the overlap: with a tenth of the layer P of model A is 3 % low.
-    constexpr double largest_overlap_of_layer = 0.1;
+    constexpr double largest_layer_penetration = 0.1;
 
     // Deflection over distance from the pivot. At finite strain P of model A with levers of 1, 2 and 4 mm is lower by 2.1, 0.7
     // and 0.04 % where this ratio is 0.024, 0.014 and 0.0034.
@@ -44,7 +44,7 @@ namespace sprag
     constexpr double largest_peak_over_mean                = 1.6;
     constexpr double largest_peak_over_mean_incompressible = 2.;
     constexpr double incompressible                        = 0.4;
-    constexpr double admitted_share_of_peaks               = 0.02; ///< of the rows, and least P that counts, over the largest
+    constexpr double admitted_peak_share                   = 0.02; ///< of the rows, and least P that counts, over the largest
 
     std::string per_cent(const double share)
     {
@@ -66,26 +66,26 @@ namespace sprag
     void add_overlap(const Scene &scene, const std::vector<Row> &rows, const Row &peak, Warnings &warnings)
     {
       const double thickness = scene.layer.thickness;
-      const Row *deepest     = row_of_largest(rows, [](const Row &row) { return row[Column::penetration]; });
+      const Row *deepest     = find_largest_row(rows, [](const Row &row) { return row[Column::penetration]; });
       if (deepest == nullptr)
         return;
       const std::string remedy = "Leave Contact/Penalty at auto, or give ten times as much.";
       const double overlap     = (*deepest)[Column::penetration];
-      if (thickness > 0. && overlap > largest_overlap_of_layer * thickness)
+      if (thickness > 0. && overlap > largest_layer_penetration * thickness)
         warnings.push_back({ "overlap_of_layer",
                              "Cylinder and friction face overlap by " + mm(overlap) + ' ' + place(*deepest) + ", " +
                                  per_cent(overlap / thickness) + " of the layer's thickness; admitted are " +
-                                 per_cent(largest_overlap_of_layer) + '.',
+                                 per_cent(largest_layer_penetration) + '.',
                              "The lever is opened by that much less than the cylinder asks for: P, Q, work and theta are too "
                              "small, and pressures and contact width are those of a soft spring, not of the layer.",
                              remedy });
       const double at_peak  = peak[Column::penetration];
       const double approach = at_peak + peak[Column::indentation];
-      if (at_peak > largest_overlap_of_approach * approach)
+      if (at_peak > largest_approach_penetration * approach)
         warnings.push_back({ "soft_penalty",
                              "The overlap of " + mm(at_peak) + ' ' + place(peak) + ", where P is largest, is " +
                                  per_cent(at_peak / approach) + " of the approach of cylinder and lever; admitted are " +
-                                 per_cent(largest_overlap_of_approach) + '.',
+                                 per_cent(largest_approach_penetration) + '.',
                              "The contact is softer than its layer: contact width too large, the largest pressure too small, in "
                              "time the frequency of ringing too low.",
                              remedy });
@@ -124,7 +124,7 @@ namespace sprag
       const Row *worst   = nullptr;
       std::size_t peaked = 0, pressed = 0;
       for (const Row &row : rows)
-        if (row[Column::P] > admitted_share_of_peaks * largest_P)
+        if (row[Column::P] > admitted_peak_share * largest_P)
         {
           ++pressed;
           if (!(peak_over_mean(scene, row) > admitted))
@@ -133,7 +133,7 @@ namespace sprag
           if (worst == nullptr || peak_over_mean(scene, row) > peak_over_mean(scene, *worst))
             worst = &row;
         }
-      if (worst == nullptr || static_cast<double>(peaked) <= admitted_share_of_peaks * static_cast<double>(pressed))
+      if (worst == nullptr || static_cast<double>(peaked) <= admitted_peak_share * static_cast<double>(pressed))
         return;
       warnings.push_back(
           { "stiff_penalty",
@@ -157,13 +157,13 @@ namespace sprag
     {
       if (!(row[Column::P] > 0.))
         return 0.;
-      const double of_layer = (finite(row[Column::indentation]) + finite(row[Column::penetration])) / row[Column::s];
-      return std::abs(row[Column::theta] - row[Column::theta_closed_form]) - finite(of_layer);
+      const double layer_angle = (finite(row[Column::indentation]) + finite(row[Column::penetration])) / row[Column::s];
+      return std::abs(row[Column::theta] - row[Column::theta_closed_form]) - finite(layer_angle);
     }
 
     void add_deflection(const Scene &scene, const std::vector<Row> &rows, Warnings &warnings)
     {
-      const Row *worst = row_of_largest(rows, deflection_over_length);
+      const Row *worst = find_largest_row(rows, deflection_over_length);
       if (worst == nullptr || scene.lever.material != MaterialModel::linear)
         return;
       const double ratio = deflection_over_length(*worst);
@@ -184,7 +184,7 @@ namespace sprag
     void add_strain(const Scene &scene, const std::vector<Row> &rows, Warnings &warnings)
     {
       const double thickness = scene.layer.thickness;
-      const Row *worst       = row_of_largest(rows, [](const Row &row) { return row[Column::indentation]; });
+      const Row *worst       = find_largest_row(rows, [](const Row &row) { return row[Column::indentation]; });
       if (worst == nullptr || thickness == 0. || scene.lever.material != MaterialModel::linear)
         return;
       const double strain = (*worst)[Column::indentation] / thickness;
@@ -204,8 +204,8 @@ namespace sprag
       const auto strength = layer_strength(scene.layer);
       if (!strength)
         return;
-      const Row *pressed    = row_of_largest(rows, [](const Row &row) { return row[Column::largest_pressure]; });
-      const Row &place_of   = pressed != nullptr ? *pressed : peak;
+      const Row *pressed      = find_largest_row(rows, [](const Row &row) { return row[Column::largest_pressure]; });
+      const Row &location_row = pressed != nullptr ? *pressed : peak;
       const double pressure = pressed != nullptr ? (*pressed)[Column::largest_pressure] : layer_pressure(scene, peak[Column::P]);
       if (pressure <= *strength)
         return;
@@ -213,7 +213,7 @@ namespace sprag
       warnings.push_back({ "pressure_beyond_strength",
                            "The largest pressure on the friction layer is " + rounded_text(pressure) + " MPa" +
                                (pressed != nullptr ? "" : " (by an elastic foundation)") +
-                               ", under P = " + rounded_text(place_of[Column::P]) + " N " + place(place_of) +
+                               ", under P = " + rounded_text(location_row[Column::P]) + " N " + place(location_row) +
                                "; the layer gives way from " + rounded_text(*strength) + " MPa (" + source + ").",
                            "The layer is modelled as elastic: a real one is crushed, its pressure stays near that value and its "
                            "contact is wider; P and Q change by the lever's turn alone, stiffness in contact and ringing more.",
@@ -237,7 +237,7 @@ namespace sprag
       const double work     = std::max(largest(rows, drive_work), std::abs(last[Column::friction_work]));
       if (!(open > largest_open_energy * work))
         return;
-      const Row *longest = row_of_largest(rows, [](const Row &row) { return std::abs(row[Column::step]); });
+      const Row *longest = find_largest_row(rows, [](const Row &row) { return std::abs(row[Column::step]); });
       warnings.push_back({ "long_steps",
                            "Work of the drive, work of friction and stored energy differ by " + per_cent(open / work) +
                                " of the largest work, with steps of up to " + mm(std::abs((*longest)[Column::step])) +
@@ -268,13 +268,13 @@ namespace sprag
     }
 
     /// Beyond its last row a table is constant.
-    void add_speed_of_friction(const Scene &scene, const std::vector<Row> &rows, Warnings &warnings)
+    void add_friction_speed(const Scene &scene, const std::vector<Row> &rows, Warnings &warnings)
     {
       const auto *table = std::get_if<TabulatedFriction>(&scene.friction.law);
       if (table == nullptr)
         return;
       const Column column = scene.friction.speed == FrictionSpeed::drive ? Column::v : Column::v_rel;
-      const Row *fastest  = row_of_largest(rows, [=](const Row &row) { return std::abs(row[column]); });
+      const Row *fastest  = find_largest_row(rows, [=](const Row &row) { return std::abs(row[column]); });
       const double last   = table->fastest();
       // Speeds of a drive that is a table too have round-off.
       if (fastest == nullptr || std::abs((*fastest)[column]) <= (1. + 1e-6) * last)
@@ -289,21 +289,21 @@ namespace sprag
 
   std::optional<double> layer_strength(const FrictionLayer &layer)
   {
-    constexpr double strain_of_buckling = 0.04;
-    constexpr double largest_ratio      = 0.2; // cork has 0 to 0.1 across the rings, 0.25 to 0.5 along them
+    constexpr double buckling_strain = 0.04;
+    constexpr double largest_ratio   = 0.2; // cork has 0 to 0.1 across the rings, 0.25 to 0.5 along them
     if (layer.thickness == 0.)
       return {};
     if (layer.strength)
       return layer.strength;
     if (layer.poisson_ratio > largest_ratio)
       return {};
-    return strain_of_buckling * layer.young_modulus;
+    return buckling_strain * layer.young_modulus;
   }
 
   Warnings row_warnings(const Scene &scene, const std::vector<Row> &rows)
   {
     Warnings warnings;
-    const Row *peak = row_of_largest(rows, [](const Row &row) { return row[Column::P]; });
+    const Row *peak = find_largest_row(rows, [](const Row &row) { return row[Column::P]; });
     if (peak == nullptr)
       return warnings;
     if (is_meshed(scene.analysis.model))
@@ -317,7 +317,7 @@ namespace sprag
     add_strain(scene, rows, warnings);
     add_pressure(scene, rows, *peak, warnings);
     add_energy(scene, rows, warnings);
-    add_speed_of_friction(scene, rows, warnings);
+    add_friction_speed(scene, rows, warnings);
     add_sensors_in_tension(rows, warnings);
     return warnings;
   }

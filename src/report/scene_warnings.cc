@@ -21,26 +21,26 @@ namespace sprag
     constexpr double largest_amplification = 10.;
 
     // A device that differs from model A in one quantity may be a variation of it; from two on it is taken for another.
-    constexpr unsigned int differences_of_another_device = 2;
+    constexpr unsigned int other_device_differences = 2;
 
     // Poisson's ratio from which a wide layer between bonded faces is twice as stiff in plane strain, (1-nu)/((1+nu)(1-2nu)) E,
     // as in plane stress, E/(1-nu^2): nu^2 + 2 nu - 1 = 0.
-    const double largest_ratio_of_plane_stress = std::sqrt(2.) - 1.;
+    const double largest_plane_stress_ratio = std::sqrt(2.) - 1.;
 
     // Hardened spring steels have a proof stress of 1000 to 1600 MPa, less what many cycles cost: 0.4 % strain is 824 MPa.
     constexpr double largest_leaf_strain = 4e-3;
 
     // With that many times the cylinder's sagitta between two points of the face P is 1 % off, with a tenth of that 10 %.
-    constexpr double least_opening     = 20.;
-    constexpr double points_of_element = 10.;
+    constexpr double least_opening  = 20.;
+    constexpr double element_points = 10.;
 
     // Changes of speed, over the largest speed and over the range of x, and how many must turn, in number and of all such
     // changes. White noise turns 73 % of them, steps of a resolution half or more, ten rows a period of a real vibration a fifth.
-    constexpr double least_shaking        = 0.005;
-    constexpr double most_of_range        = 0.05;
-    constexpr unsigned int fewest_turns   = 20;
-    constexpr double least_share_of_turns = 0.3;
-    constexpr unsigned int n_looks        = 2000;
+    constexpr double least_shaking      = 0.005;
+    constexpr double range_limit        = 0.05;
+    constexpr unsigned int fewest_turns = 20;
+    constexpr double least_turn_share   = 0.3;
+    constexpr unsigned int n_looks      = 2000;
 
     bool follows_drive(const Scene &scene)
     {
@@ -60,7 +60,7 @@ namespace sprag
       double x, s, mu, value;
     };
 
-    Amplification largest_of_drive(const Scene &scene)
+    Amplification drive_amplification(const Scene &scene)
     {
       constexpr unsigned int samples = 64;
       const double from = scene.drive.minimum(), to = scene.drive.maximum();
@@ -81,7 +81,7 @@ namespace sprag
     {
       if (!follows_drive(scene))
         return;
-      const auto found = largest_of_drive(scene);
+      const auto found = drive_amplification(scene);
       if (found.value <= largest_amplification)
         return;
       warnings.push_back(
@@ -131,13 +131,13 @@ namespace sprag
       const auto &layer = scene.layer;
       const double nu   = layer.poisson_ratio;
       if (!has_mesh(scene) || layer.thickness == 0. || layer.plane != PlaneState::stress || scene.analysis.dimension == 3 ||
-          nu <= largest_ratio_of_plane_stress)
+          nu <= largest_plane_stress_ratio)
         return;
       const double ratio = (1. - nu) * (1. - nu) / (1. - 2. * nu);
       warnings.push_back(
           { "plane_stress_of_layer",
             "Friction layer/Poisson's ratio = " + rounded_text(nu) + " with Friction layer/Plane = stress; above " +
-                rounded_text(largest_ratio_of_plane_stress) +
+                rounded_text(largest_plane_stress_ratio) +
                 " a layer held between two faces, much wider than thick, is more than twice as stiff as plane stress says.",
             "The layer of " + mm(layer.thickness) + " thickness and " + mm(scene.lever.width) +
                 " width is too soft, by up to a factor of " + rounded_text(ratio) +
@@ -154,7 +154,7 @@ namespace sprag
       const double x       = scene.drive.maximum();
       const auto contact   = kinematics(scene.geometry, x);
       const double opening = contact.s * std::abs(contact.theta - kinematics(scene.geometry, 0.).theta);
-      const double spacing = scene.mesh.face_size / points_of_element;
+      const double spacing = scene.mesh.face_size / element_points;
       const double sagitta = spacing * spacing / (8. * scene.geometry.cylinder_radius);
       if (opening >= least_opening * sagitta)
         return;
@@ -218,14 +218,14 @@ namespace sprag
           scene.spring.type == SpringType::torsional && scene.spring.stiffness != RotationalSpring().stiffness;
       const unsigned int differs = (own.cylinder_radius != a.cylinder_radius) + (own.interface_offset != a.interface_offset) +
                                    (own.pivot_distance != a.pivot_distance) + own_spring;
-      const bool is_other_device = differs >= differences_of_another_device;
+      const bool is_other_device = differs >= other_device_differences;
       const auto is_asked_for    = [&](const std::string &name)
       { return is_other_device || (name == "Lever/Moment of inertia" && has_other_lever(scene)); };
       SceneSettings defaults;
       const auto parameters = scene_parameters(defaults);
       std::string list;
       for (const auto &[name, counts] : dependents(scene))
-        if (counts && is_asked_for(name) && scene.given.count(name) == 0 && !is_varied(scene, name))
+        if (counts && is_asked_for(name) && scene.specified.count(name) == 0 && !is_varied(scene, name))
           list += (list.empty() ? "" : ", ") + name + " = " + find_parameter(parameters, name)->default_value;
       if (list.empty())
         return;
@@ -258,9 +258,9 @@ namespace sprag
       double share       = 0.; ///< of these among all such changes
       double largest     = 0.; ///< change of speed [mm/s]
 
-      bool is_told() const
+      bool is_known() const
       {
-        return turns >= fewest_turns && share >= least_share_of_turns;
+        return turns >= fewest_turns && share >= least_turn_share;
       }
     };
 
@@ -279,7 +279,7 @@ namespace sprag
         speed               = next;
         // A drive that turns goes far in between, unlike one that trembles.
         const bool counts =
-            std::abs(change) > least_shaking * drive.peak_speed() && std::abs(change) * time < most_of_range * range;
+            std::abs(change) > least_shaking * drive.peak_speed() && std::abs(change) * time < range_limit * range;
         changes += counts;
         if (counts && change * before < 0.)
         {
@@ -293,15 +293,15 @@ namespace sprag
     }
 
     /// A table of up to 2000 rows has all of them as kinks, a longer one is looked at as often.
-    Shaking shaking_of(const Drive &drive)
+    Shaking find_shaking(const Drive &drive)
     {
       std::vector<double> rows = drive.kinks(), even;
       rows.insert(rows.begin(), 0.);
       rows.push_back(drive.duration());
       for (unsigned int i = 0; i <= n_looks; ++i)
         even.push_back(drive.duration() * i / n_looks);
-      const auto of_rows = shaking_between(rows, drive);
-      return of_rows.is_told() ? of_rows : shaking_between(even, drive);
+      const auto row_shaking = shaking_between(rows, drive);
+      return row_shaking.is_known() ? row_shaking : shaking_between(even, drive);
     }
 
     /// Without inertia speeds count by the friction coefficient alone.
@@ -311,8 +311,8 @@ namespace sprag
           scene.analysis.type == AnalysisType::transient || !std::holds_alternative<CoulombFriction>(scene.friction.law);
       if (!follows_drive(scene) || scene.drive.profile() != DriveProfile::table || !by_speed)
         return;
-      const auto found = shaking_of(scene.drive);
-      if (!found.is_told())
+      const auto found = find_shaking(scene.drive);
+      if (!found.is_known())
         return;
       warnings.push_back({ "shaking_drive",
                            "The speed of Drive/Table goes up and down again from row to row, " + std::to_string(found.turns) +

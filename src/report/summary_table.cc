@@ -28,7 +28,7 @@ namespace sprag
 
   std::optional<SummaryRow> summary_row(const AnalysisType type, const std::string &entry)
   {
-    const auto found = page_row("entry", word_of(type), entry);
+    const auto found = page_row("entry", to_word(type), entry);
     if (!found)
       return {};
     SummaryRow row{ found->unit, std::atoi(found->word.c_str()), {}, {} };
@@ -45,7 +45,7 @@ namespace sprag
 
   void describe_summary(const AnalysisType type, std::vector<Entry> &entries)
   {
-    describe("entry", word_of(type), entries);
+    describe("entry", to_word(type), entries);
   }
 
   void describe_facts(std::vector<Entry> &entries)

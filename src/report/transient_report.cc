@@ -33,8 +33,8 @@ namespace sprag
     double peak(const std::vector<Row> &rows, const Column column, const int direction)
     {
       const auto has_turned = friction_has_turned(rows);
-      const auto counts     = [&](const std::size_t i) { return has_turned[i] && direction_of(rows[i][Column::v]) == direction; };
-      double result         = 0.;
+      const auto counts = [&](const std::size_t i) { return has_turned[i] && drive_direction(rows[i][Column::v]) == direction; };
+      double result     = 0.;
       for (std::size_t i = 0; i < rows.size(); ++i)
         if (counts(i) && std::abs(rows[i][column]) > std::abs(result))
         {
@@ -93,7 +93,7 @@ namespace sprag
     }
 
     /// Element length along the friction face [mm]; 0: none.
-    double size_of_elements(const Scene &scene)
+    double element_size(const Scene &scene)
     {
       return is_meshed(scene.analysis.model) ? scene.mesh.face_size : 0.;
     }
@@ -101,7 +101,7 @@ namespace sprag
 
   Warnings transient_warnings(const Scene &scene, const std::vector<Row> &rows)
   {
-    const double size = size_of_elements(scene);
+    const double size = element_size(scene);
     if (rows.empty() || size == 0.)
       return {};
     return element_passing_warnings(oscillations(rows, scene.drive, size), size);
@@ -127,7 +127,7 @@ namespace sprag
                              { "steps", static_cast<double>(rows.size()) - 1. },
                              { "rejected_steps", sum(rows, Column::rejected_steps) },
                              { "iterations", sum(rows, Column::iterations) } });
-    append(entries, oscillation_entries(oscillations(rows, scene.drive, size_of_elements(scene))));
+    append(entries, oscillation_entries(oscillations(rows, scene.drive, element_size(scene))));
     return entries;
   }
 

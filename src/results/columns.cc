@@ -13,12 +13,12 @@ namespace sprag
   const std::vector<ColumnInfo> &all_columns()
   {
     static const auto columns =
-        columns_of_pages("", "time x v theta s P F Q normal_resultant friction_resultant v_rel mu centre_offset contact_width "
-                             "largest_pressure largest_pressure_xi penetration indentation cone_violation elastic_slip "
-                             "friction_power friction_work drive_work spring_energy elastic_energy layer_energy kinetic_energy "
-                             "support_energy contact_energy damping_work algorithmic_work energy_residual theta_rate "
-                             "support_displacement Q_support P_quasi_static Q_quasi_static creep P_closed_form Q_closed_form "
-                             "theta_closed_form step time_step rejected_steps active_points iterations augmentations");
+        page_columns("", "time x v theta s P F Q normal_resultant friction_resultant v_rel mu centre_offset contact_width "
+                         "largest_pressure largest_pressure_xi penetration indentation cone_violation elastic_slip "
+                         "friction_power friction_work drive_work spring_energy elastic_energy layer_energy kinetic_energy "
+                         "support_energy contact_energy damping_work algorithmic_work energy_residual theta_rate "
+                         "support_displacement Q_support P_quasi_static Q_quasi_static creep P_closed_form Q_closed_form "
+                         "theta_closed_form step time_step rejected_steps active_points iterations augmentations");
     return columns;
   }
 
@@ -29,24 +29,24 @@ namespace sprag
       if (plate.type == PlateType::none)
         return;
       for (std::size_t i = 1; i <= plate.sensors.size(); ++i)
-        append(columns, columns_of_pages("", "sensor_" + std::to_string(i)));
-      append(columns, columns_of_pages("", "sensor_sum"));
+        append(columns, page_columns("", "sensor_" + std::to_string(i)));
+      append(columns, page_columns("", "sensor_sum"));
     }
 
-    void add_as_second(const std::vector<ColumnInfo> &of_a_lever, std::vector<ColumnInfo> &columns)
+    void add_as_second(const std::vector<ColumnInfo> &per_lever, std::vector<ColumnInfo> &columns)
     {
-      for (const auto &[name, unit, description] : of_a_lever)
+      for (const auto &[name, unit, description] : per_lever)
         columns.push_back({ name + "_2", unit, "of the pair's second lever, in its mirrored axes: " + description });
     }
 
     void add_pair(const FrictionPlate &plate, std::vector<ColumnInfo> &columns)
     {
-      std::vector<ColumnInfo> of_second;
-      for (const Column column : columns_of_a_lever())
-        of_second.push_back(column_info(column));
-      add_sensors(plate, of_second);
-      add_as_second(of_second, columns);
-      append(columns, columns_of_pages("", "swing Q_pair lateral_force"));
+      std::vector<ColumnInfo> second_infos;
+      for (const Column column : lever_columns())
+        second_infos.push_back(column_info(column));
+      add_sensors(plate, second_infos);
+      add_as_second(second_infos, columns);
+      append(columns, page_columns("", "swing Q_pair lateral_force"));
     }
 
     /// Columns of each lever in three dimensions.
@@ -54,16 +54,16 @@ namespace sprag
     {
       std::vector<ColumnInfo> columns = columns_across();
       if (cylinder.has_free_axis())
-        append(columns, columns_of_pages("", "tilt skew"));
+        append(columns, page_columns("", "tilt skew"));
       if (plate.type != PlateType::none)
         for (std::size_t i = 1; i <= plate.sensors.size(); ++i)
           for (const std::string side : { "_left", "_right" })
-            append(columns, columns_of_pages("", "sensor_" + std::to_string(i) + side));
+            append(columns, page_columns("", "sensor_" + std::to_string(i) + side));
       return columns;
     }
   } // namespace
 
-  const std::vector<Column> &columns_of_a_lever()
+  const std::vector<Column> &lever_columns()
   {
     static const std::vector<Column> columns = { Column::theta,
                                                  Column::theta_rate,
@@ -82,8 +82,7 @@ namespace sprag
 
   const std::vector<ColumnInfo> &columns_across()
   {
-    static const auto columns =
-        columns_of_pages("", "F_across centre_across twisting_moment turning_moment largest_pressure_zeta");
+    static const auto columns = page_columns("", "F_across centre_across twisting_moment turning_moment largest_pressure_zeta");
     return columns;
   }
 
@@ -96,10 +95,10 @@ namespace sprag
       add_pair(plate, result);
     if (dimension == 3)
     {
-      const auto of_lever = across_a_lever(plate, cylinder);
-      result.insert(result.end(), of_lever.begin(), of_lever.end());
+      const auto across_columns = across_a_lever(plate, cylinder);
+      result.insert(result.end(), across_columns.begin(), across_columns.end());
       if (pair.type == PairType::full)
-        add_as_second(of_lever, result);
+        add_as_second(across_columns, result);
     }
     return result;
   }
@@ -114,9 +113,9 @@ namespace sprag
 
   void Row::add_second_lever(const Row &second)
   {
-    of_second.clear();
-    for (const Column column : columns_of_a_lever())
-      of_second.push_back(second[column]);
+    second_values.clear();
+    for (const Column column : lever_columns())
+      second_values.push_back(second[column]);
     sensor_forces.insert(sensor_forces.end(), second.sensor_forces.begin(), second.sensor_forces.end());
     across.insert(across.end(), second.across.begin(), second.across.end());
     for (const Column column :
@@ -127,18 +126,18 @@ namespace sprag
       (*this)[column] = std::max((*this)[column], second[column]);
   }
 
-  double Row::of_second_lever(const Column column) const
+  double Row::second_value(const Column column) const
   {
-    const auto &of_a_lever = columns_of_a_lever();
-    const auto place       = std::find(of_a_lever.begin(), of_a_lever.end(), column) - of_a_lever.begin();
-    return of_second.at(static_cast<std::size_t>(place));
+    const auto &per_lever = lever_columns();
+    const auto place      = std::find(per_lever.begin(), per_lever.end(), column) - per_lever.begin();
+    return second_values.at(static_cast<std::size_t>(place));
   }
 
   double Row::lateral_force() const
   {
     const auto upward = [](const double P, const double F, const double theta)
     { return P * std::cos(theta) - F * std::sin(theta); };
-    return upward(of_second_lever(Column::P), of_second_lever(Column::F), of_second_lever(Column::theta)) -
+    return upward(second_value(Column::P), second_value(Column::F), second_value(Column::theta)) -
            upward((*this)[Column::P], (*this)[Column::F], (*this)[Column::theta]);
   }
 

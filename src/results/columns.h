@@ -93,7 +93,7 @@ namespace sprag
   const std::vector<ColumnInfo> &columns_across();
 
   /// Lists the columns that each lever of a pair has.
-  const std::vector<Column> &columns_of_a_lever();
+  const std::vector<Column> &lever_columns();
 
   /// One accepted step.
   class Row
@@ -123,31 +123,31 @@ namespace sprag
     /// Makes this the row of a pair, whose first lever it was: energies, works and powers of both, what each lever has beside it.
     void add_second_lever(const Row &second);
 
-    /// Returns the values of a pair's second lever in the order of columns_of_a_lever(); empty for a single lever.
+    /// Returns the values of a pair's second lever in the order of lever_columns(); empty for a single lever.
     const std::vector<double> &second_lever() const
     {
-      return of_second;
+      return second_values;
     }
 
-    /// Returns one of columns_of_a_lever() of a pair's second lever.
-    double of_second_lever(Column column) const;
+    /// Returns one of lever_columns() of a pair's second lever.
+    double second_value(Column column) const;
 
     /// Returns Q of all levers together [N].
     double drive_force() const
     {
-      return (*this)[Column::Q] + (of_second.empty() ? 0. : of_second_lever(Column::Q));
+      return (*this)[Column::Q] + (second_values.empty() ? 0. : second_value(Column::Q));
     }
 
     /// Returns F of all levers together [N].
     double friction_force() const
     {
-      return (*this)[Column::F] + (of_second.empty() ? 0. : of_second_lever(Column::F));
+      return (*this)[Column::F] + (second_values.empty() ? 0. : second_value(Column::F));
     }
 
     /// Returns (theta - theta_2)/2: what both levers of a pair turn together, the same way in space [rad].
     double swing() const
     {
-      return 0.5 * ((*this)[Column::theta] - of_second_lever(Column::theta));
+      return 0.5 * ((*this)[Column::theta] - second_value(Column::theta));
     }
 
     /// Returns the y-force of both levers of a pair on the cylinder, towards the first where positive [N].
@@ -157,6 +157,6 @@ namespace sprag
     friend void visit(Archive &archive, Row &row);
 
     std::array<double, n_columns> values;
-    std::vector<double> of_second;
+    std::vector<double> second_values;
   };
 } // namespace sprag

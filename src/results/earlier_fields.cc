@@ -9,8 +9,8 @@ namespace sprag
 {
   bool is_field_file(const std::string &name)
   {
-    static const std::regex given(R"((fields|face|leaf|mode-\d+)(-\d+\.h5|-mesh\.h5|\.h5|\.xdmf))");
-    return std::regex_match(name, given);
+    static const std::regex pattern(R"((fields|face|leaf|mode-\d+)(-\d+\.h5|-mesh\.h5|\.h5|\.xdmf))");
+    return std::regex_match(name, pattern);
   }
 
   void remove_field_files(const std::string &folder)

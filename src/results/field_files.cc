@@ -19,7 +19,7 @@ namespace sprag
     // HDF5's own entries, and the index, which is rewritten.
     constexpr std::size_t overhead = 512 * 1024;
 
-    std::size_t bytes_of(const std::vector<Field> &fields)
+    std::size_t count_bytes(const std::vector<Field> &fields)
     {
       std::size_t bytes = 0;
       for (const auto &field : fields)
@@ -165,7 +165,7 @@ namespace sprag
   {
     std::size_t bytes = overhead;
     for (const auto &[path, mesh, grids] : indices)
-      bytes += 8 * mesh.nodes.size() + 8 * mesh.cells.size() + bytes_of(mesh.fixed);
+      bytes += 8 * mesh.nodes.size() + 8 * mesh.cells.size() + count_bytes(mesh.fixed);
     require_space(folder + "/" + mesh_file(), bytes);
     auto file = hdf5::create_file(folder + "/" + mesh_file());
     std::vector<DatasetRows> rows;
@@ -184,31 +184,31 @@ namespace sprag
 
   void FieldFiles::write(const double time, const std::vector<std::vector<Field>> &fields, const std::vector<FrameFact> &facts)
   {
-    const unsigned int frame    = n_frames++;
-    const bool own_file         = storage == FrameStorage::files;
-    const std::string file_name = own_file ? frame_file(frame) : mesh_file();
-    const std::string of_frame  = own_file ? "" : formatted("frame-%04u", frame);
-    const auto place_of         = [&](const Index &index) { return (own_file ? "/" : "/" + of_frame + "/") + index.mesh.name; };
+    const unsigned int frame     = n_frames++;
+    const bool own_file          = storage == FrameStorage::files;
+    const std::string file_name  = own_file ? frame_file(frame) : mesh_file();
+    const std::string frame_name = own_file ? "" : formatted("frame-%04u", frame);
+    const auto group_path = [&](const Index &index) { return (own_file ? "/" : "/" + frame_name + "/") + index.mesh.name; };
     std::vector<DatasetRows> rows;
     std::size_t bytes = overhead;
-    for (const auto &of_mesh : fields)
-      bytes += bytes_of(of_mesh);
+    for (const auto &mesh_fields : fields)
+      bytes += count_bytes(mesh_fields);
     if (own_file)
       require_space(folder + "/" + file_name, bytes);
     else
       DiskReserve(folder + "/" + file_name).cover(bytes);
     auto file = own_file ? hdf5::create_file(folder + "/" + file_name) : hdf5::open_file(folder + "/" + file_name);
     {
-      std::optional<hdf5::Handle> group_of_frame;
+      std::optional<hdf5::Handle> frame_group;
       if (!own_file)
-        group_of_frame.emplace(hdf5::create_group(file, of_frame));
-      const auto &place = group_of_frame ? *group_of_frame : file;
+        frame_group.emplace(hdf5::create_group(file, frame_name));
+      const auto &place = frame_group ? *frame_group : file;
       hdf5::write_attribute(place, "time", time);
       for (const auto &fact : facts)
         hdf5::write_attribute(place, shown_name(fact.name, fact.unit), fact.value);
       for (std::size_t i = 0; i < indices.size(); ++i)
       {
-        NewGroup group(place, place_of(indices[i]), indices[i].mesh.name, rows);
+        NewGroup group(place, group_path(indices[i]), indices[i].mesh.name, rows);
         for (const auto &field : fields.at(i))
           group.add(field);
       }
@@ -219,7 +219,7 @@ namespace sprag
     {
       auto &index        = indices[i];
       const bool is_last = index.grids.empty() || time > index.grids.rbegin()->first;
-      const auto &text = index.grids[time] = grid(index, time, file_name + ":" + place_of(index), fields[i], facts);
+      const auto &text = index.grids[time] = grid(index, time, file_name + ":" + group_path(index), fields[i], facts);
       if (is_last)
         append(index.path, text);
       else
@@ -232,17 +232,17 @@ namespace sprag
   {
     const auto &mesh              = index.mesh;
     const std::size_t n_cells     = mesh.cells.size() / mesh.nodes_per_cell;
-    const std::string of_mesh     = mesh_file() + ":/" + mesh.name;
+    const std::string mesh_path   = mesh_file() + ":/" + mesh.name;
     const std::string element_set = topology(mesh.nodes_per_cell);
     std::string text = "      <Grid Name=\"" + mesh.name + "\" GridType=\"Uniform\">\n        <Time Value=\"" + number(time) +
                        "\"/>\n        <Topology TopologyType=\"" + element_set + "\" NumberOfElements=\"" +
-                       std::to_string(n_cells) + "\">" + item(of_mesh + "/cells", n_cells, mesh.nodes_per_cell, "UInt", 4) +
+                       std::to_string(n_cells) + "\">" + item(mesh_path + "/cells", n_cells, mesh.nodes_per_cell, "UInt", 4) +
                        "        </Topology>\n        <Geometry GeometryType=\"XYZ\">" +
-                       item(of_mesh + "/nodes", mesh.n_nodes(), 3, "Float", 8) + "        </Geometry>\n";
+                       item(mesh_path + "/nodes", mesh.n_nodes(), 3, "Float", 8) + "        </Geometry>\n";
     for (const auto &field : fields)
       text += attribute(field, place, mesh.n_nodes());
     for (const auto &field : mesh.fixed)
-      text += attribute(field, of_mesh, mesh.n_nodes());
+      text += attribute(field, mesh_path, mesh.n_nodes());
     for (const auto &fact : facts)
       text += "        <Attribute Name=\"" + shown_name(fact.name, fact.unit) +
               "\" AttributeType=\"Scalar\" Center=\"Grid\"><DataItem Dimensions=\"1\" NumberType=\"Float\" Precision=\"8\" "

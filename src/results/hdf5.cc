@@ -70,7 +70,7 @@ namespace sprag::hdf5
       return Handle(checked("dataset " + name, H5Dopen2(location.id(), name.c_str(), H5P_DEFAULT)), H5Dclose);
     }
 
-    Handle space_of(const Handle &dataset)
+    Handle get_dataspace(const Handle &dataset)
     {
       return Handle(checked("space of a dataset", H5Dget_space(dataset.id())), H5Sclose);
     }
@@ -228,7 +228,7 @@ namespace sprag::hdf5
   {
     const Handle dataset = open_dataset(file, name);
     const Handle type(checked("type of a dataset", H5Dget_type(dataset.id())), H5Tclose);
-    const Handle whole = space_of(dataset);
+    const Handle whole = get_dataspace(dataset);
     std::vector<hsize_t> count(checked("space of a dataset", H5Sget_simple_extent_ndims(whole.id())));
     std::vector<hsize_t> start(count.size(), 0);
     checked("space of a dataset", H5Sget_simple_extent_dims(whole.id(), count.data(), nullptr));
@@ -257,7 +257,7 @@ namespace sprag::hdf5
     count[0]                   = values.size() / width;
     extent[0] += count[0];
     checked("growing a dataset", H5Dset_extent(dataset.id(), extent.data()));
-    const Handle whole = space_of(dataset);
+    const Handle whole = get_dataspace(dataset);
     checked("choosing rows", H5Sselect_hyperslab(whole.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr));
     const Handle rows = simple_space(count, count);
     checked("writing rows", H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, rows.id(), whole.id(), H5P_DEFAULT, values.data()));

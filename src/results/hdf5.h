@@ -56,8 +56,8 @@ namespace sprag::hdf5
   template <class Number>
   Handle create_rows(const Handle &location, const std::string &name, const std::size_t rows, const std::size_t width)
   {
-    const hid_t of_double = std::is_same_v<Number, double> ? H5T_NATIVE_DOUBLE : H5T_NATIVE_UINT;
-    return create_rows(location, name, std::is_same_v<Number, float> ? H5T_NATIVE_FLOAT : of_double, rows, width);
+    const hid_t number_type = std::is_same_v<Number, double> ? H5T_NATIVE_DOUBLE : H5T_NATIVE_UINT;
+    return create_rows(location, name, std::is_same_v<Number, float> ? H5T_NATIVE_FLOAT : number_type, rows, width);
   }
 
   /// Writes so many rows of such a dataset from the one numbered `first` on. In a file of open_together() each process writes its

@@ -53,7 +53,7 @@ namespace sprag
       return tables;
     }
 
-    const std::vector<PageTable> &tables_of_pages()
+    const std::vector<PageTable> &page_tables()
     {
       static const auto tables = read_tables();
       return tables;
@@ -74,7 +74,7 @@ namespace sprag
     std::optional<PageRow> find_row(const std::string &name, const Serves &serves)
     {
       std::optional<PageRow> result;
-      for (const auto &table : tables_of_pages())
+      for (const auto &table : page_tables())
       {
         if (!serves(table))
           continue;
@@ -102,7 +102,7 @@ namespace sprag
     return find_row(name, [&](const PageTable &one) { return one.kind == kind && !boost::contains(one.heading, "`"); });
   }
 
-  std::vector<ColumnInfo> columns_of_pages(const std::string &type, const std::string &names)
+  std::vector<ColumnInfo> page_columns(const std::string &type, const std::string &names)
   {
     std::vector<ColumnInfo> columns;
     std::istringstream words(names);

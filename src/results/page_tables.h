@@ -25,5 +25,5 @@ namespace sprag
   std::optional<PageRow> page_row(const std::string &kind, const std::string &type, const std::string &name);
 
   /// Returns the columns with these names, separated by blanks. Throws std::out_of_range where the pages have none.
-  std::vector<ColumnInfo> columns_of_pages(const std::string &type, const std::string &names);
+  std::vector<ColumnInfo> page_columns(const std::string &type, const std::string &names);
 } // namespace sprag

@@ -84,7 +84,7 @@ namespace sprag
       }
     }
 
-    std::size_t size_of(const Warnings &warnings)
+    std::size_t estimate_bytes(const Warnings &warnings)
     {
       std::size_t size = 0;
       for (const Warning &warning : warnings)
@@ -92,7 +92,7 @@ namespace sprag
       return size;
     }
 
-    std::size_t size_of(const std::vector<Group> &groups)
+    std::size_t estimate_bytes(const std::vector<Group> &groups)
     {
       std::size_t size = 0;
       for (const Group &group : groups)
@@ -111,12 +111,12 @@ namespace sprag
     class Copy
     {
     public:
-      Copy(const std::string &file_path, const bool is_wanted)
+      Copy(const std::string &file_path, const bool is_needed)
           : path(file_path)
           , begun(path + result_begun_ending)
       {
         std::error_code error;
-        is_made = is_wanted && std::filesystem::copy_file(path, begun, std::filesystem::copy_options::overwrite_existing, error);
+        is_made = is_needed && std::filesystem::copy_file(path, begun, std::filesystem::copy_options::overwrite_existing, error);
         if (!is_made)
           std::filesystem::remove(begun, error);
       }
@@ -222,15 +222,15 @@ namespace sprag
     };
 
     /// The row in the order of table_columns(), NaN in place of sensors that the model has not.
-    std::vector<double> values_of(const Row &row, const std::size_t n_values)
+    std::vector<double> row_values(const Row &row, const std::size_t n_values)
     {
       const auto &second = row.second_lever();
       const bool is_pair = !second.empty();
-      const auto of_pair =
+      const auto pair_values =
           is_pair ? std::vector<double>{ row.swing(), row.drive_force(), row.lateral_force() } : std::vector<double>();
       const auto n_sensors =
-          (n_values - n_columns - second.size() - of_pair.size() - row.across.size()) / (is_pair ? 2 : 1); // and their sum
-      const auto of_sensors = [&](const std::size_t lever)
+          (n_values - n_columns - second.size() - pair_values.size() - row.across.size()) / (is_pair ? 2 : 1); // and their sum
+      const auto sensor_values = [&](const std::size_t lever)
       {
         std::vector<double> forces(n_sensors, std::numeric_limits<double>::quiet_NaN());
         if (row.sensor_forces.empty() || forces.empty())
@@ -243,11 +243,11 @@ namespace sprag
       std::vector<double> values;
       for (std::size_t i = 0; i < n_columns; ++i)
         values.push_back(row[static_cast<Column>(i)]);
-      sprag::append(values, of_sensors(0));
+      sprag::append(values, sensor_values(0));
       sprag::append(values, second);
       if (is_pair)
-        sprag::append(values, of_sensors(1));
-      return joined(joined(values, of_pair), row.across);
+        sprag::append(values, sensor_values(1));
+      return joined(joined(values, pair_values), row.across);
     }
   } // namespace
 
@@ -328,7 +328,7 @@ namespace sprag
   void ResultFile::append(const Row &row)
   {
     Assert(writer, dealii::ExcMessage("The result file is finished."));
-    append(values_of(row, writer->table.n_columns()));
+    append(row_values(row, writer->table.n_columns()));
   }
 
   void ResultFile::append(const std::vector<double> &row)
@@ -371,7 +371,7 @@ namespace sprag
     const Copy copy(path, has_space);
     DiskReserve reserve(copy.name());
     if (has_space)
-      reserve.cover(overhead + size_of(groups) + size_of(warnings));
+      reserve.cover(overhead + estimate_bytes(groups) + estimate_bytes(warnings));
     hdf5::Handle file = hdf5::open_file(copy.name());
     add_entries(file, "summary", summary);
     add_entries(file, "meta", meta);

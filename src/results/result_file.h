@@ -32,7 +32,7 @@ namespace sprag
 
   /// Returns a dataset with a value for each item of a range.
   template <class Items, class Value>
-  Dataset dataset_of(const Items &items, const ColumnInfo &info, const Value &value)
+  Dataset make_dataset(const Items &items, const ColumnInfo &info, const Value &value)
   {
     Dataset result{ info, {}, {} };
     for (const auto &item : items)

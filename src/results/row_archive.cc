@@ -32,8 +32,8 @@ namespace sprag
 
   void visit(Archive &archive, Row &row)
   {
-    auto &[sensor_forces, across, values, of_second] = row;
-    archive(sensor_forces, across, values, of_second);
+    auto &[sensor_forces, across, values, second_values] = row;
+    archive(sensor_forces, across, values, second_values);
   }
 
   void visit(Archive &archive, FaceState &face)

@@ -48,7 +48,7 @@ namespace sprag
 
   /// Returns the row with the largest finite value; null where no value is positive.
   template <class Rows, class Value>
-  const Row *row_of_largest(const Rows &rows, const Value &value)
+  const Row *find_largest_row(const Rows &rows, const Value &value)
   {
     const Row *result = nullptr;
     double found      = 0.;

@@ -27,7 +27,7 @@ namespace sprag
     }
   } // namespace
 
-  std::string text_of(const Warnings &warnings)
+  std::string to_text(const Warnings &warnings)
   {
     std::string result;
     for (const Warning &warning : warnings)

@@ -20,7 +20,7 @@ namespace sprag
   using Warnings = std::vector<Warning>;
 
   /// Writes warnings for people, a paragraph each in lines of at most 100 characters; empty without warnings.
-  std::string text_of(const Warnings &warnings);
+  std::string to_text(const Warnings &warnings);
 
   /// Returns "no warnings" or their number and names.
   std::string count_text(const Warnings &warnings);

@@ -30,7 +30,7 @@ namespace sprag
     /// Share of the drive from its smallest x: near enough to x = 0 for the slope, and far enough for a contact.
     constexpr double share_for_slopes = 0.05;
 
-    std::vector<double> places_of(const Scene &scene)
+    std::vector<double> sample_positions(const Scene &scene)
     {
       std::vector<double> places;
       const double from = scene.drive.minimum(), length = scene.drive.maximum() - from;
@@ -46,7 +46,7 @@ namespace sprag
       return judge(scene, maker);
     }
 
-    double growth_of(const SlideStability &slide)
+    double compute_growth(const SlideStability &slide)
     {
       return slide.kind == SlideKind::jammed ? infinite : slide.growth_rate();
     }
@@ -81,10 +81,10 @@ namespace sprag
     Slides slides_along(const Scene &scene, const Direction direction, DynamicsMaker &maker)
     {
       Slides result;
-      for (const double x : places_of(scene))
+      for (const double x : sample_positions(scene))
       {
         const auto found   = slide_at(scene, x, direction, maker);
-        result.growth_rate = std::max(result.growth_rate, growth_of(found));
+        result.growth_rate = std::max(result.growth_rate, compute_growth(found));
         result.all_unique  = result.all_unique && found.slide && found.kind != SlideKind::jammed;
         if (!found.slide)
           continue;
@@ -116,32 +116,32 @@ namespace sprag
       return result;
     }
 
-    double opening_of(const Slides &out, const Slides &back)
+    double loop_opening(const Slides &out, const Slides &back)
     {
       return std::accumulate(out.Q.begin(), out.Q.end(), 0.) - std::accumulate(back.Q.begin(), back.Q.end(), 0.);
     }
 
     void add_forces(const Scene &scene, const Slides &out, const Slides &back, DesignQuantities &found)
     {
-      const auto places              = places_of(scene);
-      found[Q::force_ratio]          = ratio_of_ways(out.Q.back(), back.Q.back());
+      const auto places              = sample_positions(scene);
+      found[Q::force_ratio]          = direction_ratio(out.Q.back(), back.Q.back());
       found[Q::largest_force]        = std::max(largest_size(out.Q), largest_size(back.Q));
       found[Q::largest_normal_force] = std::max(largest_size(out.P), largest_size(back.P));
       found[Q::largest_pressure]     = layer_pressure(scene, found[Q::largest_normal_force]);
       found[Q::jamming_margin]       = back.jamming_margin;
       // Both quantities depend on the spacing of the places: the closed form at all x is corrected by the ratio at these places.
-      const auto ideal       = ideal_slides(scene, places);
-      const auto whole       = lever_quantities(scene);
-      found[Q::loop_area]    = whole[Q::loop_area] * opening_of(out, back) / opening_of(ideal.first, ideal.second);
-      found[Q::nonlinearity] = whole[Q::nonlinearity] *
-                               std::max(nonlinearity_of(places, out.Q), nonlinearity_of(places, back.Q)) /
-                               std::max(nonlinearity_of(places, ideal.first.Q), nonlinearity_of(places, ideal.second.Q));
+      const auto ideal    = ideal_slides(scene, places);
+      const auto whole    = lever_quantities(scene);
+      found[Q::loop_area] = whole[Q::loop_area] * loop_opening(out, back) / loop_opening(ideal.first, ideal.second);
+      found[Q::nonlinearity] =
+          whole[Q::nonlinearity] * std::max(compute_nonlinearity(places, out.Q), compute_nonlinearity(places, back.Q)) /
+          std::max(compute_nonlinearity(places, ideal.first.Q), compute_nonlinearity(places, ideal.second.Q));
     }
 
     void take_larger(double &value, const std::vector<Entry> &summary, const std::vector<std::string> &names)
     {
       for (const auto &name : names)
-        value = std::max(value, std::abs(value_of(summary, name)));
+        value = std::max(value, std::abs(find_value(summary, name)));
     }
   } // namespace
 
@@ -155,19 +155,19 @@ namespace sprag
     double largest = -infinite;
     for (const auto &demand : demands)
       if (demand.term.quantity != Q::parameter && !std::isnan(found[demand.term.quantity]))
-        largest = std::max(largest, violation_of(demand, found[demand.term.quantity]));
+        largest = std::max(largest, demand_violation(demand, found[demand.term.quantity]));
     return largest;
   }
 
-  DesignJudges::DesignJudges(const Scene &of_design)
-      : design(of_design)
+  DesignJudges::DesignJudges(const Scene &scene_)
+      : design(scene_)
   {
   }
 
-  Scene DesignJudges::scene_of(const Proposal &lever, const std::vector<std::string> &changes) const
+  Scene DesignJudges::make_scene(const Proposal &lever, const std::vector<std::string> &changes) const
   {
     const std::vector<std::string> without_fields = { "Output/Fields=none" };
-    return prepared(variant(design, joined(joined(changes, without_fields), overrides_of(design, lever))));
+    return prepared(variant(design, joined(joined(changes, without_fields), design_overrides(design, lever))));
   }
 
   Judgement DesignJudges::judge(const DesignJudge by, const Proposal &lever, const bool in_time)
@@ -199,8 +199,8 @@ namespace sprag
 
   void DesignJudges::judge_table(Judgement &judgement) const
   {
-    const Scene scene = scene_of(judgement.lever, { "Analysis/Type=isolation", "Analysis/Model=closed form",
-                                                    "Isolation/Base motion=harmonic", "Isolation/End=steady state" });
+    const Scene scene = make_scene(judgement.lever, { "Analysis/Type=isolation", "Analysis/Model=closed form",
+                                                      "Isolation/Base motion=harmonic", "Isolation/End=steady state" });
     IsolationFindings found;
     run_isolation(scene, found, {});
     judgement.found[Q::transmissibility]   = found.fundamental;
@@ -211,8 +211,8 @@ namespace sprag
 
   void DesignJudges::judge_slides(Judgement &judgement)
   {
-    const Scene scene = scene_of(judgement.lever, { "Analysis/Type=stability", "Analysis/Model=" + judge_name(judgement.judge),
-                                                    "Stability/Position=auto", "Stability/Critical=none" });
+    const Scene scene = make_scene(judgement.lever, { "Analysis/Type=stability", "Analysis/Model=" + judge_name(judgement.judge),
+                                                      "Stability/Position=auto", "Stability/Critical=none" });
     require_memory(scene);
     auto &maker                     = *in_memory.dynamics;
     const auto out                  = slides_along(scene, Direction::forward, maker);
@@ -231,10 +231,11 @@ namespace sprag
 
   void DesignJudges::follow_in_time(Judgement &judgement)
   {
-    const Scene scene = scene_of(judgement.lever, { "Analysis/Type=transient", "Analysis/Model=" + judge_name(judgement.judge) });
+    const Scene scene =
+        make_scene(judgement.lever, { "Analysis/Type=transient", "Analysis/Model=" + judge_name(judgement.judge) });
     require_memory(scene);
     Warnings warnings;
-    carry_out(scene, options_of(in_memory), warnings);
+    carry_out(scene, make_options(in_memory), warnings);
     const auto &summary = in_memory.found.summary;
     const auto slides   = judgement.found;
     take_larger(judgement.found[Q::largest_force], summary, { "peak_Q_forward", "peak_Q_backward" });
@@ -246,15 +247,15 @@ namespace sprag
     judgement.in_time = true;
   }
 
-  double DesignJudges::growth_of_beam(const Scene &scene)
+  double DesignJudges::beam_growth(const Scene &scene)
   {
     Scene beam          = scene;
     beam.analysis.type  = AnalysisType::stability;
     beam.analysis.model = ModelType::beam;
     double largest      = -infinite;
     for (const auto direction : { Direction::forward, Direction::backward })
-      for (const double x : places_of(scene))
-        largest = std::max(largest, growth_of(slide_at(beam, x, direction, *in_memory.dynamics)));
+      for (const double x : sample_positions(scene))
+        largest = std::max(largest, compute_growth(slide_at(beam, x, direction, *in_memory.dynamics)));
     return largest;
   }
 } // namespace sprag

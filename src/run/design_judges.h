@@ -38,18 +38,18 @@ namespace sprag
   class DesignJudges
   {
   public:
-    explicit DesignJudges(const Scene &of_design);
+    explicit DesignJudges(const Scene &scene_);
 
     Judgement judge(DesignJudge by, const Proposal &lever, bool in_time);
 
     /// Returns the largest growth rate of all slides of a beam of this scene [1/s]; infinite where one of them is not unique.
-    double growth_of_beam(const Scene &scene);
+    double beam_growth(const Scene &scene);
 
   private:
     const Scene design;
     InMemory in_memory = run_in_memory();
 
-    Scene scene_of(const Proposal &lever, const std::vector<std::string> &changes) const;
+    Scene make_scene(const Proposal &lever, const std::vector<std::string> &changes) const;
     void judge_table(Judgement &judgement) const;
     void judge_slides(Judgement &judgement);
     void follow_in_time(Judgement &judgement);

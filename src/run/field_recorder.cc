@@ -36,7 +36,7 @@ namespace sprag
 
     double largest_force(const Row &row)
     {
-      return row.second_lever().empty() ? row[Column::P] : std::max(row[Column::P], row.of_second_lever(Column::P));
+      return row.second_lever().empty() ? row[Column::P] : std::max(row[Column::P], row.second_value(Column::P));
     }
 
     double largest_surface_stress(const std::vector<double> &pressure, const std::vector<double> &traction)
@@ -48,12 +48,12 @@ namespace sprag
     }
   } // namespace
 
-  FieldRecorder::FieldRecorder(const Scene &of_scene, BodyFields of_body, Displacements of_source,
-                               const std::optional<std::string> &folder, PhaseTimer &of_run)
-      : scene(of_scene)
-      , timer(of_run)
-      , fields(std::move(of_body))
-      , displacements(std::move(of_source))
+  FieldRecorder::FieldRecorder(const Scene &scene_, BodyFields fields_, Displacements source_,
+                               const std::optional<std::string> &folder, PhaseTimer &timer_)
+      : scene(scene_)
+      , timer(timer_)
+      , fields(std::move(fields_))
+      , displacements(std::move(source_))
       , peaks(fields)
       , hub_section(section_at_hub(fields))
       , last_x(scene.drive.at(0.).x)
@@ -100,13 +100,13 @@ namespace sprag
 
   double FieldRecorder::moment_at_hub(const Row &row) const
   {
-    const double arm_of_F = hub_section[1] - scene.geometry.interface_offset;
-    const auto moment     = [&](const double P, const double s, const double F)
-    { return P > 0. ? std::abs(P * (s - hub_section[0]) - F * arm_of_F) : 0.; };
+    const double drive_force_arm = hub_section[1] - scene.geometry.interface_offset;
+    const auto moment            = [&](const double P, const double s, const double F)
+    { return P > 0. ? std::abs(P * (s - hub_section[0]) - F * drive_force_arm) : 0.; };
     const double first = moment(row[Column::P], row[Column::s], row[Column::F]);
-    return row.second_lever().empty() ? first
-                                      : std::max(first, moment(row.of_second_lever(Column::P), row.of_second_lever(Column::s),
-                                                               row.of_second_lever(Column::F)));
+    return row.second_lever().empty()
+               ? first
+               : std::max(first, moment(row.second_value(Column::P), row.second_value(Column::s), row.second_value(Column::F)));
   }
 
   bool FieldRecorder::slides_back(const Row &row) const
@@ -137,7 +137,7 @@ namespace sprag
   void FieldRecorder::find(const Kept &kept, const bool frame)
   {
     const PhaseTimer::Scope scope(timer, "fields");
-    DeviceState state{ kept.row[Column::time], pose_of(kept.row), displacements(kept.source), {}, kept.face };
+    DeviceState state{ kept.row[Column::time], to_pose(kept.row), displacements(kept.source), {}, kept.face };
     StressSample sample;
     for (unsigned int lever = 0; lever < state.displacements.size(); ++lever)
     {
@@ -188,11 +188,11 @@ namespace sprag
   {
     std::map<double, std::pair<std::shared_ptr<Kept>, bool>> left;
     const Best *largest = nullptr;
-    for (const auto &[of, found] : best)
+    for (const auto &[key, found] : best)
       if (found.state)
       {
         left[found.state->row[Column::time]] = { found.state, false };
-        if (of.first == Estimate::force && (largest == nullptr || found.value > largest->value))
+        if (key.first == Estimate::force && (largest == nullptr || found.value > largest->value))
           largest = &found;
       }
     if (largest != nullptr && frames)
@@ -201,6 +201,6 @@ namespace sprag
       if (std::find(written.begin(), written.end(), time) == written.end())
         find(*state.first, state.second);
     best.clear();
-    return peaks.entries(number_of_levers(scene));
+    return peaks.entries(count_levers(scene));
   }
 } // namespace sprag

@@ -9,10 +9,10 @@
 
 namespace sprag
 {
-  const Mesh &StaticMeshes::mesh_of(const Scene &scene)
+  const Mesh &StaticMeshes::cached_mesh(const Scene &scene)
   {
-    const auto wanted = body_key(scene);
-    if (mesh && wanted == key)
+    const auto new_key = body_key(scene);
+    if (mesh && new_key == key)
     {
       saved += cpu_seconds;
       return *mesh;
@@ -21,7 +21,7 @@ namespace sprag
     key.clear();
     mesh = std::make_unique<Mesh>();
     make_mesh(scene, *mesh);
-    key         = wanted;
+    key         = new_key;
     cpu_seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     return *mesh;
   }
@@ -32,7 +32,7 @@ namespace sprag
              std::make_shared<StaticMeshes>() };
   }
 
-  RunOptions options_of(InMemory &in_memory)
+  RunOptions make_options(InMemory &in_memory)
   {
     RunOptions options;
     options.quiet     = true;

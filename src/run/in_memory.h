@@ -18,7 +18,7 @@ namespace sprag
   {
   public:
     /// Returns the scene's mesh, which lives until the next one is asked for. Throws InputError for one that cannot serve.
-    const Mesh &mesh_of(const Scene &scene);
+    const Mesh &cached_mesh(const Scene &scene);
 
     /// Returns the CPU time that meshes which were used again did not take again [s].
     double seconds_saved() const
@@ -37,7 +37,7 @@ namespace sprag
   InMemory run_in_memory();
 
   /// Returns the options of a run in memory, which prints nothing.
-  RunOptions options_of(InMemory &in_memory);
+  RunOptions make_options(InMemory &in_memory);
 
   /// Returns whether a run estimates the errors of its results by others, which cost more than the run: not in memory, where runs
   /// stand beside finer ones.

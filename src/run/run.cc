@@ -66,7 +66,7 @@ namespace sprag
         check_solid_file(scene);
     }
 
-    JammingMargin margin_of(const Device &device)
+    JammingMargin compute_margin(const Device &device)
     {
       const ModelType model = device.analysis.model;
       return jamming_margin(device, model != ModelType::closed_form && model != ModelType::rigid);
@@ -93,9 +93,9 @@ namespace sprag
       runs.at(scene.analysis.type)(scene, options, warnings);
   }
 
-  Warnings validate(const Scene &given)
+  Warnings validate(const Scene &original)
   {
-    const Scene scene = with_own_face_size(prepared(given));
+    const Scene scene = with_own_face_size(prepared(original));
     if (scene.analysis.type == AnalysisType::study)
       require_possible_runs(scene);
     try_mesh(scene);
@@ -128,38 +128,38 @@ namespace sprag
     }
   } // namespace
 
-  void print_expectations(const Scene &given, const unsigned int processes, const std::string &folder)
+  void print_expectations(const Scene &original, const unsigned int processes, const std::string &folder)
   {
     const double since         = PhaseTimer::cpu_seconds();
-    const auto [scene, choice] = resolved(given, print_short_probe);
+    const auto [scene, choice] = resolved(original, print_short_probe);
     if (choice)
-      print_choice(std::cout, given, *choice);
+      print_choice(std::cout, original, *choice);
     print_cost(std::cout, cost_with_probes(scene, since));
     print_processes(std::cout, scene, processes);
     if (const auto files = factor_files(scene, processes, folder))
-      std::cout << "Memory:       " << text_of(*files) << '\n';
+      std::cout << "Memory:       " << to_text(*files) << '\n';
   }
 
-  void run(const Scene &given, const RunOptions &options)
+  void run(const Scene &original, const RunOptions &options)
   {
-    if (given.accuracy.leaves_open() || !given.mesh.file.empty())
+    if (original.accuracy.leaves_open() || !original.mesh.file.empty())
       require_writable(options.folder);
     const bool is_quiet        = options.quiet || !options.is_first;
     const double since         = PhaseTimer::cpu_seconds();
-    const auto [scene, choice] = is_quiet ? resolved(given) : resolved(given, print_probe);
+    const auto [scene, choice] = is_quiet ? resolved(original) : resolved(original, print_probe);
     RunOptions telling         = options;
     if (choice)
     {
-      telling.chosen = text_of(choice->settings);
+      telling.chosen = to_text(choice->settings);
       if (!is_quiet)
       {
-        print_choice(std::cout, given, *choice);
+        print_choice(std::cout, original, *choice);
         print_cost(std::cout, cost_with_probes(scene, since));
       }
       require_memory(scene, options.processes, options.in_memory == nullptr ? options.folder : "");
     }
     if (!is_quiet)
       print_processes(std::cout, scene, options.processes);
-    run_from_margin_to_warnings(scene, telling, margin_of, carry_out);
+    run_from_margin_to_warnings(scene, telling, compute_margin, carry_out);
   }
 } // namespace sprag

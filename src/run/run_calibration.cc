@@ -62,7 +62,7 @@ namespace sprag
 
     Entries disagreement_entries(const Disagreement &found)
     {
-      Entries entries = { { "P_deviation", found.of_forces(0) }, { "Q_deviation", found.of_forces(1) } };
+      Entries entries = { { "P_deviation", found.force_deviation(0) }, { "Q_deviation", found.force_deviation(1) } };
       add_frequencies("free_frequency_", found.free_frequencies, entries);
       add_frequencies("contact_frequency_", found.contact_frequencies, entries);
       return entries;

@@ -46,16 +46,16 @@ namespace sprag
       return unit == "1" ? "" : ' ' + unit;
     }
 
-    std::string unit_of(const DesignSettings &design, const DesignTerm &term)
+    std::string term_unit(const DesignSettings &design, const DesignTerm &term)
     {
       return term.quantity == DesignQuantity::parameter ? design.free_parameters[term.parameter].unit
-                                                        : info_of(term.quantity).unit;
+                                                        : design_quantity_info(term.quantity).unit;
     }
 
     /// Value by the last judge that computes the quantity, or by the closed form if none does.
     double best_known(const DesignTerm &term, const Proposal &lever, const DesignFindings &findings)
     {
-      double value = value_of(term, lever);
+      double value = term_value(term, lever);
       if (term.quantity != DesignQuantity::parameter)
         for (const auto &judgement : findings.judgements)
           if (judgement.lever.parameters == lever.parameters && !std::isnan(judgement.found[term.quantity]))
@@ -95,7 +95,7 @@ namespace sprag
     {
       Group group{ "judgements", {}, {} };
       const auto add = [&](const ColumnInfo &info, const auto &value)
-      { group.datasets.push_back(dataset_of(judgements, info, value)); };
+      { group.datasets.push_back(make_dataset(judgements, info, value)); };
       add({ "round", "1", "of this judge" }, [](const Judgement &judgement) { return static_cast<double>(judgement.round); });
       add({ "passes", "1", "1: it meets what is demanded of what the judge tells" },
           [&](const Judgement &judgement) { return judgement.passes(design.demanded) ? 1. : 0.; });
@@ -103,13 +103,13 @@ namespace sprag
           [](const Judgement &judgement) { return judgement.in_time ? 1. : 0.; });
       add({ "cpu_time", "s", "of the judge" }, [](const Judgement &judgement) { return judgement.cpu_seconds; });
       for (std::size_t i = 0; i < design.free_parameters.size(); ++i)
-        add({ identifier_of(design.free_parameters[i].name), design.free_parameters[i].unit, design.free_parameters[i].name },
+        add({ to_identifier(design.free_parameters[i].name), design.free_parameters[i].unit, design.free_parameters[i].name },
             [i](const Judgement &judgement) { return judgement.lever.parameters[i]; });
       for (const auto &info : design_quantities())
       {
-        add({ identifier_of(info.name), info.unit, info.definition + ", by the judge" },
+        add({ to_identifier(info.name), info.unit, info.definition + ", by the judge" },
             [&](const Judgement &judgement) { return judgement.found[info.quantity]; });
-        add({ "expected_" + identifier_of(info.name), info.unit, "as it was proposed, corrections included" },
+        add({ "expected_" + to_identifier(info.name), info.unit, "as it was proposed, corrections included" },
             [&](const Judgement &judgement) { return judgement.lever.quantities[info.quantity]; });
       }
       TextDataset judge{ "judge", "which", {} }, failure{ "failure", "why it tells nothing", {} };
@@ -132,17 +132,17 @@ namespace sprag
         indices.push_back(i);
         group.texts.front().values.push_back(design.demanded[i].text);
       }
-      group.datasets.push_back(dataset_of(indices, { "value", "", "by the last judge that tells it, or the closed form" },
-                                          [&](const std::size_t i)
-                                          { return best_known(design.demanded[i].term, lever, findings); }));
-      group.datasets.push_back(dataset_of(indices, { "attainable", "", "nearest value with all others met; NaN: not stopping" },
-                                          [&](const std::size_t i)
-                                          {
-                                            for (const auto &demand_that_stops : findings.stopping)
-                                              if (demand_that_stops.demand == i)
-                                                return demand_that_stops.attainable;
-                                            return unknown;
-                                          }));
+      group.datasets.push_back(make_dataset(indices, { "value", "", "by the last judge that tells it, or the closed form" },
+                                            [&](const std::size_t i)
+                                            { return best_known(design.demanded[i].term, lever, findings); }));
+      group.datasets.push_back(make_dataset(indices, { "attainable", "", "nearest value with all others met; NaN: not stopping" },
+                                            [&](const std::size_t i)
+                                            {
+                                              for (const auto &demand_that_stops : findings.stopping)
+                                                if (demand_that_stops.demand == i)
+                                                  return demand_that_stops.attainable;
+                                              return unknown;
+                                            }));
       return group;
     }
 
@@ -180,9 +180,9 @@ namespace sprag
     {
       std::vector<ColumnInfo> columns;
       for (const auto &parameter : design.free_parameters)
-        columns.push_back({ identifier_of(parameter.name), parameter.unit, parameter.name });
+        columns.push_back({ to_identifier(parameter.name), parameter.unit, parameter.name });
       for (const auto &info : design_quantities())
-        columns.push_back({ identifier_of(info.name), info.unit, info.definition });
+        columns.push_back({ to_identifier(info.name), info.unit, info.definition });
       columns.push_back({ "largest_violation", "1", "of the demands, over their targets; <= 0: all met" });
       return columns;
     }
@@ -210,11 +210,11 @@ namespace sprag
       for (std::size_t i = 0; i < lever.parameters.size(); ++i)
       {
         const auto &parameter = design.free_parameters[i];
-        entries.push_back({ identifier_of(parameter.name), lever.parameters[i], parameter.unit, parameter.name });
+        entries.push_back({ to_identifier(parameter.name), lever.parameters[i], parameter.unit, parameter.name });
       }
       for (const auto &info : design_quantities())
         if (const double value = best_known({ info.quantity, 0 }, lever, findings); !std::isnan(value))
-          entries.push_back({ identifier_of(info.name), value, info.unit, info.definition });
+          entries.push_back({ to_identifier(info.name), value, info.unit, info.definition });
       append<Entry>(entries, { { "meets_demands", findings.unmet.empty() ? 1. : 0. },
                                { "distance", findings.found->distance },
                                { "evaluations", static_cast<double>(findings.evaluations) },
@@ -250,14 +250,14 @@ namespace sprag
       {
         const auto &demand = design.demanded[index];
         text += "Without '" + demand.text + "' the others can be met; with them it comes to " + rounded_text(attainable) +
-                unit_text(unit_of(design, demand.term)) + " at the nearest (" + lever_text(design, lever) + "). ";
+                unit_text(term_unit(design, demand.term)) + " at the nearest (" + lever_text(design, lever) + "). ";
       }
       text += "The lever that misses all by the least, " + formatted("%.3g", 100. * findings.found->distance) + " %, has " +
               lever_text(design, findings.found->lever);
       for (const auto i : missed_demands(design, findings.found->lever))
         text += "; '" + design.demanded[i].text + "' becomes " +
-                rounded_text(value_of(design.demanded[i].term, findings.found->lever)) +
-                unit_text(unit_of(design, design.demanded[i].term));
+                rounded_text(term_value(design.demanded[i].term, findings.found->lever)) +
+                unit_text(term_unit(design, design.demanded[i].term));
       return text;
     }
 
@@ -270,8 +270,8 @@ namespace sprag
       std::string text = "No lever proposed meets all demands " + by + "; of the last one";
       for (const auto &demand : design.demanded)
         if (demand.term.quantity != DesignQuantity::parameter)
-          if (const double value = judgement.found[demand.term.quantity]; violation_of(demand, value) > 0.)
-            text += " '" + demand.text + "' becomes " + rounded_text(value) + unit_text(unit_of(design, demand.term)) + ';';
+          if (const double value = judgement.found[demand.term.quantity]; demand_violation(demand, value) > 0.)
+            text += " '" + demand.text + "' becomes " + rounded_text(value) + unit_text(term_unit(design, demand.term)) + ';';
       text.pop_back();
       return text + ". More Design/Rounds may help";
     }
@@ -288,26 +288,26 @@ namespace sprag
                << unit_text(design.free_parameters[i].unit) << '\n';
       for (const auto &aim : design.aims)
         stream << "  " << padded(aim.text, 34) << rounded_text(best_known(aim.term, lever, findings))
-               << unit_text(unit_of(design, aim.term)) << '\n';
+               << unit_text(term_unit(design, aim.term)) << '\n';
       for (const auto &demand : design.demanded)
       {
         const double value = best_known(demand.term, lever, findings);
-        stream << "  " << padded(demand.text, 34) << rounded_text(value) << unit_text(unit_of(design, demand.term))
-               << (std::isnan(value) || violation_of(demand, value) <= 1e-9 ? "" : "  MISSED") << '\n';
+        stream << "  " << padded(demand.text, 34) << rounded_text(value) << unit_text(term_unit(design, demand.term))
+               << (std::isnan(value) || demand_violation(demand, value) <= 1e-9 ? "" : "  MISSED") << '\n';
       }
       if (!findings.front.empty())
         stream << "  front of both aims: " << findings.front.size() << " levers\n";
       print_judgements(stream, design, findings.judgements);
     }
 
-    constexpr double room_of_corrections = 1e-3; ///< as they are known to first order, and of a mesh with its ripple
+    constexpr double correction_margin = 1e-3; ///< as they are known to first order, and of a mesh with its ripple
 
     /// Proposes by the closed form and asks the judges.
     class DesignRun
     {
     public:
-      DesignRun(const Scene &of_design, DesignFindings &found)
-          : scene(of_design)
+      DesignRun(const Scene &scene_, DesignFindings &found)
+          : scene(scene_)
           , design(scene.design)
           , findings(found)
           , problem(scene)
@@ -320,7 +320,7 @@ namespace sprag
         search([&] { findings.found = best_lever(problem); });
         require_lever();
         if (design.aims.size() > 1)
-          search([&] { findings.front = front_of_aims(problem); });
+          search([&] { findings.front = pareto_front(problem); });
         for (const auto judge : design.judged_by)
           ask(judge);
       }
@@ -385,14 +385,15 @@ namespace sprag
       {
         const double growth = judgement.found[DesignQuantity::growth_rate];
         return std::any_of(design.demanded.begin(), design.demanded.end(),
-                           [&](const Demand &demand)
-                           { return demand.term.quantity == DesignQuantity::growth_rate && violation_of(demand, growth) > 0.; });
+                           [&](const Demand &demand) {
+                             return demand.term.quantity == DesignQuantity::growth_rate && demand_violation(demand, growth) > 0.;
+                           });
       }
 
       /// From now on the closed form is corrected by what the judge found above it.
       void learn(const Judgement &judgement)
       {
-        problem.room = room_of_corrections;
+        problem.room = correction_margin;
         for (const auto &[quantity, name, unit, definition] : design_quantities())
           if (quantity != DesignQuantity::growth_rate && !std::isnan(judgement.found[quantity]))
             problem.correct(quantity, problem.uncorrected(quantity, judgement.lever.quantities[quantity]),
@@ -415,12 +416,12 @@ namespace sprag
       {
         if (judgement.judge != DesignJudge::beam)
         {
-          const double of_beam = judges.growth_of_beam(problem.scene_at(judgement.lever.parameters));
-          if (std::isfinite(of_beam) && std::isfinite(judgement.found[DesignQuantity::growth_rate]))
-            problem.correct(DesignQuantity::growth_rate, of_beam, judgement.found[DesignQuantity::growth_rate]);
+          const double beam_rate = judges.beam_growth(problem.scene_at(judgement.lever.parameters));
+          if (std::isfinite(beam_rate) && std::isfinite(judgement.found[DesignQuantity::growth_rate]))
+            problem.correct(DesignQuantity::growth_rate, beam_rate, judgement.found[DesignQuantity::growth_rate]);
         }
         problem.dear = [this](const Scene &lever, DesignQuantities &quantities)
-        { quantities[DesignQuantity::growth_rate] = judges.growth_of_beam(lever); };
+        { quantities[DesignQuantity::growth_rate] = judges.beam_growth(lever); };
       }
 
       void propose_again()
@@ -442,7 +443,7 @@ namespace sprag
         std::swap(dear, problem.dear);
         if (!found.meets_all)
           return found;
-        found.lever          = problem.at(problem.place_of(found.lever.parameters));
+        found.lever          = problem.at(problem.search_point(found.lever.parameters));
         const bool is_stable = std::all_of(found.lever.violations.begin(), found.lever.violations.end(),
                                            [](const double violation) { return violation <= 0.; });
         return is_stable ? found : best_dear_lever(problem, near);
@@ -451,7 +452,7 @@ namespace sprag
 
     void write_scene(const Scene &scene, const RunOptions &options, const Proposal &lever, const std::string &name)
     {
-      auto changes = overrides_of(scene, lever);
+      auto changes = design_overrides(scene, lever);
       changes.insert(changes.end(), { "Analysis/Type=quasi-static", "Analysis/Model=closed form" });
       std::ofstream file(options.folder + '/' + name + ".prm");
       file << parameters_text(variant(scene, changes));

@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "base/unknown.h"
 #include "program/result_writer.h"
-#include "report/brief_lines.h"
+#include "report/summary_lines.h"
 #include "results/result_file.h"
 #include "run/analyses.h"
 #include "scene/closed_form.h"
@@ -31,7 +31,7 @@ namespace sprag
 {
   namespace
   {
-    std::string word_of(const ForceChannel &channel)
+    std::string to_word(const ForceChannel &channel)
     {
       return word_for(force_words(), channel.force);
     }
@@ -70,7 +70,7 @@ namespace sprag
       return numbers[0] > 0. && numbers[1] > 0. && sums[0] / numbers[0] < sums[1] / numbers[1];
     }
 
-    std::string remedy_of_another(const Identification &found, const bool is_turned)
+    std::string another_remedy(const Identification &found, const bool is_turned)
     {
       if (is_turned)
         return "Turn the sign of Q: as measured, friction gives work back to the drive.";
@@ -82,7 +82,7 @@ namespace sprag
              "lengths, sign and scale of each force; seek offsets or lag in Identification/Unknowns.";
     }
 
-    std::string remedy_of_indistinct()
+    std::string indistinct_remedy()
     {
       return "Measure both directions, over more of the stroke, P beside Q, or at other speeds; or leave one of them out of "
              "Identification/Unknowns and give its value.";
@@ -99,7 +99,7 @@ namespace sprag
                                     { "used", "1", "1: the row counted" } });
       for (const auto &channel : measured.channels)
       {
-        const auto word = word_of(channel);
+        const auto word = to_word(channel);
         result.push_back({ word, "N", "as measured" });
         result.push_back({ word + "_fitted", "N", "of the lever found, offset included" });
         result.push_back({ word + "_residual", "N", "measured less fitted" });
@@ -150,7 +150,7 @@ namespace sprag
       const auto &channels = scene.identification.measured.channels;
       for (std::size_t i = 0; i < channels.size(); ++i)
       {
-        const auto word = word_of(channels[i]);
+        const auto word = to_word(channels[i]);
         append<Entry>(result, { { "noise_" + word, found.noise[i].deviation },
                                 { "values_" + word, found.noise[i].rows },
                                 { "effective_values_" + word, found.noise[i].effective_rows() } });
@@ -173,10 +173,10 @@ namespace sprag
       const auto deviation = [](const FoundNumber &one) { return one.deviation; };
       const auto scale     = [](const FoundNumber &one) { return one.number.scale; };
       Group group{ "identification",
-                   { dataset_of(found.found, { "values", "", "of the unknowns, in the order of names" }, value),
-                     dataset_of(found.found, { "deviations", "", "their standard deviations" }, deviation),
-                     dataset_of(found.found, { "scales", "", "changes of them that are large, by which the next are scaled" },
-                                scale),
+                   { make_dataset(found.found, { "values", "", "of the unknowns, in the order of names" }, value),
+                     make_dataset(found.found, { "deviations", "", "their standard deviations" }, deviation),
+                     make_dataset(found.found, { "scales", "", "changes of them that are large, by which the next are scaled" },
+                                  scale),
                      { { "correlation", "1", "of each two unknowns" }, known.correlation, { n, n } },
                      { { "singular_values", "1", "of the Jacobian of scaled unknowns over the noise, decreasing" },
                        known.singular.values,
@@ -199,19 +199,19 @@ namespace sprag
       const auto &channels = scene.identification.measured.channels;
       for (std::size_t i = 0; i < channels.size(); ++i)
         if (const auto &noise = found.noise[i]; is_not_followed(channels[i], noise))
-          not_followed.push_back(formatted("%.0f", noise.rows) + " values of " + word_of(channels[i]) + " are worth " +
+          not_followed.push_back(formatted("%.0f", noise.rows) + " values of " + to_word(channels[i]) + " are worth " +
                                  formatted("%.0f", noise.effective_rows()) + " independent ones");
       if (!not_followed.empty())
         warnings.push_back({ "model_does_not_follow", boost::algorithm::join(not_followed, ", ") + ".",
                              "Residuals follow each other, as they do where the lever of the scene is another than the measured "
                              "one. The intervals count noise alone and then miss the true values by many times their width.",
-                             remedy_of_another(found, is_sign_turned(scene, fit, found)) });
+                             another_remedy(found, is_sign_turned(scene, fit, found)) });
       const auto &indistinct = found.knowledge.indistinct;
       if (!indistinct.empty())
         warnings.push_back({ "indistinct_unknowns", boost::algorithm::join(indistinct, " "),
                              "Their values are hardly better than where the search began, and the intervals, which a straight "
                              "line through the model gives, are only a sign of it.",
-                             remedy_of_indistinct() });
+                             indistinct_remedy() });
       if (found.window_is_full)
         warnings.push_back(
             { "long_vibration",
@@ -228,18 +228,18 @@ namespace sprag
     void print_identification(std::ostream &stream, const Scene &scene, const Identification &found)
     {
       for (const auto &one : found.found)
-        brief_line(stream, one.number.name,
-                   with_unit(one.value, "") + " +- " + half_width(one) + (one.number.unit == "1" ? "" : " " + one.number.unit));
+        summary_line(stream, one.number.name,
+                     with_unit(one.value, "") + " +- " + half_width(one) + (one.number.unit == "1" ? "" : " " + one.number.unit));
       const auto &channels = scene.identification.measured.channels;
       for (std::size_t i = 0; i < channels.size(); ++i)
-        brief_line(stream, "noise of " + word_of(channels[i]),
-                   with_unit(found.noise[i].deviation, "N") + ", " + formatted("%.0f", found.noise[i].rows) + " values worth " +
-                       formatted("%.0f", found.noise[i].effective_rows()) + " independent ones");
-      brief_line(stream, "left out",
-                 mm(found.window) + " behind the beginning and each reversal" +
-                     (scene.identification.window ? "" : ", from the data"));
+        summary_line(stream, "noise of " + to_word(channels[i]),
+                     with_unit(found.noise[i].deviation, "N") + ", " + formatted("%.0f", found.noise[i].rows) + " values worth " +
+                         formatted("%.0f", found.noise[i].effective_rows()) + " independent ones");
+      summary_line(stream, "left out",
+                   mm(found.window) + " behind the beginning and each reversal" +
+                       (scene.identification.window ? "" : ", from the data"));
       for (const auto &sentence : found.knowledge.weak)
-        brief_line(stream, "", sentence);
+        summary_line(stream, "", sentence);
       stream << "+- is half of the interval of " << formatted("%.4g", 100. * scene.identification.confidence) << " %\n";
     }
 

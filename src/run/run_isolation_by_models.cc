@@ -104,9 +104,9 @@ namespace sprag
       return writer;
     }
 
-    std::vector<Entry> facts_of(const LeverTable &table, const unsigned long steps_taken_over)
+    std::vector<Entry> table_entries(const LeverTable &table, const unsigned long steps_taken_over)
     {
-      return { { "steps", static_cast<double>(table.number_of_steps()) },
+      return { { "steps", static_cast<double>(table.step_count()) },
                { "iterations_a_step", table.iterations_a_step() },
                { "steps_taken_over", static_cast<double>(steps_taken_over) } };
     }
@@ -130,7 +130,7 @@ namespace sprag
                               {
                                 visit(archive, *table);
                                 if (archive.reads())
-                                  steps_taken_over = table->number_of_steps();
+                                  steps_taken_over = table->step_count();
                               } };
     IsolationFindings found;
     finish_in_any_case(
@@ -141,7 +141,7 @@ namespace sprag
         },
         [&](const std::string &status)
         {
-          const std::vector<Entry> facts = table ? facts_of(*table, steps_taken_over) : std::vector<Entry>();
+          const std::vector<Entry> facts = table ? table_entries(*table, steps_taken_over) : std::vector<Entry>();
           finish_isolation(scene, found, facts, status, recorder.finish(), warnings);
           checkpoint.finish(status);
         });

@@ -4,7 +4,7 @@
 #include "base/progress.h"
 #include "program/result_writer.h"
 #include "program/run_files.h"
-#include "report/brief_lines.h"
+#include "report/summary_lines.h"
 #include "run/analyses.h"
 #include "scene/scene.h"
 #include "scene/scene_key.h"
@@ -36,10 +36,10 @@ namespace sprag
           std::cerr << text << std::endl;
       }
 
-      void judged(const std::size_t done, const std::size_t wanted)
+      void judged(const std::size_t done, const std::size_t total)
       {
         if (!bar)
-          bar.emplace(std::cerr, style, static_cast<double>(wanted));
+          bar.emplace(std::cerr, style, static_cast<double>(total));
         bar->update(static_cast<double>(done), {});
       }
     };
@@ -50,34 +50,34 @@ namespace sprag
       std::vector<BoundaryPoint> boundary = {};
     };
 
-    void judge_all(const Scene &scene, MapTeam &team, MapProgress &progress, StabilityMap &map)
+    void judge_all(const Scene &scene, MapFarm &farm, MapProgress &progress, StabilityMap &map)
     {
-      for (auto sites = map.grid.wanted(); !sites.empty(); sites = map.grid.wanted())
+      for (auto sites = map.grid.next_sites(); !sites.empty(); sites = map.grid.next_sites())
       {
         progress.say("grid: " + std::to_string(sites.size()) + " cells");
-        team.judge(sites);
-        map.grid.learn(team.kinds());
+        farm.judge(sites);
+        map.grid.learn(farm.kinds());
       }
       BoundarySearch search(map.grid, scene.map.bisections);
       map.boundary = search.points();
-      for (auto sites = search.wanted(); !sites.empty(); sites = search.wanted())
+      for (auto sites = search.next_sites(); !sites.empty(); sites = search.next_sites())
       {
         progress.say("boundaries: " + std::to_string(sites.size()) + " cells");
-        team.judge(sites);
-        search.learn(team.kinds());
+        farm.judge(sites);
+        search.learn(farm.kinds());
         map.boundary = search.points();
       }
     }
 
-    std::string unit_of(const std::string &name)
+    std::string quantity_unit(const std::string &name)
     {
-      const auto unit = unit_of_parameter(name);
+      const auto unit = parameter_unit(name);
       return unit.empty() ? "1" : unit;
     }
 
     Dataset axis(const std::string &name, const ParameterRange &range)
     {
-      Dataset result{ { name, unit_of(range.name), range.name }, {}, {} };
+      Dataset result{ { name, quantity_unit(range.name), range.name }, {}, {} };
       for (unsigned int i = 0; i < range.points; ++i)
         result.values.push_back(parameter_at(range, i));
       return result;
@@ -107,11 +107,11 @@ namespace sprag
 
     std::vector<ColumnInfo> boundary_columns(const MapSettings &map)
     {
-      return { { "first", unit_of(map.first.name), map.first.name + " where the kind changes" },
-               { "second", unit_of(map.second.name), map.second.name + " there" },
+      return { { "first", quantity_unit(map.first.name), map.first.name + " where the kind changes" },
+               { "second", quantity_unit(map.second.name), map.second.name + " there" },
                { "direction", "1", "of motion: 1 forward, -1 backward" },
                { "along", "1", "parameter that was varied to find the point: 1 first, 2 second" },
-               { "width", unit_of(map.first.name) == unit_of(map.second.name) ? unit_of(map.first.name) : "1",
+               { "width", quantity_unit(map.first.name) == quantity_unit(map.second.name) ? quantity_unit(map.first.name) : "1",
                  "of the bracket about the point, in that parameter's unit" },
                { "kind_low", "1", "kind at the bracket's end with the lower number of grid point" },
                { "kind_high", "1", "kind at its other end" } };
@@ -131,7 +131,7 @@ namespace sprag
     }
 
     /// Returns the share of the grid with any of the kinds; NaN before the whole grid is known.
-    double share_of(const Group &map, const std::string &dataset, const std::vector<double> &kinds)
+    double find_share(const Group &map, const std::string &dataset, const std::vector<double> &kinds)
     {
       const auto found = std::find_if(map.datasets.begin(), map.datasets.end(),
                                       [&](const Dataset &candidate) { return candidate.info.name == dataset; });
@@ -143,7 +143,7 @@ namespace sprag
       return static_cast<double>(counted) / static_cast<double>(found->values.size());
     }
 
-    std::vector<Entry> summary_of_map(const StabilityMap &map, const Group &group, const std::size_t judged)
+    std::vector<Entry> map_summary(const StabilityMap &map, const Group &group, const std::size_t judged)
     {
       const auto [n_first, n_second] = map.grid.points();
       const auto on_grid             = std::count(group.datasets[2].values.begin(), group.datasets[2].values.end(), 1.);
@@ -152,31 +152,31 @@ namespace sprag
                                          { "cells_judged", static_cast<double>(judged) },
                                          { "boundary_points", static_cast<double>(map.boundary.size()) } };
       for (const std::string way : { "forward", "backward" })
-        append<Entry>(summary, { { "unstable_" + way, share_of(group, "kind_" + way, { 1., 2. }) },
-                                 { "jammed_" + way, share_of(group, "kind_" + way, { 3. }) },
-                                 { "not_judged_" + way, share_of(group, "kind_" + way, { 4., 5. }) } });
+        append<Entry>(summary, { { "unstable_" + way, find_share(group, "kind_" + way, { 1., 2. }) },
+                                 { "jammed_" + way, find_share(group, "kind_" + way, { 3. }) },
+                                 { "not_judged_" + way, find_share(group, "kind_" + way, { 4., 5. }) } });
       return summary;
     }
 
     /// All ranks call it.
-    std::vector<Entry> cost_of_map(MapTeam &team, const double wall_seconds)
+    std::vector<Entry> map_cost(MapFarm &farm, const double wall_seconds)
     {
       const double cpu = MPI::sum(PhaseTimer::cpu_seconds(), MPI_COMM_WORLD);
       const auto ranks = static_cast<double>(MPI::n_mpi_processes(MPI_COMM_WORLD));
       return { { "ranks", ranks },
-               { "cells_taken_over", static_cast<double>(team.taken_over()) },
+               { "cells_taken_over", static_cast<double>(farm.taken_over()) },
                { "wall_time", wall_seconds },
                { "cpu_time_all", cpu } };
     }
 
-    void write_map(const Scene &scene, const RunOptions &options, const StabilityMap &map, MapTeam &team,
+    void write_map(const Scene &scene, const RunOptions &options, const StabilityMap &map, MapFarm &farm,
                    const std::string &status, const std::vector<Entry> &meta, Warnings &warnings)
     {
-      const Group group = map_group(scene, map.grid, team.cells());
-      ResultWriter writer(scene, options, team.cell_judge().timer(), boundary_columns(scene.map));
+      const Group group = map_group(scene, map.grid, farm.cells());
+      ResultWriter writer(scene, options, farm.cell_judge().timer(), boundary_columns(scene.map));
       for (const auto &point : map.boundary)
         writer.append(boundary_row(scene.map, point));
-      writer.finish(status, { summary_of_map(map, group, team.cells().size()), meta, { group } }, warnings);
+      writer.finish(status, { map_summary(map, group, farm.cells().size()), meta, { group } }, warnings);
     }
 
     void announce(const Journal &journal, MapProgress &progress)
@@ -202,17 +202,17 @@ namespace sprag
           journal.emplace(options.folder + '/' + map_journal_name, "map", scene_key(scene));
           announce(*journal, progress);
         });
-    MapTeam team(scene, journal ? &*journal : nullptr,
-                 [&](const std::size_t done, const std::size_t wanted) { progress.judged(done, wanted); });
+    MapFarm farm(scene, journal ? &*journal : nullptr,
+                 [&](const std::size_t done, const std::size_t total) { progress.judged(done, total); });
     StabilityMap map{ MapGrid(scene.map.first.points, scene.map.second.points, scene.map.coarsest) };
-    finish_in_any_case([&] { judge_all(scene, team, progress, map); },
+    finish_in_any_case([&] { judge_all(scene, farm, progress, map); },
                        [&](const std::string &status)
                        {
                          progress.bar.reset();
-                         map.grid.learn(team.kinds());
+                         map.grid.learn(farm.kinds());
                          const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-                         const auto meta                             = cost_of_map(team, seconds.count());
-                         on_first_rank([&] { write_map(scene, options, map, team, status, meta, warnings); });
+                         const auto meta                             = map_cost(farm, seconds.count());
+                         on_first_rank([&] { write_map(scene, options, map, farm, status, meta, warnings); });
                        });
     on_first_rank([&] { journal->remove(); });
   }

@@ -75,35 +75,35 @@ namespace sprag
         if (travel < next || state.forces.ports.empty())
           return;
         next = travel + interval;
-        append(of_face, std::get<SolidStructure>(lever.structure()).samples(state.coordinates, state.forces));
+        append(face_samples, std::get<SolidStructure>(lever.structure()).samples(state.coordinates, state.forces));
       }
 
       /// None of a body at finite strain, which is solved as a whole, nor where nothing touched.
       std::vector<Entry> entries(const StaticLever<3> &lever) const
       {
-        if (!std::get<SolidStructure>(lever.structure()).is_linear() || of_face.empty())
+        if (!std::get<SolidStructure>(lever.structure()).is_linear() || face_samples.empty())
           return {};
-        const auto worst = std::get<SolidStructure>(lever.structure()).exactness(of_face);
+        const auto worst = std::get<SolidStructure>(lever.structure()).exactness(face_samples);
         return { { "compliance_error", worst.displacement }, { "compliance_work_error", worst.work } };
       }
 
     private:
       friend void visit(Archive &archive, Samples &samples)
       {
-        archive(samples.next, samples.travel, samples.last_x, samples.of_face);
+        archive(samples.next, samples.travel, samples.last_x, samples.face_samples);
       }
 
       const double interval; ///< of travel between states looked at [mm]
       double next   = 0.;
       double travel = 0.;
       double last_x = 0.;
-      std::vector<FaceSample> of_face;
+      std::vector<FaceSample> face_samples;
     };
 
-    /// Runs a lever or a pair. `probes_of`(rows, settings, stresses) makes the probes of its accuracy.
-    template <class Lever, class ProbesOf>
-    void drive_levers(const Scene &scene, const RunOptions &options, PhaseTimer &timer, Lever &levers, const ProbesOf &probes_of,
-                      Warnings &warnings)
+    /// Runs a lever or a pair. `make_probes`(rows, settings, stresses) makes the probes of its accuracy.
+    template <class Lever, class MakeProbes>
+    void drive_levers(const Scene &scene, const RunOptions &options, PhaseTimer &timer, Lever &levers,
+                      const MakeProbes &make_probes, Warnings &warnings)
     {
       Checkpoint checkpoint(scene, options);
       Recorder recorder(scene, options, timer, levers.face_points(), &checkpoint);
@@ -153,7 +153,7 @@ namespace sprag
             if (status == "completed" && estimates_errors(options))
             {
               const PhaseTimer::Scope scope(timer, "accuracy");
-              const auto probes = [&] { return probes_of(recorder.recorded(), settings, fields->stress_samples()); };
+              const auto probes = [&] { return make_probes(recorder.recorded(), settings, fields->stress_samples()); };
               recorder.set_accuracy(quasi_static_accuracy(scene, recorder.recorded(), probes));
             }
             meta.push_back({ "stick_stiffness", stick });
@@ -191,7 +191,7 @@ namespace sprag
       if (!files)
         return nullptr;
       if (!options.quiet)
-        std::cout << "Memory: " << text_of(*files) << '\n' << std::flush;
+        std::cout << "Memory: " << to_text(*files) << '\n' << std::flush;
       return std::make_unique<FolderForFactors>(files->folder);
     }
   } // namespace
@@ -202,12 +202,12 @@ namespace sprag
     require_folder(options);
     const auto meshes = static_meshes(options);
     const Mesh *mesh  = nullptr; // in a plane
-    timed(timer, "mesh", [&] { mesh = &meshes->mesh_of(scene); });
+    timed(timer, "mesh", [&] { mesh = &meshes->cached_mesh(scene); });
     if (scene.analysis.dimension == 2)
     {
       std::optional<StaticLever<2>> levers;
       timed(timer, "model", [&] { levers.emplace(*mesh, scene); });
-      const auto probes = [&](const auto &...of_run) { return plane_probes(scene, *levers, of_run...); };
+      const auto probes = [&](const auto &...arguments) { return plane_probes(scene, *levers, arguments...); };
       return drive_levers(scene, options, timer, *levers, probes, warnings);
     }
     const auto files = options.in_memory ? nullptr : folder_for_factors(scene, options);

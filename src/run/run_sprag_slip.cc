@@ -44,9 +44,9 @@ namespace sprag
       const auto add = [&](const std::string &name, const std::string &unit, const std::string &meaning,
                            const std::function<double(const Settled &)> &value)
       {
-        datasets.push_back(dataset_of(points, { name + '_' + way, unit, meaning + " on the way " + way },
-                                      [&](const ContinuationPoint &point)
-                                      { return point.holds() ? value(point.*branch) : unknown; }));
+        datasets.push_back(make_dataset(points, { name + '_' + way, unit, meaning + " on the way " + way },
+                                        [&](const ContinuationPoint &point)
+                                        { return point.holds() ? value(point.*branch) : unknown; }));
       };
       add("kind", "1", "0 slide, 1 cycle, 2 irregular vibration, 3 undecided,",
           [](const Settled &settled) { return static_cast<double>(settled.kind); });
@@ -63,8 +63,8 @@ namespace sprag
     {
       Group group{ "continuation", {} };
       const auto add = [&](const ColumnInfo &info, const Value &value)
-      { group.datasets.push_back(dataset_of(points, info, value)); };
-      const auto of_slide = [](const ContinuationPoint &point, const double value) { return point.holds() ? value : unknown; };
+      { group.datasets.push_back(make_dataset(points, info, value)); };
+      const auto held_value = [](const ContinuationPoint &point, const double value) { return point.holds() ? value : unknown; };
       add({ "x", "mm", "where the slide is held" }, [](const ContinuationPoint &point) { return point.x; });
       add({ "stable", "1", "1: the slide is stable by its eigenvalues, 0: it is not, or there is none" },
           [](const ContinuationPoint &point) { return point.slide.kind == SlideKind::stable ? 1. : 0.; });
@@ -73,9 +73,9 @@ namespace sprag
       add({ "mode_frequency", "Hz", "of that eigenvalue" },
           [](const ContinuationPoint &point) { return point.slide.frequency(); });
       add({ "P", "N", "of the slide" },
-          [&](const ContinuationPoint &point) { return of_slide(point, point.holds() ? point.slide.slide->forces.P : 0.); });
+          [&](const ContinuationPoint &point) { return held_value(point, point.holds() ? point.slide.slide->forces.P : 0.); });
       add({ "indentation", "mm", "of the slide" },
-          [&](const ContinuationPoint &point) { return of_slide(point, point.holds() ? point.slide.slide->indentation : 0.); });
+          [&](const ContinuationPoint &point) { return held_value(point, point.holds() ? point.slide.slide->indentation : 0.); });
       add_branch(points, "away", &ContinuationPoint::away, group.datasets);
       add_branch(points, "back", &ContinuationPoint::back, group.datasets);
       return group;
@@ -83,7 +83,7 @@ namespace sprag
 
     Group growth_group(const Growth &growth, const double at_start)
     {
-      const auto column = [&](const ColumnInfo &info, const auto &value) { return dataset_of(growth.sizes, info, value); };
+      const auto column = [&](const ColumnInfo &info, const auto &value) { return make_dataset(growth.sizes, info, value); };
       return { "growth",
                { column({ "time", "s", "from the perturbation on" }, [](const Sample &sample) { return sample.time; }),
                  column({ "amplitude", "1", "of the overlap over its mean, from the envelope of P" },
@@ -215,7 +215,7 @@ namespace sprag
       Warnings &warnings;
       const SpragSlipSettings &settings = scene.sprag_slip;
       Rows rows                         = { writer, *found.slide.slide };
-      const double dt                   = step_of(watched_mode(found.slide), settings);
+      const double dt                   = choose_step(watched_mode(found.slide), settings);
       HeldRun run                       = HeldRun(model, dt);
       double done                       = 0.;
 
@@ -299,7 +299,7 @@ namespace sprag
     };
 
     /// Growth, vibration, and every x of the continuation there and back.
-    double parts_of(const SpragSlipSettings &settings)
+    double count_parts(const SpragSlipSettings &settings)
     {
       const unsigned int n = settings.continuation;
       return n == 0 ? 2. : 2. + 2. * (n + Continuation::bisections) + 1.;
@@ -315,7 +315,7 @@ namespace sprag
     const auto dynamics = maker.make(held);
     ResultWriter writer(scene, options, maker.timer(),
                         table_columns(scene.plate, scene.pair, scene.analysis.dimension, scene.cylinder));
-    Progress progress(std::cerr, progress_style(options.quiet), parts_of(scene.sprag_slip));
+    Progress progress(std::cerr, progress_style(options.quiet), count_parts(scene.sprag_slip));
     SpragSlip found;
     finish_in_any_case(
         [&]

@@ -8,8 +8,8 @@
 #include "base/unknown.h"
 #include "program/result_writer.h"
 #include "program/run_files.h"
-#include "report/brief_lines.h"
 #include "report/percent.h"
+#include "report/summary_lines.h"
 #include "report/summary_table.h"
 #include "results/result_file.h"
 #include "run/analyses.h"
@@ -56,7 +56,7 @@ namespace sprag
     }
 
     /// Returns the number of those with this outcome.
-    std::size_t count_of(const std::vector<const StudyRecord *> &rows, const RunOutcome outcome)
+    std::size_t count_outcomes(const std::vector<const StudyRecord *> &rows, const RunOutcome outcome)
     {
       return static_cast<std::size_t>(
           std::count_if(rows.begin(), rows.end(), [&](const StudyRecord *row) { return row->outcome == outcome; }));
@@ -76,7 +76,7 @@ namespace sprag
     }
 
     /// Number of a value. A parameter that takes words has the index among its values.
-    double number_of(const VariedParameter &varied, const std::size_t index, const bool numeric)
+    double varied_number(const VariedParameter &varied, const std::size_t index, const bool numeric)
     {
       const auto number = leading_number(varied.values[index]);
       return numeric ? (number ? number->value : unknown) : static_cast<double>(index);
@@ -93,10 +93,10 @@ namespace sprag
         const Rule &rule   = find_parameter(declared, varied.name)->rule;
         const bool numeric = has_numbers(rule);
         const auto meaning = varied.name + (numeric ? "" : ": place among its values");
-        table.numbers.push_back(dataset_of(rows, { identifier_of(varied.name), rule.unit.empty() ? "1" : rule.unit, meaning },
-                                           [&](const StudyRecord *row)
-                                           { return number_of(varied, points[row->run][i], numeric); }));
-        TextDataset texts{ identifier_of(varied.name), varied.name, {} };
+        table.numbers.push_back(make_dataset(rows, { to_identifier(varied.name), rule.unit.empty() ? "1" : rule.unit, meaning },
+                                             [&](const StudyRecord *row)
+                                             { return varied_number(varied, points[row->run][i], numeric); }));
+        TextDataset texts{ to_identifier(varied.name), varied.name, {} };
         for (const auto *row : rows)
           texts.values.push_back(varied.values[points[row->run][i]]);
         table.texts.push_back(texts);
@@ -106,7 +106,7 @@ namespace sprag
     void add_costs(const std::vector<const StudyRecord *> &rows, StudyTable &table)
     {
       const auto add = [&](const ColumnInfo &info, const auto &value)
-      { table.numbers.push_back(dataset_of(rows, info, [&](const StudyRecord *row) { return value(*row); })); };
+      { table.numbers.push_back(make_dataset(rows, info, [&](const StudyRecord *row) { return value(*row); })); };
       add({ "run", "1", "place among the runs of the study" },
           [](const StudyRecord &row) { return static_cast<double>(row.run); });
       add({ "outcome", "1", "0 completed, 1 failed, 2 refused" },
@@ -161,12 +161,12 @@ namespace sprag
     {
       for (const auto &entry : all_entries(rows))
         if (std::holds_alternative<double>(entry.value))
-          table.numbers.push_back(dataset_of(rows, { entry.name, entry.unit.empty() ? "1" : entry.unit, entry.description },
-                                             [&](const StudyRecord *row)
-                                             {
-                                               const Entry *found = find_entry(*row, entry.name);
-                                               return found != nullptr ? std::get<double>(found->value) : unknown;
-                                             }));
+          table.numbers.push_back(make_dataset(rows, { entry.name, entry.unit.empty() ? "1" : entry.unit, entry.description },
+                                               [&](const StudyRecord *row)
+                                               {
+                                                 const Entry *found = find_entry(*row, entry.name);
+                                                 return found != nullptr ? std::get<double>(found->value) : unknown;
+                                               }));
         else
         {
           TextDataset texts{ entry.name, entry.description, {} };
@@ -230,14 +230,14 @@ namespace sprag
         group.texts.push_back(settings);
       }
       Dataset orders{ { "order", "1", "p of error = C size^p, fitted over the runs" }, {}, {} };
-      TextDataset of{ "order_of", "measure over size; the other settings", {} };
+      TextDataset order_texts{ "order_of", "measure over size; the other settings", {} };
       for (const auto &[measure, parameter, others, order] : trade.orders)
       {
         orders.values.push_back(order);
-        of.values.push_back(measure + " over " + parameter + (others.empty() ? "" : "; " + others));
+        order_texts.values.push_back(measure + " over " + parameter + (others.empty() ? "" : "; " + others));
       }
       group.datasets.push_back(orders);
-      group.texts.push_back(of);
+      group.texts.push_back(order_texts);
       return group;
     }
 
@@ -258,7 +258,7 @@ namespace sprag
       double cpu      = 0.;
       for (const auto &[run, record] : records)
         cpu += record.cpu_spent;
-      const auto number          = [&](const RunOutcome outcome) { return static_cast<double>(count_of(rows, outcome)); };
+      const auto number          = [&](const RunOutcome outcome) { return static_cast<double>(count_outcomes(rows, outcome)); };
       std::vector<Entry> entries = { { "runs", static_cast<double>(points.size()) },
                                      { "completed", number(RunOutcome::completed) },
                                      { "failed", number(RunOutcome::failed) },
@@ -284,7 +284,7 @@ namespace sprag
       for (std::size_t i = 0; i < point.size(); ++i)
       {
         const auto &varied = study.varied[i];
-        const auto unit    = unit_of_parameter(varied.name);
+        const auto unit    = parameter_unit(varied.name);
         text += (i == 0 ? "" : ", ") + varied.name + " = " + varied.values[point[i]] + (unit.empty() ? "" : ' ' + unit);
       }
       return text;
@@ -295,7 +295,7 @@ namespace sprag
       std::string text;
       for (const auto &[name, values] : study.reference_values)
         text += (text.empty() ? "" : ", ") + name + " = " + values.front() +
-                (unit_of_parameter(name).empty() ? "" : ' ' + unit_of_parameter(name));
+                (parameter_unit(name).empty() ? "" : ' ' + parameter_unit(name));
       return text;
     }
 
@@ -333,17 +333,18 @@ namespace sprag
 
       void accuracies(const MeasuredErrors &measured) const
       {
-        brief_line(stream, measured.measure.name, "");
+        summary_line(stream, measured.measure.name, "");
         for (std::size_t i = 0; i < recommended_accuracies.size(); ++i)
-          brief_line(stream, "  within " + accuracy_text(recommended_accuracies[i]), run_text(measured.recommended[i], measured));
+          summary_line(stream, "  within " + accuracy_text(recommended_accuracies[i]),
+                       run_text(measured.recommended[i], measured));
       }
 
       void at_usual_accuracy(const std::vector<MeasuredErrors> &all_measured) const
       {
-        brief_line(stream, "each alone within " + accuracy_text(recommended_accuracies[usual_accuracy]), "");
+        summary_line(stream, "each alone within " + accuracy_text(recommended_accuracies[usual_accuracy]), "");
         for (const auto &measured : all_measured)
           if (measured.measure.name != all)
-            brief_line(stream, "  " + measured.measure.name, run_text(measured.recommended[usual_accuracy], measured));
+            summary_line(stream, "  " + measured.measure.name, run_text(measured.recommended[usual_accuracy], measured));
       }
     };
 
@@ -357,14 +358,14 @@ namespace sprag
         range       = { std::min(range.first, order), std::max(range.second, order) };
       }
       std::map<std::string, std::string> texts;
-      for (const auto &[of, range] : ranges)
+      for (const auto &[key, range] : ranges)
       {
-        auto &text = texts[of.first];
-        text += (text.empty() ? "" : ", ") + of.second + formatted(" %.2f", range.first) +
+        auto &text = texts[key.first];
+        text += (text.empty() ? "" : ", ") + key.second + formatted(" %.2f", range.first) +
                 (range.first < range.second ? formatted(" to %.2f", range.second) : "");
       }
       for (const auto &[parameter, text] : texts)
-        brief_line(stream, "observed order", "over " + parameter + ": " + text);
+        summary_line(stream, "observed order", "over " + parameter + ": " + text);
     }
 
     /// Returns the names that the runs' summaries mark as main, those with a number up to 3.
@@ -400,9 +401,9 @@ namespace sprag
       const auto size    = [is_peak](const Found &one) { return is_peak ? std::abs(one.value) : one.value; };
       const auto [least, most] =
           std::minmax_element(found.begin(), found.end(), [&size](const Found &a, const Found &b) { return size(a) < size(b); });
-      brief_line(stream, name,
-                 four_digits(least->value) + " to " + with_unit(most->value, most->unit) + ", most for " +
-                     settings_with_units(printer.study, printer.points[most->run]));
+      summary_line(stream, name,
+                   four_digits(least->value) + " to " + with_unit(most->value, most->unit) + ", most for " +
+                       settings_with_units(printer.study, printer.points[most->run]));
     }
 
     /// Prints how the runs of a study ended and, where there is a reference, the cheapest settings that meet accuracies: with
@@ -463,7 +464,7 @@ namespace sprag
     }
 
     /// All ranks call it.
-    std::vector<Entry> cost_of_study(const std::size_t taken_over, const double wall_seconds)
+    std::vector<Entry> study_cost(const std::size_t taken_over, const double wall_seconds)
     {
       const double cpu = MPI::sum(static_cast<double>(std::clock()) / CLOCKS_PER_SEC, MPI_COMM_WORLD);
       const auto ranks = static_cast<double>(MPI::n_mpi_processes(MPI_COMM_WORLD));
@@ -477,7 +478,7 @@ namespace sprag
                      const std::string &status, const std::vector<Entry> &meta, Warnings &warnings)
     {
       const auto &points = runs.points();
-      const auto trade   = trade_of(scene.study, points, records);
+      const auto trade   = compute_trade(scene.study, points, records);
       const auto table   = study_table(scene.study, points, records, trade);
       std::vector<ColumnInfo> columns;
       for (const auto &column : table.numbers)
@@ -522,33 +523,33 @@ namespace sprag
           announce(*journal, runs.size(), style);
         });
     std::optional<Progress> progress;
-    const auto report = [&](const std::size_t done, const std::size_t wanted)
+    const auto report = [&](const std::size_t done, const std::size_t total)
     {
       if (!progress)
-        progress.emplace(std::cerr, style, static_cast<double>(wanted));
+        progress.emplace(std::cerr, style, static_cast<double>(total));
       progress->update(static_cast<double>(done), {});
     };
-    Team team({ "study", unchanged_inputs(scene, "study"), report }, journal ? &*journal : nullptr);
+    TaskFarm farm({ "study", unchanged_inputs(scene, "study"), report }, journal ? &*journal : nullptr);
     StudyRecords records;
     const auto learn = [&](const std::string &line)
     {
-      const auto record   = record_of(line);
+      const auto record   = parse_record(line);
       records[record.run] = record;
     };
-    for (const auto &line : team.taken_over())
+    for (const auto &line : farm.taken_over())
       learn(line);
     const auto taken_over = records.size();
-    const auto groups     = runs.groups_of(missing_runs(runs, records), MPI::n_mpi_processes(MPI_COMM_WORLD));
+    const auto groups     = runs.run_groups(missing_runs(runs, records), MPI::n_mpi_processes(MPI_COMM_WORLD));
     finish_in_any_case(
         [&]
         {
-          team.carry_out(
-              groups, [&](const std::size_t run) { return line_of(runs.run(run)); }, learn);
+          farm.carry_out(
+              groups, [&](const std::size_t run) { return to_line(runs.run(run)); }, learn);
         },
         [&](const std::string &status)
         {
           progress.reset();
-          const auto meta = cost_of_study(taken_over, monotonic_seconds() - begin);
+          const auto meta = study_cost(taken_over, monotonic_seconds() - begin);
           on_first_rank([&] { write_study(scene, options, runs, records, status, meta, warnings); });
         });
     on_first_rank([&] { journal->remove(); });

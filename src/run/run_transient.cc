@@ -27,7 +27,7 @@ namespace sprag
   {
     /// Finds the growing modes about the slides of the run. It uses a model of its own, condensed for finite elements, which
     /// find the lowest vibrations alone.
-    std::vector<GrowingMode> growing_modes_of(Scene scene, DynamicsMaker &maker)
+    std::vector<GrowingMode> find_growing_modes(Scene scene, DynamicsMaker &maker)
     {
       if (scene.analysis.model == ModelType::finite_element)
         scene.analysis.model = ModelType::condensed;
@@ -102,7 +102,7 @@ namespace sprag
     const auto dynamics = maker.make(scene);
     auto &model         = dynamics.model();
     const Body *body    = dynamics.lever ? dynamics.lever->body.get() : nullptr;
-    const auto growing  = growing_modes_of(scene, maker);
+    const auto growing  = find_growing_modes(scene, maker);
     Checkpoint checkpoint(scene, options);
     Recorder recorder(scene, options, timer, model.face_points(), &checkpoint);
     announce_model(scene, options);
@@ -114,23 +114,22 @@ namespace sprag
     const bool is_meshed = dynamics.lever || dynamics.solid;
     if (is_meshed && scene.output.fields != FieldOutput::none)
     {
-      fields.emplace(scene, shown_body(scene, dynamics), recovery(dynamics.meshed, number_of_levers(scene)), options.folder,
-                     timer);
+      fields.emplace(scene, shown_body(scene, dynamics), recovery(dynamics.meshed, count_levers(scene)), options.folder, timer);
       checkpoint.add_part([&](Archive &archive) { fields->visit_progress(archive); });
     }
     else if (is_meshed)
       recorder.set_stress(no_stress_peaks("Output/Fields = none"));
 
     // In three dimensions the face is kept beside the frames, too.
-    constexpr double faces_of_solid = 100.;
-    double next_face                = 0.; // [s]
+    constexpr double solid_faces = 100.;
+    double next_face             = 0.; // [s]
     checkpoint.add_part([&](Archive &archive) { archive(next_face); });
     const auto write = [&](const Motion &motion, const Row &row)
     {
       recorder.record(row);
       const bool is_due = dynamics.solid && row[Column::time] >= next_face;
       if (is_due)
-        next_face += scene.drive.duration() / faces_of_solid;
+        next_face += scene.drive.duration() / solid_faces;
       if (!fields && !is_due)
         return;
       const auto face    = model.face_state(motion);

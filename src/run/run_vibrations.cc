@@ -28,7 +28,7 @@ namespace sprag
   namespace
   {
     /// The largest growth rate of the slides that a verdict looks at [1/s]; NaN where it is not known.
-    double growth_of(const Scene &scene, DynamicsMaker &maker)
+    double compute_growth(const Scene &scene, DynamicsMaker &maker)
     {
       try
       {
@@ -41,7 +41,7 @@ namespace sprag
     }
 
     /// The scene as its worst slide has it.
-    Scene scene_of_slide(const Scene &scene, const JudgedSlide &slide)
+    Scene slide_scene(const Scene &scene, const JudgedSlide &slide)
     {
       Scene result               = slide.constants.empty() ? scene : prepared(variant(scene, slide.constants));
       result.stability.position  = slide.drive.x;
@@ -50,7 +50,7 @@ namespace sprag
     }
 
     /// Accuracy of a critical value, over the distance searched.
-    double tolerance_of(const Scene &scene)
+    double search_tolerance(const Scene &scene)
     {
       return is_reduced(scene.analysis.model) ? 1e-8 : 1e-3;
     }
@@ -71,8 +71,8 @@ namespace sprag
         const auto tried = [&] { progress.update(begun + std::min(++done, own - 0.5), {}); };
         // Meshes that serve for one value alone are not worth a place in the cache.
         DynamicsMaker passing(false);
-        auto &maker_of_range = is_meshed(scene.analysis.model) && changes_mesh(scene, range) ? passing : maker;
-        result.push_back(critical_values(scene, range, tolerance_of(scene), maker_of_range, tried));
+        auto &range_maker = is_meshed(scene.analysis.model) && changes_mesh(scene, range) ? passing : maker;
+        result.push_back(critical_values(scene, range, search_tolerance(scene), range_maker, tried));
         progress.update(begun += own, {});
       }
       return result;
@@ -100,7 +100,7 @@ namespace sprag
           result.growth_rate_at_none = slide.growth_rate;
         return slide;
       };
-      const auto ends_of = [&](const double from, const double to)
+      const auto range_ends = [&](const double from, const double to)
       {
         std::vector<double> ends;
         const auto search = search_kinds({ "Contact/Damping", from, to, points }, { accuracy, island_steps }, judge_at);
@@ -110,12 +110,12 @@ namespace sprag
         return ends;
       };
       if (own > 0.)
-        for (const double value : ends_of(0., own))
+        for (const double value : range_ends(0., own))
           result.low = std::max(result.low, value);
       else
         result.growth_rate_at_none = verdict.growth_rate;
       if (own < end)
-        for (const double value : ends_of(own, end))
+        for (const double value : range_ends(own, end))
           result.high = std::min(result.high, value);
       return result;
     }
@@ -133,10 +133,10 @@ namespace sprag
       {
         const double own                     = contact_reference(scene).tangential;
         changed.contact.tangential_stiffness = soft * own;
-        result.soft                          = growth_of(changed, maker);
+        result.soft                          = compute_growth(changed, maker);
         changed.contact.tangential_stiffness = rigid * own;
       }
-      result.rigid = growth_of(changed, maker);
+      result.rigid = compute_growth(changed, maker);
       return result;
     }
 
@@ -157,12 +157,12 @@ namespace sprag
       return find();
     }
 
-    DevicePose pose_of_slide(const Scene &scene, const DynamicModel &model, const HeldSlide &slide)
+    DevicePose slide_pose(const Scene &scene, const DynamicModel &model, const HeldSlide &slide)
     {
       Row row;
       row[Column::x] = slide.drive.x;
       model.observe(slide.motion, row);
-      auto pose = pose_of(row);
+      auto pose = to_pose(row);
       // A slide is held in the axes of the pivot frame.
       pose.support = 0.;
       pose.x       = held_drive(scene).x;
@@ -183,14 +183,14 @@ namespace sprag
       {
         const auto lambda = mode.mode.eigenvalue;
         const auto shape  = dynamics.mode_shape(mode);
-        DeviceMode told{ lambda.imag() / (2. * M_PI), lambda.real(), {}, shape.support };
+        DeviceMode device_mode{ lambda.imag() / (2. * M_PI), lambda.real(), {}, shape.support };
         for (unsigned int lever = 0; lever < shape.levers.size(); ++lever)
         {
           const auto part = [&](const unsigned int i)
           { return dynamics.meshed.elastic_displacement(as_motion(mode.mode, i), lever); };
-          told.levers.push_back({ { { part(0), part(1) } }, shape.levers[lever].rotation });
+          device_mode.levers.push_back({ { { part(0), part(1) } }, shape.levers[lever].rotation });
         }
-        write_mode(scene, fields, held, told, ++number, options.folder);
+        write_mode(scene, fields, held, device_mode, ++number, options.folder);
       }
     }
 
@@ -209,20 +209,20 @@ namespace sprag
       const auto found      = timed(maker, [&] { return model.vibrations(*slide, in_contact, scene.stability.modes); });
       auto modes            = reported(found, scene.stability.modes);
       if (dynamics.solid)
-        tell_motion(modes_of_structures(*dynamics.solid, number_of_levers(undamped)), modes);
+        tell_motion(structure_modes(*dynamics.solid, count_levers(undamped)), modes);
       if (!options.quiet)
         print_modes(std::cout, modes);
       RunEnd result;
       result.meta = meshed_entries(dynamics);
       for (std::size_t i = 0; i < modes.size(); ++i)
-        result.summary.push_back({ "frequency_" + std::to_string(i + 1), frequency_of(modes[i]) });
+        result.summary.push_back({ "frequency_" + std::to_string(i + 1), mode_frequency(modes[i]) });
       result.groups = { mode_group(modes, dynamics) };
-      write_fields(scene, dynamics, pose_of_slide(scene, model, *slide), modes, options);
+      write_fields(scene, dynamics, slide_pose(scene, model, *slide), modes, options);
       return result;
     }
 
-    std::vector<ErrorEstimate> accuracy_of(const Scene &held, const SlideStability &found, const MeshedDynamics &dynamics,
-                                           DynamicsMaker &maker)
+    std::vector<ErrorEstimate> estimate_accuracy(const Scene &held, const SlideStability &found, const MeshedDynamics &dynamics,
+                                                 DynamicsMaker &maker)
     {
       const PhaseTimer::Scope scope(maker.timer(), "accuracy");
       return vibration_accuracy(held, found, dynamics, maker);
@@ -234,7 +234,7 @@ namespace sprag
       SlideStability found;
       bool is_decided   = true;
       const auto swept  = timed(maker, [&] { return sweep(whole, maker, true); });
-      const Scene scene = scene_of_slide(whole, swept.worst());
+      const Scene scene = slide_scene(whole, swept.worst());
       {
         const Scene held    = held_scene(scene);
         const auto dynamics = maker.make(held);
@@ -242,17 +242,17 @@ namespace sprag
         result.meta         = meshed_entries(dynamics);
         auto modes          = reported(found.modes, scene.stability.modes);
         if (dynamics.solid)
-          tell_motion(modes_of_structures(*dynamics.solid, number_of_levers(held)), modes);
+          tell_motion(structure_modes(*dynamics.solid, count_levers(held)), modes);
         result.groups = { mode_group(modes, dynamics) };
         if (found.slide)
         {
-          write_fields(scene, dynamics, pose_of_slide(scene, dynamics.model(), *found.slide), modes, options);
+          write_fields(scene, dynamics, slide_pose(scene, dynamics.model(), *found.slide), modes, options);
           append(warnings, slide_warnings(scene, found.slide->drive, found.slide->forces.P, found.slide->indentation));
           if (found.beyond)
-            append(warnings, beam_warnings(scene, frequency_of(*found.beyond), found.beyond->mode.eigenvalue.real()));
+            append(warnings, beam_warnings(scene, mode_frequency(*found.beyond), found.beyond->mode.eigenvalue.real()));
         }
         const auto accuracy =
-            estimates_errors(options) ? accuracy_of(held, found, dynamics.meshed, maker) : std::vector<ErrorEstimate>();
+            estimates_errors(options) ? estimate_accuracy(held, found, dynamics.meshed, maker) : std::vector<ErrorEstimate>();
         // A slide that jams is decided without its growth rate.
         is_decided      = found.kind == SlideKind::jammed || accuracy.empty() || !(total_error(accuracy.front()) > 1.);
         result.summary  = slide_entries(found, is_decided);

@@ -28,7 +28,7 @@ namespace sprag
       return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
     }
 
-    std::string reason_of(const InputError &error)
+    std::string describe_error(const InputError &error)
     {
       return boost::algorithm::join(error.messages, "; ");
     }
@@ -39,14 +39,14 @@ namespace sprag
     if (!study.study.reference_values.empty())
       try
       {
-        scene_of_reference(study);
+        reference_scene(study);
       }
       catch (const InputError &error)
       {
-        throw InputError(study.name + ".prm: Study/Reference is refused: " + reason_of(error));
+        throw InputError(study.name + ".prm: Study/Reference is refused: " + describe_error(error));
       }
     std::string first;
-    for (const auto &point : points_of(study.study))
+    for (const auto &point : make_study_points(study.study))
       try
       {
         scene_at(study, point);
@@ -54,21 +54,21 @@ namespace sprag
       }
       catch (const InputError &error)
       {
-        first = first.empty() ? reason_of(error) : first;
+        first = first.empty() ? describe_error(error) : first;
       }
     throw InputError(study.name + ".prm: Study/Vary: every run is refused, the first one because of " + first);
   }
 
-  StudyRuns::StudyRuns(const Scene &of_study)
-      : study(of_study)
-      , all_points(points_of(study.study))
+  StudyRuns::StudyRuns(const Scene &study_)
+      : study(study_)
+      , all_points(make_study_points(study.study))
       , has_reference(!study.study.reference_values.empty())
   {
   }
 
-  Scene StudyRuns::scene_of(const std::size_t index) const
+  Scene StudyRuns::make_scene(const std::size_t index) const
   {
-    return index < all_points.size() ? scene_at(study, all_points[index]) : scene_of_reference(study);
+    return index < all_points.size() ? scene_at(study, all_points[index]) : reference_scene(study);
   }
 
   StudyRecord StudyRuns::run(const std::size_t index)
@@ -96,10 +96,10 @@ namespace sprag
     Warnings warnings;
     try
     {
-      const Scene scene = resolved(scene_of(index)).scene;
+      const Scene scene = resolved(make_scene(index)).scene;
       require_memory(scene);
       warnings = scene_warnings(scene);
-      carry_out(scene, options_of(in_memory), warnings);
+      carry_out(scene, make_options(in_memory), warnings);
       check_warnings(scene, warnings);
       record.found = std::move(in_memory.found);
       record.work  = counted_work(scene, record.found.summary);
@@ -108,7 +108,7 @@ namespace sprag
     }
     catch (const InputError &error)
     {
-      ended(RunOutcome::refused, reason_of(error));
+      ended(RunOutcome::refused, describe_error(error));
     }
     catch (const std::bad_alloc &)
     {
@@ -116,14 +116,14 @@ namespace sprag
     }
     catch (const std::exception &error)
     {
-      ended(RunOutcome::failed, message_of(error));
+      ended(RunOutcome::failed, error_message(error));
     }
     for (const auto &warning : warnings)
       record.warnings.push_back(warning.name);
   }
 
-  std::vector<std::vector<std::size_t>> StudyRuns::groups_of(const std::vector<std::size_t> &runs,
-                                                             const unsigned int processes) const
+  std::vector<std::vector<std::size_t>> StudyRuns::run_groups(const std::vector<std::size_t> &runs,
+                                                              const unsigned int processes) const
   {
     struct SharedMesh
     {
@@ -134,7 +134,7 @@ namespace sprag
     for (const auto run : runs)
       try
       {
-        const Scene scene = scene_of(run);
+        const Scene scene = make_scene(run);
         // Runs without a mesh share nothing, and of others it is not known before the mesh is chosen.
         const bool shares = needs_mesh(scene) && !scene.accuracy.leaves_open();
         auto &group       = by_mesh[shares ? body_key(scene) : std::to_string(run)];

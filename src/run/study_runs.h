@@ -38,7 +38,7 @@ namespace sprag
 
     /// Groups those of the runs that share a mesh, so that one process makes it; the largest meshes first. Where there are fewer
     /// meshes than `processes` each run stands alone.
-    std::vector<std::vector<std::size_t>> groups_of(const std::vector<std::size_t> &runs, unsigned int processes) const;
+    std::vector<std::vector<std::size_t>> run_groups(const std::vector<std::size_t> &runs, unsigned int processes) const;
 
   private:
     const Scene study;
@@ -46,7 +46,7 @@ namespace sprag
     const bool has_reference;
     InMemory in_memory = run_in_memory();
 
-    Scene scene_of(std::size_t index) const;
+    Scene make_scene(std::size_t index) const;
     void carry_out_run(std::size_t index, StudyRecord &record);
   };
 } // namespace sprag

@@ -3,7 +3,7 @@
 
 #include "base/append.h"
 #include "base/text.h"
-#include "report/brief_lines.h"
+#include "report/summary_lines.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 
@@ -57,7 +57,7 @@ namespace sprag
       double value; ///< [1/s]
     };
 
-    std::string text_of(const GrowthPart &part)
+    std::string to_text(const GrowthPart &part)
     {
       return part.name + ' ' + four_digits(part.value);
     }
@@ -72,10 +72,10 @@ namespace sprag
       };
       const auto [least, most] =
           std::minmax_element(parts.begin(), parts.end(), [](const auto &a, const auto &b) { return a.value < b.value; });
-      return { { most->value > 0. ? text_of(*most) : "-", least->value < 0. ? text_of(*least) : "-" } };
+      return { { most->value > 0. ? to_text(*most) : "-", least->value < 0. ? to_text(*least) : "-" } };
     }
 
-    std::string motion_of(const Eigenmode::AcrossShares &across)
+    std::string describe_motion(const Eigenmode::AcrossShares &across)
     {
       if (across.plane > 0.5)
         return "in the plane";
@@ -94,10 +94,10 @@ namespace sprag
     stream << (is_pair(modes) ? "    mirroring [1]" : "") << (is_solid(modes) ? "  motion" : "") << "\n";
     for (const auto &mode : modes)
     {
-      stream << cell(frequency_of(mode), 16);
+      stream << cell(mode_frequency(mode), 16);
       for (const auto &column : columns)
         stream << cell(std::round(1000. * mode.energy.*column.share) / 10., 13);
-      stream << (is_pair(modes) ? cell(mode.mirroring, 17) : "") << (is_solid(modes) ? "  " + motion_of(mode.across) : "")
+      stream << (is_pair(modes) ? cell(mode.mirroring, 17) : "") << (is_solid(modes) ? "  " + describe_motion(mode.across) : "")
              << '\n';
     }
   }
@@ -111,9 +111,9 @@ namespace sprag
     for (const auto &mode : modes)
     {
       const auto &g    = mode.growth;
-      std::string kind = "  " + kind_name(kind_of(mode));
+      std::string kind = "  " + kind_name(classify(mode));
       kind.resize(13, ' ');
-      stream << cell(frequency_of(mode), 11) << cell(mode.mode.eigenvalue.real(), 10) << kind << cell(g.friction_rotation, 10)
+      stream << cell(mode_frequency(mode), 11) << cell(mode.mode.eigenvalue.real(), 10) << kind << cell(g.friction_rotation, 10)
              << cell(g.friction_bending, 11) << cell(g.friction_support, 10) << cell(g.friction_speed, 12)
              << cell(g.contact_damping, 10) << cell(g.structure_damping, 11) << '\n';
     }
@@ -129,7 +129,7 @@ namespace sprag
     for (const auto &mode : modes)
     {
       const auto [fed, damped] = extremes(mode.growth);
-      stream << cell(mode.mode.eigenvalue.real(), 14) << cell(frequency_of(mode), 16) << "  " << padded(fed, -32) << damped
+      stream << cell(mode.mode.eigenvalue.real(), 14) << cell(mode_frequency(mode), 16) << "  " << padded(fed, -32) << damped
              << '\n';
     }
   }
@@ -143,14 +143,14 @@ namespace sprag
            << "; narrow islands between the values tried may be missed:\n";
     for (const auto &[range, first, changes, worst, not_judged, reason, spacing, more_values] : searches)
     {
-      const auto unit = unit_of_parameter(range.name);
+      const auto unit = parameter_unit(range.name);
       stream << "    " << range.name << " from " << four_digits(range.from) << " to " << with_unit(range.to, unit) << ": "
              << (first ? kind_name(*first) : "cannot be judged");
       for (const auto &critical : changes)
       {
-        const bool of_friction = range.name == "Friction/Factor" && !std::isnan(critical.mu);
+        const bool is_friction = range.name == "Friction/Factor" && !std::isnan(critical.mu);
         stream << ", " << kind_name(critical.above) << " from " << with_unit(critical.value, unit)
-               << (of_friction ? " (mu = " + four_digits(critical.mu) + ")" : "")
+               << (is_friction ? " (mu = " + four_digits(critical.mu) + ")" : "")
                << (critical.worse.motion.empty() ? "" : " (" + critical.worse.motion + ")");
         if (is_worst && range.name != "Stability/Position")
           stream << " (worst " << (critical.worse.drive.v < 0. ? "backward" : "forward")
@@ -178,13 +178,13 @@ namespace sprag
     void append_numbers(const std::vector<Eigenmode> &modes, Group &group)
     {
       const auto add = [&](const ColumnInfo &info, const ModeValue &value)
-      { group.datasets.push_back(dataset_of(modes, info, value)); };
-      add({ "frequency", "Hz", "Im lambda / 2 pi" }, frequency_of);
+      { group.datasets.push_back(make_dataset(modes, info, value)); };
+      add({ "frequency", "Hz", "Im lambda / 2 pi" }, mode_frequency);
       add({ "growth_rate", "1/s", "Re lambda" }, [](const auto &mode) { return mode.mode.eigenvalue.real(); });
       add({ "damping_ratio", "1", "-Re lambda / |lambda|" },
           [](const auto &mode) { return -mode.mode.eigenvalue.real() / std::abs(mode.mode.eigenvalue); });
       add({ "kind", "1", "0 stable, 1 flutter, 2 divergence" },
-          [](const auto &mode) { return static_cast<double>(kind_of(mode)); });
+          [](const auto &mode) { return static_cast<double>(classify(mode)); });
       add({ "residual", "1", "backward error of the eigenpair" }, [](const auto &mode) { return mode.mode.residual; });
 
       if (is_pair(modes))
@@ -239,28 +239,28 @@ namespace sprag
         {
           const auto add = [&](const std::string &name, const std::vector<double> &more)
           { append(values[name + part[i]], more); };
-          const auto part_of = [i](const std::complex<double> &value) { return i == 0 ? value.real() : value.imag(); };
+          const auto complex_part = [i](const std::complex<double> &value) { return i == 0 ? value.real() : value.imag(); };
           for (std::size_t lever = 0; lever < shape.levers.size(); ++lever)
           {
-            const std::string of_lever = lever == 0 ? "_" : "_2_";
-            add("along" + of_lever, shape.levers[lever].along[i]);
-            add("across" + of_lever, shape.levers[lever].across[i]);
+            const std::string lever_suffix = lever == 0 ? "_" : "_2_";
+            add("along" + lever_suffix, shape.levers[lever].along[i]);
+            add("across" + lever_suffix, shape.levers[lever].across[i]);
             if (!shape.levers[lever].sideways[i].empty())
-              add("sideways" + of_lever, shape.levers[lever].sideways[i]);
-            add("rotation" + of_lever, { part_of(shape.levers[lever].rotation) });
+              add("sideways" + lever_suffix, shape.levers[lever].sideways[i]);
+            add("rotation" + lever_suffix, { complex_part(shape.levers[lever].rotation) });
           }
-          add("support_", { part_of(shape.support) });
+          add("support_", { complex_part(shape.support) });
         }
       }
       group.datasets.push_back({ { "xi", "mm", "lever coordinate of the shapes' points, from the pivot" }, xi, {} });
       for (const auto &[name, numbers] : values)
       {
-        const bool of_points   = name.front() == 'a' || name.rfind("sideways", 0) == 0;
+        const bool has_points  = name.front() == 'a' || name.rfind("sideways", 0) == 0;
         const std::string unit = name[0] == 'r' ? "rad" : "mm";
         group.datasets.push_back(
-            { { name, unit, of_points ? "displacement of the points in lever axes, modes x points" : "in the modes" },
+            { { name, unit, has_points ? "displacement of the points in lever axes, modes x points" : "in the modes" },
               numbers,
-              of_points ? std::vector<std::size_t>{ modes.size(), xi.size() } : std::vector<std::size_t>{} });
+              has_points ? std::vector<std::size_t>{ modes.size(), xi.size() } : std::vector<std::size_t>{} });
       }
     }
 
@@ -307,7 +307,7 @@ namespace sprag
     }
 
     /// Returns "14.66 to 18.21 mm, 56.3 to 65 mm".
-    std::string text_of(const std::vector<UnstableStretch> &stretches)
+    std::string to_text(const std::vector<UnstableStretch> &stretches)
     {
       std::vector<std::string> texts;
       for (const auto &stretch : stretches)
@@ -316,14 +316,14 @@ namespace sprag
     }
 
     /// Which motion of a pair's levers is unstable on one side.
-    std::string of_motion(const CriticalValue &critical)
+    std::string motion_text(const CriticalValue &critical)
     {
       return critical.worse.motion.empty() ? "" : ", the levers " + critical.worse.motion;
     }
 
   } // namespace
 
-  double frequency_of(const Eigenmode &mode)
+  double mode_frequency(const Eigenmode &mode)
   {
     return mode.mode.eigenvalue.imag() / (2. * M_PI);
   }
@@ -333,7 +333,7 @@ namespace sprag
     return mode.mode.eigenvalue.real() > smallest_growth * std::abs(mode.mode.eigenvalue);
   }
 
-  SlideKind kind_of(const Eigenmode &mode)
+  SlideKind classify(const Eigenmode &mode)
   {
     if (!grows(mode))
       return SlideKind::stable;
@@ -387,13 +387,13 @@ namespace sprag
       double growth     = std::nan("");
       bool is_looked_at = false;
       std::vector<UnstableStretch> unstable;
-      for (const auto &of : swept.ways)
+      for (const auto &swept_way : swept.ways)
       {
-        if (of.direction != direction)
+        if (swept_way.direction != direction)
           continue;
         is_looked_at = true;
-        growth       = std::fmax(growth, of.along.worst->growth_rate);
-        append(unstable, unstable_stretches(of.along));
+        growth       = std::fmax(growth, swept_way.along.worst->growth_rate);
+        append(unstable, unstable_stretches(swept_way.along));
       }
       unstable = joined(std::move(unstable));
       if (is_looked_at)
@@ -402,7 +402,7 @@ namespace sprag
         append<Entry>(result, { { "unstable_" + way + "_from", unstable.empty() ? std::nan("") : unstable.front().from },
                                 { "unstable_" + way + "_to", unstable.empty() ? std::nan("") : unstable.back().to } });
       if (!unstable.empty() && x.points > 1)
-        result.push_back({ "unstable_" + way, text_of(unstable) });
+        result.push_back({ "unstable_" + way, to_text(unstable) });
     }
     return result;
   }
@@ -458,15 +458,15 @@ namespace sprag
     std::vector<Entry> result;
     for (const auto &search : searches)
     {
-      const std::string name = "critical_" + identifier_of(search.range.name);
-      const auto own_unit    = unit_of_parameter(search.range.name);
+      const std::string name = "critical_" + to_identifier(search.range.name);
+      const auto own_unit    = parameter_unit(search.range.name);
       const auto unit        = own_unit.empty() ? "1" : own_unit;
       for (std::size_t i = 0; i < search.changes.size(); ++i)
       {
         const auto &critical = search.changes[i];
         result.push_back({ name + "_" + std::to_string(i + 1), critical.value, unit,
                            search.range.name + ": from " + kind_name(critical.below) + " to " + kind_name(critical.above) +
-                               of_motion(critical) });
+                               motion_text(critical) });
       }
       append<Entry>(result, { { name + "_spacing", search.spacing, unit },
                               { name + "_values", static_cast<double>(search.range.points + search.more_values) } });

@@ -25,13 +25,13 @@ namespace sprag
   void print_critical(std::ostream &stream, const Scene &scene, const std::vector<CriticalSearch> &searches, bool with_spacing);
 
   /// Returns Im lambda / 2 pi [Hz].
-  double frequency_of(const Eigenmode &mode);
+  double mode_frequency(const Eigenmode &mode);
 
   /// Returns true if a mode grows by more than round-off.
   bool grows(const Eigenmode &mode);
 
   /// Judges a mode: stable, flutter or divergence.
-  SlideKind kind_of(const Eigenmode &mode);
+  SlideKind classify(const Eigenmode &mode);
 
   /// Returns whether they are of a lever in three dimensions.
   bool is_solid(const std::vector<Eigenmode> &modes);

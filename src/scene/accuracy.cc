@@ -7,7 +7,7 @@
 
 namespace sprag
 {
-  std::vector<std::string> quantities_of(const AnalysisType type)
+  std::vector<std::string> accuracy_quantities(const AnalysisType type)
   {
     if (type == AnalysisType::quasi_static)
       return { "P", "Q", "loop_area", "largest_pressure", "contact_width", "largest_stress" };
@@ -32,12 +32,12 @@ namespace sprag
       return { "P", "Q", "loop_area" };
     if (type == AnalysisType::transient)
       return { "P" };
-    return quantities_of(type);
+    return accuracy_quantities(type);
   }
 
   bool is_open(const Scene &scene, const std::string &parameter)
   {
-    if (scene.given.count(parameter) == 0)
+    if (scene.specified.count(parameter) == 0)
       return true;
     const auto value = scene.parameters->find(parameter);
     return value != scene.parameters->end() && value->second == "auto";

@@ -13,7 +13,7 @@ namespace sprag
   // The quantities whose errors are told in /accuracy and may be asked for in Accuracy/Quantity, by their names.
 
   /// Returns those that an analysis tells; none where it tells none.
-  std::vector<std::string> quantities_of(AnalysisType type);
+  std::vector<std::string> accuracy_quantities(AnalysisType type);
 
   /// Returns those that a text of Accuracy/Quantity means: those that it names, or with auto those that an analysis is mostly
   /// asked for.

@@ -24,8 +24,8 @@ namespace sprag
 
   std::array<double, 2> slope_compliances(const Cylinder &cylinder)
   {
-    const auto of = [](const std::optional<double> &stiffness) { return stiffness ? 1. / *stiffness : 0.; };
-    return { { of(cylinder.tilt_stiffness), of(cylinder.skew_stiffness) } };
+    const auto compliance = [](const std::optional<double> &stiffness) { return stiffness ? 1. / *stiffness : 0.; };
+    return { { compliance(cylinder.tilt_stiffness), compliance(cylinder.skew_stiffness) } };
   }
 
   std::vector<double> planes_across(const Device &device)
@@ -67,7 +67,7 @@ namespace sprag
            mm(widest) + " wide under it: raise Mesh/Elements across, or lower Growth across";
   }
 
-  std::vector<double> with_sides_of(const double web, std::vector<double> planes)
+  std::vector<double> with_web_sides(const double web, std::vector<double> planes)
   {
     const double side = 0.5 * web, edge = planes.back();
     const double round_off = 1e-9 * edge;

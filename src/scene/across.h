@@ -32,5 +32,5 @@ namespace sprag
 
   /// Returns the planes stretched so that they hold both sides of a web in the middle: those nearest to them move there, or
   /// further ones are added. `web`: its width, at most that of the planes [mm].
-  std::vector<double> with_sides_of(double web, std::vector<double> planes);
+  std::vector<double> with_web_sides(double web, std::vector<double> planes);
 } // namespace sprag

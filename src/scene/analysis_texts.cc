@@ -131,9 +131,9 @@ namespace sprag
         return found;
       }
 
-      std::optional<DesignTerm> term_of(const std::string &name) const
+      std::optional<DesignTerm> parse_term(const std::string &name) const
       {
-        if (const auto quantity = design_quantity_of(name))
+        if (const auto quantity = find_design_quantity(name))
           return DesignTerm{ *quantity, 0 };
         const auto &free = settings.free_parameters;
         for (std::size_t i = 0; i < free.size(); ++i)
@@ -159,12 +159,12 @@ namespace sprag
         const auto behind   = text.find_first_not_of("=", sign + 1);
         const auto right    = behind == std::string::npos ? std::string() : text.substr(behind);
         const auto within   = right.find("+-");
-        const auto term     = term_of(trim(text.substr(0, sign)));
+        const auto term     = parse_term(trim(text.substr(0, sign)));
         if (!term)
           return;
         const auto &free = settings.free_parameters;
         const auto &unit =
-            term->quantity == DesignQuantity::parameter ? free[term->parameter].unit : info_of(term->quantity).unit;
+            term->quantity == DesignQuantity::parameter ? free[term->parameter].unit : design_quantity_info(term->quantity).unit;
         const auto target = number_in(unit, trim(right.substr(0, within)), text);
         const auto margin = number_in(unit, within == std::string::npos ? "" : trim(right.substr(within + 2)), text);
         if (!target || !margin)
@@ -182,7 +182,7 @@ namespace sprag
         const std::string way = text.substr(0, blank);
         if (blank == std::string::npos || (way != "minimise" && way != "maximise"))
           return mistake("must be minimise QUANTITY or maximise QUANTITY");
-        if (const auto term = term_of(text.substr(blank + 1)))
+        if (const auto term = parse_term(text.substr(blank + 1)))
           settings.aims.push_back({ *term, way == "maximise", text });
       }
 
@@ -192,13 +192,13 @@ namespace sprag
                                                                          { "beam", DesignJudge::beam },
                                                                          { "condensed", DesignJudge::condensed } };
         std::vector<std::string> names                               = { "none", "table", "beam", "condensed" };
-        const auto given                                             = split(settings.judges, ',');
-        if (given == std::vector<std::string>{ "none" })
+        const auto listed                                            = split(settings.judges, ',');
+        if (listed == std::vector<std::string>{ "none" })
           return;
         for (const auto &[word, judge] : words)
-          if (std::find(given.begin(), given.end(), word) != given.end())
+          if (std::find(listed.begin(), listed.end(), word) != listed.end())
             settings.judged_by.push_back(judge);
-        for (const auto &word : given)
+        for (const auto &word : listed)
           if (word == "none" || std::find(names.begin(), names.end(), word) == names.end())
             mistake("'" + word + "' is no judge beside others" + did_you_mean(nearest(word, { names.begin() + 1, names.end() })));
       }

@@ -12,8 +12,8 @@ namespace sprag
 {
   namespace
   {
-    constexpr double full_turn           = 2. * M_PI;
-    constexpr double samples_of_a_period = 24.;
+    constexpr double full_turn          = 2. * M_PI;
+    constexpr double samples_per_period = 24.;
 
     BaseMotion at_rest()
     {
@@ -194,7 +194,7 @@ namespace sprag
     /// Sampled so densely that quintics between the samples miss 1e-8 of the fastest line.
     BaseMotion random(const IsolationSettings &settings)
     {
-      const double h     = 1. / (samples_of_a_period * settings.highest_frequency);
+      const double h     = 1. / (samples_per_period * settings.highest_frequency);
       const auto pieces  = static_cast<std::size_t>(settings.duration / h) + 1;
       const auto lines   = random_lines(settings);
       const auto samples = sampled(lines, h, pieces + 1);

@@ -86,8 +86,8 @@ namespace sprag
       const double P            = closed_form(scene, x, scene.drive.peak_speed()).P;
       const double width        = estimated_contact_width(scene, std::max(0., P));
       const double overlap      = width * width / (8. * scene.geometry.cylinder_radius);
-      const bool is_given = scene.spring.type == SpringType::torsional && scene.given.count("Rotational spring/Stiffness") > 0;
-      rules.need(!is_given || !(P > 0.) || overlap > rounding * scene.geometry.cylinder_radius, "Rotational spring/Stiffness",
+      const bool is_set = scene.spring.type == SpringType::torsional && scene.specified.count("Rotational spring/Stiffness") > 0;
+      rules.need(!is_set || !(P > 0.) || overlap > rounding * scene.geometry.cylinder_radius, "Rotational spring/Stiffness",
                  joined(shape, { "Drive/Start", "Drive/Profile", "Drive/Table" }),
                  "must press harder: P = " + rounded_text(P) + " N at x = " + mm(x) + " compresses the contact by " +
                      mm(overlap) + ", less than rounding leaves of lengths; Analysis/Model = closed form needs no compression");
@@ -354,13 +354,13 @@ namespace sprag
     }
     const Use use{ scene };
     settings(scene, use, rules);
-    auto of_levers = positions(with_device(scene, device_of_lever(scene, 0)), use);
+    auto lever_violations = positions(with_device(scene, lever_device(scene, 0)), use);
     // The second lever adds only violations of parameters that the first does not break.
-    if (number_of_levers(scene) == 2)
-      for (const auto &violation : positions(with_device(scene, device_of_lever(scene, 1)), use))
-        if (std::none_of(of_levers.begin(), of_levers.end(),
+    if (count_levers(scene) == 2)
+      for (const auto &violation : positions(with_device(scene, lever_device(scene, 1)), use))
+        if (std::none_of(lever_violations.begin(), lever_violations.end(),
                          [&](const Violation &v) { return v.parameter == violation.parameter; }))
-          of_levers.push_back(violation);
-    return joined(rules.broken, of_levers);
+          lever_violations.push_back(violation);
+    return joined(rules.broken, lever_violations);
   }
 } // namespace sprag

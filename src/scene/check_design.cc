@@ -47,7 +47,7 @@ namespace sprag
     rules.need(scene.support.type == SupportType::rigid, "Support/Type", { "Analysis/Type" }, "must be rigid in a design");
     rules.need(scene.contact.type == ContactType::compliant, "Contact/Type", { "Analysis/Type" },
                "must be compliant in a design, whose judges have a contact that yields");
-    if (asks_for(scene.design, is_of_table))
+    if (asks_for(scene.design, is_table_quantity))
       table(scene, rules);
   }
 } // namespace sprag

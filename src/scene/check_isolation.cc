@@ -32,7 +32,7 @@ namespace sprag
     void beginning(const Scene &scene, Rules &rules)
     {
       const auto &settings = scene.isolation;
-      const auto made      = damper_of(scene);
+      const auto made      = make_damper(scene);
       const double y       = std::abs(settings.initial_displacement);
       rules.need(y < made.reach, "Isolation/Initial displacement",
                  { "Analysis/Type", "Isolation/Damper", "Isolation/Loop table", "Geometry/Cylinder radius",

@@ -12,7 +12,7 @@ namespace sprag
   namespace
   {
     /// Young's modulus of the part that carries the friction face [MPa].
-    double young_modulus_of_face(const Scene &scene)
+    double face_young_modulus(const Scene &scene)
     {
       if (scene.layer.thickness > 0.)
         return scene.layer.young_modulus;
@@ -23,7 +23,7 @@ namespace sprag
   double largest_penalty(const Scene &scene)
   {
     constexpr double over_cells = 250., over_layer = 1200., over_cells_without_layer = 100.;
-    const double E = young_modulus_of_face(scene);
+    const double E = face_young_modulus(scene);
     const double t = scene.layer.thickness;
     const double h = scene.mesh.face_size;
     return t > 0. ? std::max(over_cells * E / h, over_layer * E / t) : over_cells_without_layer * E / h;

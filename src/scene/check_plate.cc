@@ -29,7 +29,7 @@ namespace sprag
       const double shallow   = std::min(frame.tip_depth, scene.lever.depth);
       const double least     = frame_hub_radius + frame_wall;
       const double arm       = scene.lever.length - frame.root;
-      const double of_ribs   = (frame.pockets + 1) * frame.rib;
+      const double rib_sum   = (frame.pockets + 1) * frame.rib;
       const std::string ribs = std::to_string(frame.pockets + 1) + (frame.pockets == 0 ? " rib of " : " ribs of ");
       rules.need(2. * frame.flange < shallow, "Lever frame/Flange", { "Lever frame/Tip depth", "Lever/Depth", "Lever/Outline" },
                  "must be less than half the arm's least depth, " + mm(shallow));
@@ -37,7 +37,7 @@ namespace sprag
                  "must not be more than Lever/Width = " + mm(scene.lever.width));
       rules.need(frame.root > least, "Lever frame/Root", { "Lever/Outline" },
                  "must be more than " + mm(least) + ", radius and wall of the hub that the root is held by");
-      rules.need(of_ribs < arm, "Lever frame/Pockets", { "Lever frame/Rib", "Lever frame/Root", "Lever/Length", "Lever/Outline" },
+      rules.need(rib_sum < arm, "Lever frame/Pockets", { "Lever frame/Rib", "Lever frame/Root", "Lever/Length", "Lever/Outline" },
                  "must leave the pockets room: " + ribs + mm(frame.rib) + " are no shorter than the arm, " + mm(arm));
     }
 
@@ -83,7 +83,7 @@ namespace sprag
     /// Room for the width of the contact, which is below a millimetre each way.
     constexpr double margin = 2.;
 
-    void face_of_frame(const Scene &scene, Rules &rules)
+    void check_frame_face(const Scene &scene, Rules &rules)
     {
       const double first = swept_contact(scene)[0];
       const double begin = friction_face(scene)[0];
@@ -103,7 +103,7 @@ namespace sprag
                      " with R = " + mm(radius));
     }
 
-    void face_of_plate(const Scene &scene, Rules &rules)
+    void check_plate_face(const Scene &scene, Rules &rules)
     {
       const auto [first, last] = swept_contact(scene);
       rules.need(scene.plate.begin <= first - margin, "Friction plate/Begin",
@@ -129,8 +129,8 @@ namespace sprag
     if (scene.lever.outline == LeverOutline::frame)
       root_beside_cylinder(scene, rules);
     if (scene.plate.type == PlateType::on_sensors)
-      face_of_plate(scene, rules);
+      check_plate_face(scene, rules);
     else if (scene.lever.outline == LeverOutline::frame)
-      face_of_frame(scene, rules);
+      check_frame_face(scene, rules);
   }
 } // namespace sprag

@@ -43,8 +43,8 @@ namespace sprag
       return friction_coefficient(friction, std::abs(friction.speed == FrictionSpeed::drive ? v : v_rel));
     }
 
-    constexpr unsigned int depth_of_smooth_drives = 12;
-    constexpr unsigned int depth_of_tables        = 4;
+    constexpr unsigned int smooth_drive_depth = 12;
+    constexpr unsigned int table_depth        = 4;
 
     /// Integral over time of a power without a jump in v. Over the unit interval, because the library compares its error there
     /// with the tolerance times the interval's length. Late in a long drive the rounding of the time limits what can be asked
@@ -183,7 +183,7 @@ namespace sprag
     // The acceleration jumps at the rows of a table. A short one has them as kinks; in a long one they lie so close that
     // works are within 1e-7 with fewer points than rows, whose number a step would cost otherwise.
     const bool is_table      = drive.profile() == DriveProfile::table;
-    const unsigned int depth = is_table ? depth_of_tables : depth_of_smooth_drives;
+    const unsigned int depth = is_table ? table_depth : smooth_drive_depth;
     Work work;
     const auto add = [&](const double from, const double to)
     {

@@ -38,7 +38,7 @@ namespace sprag
     /// contact that is narrow against it pi b E/(2 (1 - nu^2) log(1 + 2.426 h/w)), which tends to Johnson, Contact Mechanics,
     /// eq. 5.57. The larger of the two is within some 5 % of indentation by finite elements where nu is small, and up to a third
     /// too small at nu = 0.4. A bare lever is its own layer, and the cylinder counts as rigid.
-    double stiffness_of_face(const Device &device, const double P)
+    double face_stiffness(const Device &device, const double P)
     {
       const bool has_layer = device.layer.thickness > 0.;
       const double h       = has_layer ? device.layer.thickness : device.lever.depth;
@@ -51,7 +51,7 @@ namespace sprag
     }
 
     /// Returns dP/d(delta) of the contact law of reduced models [N/mm].
-    double stiffness_of_law(const ContactSettings &contact, const double P)
+    double law_stiffness(const ContactSettings &contact, const double P)
     {
       const double n = contact.exponent;
       return n * std::pow(contact.stiffness, 1. / n) * std::pow(P, 1. - 1. / n);
@@ -65,8 +65,7 @@ namespace sprag
     ContactReference result{};
     set_forces(device, result);
 
-    result.stiffness =
-        is_meshed(device.analysis.model) ? stiffness_of_face(device, result.P) : stiffness_of_law(contact, result.P);
+    result.stiffness   = is_meshed(device.analysis.model) ? face_stiffness(device, result.P) : law_stiffness(contact, result.P);
     const double omega = result.s * std::sqrt(result.stiffness / moment_of_inertia(device));
     result.relaxation  = 2. * contact.damping / omega;
     const double nu    = layer.thickness > 0. ? layer.poisson_ratio : device.lever.poisson_ratio;
@@ -74,7 +73,7 @@ namespace sprag
     return result;
   }
 
-  ContactLaw law_of_face(const Device &device)
+  ContactLaw face_law(const Device &device)
   {
     if (!is_meshed(device.analysis.model))
       return { device.contact.stiffness, device.contact.exponent };

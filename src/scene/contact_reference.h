@@ -26,7 +26,7 @@ namespace sprag
 
   /// Returns the law by which a reduced lever stands for a meshed one: that of a cylinder on a thin layer, delta^1.5, with the
   /// stiffness of the meshed lever's face at the largest P. A reduced lever keeps its own.
-  ContactLaw law_of_face(const Device &device);
+  ContactLaw face_law(const Device &device);
 
   /// Returns the density per length of a beam [t/mm]: with the scene's moment of inertia, rho A = (J - J_0) / (L^3/3 + L e_a^2),
   /// J_0 that of tip mass, hub and leaf spring; or that of bar and layer as built.

@@ -38,7 +38,7 @@ namespace sprag
 
     /// Largest displacement of a lever: there the contact point begins to move against the cylinder, s cos(th) = e sin(th), or
     /// the cylinder reaches the pivot [mm].
-    double reach_of_lever(const Geometry &geometry)
+    double lever_reach(const Geometry &geometry)
     {
       constexpr double margin = 1e-9; // of the normal force, which is infinite at the pivot where e = 0
       const double touched =
@@ -54,7 +54,7 @@ namespace sprag
     Damper levers(const Scene &scene)
     {
       const double n     = scene.isolation.levers;
-      const double reach = reach_of_lever(scene.geometry);
+      const double reach = lever_reach(scene.geometry);
       const auto law     = moment_law(scene.spring);
       const double rest  = kinematics(scene.geometry, 0.).theta;
       const auto turn    = [=](const double y) { return kinematics(scene.geometry, std::min(y, reach)).theta - rest; };
@@ -93,7 +93,7 @@ namespace sprag
     }
 
     /// Energy of the mean of both ways, by Simpson's rule, which is exact for the cubics between two samples.
-    std::function<double(double)> energy_of_loop(const MonotoneCubic &out, const MonotoneCubic &back, std::vector<double> knots)
+    std::function<double(double)> loop_energy(const MonotoneCubic &out, const MonotoneCubic &back, std::vector<double> knots)
     {
       const auto mean  = [=](const double y) { return 0.5 * (out.value(y) + back.value(y)); };
       const auto piece = [=](const double from, const double to)
@@ -121,14 +121,14 @@ namespace sprag
         const double there = out.value(y), again = back.value(y);
         return Resistance{ away > 0 ? there : again, 0.5 * (there - again) * speed };
       };
-      damper.energy = energy_of_loop(out, back, knots);
+      damper.energy = loop_energy(out, back, knots);
       damper.reach  = knots.back();
       damper.end    = "the loop of Isolation/Loop table ends";
       return damper;
     }
   } // namespace
 
-  Damper damper_of(const Scene &scene)
+  Damper make_damper(const Scene &scene)
   {
     const auto &settings = scene.isolation;
     switch (settings.damper)

@@ -35,5 +35,5 @@ namespace sprag
   };
 
   /// Makes the damper of the scene's isolation system, of the whole table. Levers are those of the closed form.
-  Damper damper_of(const Scene &scene);
+  Damper make_damper(const Scene &scene);
 } // namespace sprag

@@ -37,13 +37,13 @@ namespace sprag
     return all;
   }
 
-  const DesignQuantityInfo &info_of(const DesignQuantity quantity)
+  const DesignQuantityInfo &design_quantity_info(const DesignQuantity quantity)
   {
     const auto &all = design_quantities();
     return *std::find_if(all.begin(), all.end(), [&](const auto &info) { return info.quantity == quantity; });
   }
 
-  std::optional<DesignQuantity> design_quantity_of(const std::string &name)
+  std::optional<DesignQuantity> find_design_quantity(const std::string &name)
   {
     for (const auto &info : design_quantities())
       if (info.name == name)
@@ -51,7 +51,7 @@ namespace sprag
     return {};
   }
 
-  bool is_of_table(const DesignQuantity quantity)
+  bool is_table_quantity(const DesignQuantity quantity)
   {
     return quantity == DesignQuantity::friction_ratio || quantity == DesignQuantity::transmissibility ||
            quantity == DesignQuantity::relative_amplitude || quantity == DesignQuantity::residual_offset;

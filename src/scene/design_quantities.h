@@ -22,10 +22,10 @@ namespace sprag
   /// Lists all quantities but those of free parameters, in the order in which they are reported.
   const std::vector<DesignQuantityInfo> &design_quantities();
 
-  const DesignQuantityInfo &info_of(DesignQuantity quantity);
+  const DesignQuantityInfo &design_quantity_info(DesignQuantity quantity);
 
-  std::optional<DesignQuantity> design_quantity_of(const std::string &name);
+  std::optional<DesignQuantity> find_design_quantity(const std::string &name);
 
   /// Returns whether a quantity is of the table on its levers, not of a lever alone.
-  bool is_of_table(DesignQuantity quantity);
+  bool is_table_quantity(DesignQuantity quantity);
 } // namespace sprag

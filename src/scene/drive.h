@@ -17,7 +17,7 @@ namespace sprag
 
   /// Motion of the drive at an instant. The sign of v, that of a zero included, is the direction of motion: at a turning point
   /// of the stroke that ends or begins there, in a rest of the motion that led to it, in a rest at the beginning forward, see
-  /// direction_of().
+  /// drive_direction().
   struct DrivePoint
   {
     double time = 0.; ///< [s]
@@ -30,7 +30,7 @@ namespace sprag
   };
 
   /// Returns +1 for forward, -1 for back.
-  inline int direction_of(const double v)
+  inline int drive_direction(const double v)
   {
     return std::signbit(v) ? -1 : 1;
   }

@@ -35,7 +35,7 @@ namespace sprag
       return result;
     }
 
-    std::optional<ParameterRange> range_of(const std::string &text)
+    std::optional<ParameterRange> parse_range(const std::string &text)
     {
       // The name may hold blanks: the numbers are the last two words.
       auto words = split(single_spaced(text), ' ');
@@ -62,7 +62,7 @@ namespace sprag
       std::istringstream stream(text);
       for (std::string entry; std::getline(stream, entry, ';');)
       {
-        const auto range = range_of(entry);
+        const auto range = parse_range(entry);
         if (!range)
           return {};
         result.push_back(*range);
@@ -99,7 +99,7 @@ namespace sprag
   Scene held_scene(const Scene &scene)
   {
     Scene held    = scene;
-    held.friction = friction_of_step(scene.friction, scene.drive.peak_speed());
+    held.friction = step_friction(scene.friction, scene.drive.peak_speed());
     if (!scene.stability.damping)
     {
       held.lever.modal_damping     = 0.;

@@ -21,11 +21,11 @@ namespace sprag
     const char *const table_parameter    = "Identification/Table";
     const char *const unknowns_parameter = "Identification/Unknowns";
 
-    const std::vector<Unknown> of_friction = { Unknown::friction_constant, Unknown::friction_polynomial, Unknown::friction_table,
-                                               Unknown::friction_factor };
+    const std::vector<Unknown> friction_unknowns = { Unknown::friction_constant, Unknown::friction_polynomial,
+                                                     Unknown::friction_table, Unknown::friction_factor };
 
     template <class T>
-    Names words_of(const Choices<T> &choices)
+    Names to_words(const Choices<T> &choices)
     {
       Names result;
       for (const auto &choice : choices)
@@ -45,10 +45,10 @@ namespace sprag
                              const std::string &what, const ReportMistake &report)
     {
       std::vector<T> result;
-      const Names words = words_of(choices);
-      for (const auto &given : split(text, ','))
+      const Names words = to_words(choices);
+      for (const auto &item : split(text, ','))
       {
-        const auto word = single_spaced(given);
+        const auto word = single_spaced(item);
         if (!contains(words, word))
           report(parameter, "'" + word + "' is no " + what + did_you_mean(nearest(word, words)) + "; there are " +
                                 boost::algorithm::join(words, ", "));
@@ -64,9 +64,9 @@ namespace sprag
 
     void read_unknowns(IdentificationSettings &settings, const ReportMistake &report)
     {
-      settings.sought           = read_list(settings.unknowns, unknown_words(), unknowns_parameter, "unknown", report);
-      const auto is_of_friction = [](const Unknown unknown) { return contains(of_friction, unknown); };
-      if (std::count_if(settings.sought.begin(), settings.sought.end(), is_of_friction) > 1)
+      settings.sought                = read_list(settings.unknowns, unknown_words(), unknowns_parameter, "unknown", report);
+      const auto is_friction_unknown = [](const Unknown unknown) { return contains(friction_unknowns, unknown); };
+      if (std::count_if(settings.sought.begin(), settings.sought.end(), is_friction_unknown) > 1)
         report(unknowns_parameter, "can have one of mu, mu polynomial, mu table and friction factor");
       const auto &speeds = settings.friction_speeds;
       const bool grows   = std::adjacent_find(speeds.begin(), speeds.end(), std::greater_equal<>()) == speeds.end();
@@ -83,16 +83,16 @@ namespace sprag
       {
       }
 
-      MeasuredStroke stroke(const std::vector<MeasuredForce> &wanted, const bool all) const
+      MeasuredStroke stroke(const std::vector<MeasuredForce> &selected, const bool all) const
       {
         MeasuredStroke result;
         result.time = values(time, "s");
         result.x    = values(position, "mm");
         for (const auto &[word, force] : force_words())
         {
-          if (!all && !contains(wanted, force))
+          if (!all && !contains(selected, force))
             continue;
-          if (auto forces = values_of(force); !forces.empty())
+          if (auto forces = measured_values(force); !forces.empty())
             result.channels.push_back({ force, std::move(forces) });
           else if (!all)
             throw InputError("has no column for " + word + ": it has " + names());
@@ -146,7 +146,7 @@ namespace sprag
         return values_in(unit, column);
       }
 
-      std::vector<double> values_of(const MeasuredForce force) const
+      std::vector<double> measured_values(const MeasuredForce force) const
       {
         if (force != MeasuredForce::sensors)
           return values(force == MeasuredForce::normal ? normal : drive, "N");

@@ -28,7 +28,7 @@ namespace sprag
     }
 
     /// The row of the largest x ends the way out and begins that back; of two such rows, between which Q jumps, each does one.
-    DamperLoop loop_of(const std::vector<double> &x, const std::vector<double> &forces)
+    DamperLoop make_loop(const std::vector<double> &x, const std::vector<double> &forces)
     {
       const auto largest = std::max_element(x.begin(), x.end()) - x.begin();
       const auto begin =
@@ -74,23 +74,23 @@ namespace sprag
     }
 
     /// Factor to mm/s^2, of a spectrum to its square per Hz. What the file says must not contradict the scene.
-    double factor_of(const AccelerationUnit given, const NamedColumn &column, const bool is_spectrum)
+    double acceleration_factor(const AccelerationUnit chosen_unit, const NamedColumn &column, const bool is_spectrum)
     {
-      const bool is_given       = given != AccelerationUnit::from_file;
-      const double acceleration = is_given ? in_mm_s2(given) : 1.;
-      const double of_scene     = is_spectrum ? acceleration * acceleration : acceleration;
-      if (column.unit.empty() && !is_given)
+      const bool is_set         = chosen_unit != AccelerationUnit::from_file;
+      const double acceleration = is_set ? in_mm_s2(chosen_unit) : 1.;
+      const double scene_factor = is_spectrum ? acceleration * acceleration : acceleration;
+      if (column.unit.empty() && !is_set)
         throw InputError(
             "the unit of the acceleration is not known: give Isolation/Base unit = mm/s2, cm/s2, m/s2 or g, or a "
             "header as " +
             std::string(is_spectrum ? "'frequency [Hz], density [(m/s2)^2/Hz]'" : "'time [s], acceleration [m/s2]'") +
             ", or in HDF5 the dataset's attribute unit");
       if (column.unit.empty())
-        return of_scene;
-      const double of_file = factor_to(is_spectrum ? "(mm/s2)^2/Hz" : "mm/s2", column);
-      if (is_given && std::abs(of_file / of_scene - 1.) > 1e-9)
+        return scene_factor;
+      const double file_factor = factor_to(is_spectrum ? "(mm/s2)^2/Hz" : "mm/s2", column);
+      if (is_set && std::abs(file_factor / scene_factor - 1.) > 1e-9)
         throw InputError("column '" + column.name + "': its unit is " + column.unit + ", which Isolation/Base unit contradicts");
-      return of_file;
+      return file_factor;
     }
 
     void need_spectrum(const Samples &spectrum)
@@ -112,7 +112,7 @@ namespace sprag
       const bool is_spectrum = settings.base == BaseMotionType::random;
       const auto table    = is_spectrum ? read_two_columns(settings.base_file, { "frequency", "freq", "f" }, { "density", "psd" })
                                         : read_two_columns(settings.base_file, { "time", "t" }, { "acceleration", "acc", "a" });
-      const double factor = factor_of(settings.unit, table.columns[1], is_spectrum);
+      const double factor = acceleration_factor(settings.unit, table.columns[1], is_spectrum);
       settings.base_table = { values_in(is_spectrum ? "Hz" : "s", table.columns[0]), table.columns[1].values };
       need_increasing(settings.base_table, is_spectrum ? "frequency" : "time");
       if (is_spectrum)
@@ -127,7 +127,7 @@ namespace sprag
     void read_loop(IsolationSettings &settings, UnusedColumns &unused)
     {
       const auto table       = read_two_columns(settings.loop_file, { "x", "displacement", "position" }, { "Q", "force" });
-      settings.loop          = loop_of(values_in("mm", table.columns[0]), values_in("N", table.columns[1]));
+      settings.loop          = make_loop(values_in("mm", table.columns[0]), values_in("N", table.columns[1]));
       unused[loop_parameter] = table.unused;
       need_dissipation(settings.loop);
     }

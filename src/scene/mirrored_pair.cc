@@ -77,30 +77,30 @@ namespace sprag
     }
   } // namespace
 
-  unsigned int number_of_levers(const Device &device)
+  unsigned int count_levers(const Device &device)
   {
     return device.pair.type == PairType::full ? 2 : 1;
   }
 
-  Device device_of_lever(const Device &device, const unsigned int lever)
+  Device lever_device(const Device &device, const unsigned int lever)
   {
     Device result   = device;
-    result.geometry = geometry_of_lever(device, lever);
-    result.friction = friction_of_lever(device, lever);
+    result.geometry = lever_geometry(device, lever);
+    result.friction = lever_friction(device, lever);
     if (lever == 1)
       result.cylinder.tilt = -result.cylinder.tilt;
     return result;
   }
 
-  Geometry geometry_of_lever(const Device &device, const unsigned int lever)
+  Geometry lever_geometry(const Device &device, const unsigned int lever)
   {
     Geometry result = device.geometry;
-    if (number_of_levers(device) == 2)
+    if (count_levers(device) == 2)
       result.pivot_height -= (lever == 0 ? 1. : -1.) * device.pair.cylinder_offset;
     return result;
   }
 
-  FrictionLaw friction_of_lever(const Device &device, const unsigned int lever)
+  FrictionLaw lever_friction(const Device &device, const unsigned int lever)
   {
     FrictionLaw result = device.friction;
     if (lever == 1)
@@ -136,7 +136,7 @@ namespace sprag
 
   void check_pair(const Scene &scene, Rules &rules)
   {
-    if (number_of_levers(scene) == 1)
+    if (count_levers(scene) == 1)
       return;
     analysis(scene, rules);
     if (holds_slide(scene.analysis.type))

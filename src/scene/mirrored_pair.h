@@ -9,16 +9,16 @@ namespace sprag
   struct Device;
 
   /// Returns 2 for a full pair, else 1.
-  unsigned int number_of_levers(const Device &device);
+  unsigned int count_levers(const Device &device);
 
   /// Returns the device that a lever of a full pair stands in, in axes mirrored for the second (lever = 1): an offset of the
   /// cylinder is an offset of the pivot the other way, a tilt of its axis towards the first lever is one away from the second,
   /// and friction is the lever's own. A single lever stands in the device itself.
-  Device device_of_lever(const Device &device, unsigned int lever);
+  Device lever_device(const Device &device, unsigned int lever);
 
   // These two parts are what differs in it, beside the tilt.
-  Geometry geometry_of_lever(const Device &device, unsigned int lever);
-  FrictionLaw friction_of_lever(const Device &device, unsigned int lever);
+  Geometry lever_geometry(const Device &device, unsigned int lever);
+  FrictionLaw lever_friction(const Device &device, unsigned int lever);
 
   /// Returns the inclination of a lever without moment, which is that of ideal contact at x = 0 with the cylinder in the mirror
   /// plane [rad].

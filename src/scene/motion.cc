@@ -118,7 +118,7 @@ namespace sprag
     for (std::size_t i = 0; i + 1 < times.size(); ++i)
     {
       const int before = i == 0 ? 1 : directions.back();
-      const int moves  = sign_of(positions[i + 1] - positions[i]);
+      const int moves  = signum(positions[i + 1] - positions[i]);
       directions.push_back(moves != 0 ? moves : before);
       if (i > 0 && directions.back() != before)
         reversals.push_back(times[i]);

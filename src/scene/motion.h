@@ -66,7 +66,7 @@ namespace sprag
   }
 
   /// Returns -1, 0 or 1.
-  inline int sign_of(const double value)
+  inline int signum(const double value)
   {
     return (value > 0.) - (value < 0.);
   }

@@ -14,7 +14,7 @@ namespace sprag
 {
   namespace
   {
-    const std::string of_another = "of ";
+    const std::string reference_prefix = "of ";
 
     /// Returns how many N/mm^n a unit of force over length to the power n holds, as 1000 for "kN/mm^n".
     double stiffness_factor(const std::string &unit, const std::string &exponent)
@@ -47,17 +47,17 @@ namespace sprag
   } // namespace
 
   double in_own_unit(const std::vector<Parameter> &declared, const Parameter &parameter, const std::string &text,
-                     const ValueOf &value_of)
+                     const LookUp &look_up)
   {
     const Rule &rule = parameter.rule;
-    if (rule.unit.rfind(of_another, 0) == 0)
+    if (rule.unit.rfind(reference_prefix, 0) == 0)
     {
       const Parameter *const named =
-          find_parameter(declared, value_of(parameter.section + "/" + rule.unit.substr(of_another.size())));
+          find_parameter(declared, look_up(parameter.section + "/" + rule.unit.substr(reference_prefix.size())));
       const auto number = leading_number(text);
       if (named == nullptr) // which is told as a mistake of its own
         return number->value;
-      return in_own_unit(declared, *named, text, value_of);
+      return in_own_unit(declared, *named, text, look_up);
     }
     const auto number = leading_number(text);
     Rule any          = rule;
@@ -67,7 +67,7 @@ namespace sprag
       return leading_number(kept_value(any, text))->value;
     try
     {
-      return leading_number(formatted("%.15g", number->value * stiffness_factor(number->rest, value_of("Contact/Exponent"))))
+      return leading_number(formatted("%.15g", number->value * stiffness_factor(number->rest, look_up("Contact/Exponent"))))
           ->value;
     }
     catch (const InputError &error)
@@ -76,7 +76,7 @@ namespace sprag
     }
   }
 
-  std::string ranges_in_own_units(const std::vector<Parameter> &declared, const std::string &text, const ValueOf &value_of)
+  std::string ranges_in_own_units(const std::vector<Parameter> &declared, const std::string &text, const LookUp &look_up)
   {
     std::vector<std::string> entries;
     for (const auto &entry : split(text, ';'))
@@ -94,7 +94,7 @@ namespace sprag
         if (second == words.size())
           continue;
         const auto own = [&](const std::size_t begin, const std::size_t end)
-        { return number_text(in_own_unit(declared, *parameter, joined_words(words, begin, end), value_of)); };
+        { return number_text(in_own_unit(declared, *parameter, joined_words(words, begin, end), look_up)); };
         const auto from = own(name_end, second), to = own(second, words.size());
         entries.back() = full_name(*parameter) + ' ' + from + ' ' + to;
       }

@@ -13,7 +13,7 @@ namespace sprag
     /// Turn of a lever from rest that keeps it on the cylinder; < 0 where it would have to be pulled.
     double opening(const Device &device, const unsigned int lever, const double x)
     {
-      return kinematics(geometry_of_lever(device, lever), x).theta - rest_inclination(device);
+      return kinematics(lever_geometry(device, lever), x).theta - rest_inclination(device);
     }
 
     /// Rotations of a pair's lever and of its spring [rad].
@@ -29,7 +29,7 @@ namespace sprag
       }
 
       /// Rotation of the lever; out of contact it is that without moment.
-      double of_lever() const
+      double lever_rotation() const
       {
         return opening - std::min(spring - rest, 0.);
       }
@@ -49,10 +49,10 @@ namespace sprag
     PairedLever lever_at(const Device &device, const unsigned int lever, const Turns &turn, const double x, const double v)
     {
       if (!turn.touches())
-        return { { { rest_inclination(device) + turn.of_lever(), 0., 0. }, 0., 0., 0., 0., 0. }, false, 0. };
+        return { { { rest_inclination(device) + turn.lever_rotation(), 0., 0. }, 0., 0., 0., 0., 0. }, false, 0. };
       const auto law = moment_law(device.spring);
-      return { closed_form(geometry_of_lever(device, lever), friction_of_lever(device, lever), law.moment(turn.spring), x, v),
-               true, law.energy(turn.spring) };
+      return { closed_form(lever_geometry(device, lever), lever_friction(device, lever), law.moment(turn.spring), x, v), true,
+               law.energy(turn.spring) };
     }
   } // namespace
 
@@ -60,7 +60,7 @@ namespace sprag
   {
     const auto [first, second] = turns(device, x);
     const double rest          = rest_inclination(device);
-    return { { rest + first.of_lever(), rest + second.of_lever() } };
+    return { { rest + first.lever_rotation(), rest + second.lever_rotation() } };
   }
 
   std::array<PairedLever, 2> pair_closed_form(const Device &device, const double x, const double v)
@@ -71,13 +71,13 @@ namespace sprag
 
   std::array<Work, 2> pair_work_between(const Device &device, const double begin, const double end)
   {
-    const auto of_lever = [&](const unsigned int lever)
+    const auto lever_work = [&](const unsigned int lever)
     {
       return work_between(
           device.drive,
           [&](const DrivePoint &point) { return lever_at(device, lever, turns(device, point.x)[lever], point.x, point.v).state; },
           begin, end);
     };
-    return { { of_lever(0), of_lever(1) } };
+    return { { lever_work(0), lever_work(1) } };
   }
 } // namespace sprag

@@ -10,7 +10,7 @@ namespace sprag
   struct Device;
 
   // The closed form of a full mirrored pair: both levers massless and rigid, each with eqs. 4-9 of Yamaguchi & Yoshida in its own
-  // (for the second: mirrored) axes, geometry_of_lever() and friction_of_lever(). Both turn from rest_inclination(). With a joint
+  // (for the second: mirrored) axes, lever_geometry() and lever_friction(). Both turn from rest_inclination(). With a joint
   // that is held each has a spring of its own, M_i = M(phi_i). With a free one nothing holds them but each other: the springs'
   // energy 2 W((phi_1 + phi_2)/2) gives M_1 = M_2 = M((phi_1 + phi_2)/2). A lever that would have to be pulled to the cylinder
   // does not reach it: held it rests; free neither reaches, and both stay as far from it as they share what is missing.

@@ -69,7 +69,7 @@ namespace sprag
     ParameterValues set_values(const Scene &scene)
     {
       ParameterValues result;
-      for (const auto &name : scene.given)
+      for (const auto &name : scene.specified)
         result[name] = scene.parameters->at(name);
       for (const auto &[name, before] : scene.chosen)
         result[name] = scene.parameters->at(name);
@@ -127,7 +127,7 @@ namespace sprag
         ParameterValues result;
         for (const auto &parameter : parameters)
           result.emplace(full_name(parameter), parameter.default_value);
-        for (const auto &[name, setting] : settings.given)
+        for (const auto &[name, setting] : settings.specified)
           result[name] = setting.value;
         return result;
       }
@@ -135,51 +135,51 @@ namespace sprag
       /// Until all was read, some units are not known.
       void convert_own_units()
       {
-        const auto value_of = [&](const std::string &name)
+        const auto setting_value = [&](const std::string &name)
         {
-          const auto given = settings.given.find(name);
-          return given != settings.given.end() ? given->second.value : find_parameter(parameters, name)->default_value;
+          const auto found = settings.specified.find(name);
+          return found != settings.specified.end() ? found->second.value : find_parameter(parameters, name)->default_value;
         };
         for (const auto &parameter : parameters)
           if (depends_on_others(parameter.rule))
             convert(parameter,
                     [&](const std::string &text)
                     {
-                      const auto number = number_text(in_own_unit(parameters, parameter, text, value_of));
+                      const auto number = number_text(in_own_unit(parameters, parameter, text, setting_value));
                       return kept_value(parameter.rule, number);
                     });
         for (const std::string name : { "Stability/Critical", "Stability/Ranges" })
           convert(*find_parameter(parameters, name),
-                  [&](const std::string &text) { return ranges_in_own_units(parameters, text, value_of); });
+                  [&](const std::string &text) { return ranges_in_own_units(parameters, text, setting_value); });
       }
 
       void convert(const Parameter &parameter, const std::function<std::string(const std::string &)> &converted)
       {
-        const auto given = settings.given.find(full_name(parameter));
-        if (given == settings.given.end())
+        const auto found = settings.specified.find(full_name(parameter));
+        if (found == settings.specified.end())
           return;
         try
         {
-          if (const auto value = converted(given->second.value); value != given->second.value)
-            given->second = { given->second.place, value, given->second.value };
+          if (const auto value = converted(found->second.value); value != found->second.value)
+            found->second = { found->second.place, value, found->second.value };
         }
         catch (const InputError &broken)
         {
-          report(given->first, broken.what());
-          settings.given.erase(given);
+          report(found->first, broken.what());
+          settings.specified.erase(found);
         }
       }
 
       void store()
       {
         for (const auto &parameter : parameters)
-          if (const auto given = settings.given.find(full_name(parameter)); given != settings.given.end())
+          if (const auto found = settings.specified.find(full_name(parameter)); found != settings.specified.end())
           {
-            parameter.store(given->second.value);
-            if (input.scene.chosen.count(given->first) == 0)
-              input.scene.given.insert(given->first);
-            if (!given->second.written.empty())
-              input.scene.written.emplace(given->first, given->second.written);
+            parameter.store(found->second.value);
+            if (input.scene.chosen.count(found->first) == 0)
+              input.scene.specified.insert(found->first);
+            if (!found->second.written.empty())
+              input.scene.written.emplace(found->first, found->second.written);
           }
         input.scene.slope.maximum_inclination = input.maximum_inclination * M_PI / 180.;
         resolve("Drive/Table", input.drive.table);
@@ -195,7 +195,7 @@ namespace sprag
       }
 
       /// The analysis of the scene, or that of the runs of a study.
-      AnalysisType type_of_runs() const
+      AnalysisType run_type() const
       {
         const auto type = input.scene.analysis.type;
         return type == AnalysisType::study ? input.scene.study.type : type;
@@ -208,12 +208,12 @@ namespace sprag
         Scene &scene                     = input.scene;
         scene.accuracy.is_dimension_open = !input.dimension;
         scene.analysis.dimension         = input.dimension.value_or(2);
-        const auto type                  = type_of_runs();
+        const auto type                  = run_type();
         const bool is_closed             = type == AnalysisType::isolation || type == AnalysisType::identification;
-        if (is_closed && settings.given.count("Analysis/Model") == 0)
+        if (is_closed && settings.specified.count("Analysis/Model") == 0)
         {
-          scene.analysis.model                   = ModelType::closed_form;
-          settings.given["Analysis/Model"].value = "closed form";
+          scene.analysis.model                       = ModelType::closed_form;
+          settings.specified["Analysis/Model"].value = "closed form";
           return;
         }
         const bool is_static         = type == AnalysisType::quasi_static;
@@ -223,7 +223,7 @@ namespace sprag
 
       void read_dimension()
       {
-        const auto type = type_of_runs();
+        const auto type = run_type();
         if (!input.dimension && type != AnalysisType::quasi_static && type != AnalysisType::stability &&
             type != AnalysisType::transient)
           report("Analysis/Dimension", "auto is for Analysis/Type = quasi-static, stability and transient");
@@ -233,7 +233,7 @@ namespace sprag
       void read_accuracy()
       {
         AccuracySettings &accuracy = input.scene.accuracy;
-        const auto possible        = quantities_of(type_of_runs());
+        const auto possible        = accuracy_quantities(run_type());
         const bool is_study        = input.scene.analysis.type == AnalysisType::study;
         if (accuracy.is_model_open && !accuracy.is_asked_for() && !is_study)
           report("Analysis/Model", "auto needs Accuracy/Target or Accuracy/Budget");
@@ -243,7 +243,7 @@ namespace sprag
         if (accuracy.is_asked_for() && possible.empty())
           report(accuracy.target > 0. ? "Accuracy/Target" : "Accuracy/Budget",
                  "counts only along the drive and for held slides, where errors are told");
-        accuracy.quantities = quantities_meant(accuracy.quantity, type_of_runs());
+        accuracy.quantities = quantities_meant(accuracy.quantity, run_type());
         const bool is_read  = accuracy.is_asked_for() || !input.dimension; // which is chosen by them
         for (const auto &name : accuracy.quantities)
           if (is_read && std::find(possible.begin(), possible.end(), name) == possible.end())
@@ -253,9 +253,9 @@ namespace sprag
       /// The printed parameters give a step, so that they must give the tolerance too.
       void make_time_tolerance()
       {
-        const double by_step                 = settings.given.count("Time/Step") > 0 ? 0. : input.scene.time.tolerance;
-        input.scene.time.tolerance           = input.time_tolerance.value_or(by_step);
-        settings.given[time_tolerance].value = number_text(input.scene.time.tolerance);
+        const double by_step                     = settings.specified.count("Time/Step") > 0 ? 0. : input.scene.time.tolerance;
+        input.scene.time.tolerance               = input.time_tolerance.value_or(by_step);
+        settings.specified[time_tolerance].value = number_text(input.scene.time.tolerance);
       }
 
       void make_drive()
@@ -345,8 +345,8 @@ namespace sprag
         if (doubtful("Analysis/Type") || input.scene.analysis.type != AnalysisType::study)
           return;
         StudySettings &study   = input.scene.study;
-        const auto varied      = variation_of(study.vary, parameters, input.scene.folder);
-        const auto reference   = settings_of(study.reference, parameters, input.scene.folder);
+        const auto varied      = parse_variation(study.vary, parameters, input.scene.folder);
+        const auto reference   = parse_settings(study.reference, parameters, input.scene.folder);
         study.varied           = varied.parameters;
         study.reference_values = reference.parameters;
         for (const auto &mistake : varied.mistakes.empty() ? combination_mistakes(study) : varied.mistakes)
@@ -363,7 +363,7 @@ namespace sprag
         const auto is_file = [this](const VariedParameter &varied)
         { return find_parameter(parameters, varied.name)->rule.kind == Rule::Kind::file; };
         if (std::any_of(read.begin(), read.end(), is_file))
-          settings.given[parameter].value = text = variation_text(read);
+          settings.specified[parameter].value = text = variation_text(read);
       }
 
       /// The parameter must be one of a number, and both ends keep its rule.
@@ -398,13 +398,14 @@ namespace sprag
         for (const auto &parameter : parameters)
         {
           const auto name  = full_name(parameter);
-          const auto given = settings.given.find(name);
-          if (counts(parameter) || given == settings.given.end() || given->second.value.empty() || doubtful(name))
+          const auto found = settings.specified.find(name);
+          if (counts(parameter) || found == settings.specified.end() || found->second.value.empty() || doubtful(name))
             continue;
-          const auto chosen         = settings.given.find(parameter.choice);
-          const auto by_option      = [](const Setting &setting) { return setting.place == "--set"; };
-          const bool chosen_as_well = chosen != settings.given.end() && (by_option(chosen->second) || !by_option(given->second));
-          if (given->second.value != parameter.default_value || !chosen_as_well)
+          const auto chosen    = settings.specified.find(parameter.choice);
+          const auto by_option = [](const Setting &setting) { return setting.place == "--set"; };
+          const bool chosen_as_well =
+              chosen != settings.specified.end() && (by_option(chosen->second) || !by_option(found->second));
+          if (found->second.value != parameter.default_value || !chosen_as_well)
             report(name, "counts only with " + parameter.choice + " = " + parameter.chosen);
         }
       }
@@ -413,9 +414,9 @@ namespace sprag
       {
         if (parameter.choice.empty() || doubtful(parameter.choice))
           return true;
-        const auto chosen = settings.given.find(parameter.choice);
-        const auto &value =
-            chosen != settings.given.end() ? chosen->second.value : find_parameter(parameters, parameter.choice)->default_value;
+        const auto chosen = settings.specified.find(parameter.choice);
+        const auto &value = chosen != settings.specified.end() ? chosen->second.value
+                                                               : find_parameter(parameters, parameter.choice)->default_value;
         return value == parameter.chosen;
       }
 
@@ -436,13 +437,13 @@ namespace sprag
         return 0.;
       }
 
-      struct WantedColumn
+      struct TableColumn
       {
         ColumnNames names;
         std::string unit; ///< that its values are wanted in
       };
 
-      void use_table(const std::string &parameter, const std::string &file, const WantedColumn &first, const WantedColumn &second,
+      void use_table(const std::string &parameter, const std::string &file, const TableColumn &first, const TableColumn &second,
                      const std::function<void(const std::vector<double> &, const std::vector<double> &)> &use)
       {
         if (file.empty())
@@ -465,8 +466,8 @@ namespace sprag
       {
         if (path.empty())
           return;
-        path                               = (std::filesystem::path(input.scene.folder) / path).lexically_normal().string();
-        settings.given.at(parameter).value = path;
+        path                                   = (std::filesystem::path(input.scene.folder) / path).lexically_normal().string();
+        settings.specified.at(parameter).value = path;
       }
 
       void report(const std::string &parameter, const std::string &rule)

@@ -42,7 +42,7 @@ namespace sprag
     /// Unused columns of tables, by the parameter that names the table.
     std::map<std::string, std::vector<std::string>> unused_columns;
 
-    std::set<std::string> given; ///< "Section/Name" of the parameters that were given rather than left at their defaults
+    std::set<std::string> specified; ///< "Section/Name" of the parameters that were given rather than left at their defaults
 
     /// Parameters that the program has chosen so that an accuracy is met, with what stood in their place.
     std::map<std::string, std::string> chosen;

@@ -22,7 +22,7 @@ namespace sprag
     }
 
     /// Value as read and as it is now: the declared default of a parameter bound to the scene is its value in the scene.
-    std::string value_of(const Parameter &parameter, const Scene &scene)
+    std::string setting_value(const Parameter &parameter, const Scene &scene)
     {
       const auto as_read = value_as_read(full_name(parameter), scene);
       const auto &as_is  = parameter.default_value;
@@ -46,12 +46,12 @@ namespace sprag
       std::string key;
       for (const auto &parameter : scene_parameters(settings))
         if (!is_spared(parameter))
-          key += full_name(parameter) + " = " + value_of(parameter, scene) + '\n';
+          key += full_name(parameter) + " = " + setting_value(parameter, scene) + '\n';
       return key;
     }
 
     /// Lists the files among the values of a study.
-    std::vector<std::string> files_of(const StudySettings &study)
+    std::vector<std::string> study_files(const StudySettings &study)
     {
       SceneSettings settings;
       const auto parameters = scene_parameters(settings);
@@ -82,7 +82,7 @@ namespace sprag
   std::string scene_key(const Scene &scene)
   {
     std::string key = key_without(scene, [](const Parameter &) { return false; });
-    for (const auto &file : files_of(scene.study))
+    for (const auto &file : study_files(scene.study))
       key += content_fingerprint(file) + '\n';
     return key;
   }

@@ -64,12 +64,12 @@ namespace sprag
       for (const double value : values)
         text += (text.empty() ? "" : ", ") + number_text(value);
       add(entry, text, { Rule::Kind::numbers, interval, unit, {} }, meaning,
-          [&values](const auto &list) { values = list_of_numbers(list); });
+          [&values](const auto &list) { values = parse_numbers(list); });
     }
 
     void text(const std::string &entry, std::string &value, const std::string &meaning, const Rule::Kind kind = Rule::Kind::text)
     {
-      add(entry, value, { kind, {}, "", {} }, meaning, [&value](const auto &given) { value = given; });
+      add(entry, value, { kind, {}, "", {} }, meaning, [&value](const auto &parsed_value) { value = parsed_value; });
     }
 
     template <typename T>
@@ -96,13 +96,13 @@ namespace sprag
     }
   };
 
-  /// Adds the constants of an elastic part; `of` names it, as " of the layer".
+  /// Adds the constants of an elastic part; `suffix` names it, as " of the layer".
   template <class Part>
-  void add_material(Section &section, Part &part, const std::string &of)
+  void add_material(Section &section, Part &part, const std::string &suffix)
   {
-    section.number("Young's modulus", part.young_modulus, above(0.), "MPa", "E" + of);
-    section.number("Poisson's ratio", part.poisson_ratio, between(-1., 0.5), "", "nu" + of);
-    section.number("Density", part.density, above(0.), "t/mm3", "rho" + of);
+    section.number("Young's modulus", part.young_modulus, above(0.), "MPa", "E" + suffix);
+    section.number("Poisson's ratio", part.poisson_ratio, between(-1., 0.5), "", "nu" + suffix);
+    section.number("Density", part.density, above(0.), "t/mm3", "rho" + suffix);
   }
 
   /// Adds the choice of plane stress or strain of a part.

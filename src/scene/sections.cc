@@ -9,19 +9,19 @@ namespace sprag
 {
   namespace
   {
-    const Choices<AnalysisType> types_of_a_run = { { "quasi-static", AnalysisType::quasi_static },
-                                                   { "slope", AnalysisType::slope },
-                                                   { "transient", AnalysisType::transient },
-                                                   { "contact law", AnalysisType::contact_law },
-                                                   { "modal", AnalysisType::modal },
-                                                   { "stability", AnalysisType::stability },
-                                                   { "sprag slip", AnalysisType::sprag_slip },
-                                                   { "calibration", AnalysisType::calibration },
-                                                   { "isolation", AnalysisType::isolation } };
-    const auto all_types                       = joined(types_of_a_run, { { "map", AnalysisType::map },
-                                                                          { "identification", AnalysisType::identification },
-                                                                          { "design", AnalysisType::design },
-                                                                          { "study", AnalysisType::study } });
+    const Choices<AnalysisType> run_types = { { "quasi-static", AnalysisType::quasi_static },
+                                              { "slope", AnalysisType::slope },
+                                              { "transient", AnalysisType::transient },
+                                              { "contact law", AnalysisType::contact_law },
+                                              { "modal", AnalysisType::modal },
+                                              { "stability", AnalysisType::stability },
+                                              { "sprag slip", AnalysisType::sprag_slip },
+                                              { "calibration", AnalysisType::calibration },
+                                              { "isolation", AnalysisType::isolation } };
+    const auto all_types                  = joined(run_types, { { "map", AnalysisType::map },
+                                                                { "identification", AnalysisType::identification },
+                                                                { "design", AnalysisType::design },
+                                                                { "study", AnalysisType::study } });
 
     void analysis(Section section, SceneSettings &input)
     {
@@ -253,7 +253,7 @@ namespace sprag
       section.choice("Sweep", settings.sweep,
                      { { "coefficient", SlopeSweep::coefficient }, { "inclination", SlopeSweep::inclination } },
                      "coefficient: C_Q over mu (Fig. 10); inclination: C_Q over theta_0 for a list of e/R at one mu (Fig. 11)");
-      section.integer("Number of points", settings.number_of_points, { 2., 1e6 }, "Points of each curve");
+      section.integer("Number of points", settings.n_points, { 2., 1e6 }, "Points of each curve");
       section.number("Maximum coefficient", settings.maximum_coefficient, above(0.), "", "Largest mu of the sweep over mu");
       section.number("Maximum inclination", maximum_inclination, between(0., 90.), "deg",
                      "Largest theta_0 of the sweep over theta_0");
@@ -306,7 +306,7 @@ namespace sprag
 
     void study(Section section, StudySettings &settings)
     {
-      section.choice("Type", settings.type, types_of_a_run, "Analysis of each run");
+      section.choice("Type", settings.type, run_types, "Analysis of each run");
       section.text("Vary", settings.vary,
                    "Values of parameters: list of SECTION/NAME = VALUES, separated by semicolons. Values are separated by "
                    "commas; FIRST ... LAST : NUMBER are so many from FIRST to LAST, at equal ratios with log behind it");
@@ -347,7 +347,7 @@ namespace sprag
     }
   } // namespace
 
-  std::string word_of(const AnalysisType type)
+  std::string to_word(const AnalysisType type)
   {
     return word_for(all_types, type);
   }

@@ -60,7 +60,7 @@ namespace sprag
   };
 
   /// Returns the word for a type of analysis, "quasi-static".
-  std::string word_of(AnalysisType type);
+  std::string to_word(AnalysisType type);
 
   /// Lists every parameter of a scene file. Defaults are the present values in `settings`, where Parameter::store writes to;
   /// `settings` must outlive the result.

@@ -23,21 +23,21 @@ namespace sprag
 
   double SprungClosedForm::sliding_position(const double x, const double v) const
   {
-    const auto unbalance = [&](const double at) { return x - at - sliding(at, v).Q / stiffness; };
-    const double first   = unbalance(x);
+    const auto residual = [&](const double at) { return x - at - sliding(at, v).Q / stiffness; };
+    const double first  = residual(x);
     if (first == 0.)
       return x;
     double from = x;
     double to   = x + 2. * first;
-    for (unsigned int i = 0; i < 20 && unbalance(to) * first > 0.; ++i)
+    for (unsigned int i = 0; i < 20 && residual(to) * first > 0.; ++i)
       to += 2. * first;
-    if (!(unbalance(to) * first <= 0.))
+    if (!(residual(to) * first <= 0.))
       throw AnalysisError("no position of the pivot frame balances Q at x = " + mm(x) + ". Try a larger Support/Stiffness.");
     if (to < from)
       std::swap(from, to);
     boost::uintmax_t iterations = 100;
     const auto root =
-        boost::math::tools::toms748_solve(unbalance, from, to, boost::math::tools::eps_tolerance<double>(), iterations);
+        boost::math::tools::toms748_solve(residual, from, to, boost::math::tools::eps_tolerance<double>(), iterations);
     return 0.5 * (root.first + root.second);
   }
 
@@ -75,10 +75,10 @@ namespace sprag
   const SprungClosedForm::State &SprungClosedForm::advance(const double x, const double v)
   {
     const double before     = state.support_energy;
-    const double from_speed = direction_of(speed) == direction_of(v) ? speed : v;
+    const double from_speed = drive_direction(speed) == drive_direction(v) ? speed : v;
     speed                   = v;
     const double slid       = sliding_position(x, v);
-    state.sticks            = (slid - relative) * direction_of(v) <= 0.;
+    state.sticks            = (slid - relative) * drive_direction(v) <= 0.;
     if (state.sticks)
     {
       set(x, relative, sticking(x, relative));

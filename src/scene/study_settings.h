@@ -18,7 +18,7 @@ namespace sprag
   struct SlopeSettings
   {
     SlopeSweep sweep                  = SlopeSweep::coefficient;
-    unsigned int number_of_points     = 121;
+    unsigned int n_points             = 121;
     double maximum_coefficient        = 1.2;
     double maximum_inclination        = 1.0471975511965976; ///< [rad]
     std::vector<double> offset_ratios = { 0., 0.2, 0.4, 0.6, 0.8 };
@@ -46,7 +46,7 @@ namespace sprag
     Combination combine = Combination::grid;
     std::string reference; ///< settings of the run that the others are compared with; empty: none
 
-    // variation_of() fills these from the texts.
+    // parse_variation() fills these from the texts.
     std::vector<VariedParameter> varied;
     std::vector<VariedParameter> reference_values; ///< one value each
   };

@@ -17,10 +17,10 @@ namespace sprag
     class Table : public DriveMotion
     {
     public:
-      Table(const std::vector<double> &given_times, const std::vector<double> &given_positions)
+      Table(const std::vector<double> &times_, const std::vector<double> &positions_)
           : DriveMotion(DriveProfile::table)
-          , sample_times(given_times)
-          , sample_positions(given_positions)
+          , sample_times(times_)
+          , sample_positions(positions_)
           , samples(sample_times, sample_positions)
       {
         if (sample_times.front() != 0.)
@@ -81,7 +81,7 @@ namespace sprag
         int before = 2;
         for (std::size_t i = 0; i + 1 < sample_times.size(); ++i)
         {
-          const int direction = sign_of(sample_positions[i + 1] - sample_positions[i]);
+          const int direction = signum(sample_positions[i + 1] - sample_positions[i]);
           if (direction != before)
           {
             times.push_back(sample_times[i]);

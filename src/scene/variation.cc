@@ -17,7 +17,7 @@ namespace sprag
   {
     const std::string dots = "...";
 
-    std::vector<std::string> parts_of(const std::string &text, const char separator)
+    std::vector<std::string> split_parts(const std::string &text, const char separator)
     {
       std::vector<std::string> parts;
       std::size_t begin = 0;
@@ -55,7 +55,7 @@ namespace sprag
     }
 
     /// The values of FIRST ... LAST : NUMBER [log]; none where the text is another. Throws InputError where a unit does not fit.
-    std::vector<std::string> values_of_range(const Rule &rule, const std::string &text)
+    std::vector<std::string> range_values(const Rule &rule, const std::string &text)
     {
       const auto middle = text.find(dots);
       const auto colon  = text.find(':', middle);
@@ -97,7 +97,7 @@ namespace sprag
       void read(const std::string &text)
       {
         std::set<std::string> seen;
-        for (const auto &part : parts_of(text, ';'))
+        for (const auto &part : split_parts(text, ';'))
         {
           const auto equals = part.find('=');
           if (part.empty())
@@ -110,12 +110,12 @@ namespace sprag
           const std::string name = single_spaced(part.substr(0, equals));
           if (!seen.insert(name).second)
             mistake(name + " must be there once only");
-          else if (const Parameter *parameter = parameter_of(name))
+          else if (const Parameter *parameter = declared_parameter(name))
             take(*parameter, trim(part.substr(equals + 1)));
         }
       }
 
-      const Parameter *parameter_of(const std::string &name)
+      const Parameter *declared_parameter(const std::string &name)
       {
         const Parameter *found = find_parameter(declared, name);
         if (found == nullptr)
@@ -160,7 +160,7 @@ namespace sprag
       void take(const Parameter &parameter, const std::string &text)
       {
         VariedParameter varied{ full_name(parameter), {} };
-        for (const auto &item : lists ? parts_of(text, ',') : std::vector<std::string>{ text })
+        for (const auto &item : lists ? split_parts(text, ',') : std::vector<std::string>{ text })
           if (lists && has_number(parameter.rule) && item.find(dots) != std::string::npos)
             take_range(item, parameter, varied);
           else
@@ -173,7 +173,7 @@ namespace sprag
         std::vector<std::string> values;
         try
         {
-          values = values_of_range(parameter.rule, item);
+          values = range_values(parameter.rule, item);
         }
         catch (const InputError &broken)
         {
@@ -195,7 +195,7 @@ namespace sprag
           const auto kept = kept_value(parameter.rule, value);
           if (const auto broken = violation(parameter.rule, kept))
             throw InputError(*broken); // a unit that depends on other parameters
-          varied.values.push_back(parameter.rule.kind == Rule::Kind::file && !value.empty() ? path_of(value) : kept);
+          varied.values.push_back(parameter.rule.kind == Rule::Kind::file && !value.empty() ? resolve_path(value) : kept);
           return true;
         }
         catch (const InputError &broken)
@@ -205,7 +205,7 @@ namespace sprag
         }
       }
 
-      std::string path_of(const std::string &file) const
+      std::string resolve_path(const std::string &file) const
       {
         return (std::filesystem::path(folder) / file).lexically_normal().string();
       }
@@ -219,7 +219,7 @@ namespace sprag
     }
   } // namespace
 
-  Variation variation_of(const std::string &text, const std::vector<Parameter> &declared, const std::string &folder)
+  Variation parse_variation(const std::string &text, const std::vector<Parameter> &declared, const std::string &folder)
   {
     auto result = read(text, declared, folder, true);
     if (result.parameters.empty() && result.mistakes.empty())
@@ -227,7 +227,7 @@ namespace sprag
     return result;
   }
 
-  Variation settings_of(const std::string &text, const std::vector<Parameter> &declared, const std::string &folder)
+  Variation parse_settings(const std::string &text, const std::vector<Parameter> &declared, const std::string &folder)
   {
     return read(text, declared, folder, false);
   }

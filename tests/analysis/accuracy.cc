@@ -46,8 +46,8 @@ namespace
 TEST(ErrorEstimate, OfTheFinerResultIsAShareOfTheDifference)
 {
   // Values 3 + 5 h^2 at h = 0.2 and 0.1: the finer is 0.05 off.
-  EXPECT_NEAR(share_of_finer(2., 2.) * ((3. + 5. * 0.04) - (3. + 5. * 0.01)), 0.05, 1e-14);
-  EXPECT_DOUBLE_EQ(share_of_finer(3., 1.), 0.5);
+  EXPECT_NEAR(finer_share(2., 2.) * ((3. + 5. * 0.04) - (3. + 5. * 0.01)), 0.05, 1e-14);
+  EXPECT_DOUBLE_EQ(finer_share(3., 1.), 0.5);
 }
 
 TEST(ErrorEstimate, AddsItsPartsAndNamesTheLargest)

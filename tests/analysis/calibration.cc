@@ -117,8 +117,8 @@ TEST(Calibration, TheBeamOfAMeshDoesWhatTheMeshDoesSlow)
     EXPECT_EQ(found.sliding.size(), 28u);
     // A single power law fits the layer to 0.25 %; friction shifts the layer's centre of pressure by some 0.1 mm, which the
     // beam's contact point knows nothing of: 1 % of Q (see tests/deviation.md).
-    EXPECT_LT(found.of_forces(0), 5e-3);
-    EXPECT_LT(found.of_forces(1), 1.5e-2);
+    EXPECT_LT(found.force_deviation(0), 5e-3);
+    EXPECT_LT(found.force_deviation(1), 1.5e-2);
     for (unsigned int i = 0; i < 2; ++i)
     {
       EXPECT_NEAR(found.free_frequencies[1][i], found.free_frequencies[0][i], 2e-3 * found.free_frequencies[0][i]);

@@ -14,7 +14,7 @@ using namespace sprag;
 
 namespace
 {
-  std::vector<Row> rows_of(const Scene &scene)
+  std::vector<Row> compute_rows(const Scene &scene)
   {
     std::vector<Row> rows;
     run_closed_form(scene, [&](const Row &row) { rows.push_back(row); });
@@ -35,7 +35,7 @@ namespace
     return { model_a(), model_b(), driven(model_a(), twice), driven(model_a(), smooth), driven(model_b(), table) };
   }
 
-  Scene pair_of(Scene scene, const SpringJoint joint, const double offset)
+  Scene make_pair_scene(Scene scene, const SpringJoint joint, const double offset)
   {
     scene.pair.type            = PairType::full;
     scene.pair.joint           = joint;
@@ -60,7 +60,7 @@ TEST(ClosedFormRows, StepsAreNoLongerThanAskedAndEndExactly)
     for (Scene scene : scenes())
     {
       scene.analysis.step = step;
-      const auto rows     = rows_of(scene);
+      const auto rows     = compute_rows(scene);
       for (std::size_t i = 1; i < rows.size(); ++i)
       {
         EXPECT_GE(rows[i][Column::time], rows[i - 1][Column::time]);
@@ -76,7 +76,7 @@ TEST(ClosedFormRows, StepsAreNoLongerThanAskedAndEndExactly)
 
 TEST(ClosedFormRows, ForcesVanishAtTheStart)
 {
-  const auto first = rows_of(model_a()).front();
+  const auto first = compute_rows(model_a()).front();
   for (const auto column : { Column::P, Column::F, Column::Q, Column::friction_work, Column::drive_work, Column::spring_energy })
     EXPECT_EQ(first[column], 0.);
   EXPECT_EQ(first[Column::v], 112.);
@@ -86,7 +86,7 @@ TEST(ClosedFormRows, EveryReversalHasARowBeforeAndOneAfterIt)
 {
   for (const Scene &scene : scenes())
   {
-    const auto rows    = rows_of(scene);
+    const auto rows    = compute_rows(scene);
     const auto seconds = second_rows(rows);
     ASSERT_EQ(seconds.size(), scene.drive.reversals().size());
     for (std::size_t i = 0; i < seconds.size(); ++i)
@@ -108,7 +108,7 @@ TEST(ClosedFormRows, EveryReversalHasARowBeforeAndOneAfterIt)
 
 TEST(ClosedFormRows, NormalForceJumpsAtTheReversalByTheSelfServoEffect)
 {
-  const auto rows   = rows_of(with_friction_by_drive_speed(model_a()));
+  const auto rows   = compute_rows(with_friction_by_drive_speed(model_a()));
   const auto second = second_rows(rows).at(0);
   EXPECT_EQ(rows[second][Column::x], 65.);
   // Reference numbers with half a unit of their last digit.
@@ -120,7 +120,7 @@ TEST(ClosedFormRows, NormalForceJumpsAtTheReversalByTheSelfServoEffect)
 
 TEST(ClosedFormRows, SmoothDriveAtRestKeepsTheDirectionItComesFromOrGoesTo)
 {
-  const auto rows   = rows_of(driven(model_a(), Drive(DriveProfile::harmonic, 0., 65., 112., 1.)));
+  const auto rows   = compute_rows(driven(model_a(), Drive(DriveProfile::harmonic, 0., 65., 112., 1.)));
   const auto second = second_rows(rows).at(0);
   EXPECT_GT(rows[second - 1][Column::F], 0.);
   EXPECT_LT(rows[second][Column::F], 0.);
@@ -131,7 +131,7 @@ TEST(ClosedFormRows, SmoothDriveAtRestKeepsTheDirectionItComesFromOrGoesTo)
 // What round-off leaves of the speed at a turn has either sign.
 TEST(ClosedFormRows, RowsOfATurnKeepTheirPlacesInEveryCycle)
 {
-  const auto rows    = rows_of(driven(model_a(), Drive(DriveProfile::harmonic, 0., 65., 112., 5.)));
+  const auto rows    = compute_rows(driven(model_a(), Drive(DriveProfile::harmonic, 0., 65., 112., 5.)));
   const auto seconds = second_rows(rows);
   ASSERT_EQ(seconds.size(), 9u);
   for (std::size_t i = 0; i < seconds.size(); i += 2)
@@ -148,7 +148,7 @@ TEST(ClosedFormRows, RowsOfATurnKeepTheirPlacesInEveryCycle)
 TEST(ClosedFormRows, FrictionAndNormalForceMakeUpTheForceOnTheDrive)
 {
   for (const Scene &scene : scenes())
-    for (const Row &row : rows_of(scene))
+    for (const Row &row : compute_rows(scene))
     {
       const double theta = row[Column::theta];
       EXPECT_NEAR(row[Column::Q], row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta), 1e-13);
@@ -160,7 +160,7 @@ TEST(ClosedFormRows, FrictionAndNormalForceMakeUpTheForceOnTheDrive)
 
 TEST(ClosedFormRows, RestKeepsTheDirectionItWasReachedIn)
 {
-  const auto rows = rows_of(driven(model_a(), Drive({ 0., 1., 2., 3., 4. }, { 0., 60., 20., 20., 0. })));
+  const auto rows = compute_rows(driven(model_a(), Drive({ 0., 1., 2., 3., 4. }, { 0., 60., 20., 20., 0. })));
   const auto rest = std::find_if(rows.begin(), rows.end(), [](const Row &row) { return row[Column::time] == 3.; });
   ASSERT_NE(rest, rows.end());
   EXPECT_EQ((*rest)[Column::step], 0.);
@@ -171,7 +171,7 @@ TEST(ClosedFormRows, RestKeepsTheDirectionItWasReachedIn)
 TEST(ClosedFormRows, ComparingTheClosedFormWithItselfShowsNoDeviation)
 {
   for (const Scene &scene : scenes())
-    for (const Row &row : rows_of(scene))
+    for (const Row &row : compute_rows(scene))
     {
       EXPECT_EQ(row[Column::P_closed_form], row[Column::P]);
       EXPECT_EQ(row[Column::Q_closed_form], row[Column::Q]);
@@ -183,7 +183,7 @@ TEST(ClosedFormRows, EnergyBalancesInEveryRow)
 {
   for (const Scene &scene : scenes())
   {
-    const auto rows = rows_of(scene);
+    const auto rows = compute_rows(scene);
     const double E0 = rows.front()[Column::spring_energy];
     for (const Row &row : rows)
       EXPECT_NEAR(row[Column::drive_work], row[Column::friction_work] + row[Column::spring_energy] - E0,
@@ -199,7 +199,7 @@ TEST(ClosedFormRows, LoopAreaOfTheRowsEqualsFrictionWork)
     // dQ/dx on a stroke: 1e-5 mm^2 x less than 1 N/mm for each of up to four strokes, and more where a smooth drive starts
     // or stops, since mu(v) then changes as the root of the distance: step^1.5 x 20 N/mm^0.5 = 6e-3 N mm.
     scene.analysis.step = 0.01;
-    const auto rows     = rows_of(scene);
+    const auto rows     = compute_rows(scene);
     double area         = 0.;
     for (std::size_t i = 1; i < rows.size(); ++i)
       area += 0.5 * (rows[i - 1][Column::Q] + rows[i][Column::Q]) * (rows[i][Column::x] - rows[i - 1][Column::x]);
@@ -216,17 +216,17 @@ TEST(ClosedFormRows, WorksDoNotDependOnTheStep)
 {
   Scene scene         = model_a();
   scene.analysis.step = 10.;
-  const double coarse = rows_of(scene).back()[Column::friction_work];
+  const double coarse = compute_rows(scene).back()[Column::friction_work];
   scene.analysis.step = 0.1;
-  EXPECT_NEAR(rows_of(scene).back()[Column::friction_work], coarse, 1e-11 * coarse);
+  EXPECT_NEAR(compute_rows(scene).back()[Column::friction_work], coarse, 1e-11 * coarse);
 }
 
 TEST(ClosedFormRows, APairWithoutOffsetIsASingleLeverTwice)
 {
-  const auto single = rows_of(model_a());
+  const auto single = compute_rows(model_a());
   for (const auto joint : { SpringJoint::held, SpringJoint::free })
   {
-    const auto rows = rows_of(pair_of(model_a(), joint, 0.));
+    const auto rows = compute_rows(make_pair_scene(model_a(), joint, 0.));
     ASSERT_EQ(rows.size(), single.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
@@ -247,9 +247,9 @@ TEST(ClosedFormRows, BothLeversOfAPairShareTheDrivesWorkAndItsEnergy)
   for (const auto joint : { SpringJoint::held, SpringJoint::free })
     for (const double offset : { 0.5, -0.5 })
     {
-      Scene scene          = pair_of(model_a(), joint, offset);
+      Scene scene          = make_pair_scene(model_a(), joint, offset);
       scene.analysis.step  = 0.01;
-      const auto rows      = rows_of(scene);
+      const auto rows      = compute_rows(scene);
       const double started = rows.front()[Column::spring_energy];
       const double total   = rows.back()[Column::friction_work];
       double area          = 0.;

@@ -70,7 +70,7 @@ TEST(Jamming, MarginIsTheLeastOnTheWayWithMuAtTheSpeedThere)
     {
       const auto at    = scene.drive.at(time);
       const auto slide = closed_form(scene, at.x, at.v);
-      result           = std::min(result, 1. + direction_of(at.v) * slide.mu * 45.6 / slide.contact.s);
+      result           = std::min(result, 1. + drive_direction(at.v) * slide.mu * 45.6 / slide.contact.s);
     }
     return result;
   };
@@ -82,7 +82,7 @@ TEST(Jamming, MarginIsTheLeastOnTheWayWithMuAtTheSpeedThere)
     scene.drive       = drive;
     const auto margin = jamming_margin(scene, false);
     EXPECT_NEAR(margin.margin(), least(), 2e-3);
-    EXPECT_EQ(direction_of(margin.v), -1);
+    EXPECT_EQ(drive_direction(margin.v), -1);
   }
   scene.drive = harmonic;
   EXPECT_NEAR(jamming_margin(scene, false).margin(), 1. - 0.9 * 45.6 / kinematics(scene.geometry, 65.).s, 1e-12);
@@ -167,10 +167,10 @@ TEST(CriticalValues, TellTheMotionOfAPair)
   const auto found = critical_values(scene, { "Lever/Depth", 5., 21., 5 }, 1e-6, maker);
   ASSERT_EQ(found.changes.size(), 1u);
   EXPECT_EQ(found.changes.front().worse.motion, "either");
-  const auto told = roles(scene, present, maker);
+  const auto found_roles = roles(scene, present, maker);
   const auto without_damping =
-      std::find_if(told.begin(), told.end(), [](const Role &role) { return role.name == "without_damping"; });
-  ASSERT_NE(without_damping, told.end());
+      std::find_if(found_roles.begin(), found_roles.end(), [](const Role &role) { return role.name == "without_damping"; });
+  ASSERT_NE(without_damping, found_roles.end());
   EXPECT_EQ(without_damping->motion, "either");
   const auto free = judge(variant(scene, { "Mirrored pair/Joint=free" }), maker);
   EXPECT_TRUE(free.motion() == "swinging" || free.motion() == "mirroring") << free.motion();
@@ -189,14 +189,14 @@ TEST(Roles, FlexureMakesTheSpragSlip)
   DynamicsMaker maker;
   const auto present = judge(scene, maker);
   ASSERT_EQ(present.kind, SlideKind::flutter);
-  std::map<std::string, Role> told;
+  std::map<std::string, Role> found_roles;
   for (const auto &role : roles(scene, present, maker))
-    told[role.name] = role;
-  EXPECT_EQ(told.at("without_flexure").kind, SlideKind::stable);
-  EXPECT_EQ(told.at("without_inertia").kind, SlideKind::stable);
-  EXPECT_EQ(told.at("without_friction_derivative").kind, SlideKind::flutter);
-  EXPECT_GT(told.at("without_damping").growth_rate, present.growth_rate());
-  EXPECT_EQ(told.count("without_support"), 0u);
+    found_roles[role.name] = role;
+  EXPECT_EQ(found_roles.at("without_flexure").kind, SlideKind::stable);
+  EXPECT_EQ(found_roles.at("without_inertia").kind, SlideKind::stable);
+  EXPECT_EQ(found_roles.at("without_friction_derivative").kind, SlideKind::flutter);
+  EXPECT_GT(found_roles.at("without_damping").growth_rate, present.growth_rate());
+  EXPECT_EQ(found_roles.count("without_support"), 0u);
 }
 
 TEST(Roles, SupportIsLeftOutWhereThereIsOne)

@@ -27,13 +27,13 @@ namespace
     return read_scene(folder.write("scene.prm", ""), all);
   }
 
-  Found best_of(const Scene &scene)
+  Found best_design(const Scene &scene)
   {
     return best_lever(DesignProblem(scene));
   }
 
   /// Largest inclination with this ratio of the slopes: (mu + tan)/(mu - tan) = r.
-  double inclination_of_ratio(const double ratio)
+  double inclination_for_ratio(const double ratio)
   {
     return std::atan(mu * (ratio - 1.) / (ratio + 1.));
   }
@@ -47,10 +47,10 @@ namespace
 TEST(Design, SteepestLeverWithinARatioOfSlopes)
 {
   const TemporaryFolder folder;
-  const auto found = best_of(design(folder, { "Design/Free=Geometry/Cylinder radius = 5 ... 100",
-                                              "Design/Demands=slope ratio <= 1.8", "Design/Aim=maximise damping slope" }));
+  const auto found = best_design(design(folder, { "Design/Free=Geometry/Cylinder radius = 5 ... 100",
+                                                  "Design/Demands=slope ratio <= 1.8", "Design/Aim=maximise damping slope" }));
   ASSERT_TRUE(found.meets_all);
-  const double theta = inclination_of_ratio(1.8);
+  const double theta = inclination_for_ratio(1.8);
   EXPECT_NEAR(found.lever.parameters[0], 200. * std::sin(theta), 1e-3 * 200. * std::sin(theta));
   EXPECT_NEAR(found.lever.quantities[DesignQuantity::damping_slope], damping_slope(5e4, 200., theta),
               1e-3 * damping_slope(5e4, 200., theta));
@@ -60,8 +60,8 @@ TEST(Design, LargestOffsetWithinAMarginToJamming)
 {
   const TemporaryFolder folder;
   const auto found =
-      best_of(design(folder, { "Design/Free=Geometry/Interface offset = 0 ... 59", "Geometry/Cylinder radius=60",
-                               "Design/Demands=jamming margin >= 0.8", "Design/Aim=maximise Geometry/Interface offset" }));
+      best_design(design(folder, { "Design/Free=Geometry/Interface offset = 0 ... 59", "Geometry/Cylinder radius=60",
+                                   "Design/Demands=jamming margin >= 0.8", "Design/Aim=maximise Geometry/Interface offset" }));
   ASSERT_TRUE(found.meets_all);
   // mu e/s = 0.2 at x = 65 with s^2 = (l - x)^2 - (R - e)^2: a quadratic equation for e.
   const double a = std::pow(mu / 0.2, 2) + 1., b = -2. * 60., c = 60. * 60. - 135. * 135.;
@@ -72,7 +72,7 @@ TEST(Design, LargestOffsetWithinAMarginToJamming)
 TEST(Design, ShortestLeverOfThreeFreeParameters)
 {
   const TemporaryFolder folder;
-  const auto found = best_of(
+  const auto found = best_design(
       design(folder, { "Design/Free=Geometry/Cylinder radius = 15 ... 60; Geometry/Pivot distance = 90 ... 400; Rotational "
                        "spring/Stiffness = 1e3 ... 2e5",
                        "Design/Demands=damping slope = 0.1 +- 1e-5; slope ratio <= 1.8",
@@ -80,7 +80,7 @@ TEST(Design, ShortestLeverOfThreeFreeParameters)
   ASSERT_TRUE(found.meets_all);
   // Short is steep, and steep at the smallest radius that the bounds and the way of the drive leave: l - 65 > R, but a lever of
   // R = 15 is at the bound of the ratio only at l = 15/sin th0 = 107 mm, where c follows from k.
-  const double theta = inclination_of_ratio(1.8), l = 15. / std::sin(theta);
+  const double theta = inclination_for_ratio(1.8), l = 15. / std::sin(theta);
   EXPECT_NEAR(found.lever.parameters[0], 15., 1e-3 * 15.);
   EXPECT_NEAR(found.lever.parameters[1], l, 1e-3 * l);
   const double k = 0.1 / damping_slope(1., l, theta);
@@ -102,7 +102,7 @@ TEST(Design, WhatCannotBeMetNamesTheDemandThatStopsIt)
   // Each of the two is met without the other; at the other's bound it can have so much.
   EXPECT_EQ(stopping[0].demand, 1u);
   EXPECT_EQ(stopping[1].demand, 2u);
-  const double largest = damping_slope(5e4, 200., inclination_of_ratio(1.2));
+  const double largest = damping_slope(5e4, 200., inclination_for_ratio(1.2));
   EXPECT_NEAR(stopping[1].attainable, largest, 1e-3 * largest);
 }
 
@@ -112,7 +112,7 @@ TEST(Design, SearchIsRepeatable)
   const Scene scene =
       design(folder, { "Design/Free=Geometry/Cylinder radius = 5 ... 100; Rotational spring/Stiffness = 1e3 ... 2e5",
                        "Design/Demands=damping slope = 0.1 +- 1e-4; largest force <= 12", "Design/Aim=minimise nonlinearity" });
-  const auto first = best_of(scene), second = best_of(scene);
+  const auto first = best_design(scene), second = best_design(scene);
   EXPECT_EQ(first.lever.parameters, second.lever.parameters);
 }
 
@@ -123,7 +123,7 @@ TEST(Design, FrontOfTwoAimsIsOfLeversThatNoneBeats)
   const Scene scene =
       design(folder, { "Design/Free=Geometry/Cylinder radius = 10 ... 60", "Design/Demands=", "Design/Aim=maximise damping slope",
                        "Design/Second aim=minimise slope ratio", "Design/Front points=5" });
-  const auto front = front_of_aims(DesignProblem(scene));
+  const auto front = pareto_front(DesignProblem(scene));
   ASSERT_EQ(front.size(), 5u);
   EXPECT_NEAR(front.front().parameters[0], 60., 0.06);
   EXPECT_NEAR(front.back().parameters[0], 10., 0.06);
@@ -140,8 +140,9 @@ TEST(Design, FrontOfTwoAimsIsOfLeversThatNoneBeats)
 TEST(Design, LargestRadiusWithinAReach)
 {
   const TemporaryFolder folder;
-  const auto found = best_of(design(folder, { "Geometry/Pivot height=30", "Design/Free=Geometry/Cylinder radius = 35 ... 100",
-                                              "Design/Demands=reach >= 150", "Design/Aim=maximise Geometry/Cylinder radius" }));
+  const auto found =
+      best_design(design(folder, { "Geometry/Pivot height=30", "Design/Free=Geometry/Cylinder radius = 35 ... 100",
+                                   "Design/Demands=reach >= 150", "Design/Aim=maximise Geometry/Cylinder radius" }));
   ASSERT_TRUE(found.meets_all);
   // The circle about (x, 0) meets the pivot (200, -30) at x = 150.
   const double R = std::hypot(50., 30.);
@@ -157,7 +158,7 @@ TEST(Design, LargestBeginningWithinAResidualOffset)
                        "Isolation/Base motion=none", "Isolation/Duration=3", "Isolation/Initial displacement=0.01",
                        "Design/Free=Isolation/Initial displacement = 1e-4 ... 0.1", "Design/Demands=residual offset <= 1e-3",
                        "Design/Aim=maximise Isolation/Initial displacement" });
-  const auto found = best_of(scene);
+  const auto found = best_design(scene);
   ASSERT_TRUE(found.meets_all);
   // So close to z = 0 the table swings out on K + n C_Q forward and back on K + n C_Q backward, each for a quarter of that
   // period, and turns at r = sqrt((K + n C_Q backward)/(K + n C_Q forward)) of the last turn. At the end it is about the mean of

@@ -30,7 +30,7 @@ TEST(Envelope, FollowsExponentialGrowth)
   for (const unsigned int n : { 16u, 50u, 128u })
     for (const double phase : { 0., 0.3, 1., 2.5 })
     {
-      const auto fit = fit_exponential(envelope_of(growing(n, phase)));
+      const auto fit = fit_exponential(compute_envelope(growing(n, phase)));
       const double h = 2. * M_PI / n;
       EXPECT_NEAR(fit.rate, growth, growth * h * h * h * h) << n << ' ' << phase;
       EXPECT_NEAR(fit.amplitude, 1. / std::hypot(1., growth / omega), h * h * h * h) << n << ' ' << phase;
@@ -42,7 +42,7 @@ TEST(Envelope, HasOneExtremumAHalfPeriodBetweenTheFirstAndTheLastChangeOfSign)
 {
   // Changes of sign at 1/4, 3/4 ... 39 3/4 periods.
   EXPECT_EQ(crossings(growing(50, 0., 20. / frequency)).size(), 40u);
-  EXPECT_EQ(envelope_of(growing(50, 0., 20. / frequency)).size(), 39u);
+  EXPECT_EQ(compute_envelope(growing(50, 0., 20. / frequency)).size(), 39u);
 }
 
 // A straight line misses the change of sign by h^2 / 8 g / w of a sample at most.
@@ -66,6 +66,6 @@ TEST(Envelope, TooLittleIsNotAnAnswer)
 {
   EXPECT_TRUE(std::isnan(fit_exponential({ { 0., 1. }, { 1., 2. } }).rate));
   EXPECT_TRUE(std::isnan(fit_frequency({ 0., 1. })));
-  EXPECT_TRUE(envelope_of({}).empty());
-  EXPECT_TRUE(envelope_of({ { 0., 1. }, { 1., 2. } }).empty());
+  EXPECT_TRUE(compute_envelope({}).empty());
+  EXPECT_TRUE(compute_envelope({ { 0., 1. }, { 1., 2. } }).empty());
 }

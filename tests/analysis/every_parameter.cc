@@ -65,7 +65,7 @@ namespace
       return result;
     }
     case Kind::numbers:
-      return { number_text(1.01 * list_of_numbers(value).front() + 0.01) + value.substr(value.find(',')) };
+      return { number_text(1.01 * parse_numbers(value).front() + 0.01) + value.substr(value.find(',')) };
     case Kind::choice:
       return parameter.rule.choices;
     case Kind::text:
@@ -106,7 +106,7 @@ namespace
       const Scene scene = read();
       for (const auto &[name, value] : *scene.parameters)
         if (name.rfind("Study/", 0) != 0)
-          result.push_back(name + (scene.given.count(name) > 0 ? " given as " : " is ") + value);
+          result.push_back(name + (scene.specified.count(name) > 0 ? " given as " : " is ") + value);
       result.push_back(scene.accuracy.is_model_open ? "open model" : "fixed model");
     }
     catch (const InputError &)
@@ -151,7 +151,7 @@ namespace
            "Physical Curve(\"friction face\") = {5}; Physical Curve(\"hub\") = {4};\n";
   }
 
-  Scene scene_of(const TemporaryFolder &folder, const Changes &more)
+  Scene make_scene(const TemporaryFolder &folder, const Changes &more)
   {
     Changes changes = { "Analysis/Type=stability", "Analysis/Model=condensed", "Mesh/Face size=8", "Condensed/Modes=3",
                         "Condensed/Cache=" + (folder.path / "cache").string() };
@@ -162,35 +162,35 @@ namespace
   /// The lever of model A, coarse.
   Scene bar(const TemporaryFolder &folder)
   {
-    return scene_of(folder, {});
+    return make_scene(folder, {});
   }
 
   Scene frame_with_plate(const TemporaryFolder &folder)
   {
-    return scene_of(folder, { "Lever/Outline=frame", "Friction plate/Type=on sensors", "Cylinder/Type=solid",
-                              "Cylinder/Face size=5", "Support/Type=sprung", "Lever/Tip mass=1e-5", "Lever/Hub inertia=0.1" });
+    return make_scene(folder, { "Lever/Outline=frame", "Friction plate/Type=on sensors", "Cylinder/Type=solid",
+                                "Cylinder/Face size=5", "Support/Type=sprung", "Lever/Tip mass=1e-5", "Lever/Hub inertia=0.1" });
   }
 
   Scene pair_on_leaves(const TemporaryFolder &folder)
   {
-    return scene_of(folder,
-                    { "Mirrored pair/Type=full", "Mesh/Degree=1", "Rotational spring/Type=leaf", "Mirrored pair/Joint mass=1e-4",
-                      "Lever/Inertia=as built", "Drive/Profile=harmonic", "Friction/Law=Coulomb" });
+    return make_scene(folder, { "Mirrored pair/Type=full", "Mesh/Degree=1", "Rotational spring/Type=leaf",
+                                "Mirrored pair/Joint mass=1e-4", "Lever/Inertia=as built", "Drive/Profile=harmonic",
+                                "Friction/Law=Coulomb" });
   }
 
   Scene from_files(const TemporaryFolder &folder)
   {
     folder.write("depth.geo", "h = 20;\n");
-    return scene_of(folder, { "Mesh/File=" + folder.write("lever.geo", mesh_script()), "Drive/Profile=table",
-                              "Drive/Table=" + folder.write("drive.csv", drive_table(60.)), "Friction/Law=table",
-                              "Friction/Table=" + folder.write("mu.csv", friction_table(0.5)),
-                              "Identification/Table=" + folder.write("stroke.csv", drive_table(3.)),
-                              "Isolation/Base table=" + folder.write("base.csv", drive_table(1.)),
-                              "Isolation/Loop table=" + folder.write("loop.csv", drive_table(2.)) });
+    return make_scene(folder, { "Mesh/File=" + folder.write("lever.geo", mesh_script()), "Drive/Profile=table",
+                                "Drive/Table=" + folder.write("drive.csv", drive_table(60.)), "Friction/Law=table",
+                                "Friction/Table=" + folder.write("mu.csv", friction_table(0.5)),
+                                "Identification/Table=" + folder.write("stroke.csv", drive_table(3.)),
+                                "Isolation/Base table=" + folder.write("base.csv", drive_table(1.)),
+                                "Isolation/Loop table=" + folder.write("loop.csv", drive_table(2.)) });
   }
 
   /// Everything that a basis is, and the mesh below it.
-  std::vector<double> content_of(const MeshedLever &lever)
+  std::vector<double> collect_content(const MeshedLever &lever)
   {
     std::vector<double> result;
     for (const auto &vertex : lever.triangulation.get_vertices())
@@ -219,7 +219,7 @@ namespace
   }
 
   /// P and eigenvalues, or why there are none.
-  std::string answer_of(const Scene &scene, const Dynamics &dynamics)
+  std::string compute_answer(const Scene &scene, const Dynamics &dynamics)
   {
     std::string result;
     try
@@ -244,13 +244,13 @@ namespace
     sharing.make(prepared(before));
     const Scene scene  = prepared(changed);
     const auto fresh   = making.make(scene);
-    const auto content = content_of(*fresh.lever);
-    const auto answer  = answer_of(scene, fresh);
+    const auto content = collect_content(*fresh.lever);
+    const auto answer  = compute_answer(scene, fresh);
     for (auto *const maker : { &sharing, &reading })
     {
       const auto shared = maker->make(scene);
-      EXPECT_TRUE(content_of(*shared.lever) == content) << what << (maker == &sharing ? ": shared" : ": from the cache");
-      EXPECT_EQ(answer_of(scene, shared), answer) << what;
+      EXPECT_TRUE(collect_content(*shared.lever) == content) << what << (maker == &sharing ? ": shared" : ": from the cache");
+      EXPECT_EQ(compute_answer(scene, shared), answer) << what;
     }
   }
 
@@ -343,8 +343,8 @@ TEST(EveryParameter, BelongsToTheKeysOfSomeScene)
   std::set<std::string> admitted;
   const Changes statics = { "Analysis/Type=quasi-static", "Analysis/Model=finite element", "Analysis/Plane=strain" };
   const Changes in_time = { "Analysis/Type=transient", "Analysis/Model=rigid", "Friction/Law=Stribeck" };
-  for (const Scene &scene : { bar(folder), frame_with_plate(folder), pair_on_leaves(folder), scene_of(folder, statics),
-                              scene_of(folder, in_time), from_files(folder) })
+  for (const Scene &scene : { bar(folder), frame_with_plate(folder), pair_on_leaves(folder), make_scene(folder, statics),
+                              make_scene(folder, in_time), from_files(folder) })
     change_each(scene, folder, none, admitted);
   std::set<std::string> missing;
   for (const auto &parameter : declared())
@@ -455,5 +455,5 @@ TEST(EveryParameter, AMeshIsMadeAnewWhenItsFileChangesInOneProcess)
   const auto before = maker.make(scene).lever;
   EXPECT_EQ(maker.make(scene).lever, before);
   folder.write("depth.geo", "h = 21;\n");
-  EXPECT_NE(content_of(*maker.make(scene).lever), content_of(*before));
+  EXPECT_NE(collect_content(*maker.make(scene).lever), collect_content(*before));
 }

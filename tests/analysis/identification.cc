@@ -37,7 +37,7 @@ namespace
     return scene;
   }
 
-  std::vector<Row> rows_of(const Scene &scene)
+  std::vector<Row> compute_rows(const Scene &scene)
   {
     std::vector<Row> rows;
     run_closed_form(scene, [&](const Row &row) { rows.push_back(row); });
@@ -86,10 +86,10 @@ namespace
   /// In how many of all seeds the intervals hold the truth: within three standard deviations of the binomial distribution, so
   /// that one count in 370 fails though all is right. The seeds are fixed.
   template <class Measure>
-  void expect_honest(const Scene &scene, const Truth &truth, const Measure &measure, const unsigned int number_of_seeds = seeds)
+  void expect_honest(const Scene &scene, const Truth &truth, const Measure &measure, const unsigned int n_seeds = seeds)
   {
     std::map<std::string, unsigned int> held;
-    for (unsigned int seed = 0; seed < number_of_seeds; ++seed)
+    for (unsigned int seed = 0; seed < n_seeds; ++seed)
     {
       Scene one                   = scene;
       one.identification.measured = measure(seed);
@@ -98,11 +98,11 @@ namespace
       for (const auto &[name, value] : truth)
         held[name] += holds(number(found, name), value) ? 1 : 0;
     }
-    const double band = 3. * std::sqrt(0.95 * 0.05 * number_of_seeds);
+    const double band = 3. * std::sqrt(0.95 * 0.05 * n_seeds);
     for (const auto &[name, count] : held)
     {
       ::testing::Test::RecordProperty(name, static_cast<int>(count));
-      EXPECT_NEAR(count, 0.95 * number_of_seeds, band) << name;
+      EXPECT_NEAR(count, 0.95 * n_seeds, band) << name;
     }
   }
 
@@ -131,7 +131,7 @@ TEST(Identification, FindsFrictionSpringAndGeometryWithoutNoise)
 {
   const Scene truth = device();
   Scene scene = guess(truth, { Unknown::friction_constant, Unknown::stiffness, Unknown::interface_offset, Unknown::inclination });
-  scene.identification.measured = measured(rows_of(truth), { 0., 0. }, 1);
+  scene.identification.measured = measured(compute_rows(truth), { 0., 0. }, 1);
   const auto found              = identified(scene);
   EXPECT_NEAR(number(found, "mu").value, 0.73, 1e-7);
   EXPECT_NEAR(number(found, "k").value, 7.4e4, 1e-2);
@@ -145,7 +145,7 @@ TEST(Identification, FindsTheRestAngleOfASpring)
   truth.spring.rest_angle       = -0.01;
   Scene scene                   = guess(truth, { Unknown::friction_constant, Unknown::stiffness, Unknown::rest_angle });
   scene.spring.rest_angle       = 0.;
-  scene.identification.measured = measured(rows_of(truth), { 0., 0. }, 1);
+  scene.identification.measured = measured(compute_rows(truth), { 0., 0. }, 1);
   const auto found              = identified(scene);
   EXPECT_NEAR(number(found, "mu").value, 0.73, 1e-7);
   EXPECT_NEAR(number(found, "k").value, 7.4e4, 1e-2);
@@ -155,7 +155,7 @@ TEST(Identification, FindsTheRestAngleOfASpring)
 TEST(Identification, IntervalsHoldTheTruthUnderWhiteNoise)
 {
   const Scene truth = device();
-  const auto rows   = rows_of(truth);
+  const auto rows   = compute_rows(truth);
   const auto all    = { Unknown::friction_constant, Unknown::stiffness, Unknown::interface_offset, Unknown::inclination };
   expect_honest(guess(truth, all), { { "mu", 0.73 }, { "k", 7.4e4 }, { "e", 45.6 }, { "th0", inclination(truth) } },
                 [&](const unsigned int seed) {
@@ -166,7 +166,7 @@ TEST(Identification, IntervalsHoldTheTruthUnderWhiteNoise)
 TEST(Identification, IntervalsHoldTheTruthUnderCorrelatedNoise)
 {
   const Scene truth = device();
-  const auto rows   = rows_of(truth);
+  const auto rows   = compute_rows(truth);
   expect_honest(guess(truth, { Unknown::friction_constant, Unknown::stiffness }), { { "mu", 0.73 }, { "k", 7.4e4 } },
                 [&](const unsigned int seed) {
                   return measured(rows, { 0.2, 0.8 }, seed);
@@ -244,7 +244,7 @@ TEST(Identification, NamesWhatOneDirectionCannotTellApart)
 {
   const Scene truth             = device();
   Scene scene                   = guess(truth, { Unknown::friction_constant, Unknown::inclination });
-  auto stroke                   = measured(rows_of(truth), { 0.2, 0. }, 1);
+  auto stroke                   = measured(compute_rows(truth), { 0.2, 0. }, 1);
   scene.identification.measured = stroke;
   EXPECT_TRUE(identified(scene).knowledge.indistinct.empty());
   stroke.channels.erase(stroke.channels.begin()); // Q alone
@@ -258,7 +258,7 @@ TEST(Identification, NamesALawOfFrictionThatOneSpeedCannotTell)
 {
   const Scene truth             = device();
   Scene scene                   = guess(truth, { Unknown::friction_polynomial, Unknown::stiffness });
-  scene.identification.measured = measured(rows_of(with_friction_by_drive_speed(truth)), { 0.1, 0. }, 1);
+  scene.identification.measured = measured(compute_rows(with_friction_by_drive_speed(truth)), { 0.1, 0. }, 1);
   scene.friction.speed          = FrictionSpeed::drive;
   EXPECT_TRUE(contains(identified(scene).knowledge.indistinct, "mu_0, mu_1 and mu_2 apart"));
 }
@@ -266,7 +266,7 @@ TEST(Identification, NamesALawOfFrictionThatOneSpeedCannotTell)
 TEST(Identification, HubersLossBearsOutliers)
 {
   const Scene truth             = device();
-  const auto rows               = rows_of(truth);
+  const auto rows               = compute_rows(truth);
   Scene scene                   = guess(truth, { Unknown::friction_constant, Unknown::stiffness });
   scene.identification.measured = spoilt(rows, 1);
   const double by_squares       = number(identified(scene), "mu").deviation;
@@ -281,7 +281,7 @@ TEST(Identification, HubersLossIsLeastWhereTheFitEnds)
 {
   const Scene truth             = device();
   Scene scene                   = guess(truth, { Unknown::friction_constant, Unknown::stiffness });
-  scene.identification.measured = spoilt(rows_of(truth), 1);
+  scene.identification.measured = spoilt(compute_rows(truth), 1);
   scene.identification.loss     = IdentificationLoss::huber;
   const MeasuredMotion motion(scene);
   const LeverUnknowns unknowns(scene, motion);
@@ -311,7 +311,7 @@ TEST(Identification, HubersLossIsLeastWhereTheFitEnds)
 TEST(Identification, HubersIntervalsHoldTheTruth)
 {
   const Scene truth         = device();
-  const auto rows           = rows_of(truth);
+  const auto rows           = compute_rows(truth);
   Scene scene               = guess(truth, { Unknown::friction_constant, Unknown::stiffness });
   scene.identification.loss = IdentificationLoss::huber;
   expect_honest(scene, { { "mu", 0.73 }, { "k", 7.4e4 } },
@@ -324,7 +324,7 @@ TEST(Identification, RefusesWhatLeavesTooFewRows)
 {
   const Scene truth             = device();
   Scene scene                   = guess(truth, { Unknown::friction_constant, Unknown::stiffness });
-  scene.identification.measured = measured(rows_of(truth), { 0.2, 0. }, 1);
+  scene.identification.measured = measured(compute_rows(truth), { 0.2, 0. }, 1);
   scene.identification.window   = 64.9;
   EXPECT_THROW(identified(scene), AnalysisError);
 }
@@ -333,10 +333,10 @@ TEST(Identification, RefusesWhatLeavesTooFewRows)
 class IdentificationInTime : public ::testing::Test
 {
 protected:
-  Scene truth           = scene_of_beam();
+  Scene truth           = beam_scene();
   std::vector<Row> rows = at_equal_times(run_in_time(truth).rows, 5e-4);
 
-  static Scene scene_of_beam()
+  static Scene beam_scene()
   {
     return with_lever(in_time(with_coulomb(model_a(), 0.73), ModelType::beam), 20., 9541.32, 1.45485);
   }

@@ -42,7 +42,7 @@ namespace
       for (double t = 0.; t < until;)
       {
         t = release(t);
-        t = end_of_slip(t);
+        t = slip_end(t);
         if (t < until)
           result.push_back(z);
       }
@@ -81,7 +81,7 @@ namespace
       return at;
     }
 
-    double end_of_slip(const double begin)
+    double slip_end(const double begin)
     {
       const double n = std::sqrt(K / m), offset = -d * F0 / K;
       const double C = z - offset - S * std::sin(w * begin), D = -S * w * std::cos(w * begin) / n;
@@ -108,7 +108,7 @@ TEST(Isolation, LinearFrictionDecaysByAFixedRatioAHalfCycle)
     const double ratio                   = std::sqrt((1. - gamma) / (1. + gamma));
     const double half_period             = 0.5 * M_PI * (1. / std::sqrt(1. - gamma) + 1. / std::sqrt(1. + gamma)) / w_n;
     double z = -40., time = 0.;
-    const auto turns = turns_of(scene);
+    const auto turns = find_turns(scene);
     ASSERT_GT(turns.size(), 10u);
     for (const auto &turn : turns)
     {
@@ -117,7 +117,7 @@ TEST(Isolation, LinearFrictionDecaysByAFixedRatioAHalfCycle)
       EXPECT_NEAR(turn.z / z, 1., 1e-9) << gamma;
       EXPECT_NEAR(turn.time / time, 1., 1e-10) << gamma;
     }
-    EXPECT_LT(findings_of(scene).energy_residual, 1e-11);
+    EXPECT_LT(compute_findings(scene).energy_residual, 1e-11);
   }
 }
 
@@ -159,7 +159,7 @@ TEST(Isolation, ConstantFrictionLeavesTheOffsetOfTheHalfCycles)
       const double K = scene.isolation.stiffness, y0 = std::abs(z0);
       const double n      = std::ceil((y0 * K / force - 1.) / 2.);
       const double offset = (z0 > 0. ? 1. : -1.) * std::pow(-1., n) * (y0 - 2. * n * force / K);
-      const auto found    = findings_of(scene);
+      const auto found    = compute_findings(scene);
       EXPECT_EQ(found.turns, n);
       EXPECT_EQ(found.stops, 1u);
       EXPECT_TRUE(found.rests);
@@ -173,7 +173,7 @@ TEST(Isolation, FrictionThatHoldsTheBeginningNeverLetsGo)
   Scene scene                          = isolated(DamperType::constant_friction);
   scene.isolation.friction_force       = 10.;
   scene.isolation.initial_displacement = 4.9;
-  const auto found                     = findings_of(scene);
+  const auto found                     = compute_findings(scene);
   EXPECT_EQ(found.residual_offset, 4.9);
   EXPECT_EQ(found.turns, 0u);
   EXPECT_EQ(found.energy_residual, 0.);
@@ -186,14 +186,14 @@ TEST(Isolation, ConstantFrictionIsLockedUpToTheForceOfTheBase)
     Scene scene                    = shaken(DamperType::constant_friction, r);
     const double limit             = scene.isolation.stiffness * scene.isolation.base_amplitude * r * r;
     scene.isolation.friction_force = limit * (1. + 1e-9);
-    auto found                     = findings_of(scene);
+    auto found                     = compute_findings(scene);
     EXPECT_EQ(found.largest_displacement, 0.);
     EXPECT_NEAR(found.peak, 1., 1e-9);
     EXPECT_NEAR(found.fundamental, 1., 1e-9);
     EXPECT_NEAR(found.rms, 1., 1e-9);
     EXPECT_TRUE(found.is_steady);
     scene.isolation.friction_force = limit * (1. - 1e-6);
-    found                          = findings_of(scene);
+    found                          = compute_findings(scene);
     EXPECT_GT(found.largest_displacement, 0.);
     EXPECT_GT(found.stops, 0u);
   }
@@ -209,7 +209,7 @@ TEST(Isolation, SteadyStatesWithoutStopsAreDenHartogs)
     const double V = 1. / (1. - r * r), beta = 1. / r;
     const double U        = beta * std::sin(M_PI * beta) / (1. + std::cos(M_PI * beta));
     const double expected = static_amplitude * std::sqrt(V * V - share * share * U * U);
-    const auto found      = findings_of(scene);
+    const auto found      = compute_findings(scene);
     EXPECT_TRUE(found.is_steady) << r;
     EXPECT_EQ(found.stops_a_period, 0.) << r;
     EXPECT_NEAR(found.relative_amplitude / expected, 1., 1e-9) << r;
@@ -226,12 +226,12 @@ TEST(Isolation, StopsUnderAHarmonicBaseAreThoseOfExactPieces)
     scene.isolation.duration       = 12. / scene.isolation.base_frequency;
     scene.isolation.friction_force = 0.6 * scene.isolation.stiffness * scene.isolation.base_amplitude * r * r;
     const auto expected            = ExactStops(scene).stops(scene.isolation.duration);
-    const auto turns               = turns_of(scene);
+    const auto turns               = find_turns(scene);
     ASSERT_EQ(turns.size(), expected.size()) << r;
     ASSERT_GT(turns.size(), 20u);
     for (std::size_t i = 0; i < turns.size(); ++i)
       EXPECT_NEAR(turns[i].z, expected[i], 1e-9 * scene.isolation.base_amplitude) << r << ' ' << i;
-    EXPECT_EQ(findings_of(scene).stops > 20, r < 0.5) << r;
+    EXPECT_EQ(compute_findings(scene).stops > 20, r < 0.5) << r;
   }
 }
 
@@ -242,9 +242,9 @@ TEST(Isolation, RowsDoNotMoveEvents)
   scene.isolation.friction_force = 0.6 * scene.isolation.stiffness * scene.isolation.base_amplitude * 0.21 * 0.21;
   scene.isolation.duration       = 30.;
   scene.isolation.output_step    = 30.;
-  const auto coarse              = turns_of(scene);
+  const auto coarse              = find_turns(scene);
   scene.isolation.output_step    = 1e-3;
-  const auto fine                = turns_of(scene);
+  const auto fine                = find_turns(scene);
   ASSERT_EQ(coarse.size(), fine.size());
   ASSERT_GT(coarse.size(), 10u);
   for (std::size_t i = 0; i < fine.size(); ++i)
@@ -260,7 +260,7 @@ TEST(Isolation, ViscousDampingHasTheTransmissibilityOfTheBooks)
     scene.isolation.viscous_coefficient = 2. * zeta * scene.isolation.mass * w_n;
     const double q                      = std::pow(2. * zeta * r, 2);
     const double expected               = std::sqrt((1. + q) / (std::pow(1. - r * r, 2) + q));
-    const auto found                    = findings_of(scene);
+    const auto found                    = compute_findings(scene);
     EXPECT_NEAR(found.fundamental, expected, 1e-9);
     EXPECT_NEAR(found.rms, expected, 1e-9);
     EXPECT_NEAR(found.peak, expected, 1e-6);
@@ -281,7 +281,7 @@ TEST(Isolation, HarmonicBalanceOfLinearFrictionIsThatOfALossFactor)
     ASSERT_EQ(balance.size(), 1u);
     const double expected = std::sqrt((1. + eta * eta) / (std::pow(1. - r * r, 2) + eta * eta));
     EXPECT_NEAR(balance.front().transmissibility, expected, 1e-9);
-    EXPECT_NEAR(findings_of(scene).fundamental / expected, 1., 0.15); // which one harmonic is worth
+    EXPECT_NEAR(compute_findings(scene).fundamental / expected, 1., 0.15); // which one harmonic is worth
   }
 }
 
@@ -328,7 +328,7 @@ TEST(Isolation, LeversMeetTheLinearLawWhereZIsSmall)
   const double backward  = representative_slope(scene.geometry, scene.spring.stiffness, 0.73, -1);
   EXPECT_NEAR(forward, 0.0804711777, 1e-9);
   const double c = 1.5 * (forward - backward), k_e = 1.5 * (forward + backward);
-  const auto damper = damper_of(scene);
+  const auto damper = make_damper(scene);
   const double y    = 1e-6;
   EXPECT_NEAR(damper.resistance(y, 1., 1).force, (k_e + c) * y, 1e-6 * c * y);
   EXPECT_NEAR(damper.resistance(y, 1., -1).force, (k_e - c) * y, 1e-6 * c * y);
@@ -336,7 +336,7 @@ TEST(Isolation, LeversMeetTheLinearLawWhereZIsSmall)
   // Out and back the slopes differ: one half cycle shrinks by the root of their ratio.
   scene.isolation.initial_displacement = 1e-4;
   const double K = scene.isolation.stiffness, ratio = std::sqrt((K + k_e - c) / (K + k_e + c));
-  const auto turns = turns_of(scene);
+  const auto turns = find_turns(scene);
   ASSERT_GT(turns.size(), 5u);
   EXPECT_NEAR(turns[0].z / -1e-4, ratio, 1e-5);
   EXPECT_NEAR(turns[1].z / turns[0].z, -ratio, 1e-5);
@@ -347,7 +347,7 @@ TEST(Isolation, LeversKeepTheLedgerOfSpringAndFriction)
   Scene scene                        = shaken(DamperType::lever, 1.);
   scene.isolation.base_amplitude     = 3.;
   scene.isolation.periodic_tolerance = 1e-9;
-  const auto found                   = findings_of(scene);
+  const auto found                   = compute_findings(scene);
   EXPECT_TRUE(found.is_steady);
   EXPECT_GT(found.dissipated, 1.);
   EXPECT_LT(found.energy_residual, 1e-9);
@@ -359,12 +359,12 @@ TEST(Isolation, ARestoringLeverIsLinearFriction)
   scene.friction.law                 = CoulombFriction{ 0.5 };
   scene.isolation.lever_ratio        = 0.4;
   scene.isolation.friction_arm_ratio = 0.;
-  const auto damper                  = damper_of(scene);
+  const auto damper                  = make_damper(scene);
   EXPECT_NEAR(damper.resistance(7., 3., 1).force, 0.5 * 0.4 * 2. * 7., 1e-12);
   EXPECT_NEAR(damper.resistance(7., 3., -1).force, -0.5 * 0.4 * 2. * 7., 1e-12);
   scene.isolation.friction_arm_ratio = 0.6;
-  EXPECT_NEAR(damper_of(scene).resistance(7., 3., 1).force, 2.8 / 1.3, 1e-12);
-  EXPECT_NEAR(damper_of(scene).resistance(7., 3., -1).force, -2.8 / 0.7, 1e-12);
+  EXPECT_NEAR(make_damper(scene).resistance(7., 3., 1).force, 2.8 / 1.3, 1e-12);
+  EXPECT_NEAR(make_damper(scene).resistance(7., 3., -1).force, -2.8 / 0.7, 1e-12);
 }
 
 TEST(Isolation, ALoopOfLinearFrictionIsLinearFriction)
@@ -372,7 +372,7 @@ TEST(Isolation, ALoopOfLinearFrictionIsLinearFriction)
   Scene scene                          = isolated(DamperType::linear_friction);
   scene.isolation.friction_slope       = 0.5;
   scene.isolation.initial_displacement = 30.;
-  const auto expected                  = turns_of(scene);
+  const auto expected                  = find_turns(scene);
   scene.isolation.damper               = DamperType::loop;
   for (double y = 0.; y <= 40.; y += 8.)
   {
@@ -381,11 +381,11 @@ TEST(Isolation, ALoopOfLinearFrictionIsLinearFriction)
     scene.isolation.loop.out.values.push_back(0.5 * y);
     scene.isolation.loop.back.values.push_back(-0.5 * y);
   }
-  const auto turns = turns_of(scene);
+  const auto turns = find_turns(scene);
   ASSERT_EQ(turns.size(), expected.size());
   for (std::size_t i = 0; i < turns.size(); ++i)
     EXPECT_NEAR(turns[i].z / expected[i].z, 1., 1e-9);
-  EXPECT_LT(findings_of(scene).energy_residual, 1e-10);
+  EXPECT_LT(compute_findings(scene).energy_residual, 1e-10);
 }
 
 TEST(Isolation, LeversThatEndOrLockStopTheRunAndKeepWhatWasFound)
@@ -395,7 +395,7 @@ TEST(Isolation, LeversThatEndOrLockStopTheRunAndKeepWhatWasFound)
   IsolationFindings found;
   EXPECT_THROW(run_isolation(scene, found, {}), AnalysisError);
   EXPECT_GT(found.time, 0.1);
-  EXPECT_NEAR(found.largest_displacement, damper_of(scene).reach, 1e-6);
+  EXPECT_NEAR(found.largest_displacement, make_damper(scene).reach, 1e-6);
 
   scene                                = isolated(DamperType::lever);
   scene.isolation.initial_displacement = 0.;
@@ -411,7 +411,7 @@ TEST(Isolation, ATableWithoutADamperConservesItsEnergy)
   Scene scene                          = isolated(DamperType::none);
   scene.isolation.initial_displacement = 10.;
   scene.isolation.initial_velocity     = -100.;
-  const auto found                     = findings_of(scene);
+  const auto found                     = compute_findings(scene);
   EXPECT_NEAR(found.largest_displacement, std::hypot(10., 100. / w_n), 1e-9);
   EXPECT_EQ(found.dissipated, 0.);
   EXPECT_LT(found.energy_residual, 1e-10);

@@ -33,14 +33,14 @@ namespace
     static void append(const Journal &journal, const MapCells &cells)
     {
       const auto [file, header] = journal.address();
-      JournalPen(file, header).append(lines_of(cells));
+      JournalPen(file, header).append(to_lines(cells));
     }
 
-    static std::vector<std::string> lines_of(const MapCells &cells)
+    static std::vector<std::string> to_lines(const MapCells &cells)
     {
       std::vector<std::string> lines;
       for (const auto &[site, cell] : cells)
-        lines.push_back(line_of(site, cell));
+        lines.push_back(to_line(site, cell));
       return lines;
     }
   };
@@ -49,11 +49,11 @@ namespace
   {
     MapCells cells;
     for (const auto &line : journal.lines())
-      cells.insert(cell_of(line));
+      cells.insert(parse_cell(line));
     return cells;
   }
 
-  std::vector<std::string> lines_of_file(const std::string &path)
+  std::vector<std::string> read_lines(const std::string &path)
   {
     std::ifstream input(path);
     std::vector<std::string> lines;
@@ -105,7 +105,7 @@ TEST_F(JournalTest, DropsATornLineWhereverItIsTornAndGoesOn)
   const auto cells = some_cells();
   write(cells);
   const auto whole     = std::filesystem::file_size(path);
-  const auto last_line = lines_of_file(path).back().size();
+  const auto last_line = read_lines(path).back().size();
   auto fewer           = cells;
   fewer.erase(std::prev(fewer.end()));
   for (std::size_t missing = 1; missing <= last_line; ++missing)
@@ -125,7 +125,7 @@ TEST_F(JournalTest, DropsAGarbledLineAndKeepsTheOthers)
 {
   const auto cells = some_cells();
   write(cells);
-  const auto lines = lines_of_file(path);
+  const auto lines = read_lines(path);
   ASSERT_EQ(lines.size(), cells.size() + 1);
   auto fewer = cells;
   fewer.erase(std::next(fewer.begin()));
@@ -154,7 +154,7 @@ TEST_F(JournalTest, DropsAGarbledLineAndKeepsTheOthers)
 TEST_F(JournalTest, DropsALineOfAnotherScenesJournal)
 {
   write(some_cells(), "another scene");
-  const auto line = lines_of_file(path).at(1);
+  const auto line = read_lines(path).at(1);
   std::filesystem::remove(path);
   {
     const Journal begun(path, "map", "a scene");

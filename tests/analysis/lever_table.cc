@@ -46,7 +46,7 @@ namespace
 
 TEST(LeverTable, LeversInTimeMoveTheTableAsTheClosedFormDoes)
 {
-  const auto expected = findings_of(on_levers(ModelType::closed_form));
+  const auto expected = compute_findings(on_levers(ModelType::closed_form));
   for (const auto model : { ModelType::rigid, ModelType::beam })
   {
     const auto found = found_by(on_levers(model));
@@ -76,7 +76,7 @@ TEST(LeverTable, AHarmonicBaseMovesItAsTheClosedFormSays)
   scene.isolation.base_amplitude       = 5.;
   scene.isolation.base_frequency       = 2.;
   scene.isolation.initial_displacement = 0.;
-  const auto expected                  = findings_of(scene);
+  const auto expected                  = compute_findings(scene);
   scene.analysis.model                 = ModelType::rigid;
   const auto found                     = found_by(scene);
   EXPECT_NEAR(found.fundamental / expected.fundamental, 1., 5e-3);
@@ -88,7 +88,7 @@ TEST(LeverTable, AMotionBeyondTheWayOfTheLeversStopsTheRunAndSaysHowFarItGoes)
 {
   Scene scene                      = on_levers(ModelType::rigid);
   scene.isolation.initial_velocity = 320.;
-  const double largest             = findings_of(on_closed_form(scene)).largest_displacement;
+  const double largest             = compute_findings(on_closed_form(scene)).largest_displacement;
   ASSERT_GT(largest, scene.drive.maximum());
   try
   {
@@ -132,7 +132,7 @@ TEST(LeverTable, GoesOnFromItsProgressToTheLastBit)
   EXPECT_EQ(whole.state().dissipated, resumed.state().dissipated);
   EXPECT_EQ(whole.damper_force(), resumed.damper_force());
   EXPECT_EQ(whole.energy_residual(), resumed.energy_residual());
-  EXPECT_EQ(whole.number_of_steps(), resumed.number_of_steps());
+  EXPECT_EQ(whole.step_count(), resumed.step_count());
 }
 
 TEST(LeverTable, ThinLeversSpragSlipUnderATable)

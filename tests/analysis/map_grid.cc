@@ -34,14 +34,14 @@ namespace
              const Kind &forward, const Kind &backward)
   {
     Found found{ MapGrid(points[0], points[1], coarsest), {}, {}, 0 };
-    for (auto sites = found.grid.wanted(); !sites.empty(); sites = found.grid.wanted())
+    for (auto sites = found.grid.next_sites(); !sites.empty(); sites = found.grid.next_sites())
     {
       judge(sites, forward, backward, found.known);
       found.grid.learn(found.known);
     }
     found.on_grid = found.known.size();
     BoundarySearch search(found.grid, bisections);
-    for (auto sites = search.wanted(); !sites.empty(); sites = search.wanted())
+    for (auto sites = search.next_sites(); !sites.empty(); sites = search.next_sites())
     {
       for (const auto &site : sites)
         found.known.insert({ site, { { forward(site.first, site.second), backward(site.first, site.second) } } });

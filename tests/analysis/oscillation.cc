@@ -53,7 +53,7 @@ namespace
     return [=](const double time) { return amplitude * std::exp(growth * time) * std::cos(2. * pi * frequency * time + 0.3); };
   }
 
-  Oscillation of(const std::vector<Row> &rows)
+  Oscillation find_oscillation(const std::vector<Row> &rows)
   {
     return oscillations(rows, there_and_back()).at(0);
   }
@@ -114,7 +114,7 @@ TEST(Oscillation, FrequencyAndGrowthFromUnequalSteps)
   for (const double step : { 1e-5, 5e-5, 2e-4 })
     for (const double growth : { -100., -45., -5. })
     {
-      const auto found = of(rows_with(sinusoid(8., 290., growth), there_and_back(), step));
+      const auto found = find_oscillation(rows_with(sinusoid(8., 290., growth), there_and_back(), step));
       EXPECT_NEAR(found.frequency, 290., 0.29) << step << ' ' << growth;
       EXPECT_NEAR(found.frequency_Q, 290., 0.29) << step << ' ' << growth;
       EXPECT_NEAR(found.growth_rate, growth, 0.01 * std::abs(growth)) << step;
@@ -129,7 +129,7 @@ TEST(Oscillation, KeepsContactAndSupportApart)
   for (auto &row : rows)
     if (row[Column::time] > turn)
       row[Column::Q_support] = quasi_static_Q + sinusoid(3., 150., -20.)(row[Column::time] - turn);
-  const auto found = of(rows);
+  const auto found = find_oscillation(rows);
   EXPECT_NEAR(found.frequency_Q, 290., 0.29);
   EXPECT_NEAR(found.frequency_Q_support, 150., 0.15);
   EXPECT_NEAR(found.overshoot_P, 8. * std::exp(-20. * (1. - 0.3 / 2. / pi) / 290.) / quasi_static_P, 1e-3);
@@ -141,7 +141,7 @@ TEST(Oscillation, KeepsContactAndSupportApart)
 
 TEST(Oscillation, WhatDecays)
 {
-  const auto found = of(rows_with(sinusoid(8., 290., -60.)));
+  const auto found = find_oscillation(rows_with(sinusoid(8., 290., -60.)));
   EXPECT_EQ(found.verdict, Verdict::decays);
   EXPECT_EQ(found.open_share, 0.);
   EXPECT_EQ(found.time, there_and_back().reversals().front());
@@ -154,7 +154,7 @@ TEST(Oscillation, WhatDecays)
 
 TEST(Oscillation, WhatVibratesLosesContact)
 {
-  const auto found = of(rows_with(sinusoid(40., 290., 0.)));
+  const auto found = find_oscillation(rows_with(sinusoid(40., 290., 0.)));
   EXPECT_EQ(found.verdict, Verdict::vibrates);
   EXPECT_NEAR(found.open_share, std::acos(25. / 40.) / pi, 2e-3);
   EXPECT_NEAR(found.frequency, 290., 0.29);
@@ -165,14 +165,14 @@ TEST(Oscillation, WhatVibratesLosesContact)
 
 TEST(Oscillation, WhatRings)
 {
-  const auto found = of(rows_with(sinusoid(8., 290., -1.)));
+  const auto found = find_oscillation(rows_with(sinusoid(8., 290., -1.)));
   EXPECT_EQ(found.verdict, Verdict::rings);
   EXPECT_NEAR(found.rms_end, 8. * std::exp(-0.095) / std::sqrt(2.), 0.1);
 }
 
 TEST(Oscillation, WhatGrowsIsSaidToGrow)
 {
-  const auto found = of(rows_with(sinusoid(1., 290., 15.)));
+  const auto found = find_oscillation(rows_with(sinusoid(1., 290., 15.)));
   EXPECT_EQ(found.verdict, Verdict::grows);
   EXPECT_GT(found.growth_rate, 0.);
 }
@@ -192,7 +192,7 @@ TEST(Oscillation, VerdictsDoNotDependOnTheUnitOfForce)
       for (auto &row : rows)
         for (const auto column : { Column::P, Column::Q, Column::Q_support, Column::P_quasi_static, Column::Q_quasi_static })
           row[column] *= unit;
-      const auto found = of(rows);
+      const auto found = find_oscillation(rows);
       EXPECT_EQ(found.verdict, verdict) << verdict_name(verdict) << ' ' << unit;
       EXPECT_NEAR(found.scale, unit * quasi_static_P, 1e-9 * unit);
     }
@@ -229,7 +229,8 @@ TEST(Oscillation, ElementsThatPassAreNoRinging)
 TEST(Oscillation, LivesUntilItsEnvelopeIsLow)
 {
   const double lifetime = 0.27;
-  const auto found      = of(rows_with([&](const double time) { return time < lifetime ? sinusoid(20., 290., 0.)(time) : 0.; }));
+  const auto found =
+      find_oscillation(rows_with([&](const double time) { return time < lifetime ? sinusoid(20., 290., 0.)(time) : 0.; }));
   EXPECT_NEAR(found.extent, 65. - there_and_back().at(found.window_begin + lifetime).x, 112. * 0.5 / 290.);
 }
 
@@ -246,7 +247,7 @@ TEST(Oscillation, FrictionThatTurnsIsNoOvershoot)
       if (time >= 0.)
         row[Column::P] = quasi_static_P + (time < 4e-3 ? 30. * (1. - time / 4e-3) : time < 5e-3 ? -1. : time < 6e-3 ? peak : 0.);
     }
-    return of(rows).overshoot_P;
+    return find_oscillation(rows).overshoot_P;
   };
   const double reversal_ended = 30. * (1. - duration / 2. / 4e-3);
   EXPECT_NEAR(with_peak(0.5), reversal_ended / quasi_static_P, 0.02);
@@ -260,12 +261,12 @@ TEST(Oscillation, FirstPeakCountsWithinTheReversal)
   for (auto &row : rows)
     if (const double time = row[Column::time] - turn; time >= 0. && time < 2e-3)
       row[Column::P] = quasi_static_P + (time < 1e-3 ? -10. : 6.);
-  EXPECT_NEAR(of(rows).overshoot_P, 6. / quasi_static_P, 1e-12);
+  EXPECT_NEAR(find_oscillation(rows).overshoot_P, 6. / quasi_static_P, 1e-12);
 }
 
 TEST(Oscillation, ContactOpenAllTheTime)
 {
-  const auto found = of(rows_with([](double) { return -100.; }));
+  const auto found = find_oscillation(rows_with([](double) { return -100.; }));
   EXPECT_EQ(found.open_share, 1.);
   EXPECT_EQ(found.overshoot_P, 0.);
   EXPECT_TRUE(std::isnan(found.frequency));
@@ -275,7 +276,7 @@ TEST(Oscillation, ContactOpenAllTheTime)
 
 TEST(Oscillation, NothingToTell)
 {
-  const auto calm = of(rows_with([](double) { return 0.; }));
+  const auto calm = find_oscillation(rows_with([](double) { return 0.; }));
   EXPECT_EQ(calm.verdict, Verdict::decays);
   EXPECT_EQ(calm.extent, 0.);
   EXPECT_EQ(calm.rms, 0.);
@@ -288,7 +289,7 @@ TEST(Oscillation, NothingToTell)
   killed.resize(killed.size() / 4);
   for (const auto &rows : { unknown, killed, std::vector<Row>(), std::vector<Row>(1) })
   {
-    const auto found = of(rows);
+    const auto found = find_oscillation(rows);
     EXPECT_EQ(found.verdict, Verdict::unknown);
     for (const double value : { found.frequency, found.growth_rate, found.open_share, found.overshoot_P, found.overshoot_Q,
                                 found.rms, found.rms_end, found.rms_Q, found.extent })
@@ -301,7 +302,7 @@ TEST(Oscillation, RowsWithoutQuasiStaticValueAreLeftOut)
   auto rows = rows_with(sinusoid(8., 290., -45.));
   for (std::size_t i = 0; i < rows.size(); i += 7)
     rows[i][Column::P_quasi_static] = std::numeric_limits<double>::quiet_NaN();
-  const auto found = of(rows);
+  const auto found = find_oscillation(rows);
   EXPECT_NEAR(found.frequency, 290., 0.29);
   EXPECT_NEAR(found.growth_rate, -45., 0.45);
 }

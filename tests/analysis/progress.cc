@@ -2,8 +2,8 @@
 #include "analysis/statics/quasi_static.h"
 #include "analytic/step_clock.h"
 #include "base/errors.h"
-#include "model/kept_tangent.h"
 #include "model/state_archive.h"
+#include "model/stored_jacobian.h"
 #include "results/row_archive.h"
 #include "scene/scene.h"
 #include "toy_model.h"
@@ -30,12 +30,12 @@ namespace
 
   using Vector = dealii::Vector<double>;
 
-  Vector vector_of(const std::vector<double> &values)
+  Vector make_vector(const std::vector<double> &values)
   {
     return Vector(values.begin(), values.end());
   }
 
-  DrivePoint drive_of(const double first)
+  DrivePoint make_drive_point(const double first)
   {
     return { first, first + 1., first + 2., first + 3., first + 4. };
   }
@@ -53,7 +53,7 @@ namespace
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Plain)) == 0);
   }
 
-  std::vector<ContactMemory> memory_of(const double first)
+  std::vector<ContactMemory> make_history(const double first)
   {
     std::vector<ContactMemory> result(2);
     std::memset(static_cast<void *>(result.data()), 0, 2 * sizeof(ContactMemory)); // padding is compared as well
@@ -71,12 +71,12 @@ namespace
     return result;
   }
 
-  PortLoads loads_of(const double first)
+  PortLoads make_loads(const double first)
   {
-    return { { 3, 7 }, vector_of({ first, -first }) };
+    return { { 3, 7 }, make_vector({ first, -first }) };
   }
 
-  Row row_of(const double first)
+  Row make_row(const double first)
   {
     Row row, second;
     for (std::size_t i = 0; i < n_columns; ++i)
@@ -166,16 +166,19 @@ namespace
 
 TEST(Archive, KeepsEveryField)
 {
-  const auto loads  = loads_of(2.);
-  const auto memory = memory_of(100.);
+  const auto loads  = make_loads(2.);
+  const auto memory = make_history(100.);
   PointMemory<2> on_surface;
   on_surface.traction = dealii::Tensor<1, 2>({ 0.1, -0.2 });
   on_surface.point    = 7;
   const dealii::FullMatrix<double> matrix(1, 1, std::array<double, 1>{ { -3. } }.data());
-  const Motion motion{
-    drive_of(1.),   { vector_of({ 1., 2. }), vector_of({ 3. }), vector_of({ 4., 5., 6. }) }, vector_of({ 7., 8. }), memory, loads,
-    { on_surface }, std::make_shared<const KeptTangent>(KeptTangent{ { 5 }, matrix })
-  };
+  const Motion motion{ make_drive_point(1.),
+                       { make_vector({ 1., 2. }), make_vector({ 3. }), make_vector({ 4., 5., 6. }) },
+                       make_vector({ 7., 8. }),
+                       memory,
+                       loads,
+                       { on_surface },
+                       std::make_shared<const StoredJacobian>(StoredJacobian{ { 5 }, matrix }) };
   {
     const auto &[drive, coordinates, face_force, contact, forces, surface_contact, tangent] = restored(motion);
     ASSERT_NE(tangent, nullptr);
@@ -193,7 +196,7 @@ TEST(Archive, KeepsEveryField)
     ASSERT_EQ(surface_contact.size(), 1u);
     EXPECT_EQ(surface_contact[0].traction, on_surface.traction);
   }
-  const State state{ drive_of(3.), vector_of({ 9., -0. }), memory, loads, { on_surface } };
+  const State state{ make_drive_point(3.), make_vector({ 9., -0. }), memory, loads, { on_surface } };
   {
     const auto &[drive, coordinates, contact, forces, surface_contact] = restored(state);
     ASSERT_EQ(surface_contact.size(), 1u);
@@ -217,7 +220,7 @@ TEST(Archive, KeepsEveryField)
     EXPECT_EQ(traction_2, face.traction_2);
     EXPECT_EQ(traction_across_2, face.traction_across_2);
   }
-  PortForces forces{ { 1, 4 }, vector_of({ 2., 3. }), dealii::FullMatrix<double>(2, 2) };
+  PortForces forces{ { 1, 4 }, make_vector({ 2., 3. }), dealii::FullMatrix<double>(2, 2) };
   forces.tangent(0, 1) = 5.;
   forces.tangent(1, 0) = -6.;
   {
@@ -227,7 +230,7 @@ TEST(Archive, KeepsEveryField)
     EXPECT_EQ(values, forces.values);
     EXPECT_TRUE(tangent == forces.tangent);
   }
-  EXPECT_TRUE(same_rows(restored(row_of(1000.)), row_of(1000.)));
+  EXPECT_TRUE(same_rows(restored(make_row(1000.)), make_row(1000.)));
   {
     const LedgerReport report{ 1., 2., 3., "friction" };
     const auto &[residual, largest_work, time, term] = restored(report);
@@ -250,21 +253,21 @@ TEST(Archive, LedgerAndClockGoOn)
     StepClock clock_again(Drive(), 1., 0);
     Archive back(archive.bytes());
     back(ledger_again, clock_again);
-    const auto step = [&](EnergyLedger &of, StepClock &by)
+    const auto step = [&](EnergyLedger &energies, StepClock &by)
     {
       if (i % 5 == 1)
         by.halve();
       if (i % 3 == 2)
         by.grow();
-      const double t = by.end_of_step();
-      of.add(t, { t, std::sin(40. * t), t * t, 1. - t, 0.2, 0.1 * t }, { std::cos(30. * t), t, 0.1, 0.2, 0.3 });
+      const double t = by.step_end();
+      energies.add(t, { t, std::sin(40. * t), t * t, 1. - t, 0.2, 0.1 * t }, { std::cos(30. * t), t, 0.1, 0.2, 0.3 });
       by.advance();
       Row row;
-      of.fill(row);
-      row[Column::x] = of.report().residual;
-      row[Column::P] = of.report().largest_work;
-      row[Column::Q] = of.report().time;
-      row[Column::v] = static_cast<double>(of.report().term.size());
+      energies.fill(row);
+      row[Column::x] = energies.report().residual;
+      row[Column::P] = energies.report().largest_work;
+      row[Column::Q] = energies.report().time;
+      row[Column::v] = static_cast<double>(energies.report().term.size());
       row[Column::s] = by.finished() ? 0. : by.duration();
       return row;
     };

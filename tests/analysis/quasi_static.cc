@@ -13,7 +13,7 @@ using namespace sprag;
 
 namespace
 {
-  QuasiStaticSettings steps_of(const double step)
+  QuasiStaticSettings make_settings(const double step)
   {
     QuasiStaticSettings settings;
     settings.step         = step;
@@ -41,7 +41,7 @@ TEST(QuasiStatic, CutsStepsBackWhereTheyFailAndLetsThemGrowAgain)
 {
   ToyModel model;
   model.fails     = fails_if_long_near_the_middle;
-  const auto rows = run(model, one_way, steps_of(1.));
+  const auto rows = run(model, one_way, make_settings(1.));
   EXPECT_EQ(rows.front()[Column::x], 0.);
   EXPECT_EQ(rows.back()[Column::x], 20.);
   double shortest = 1.;
@@ -64,7 +64,7 @@ TEST(QuasiStatic, RejectedStepsLeaveNoTraceInTheHistory)
 {
   ToyModel model;
   model.fails     = fails_if_long_near_the_middle;
-  const auto rows = run(model, one_way, steps_of(1.));
+  const auto rows = run(model, one_way, make_settings(1.));
   EXPECT_TRUE(model.history_intact);
   EXPECT_EQ(rows.back()[Column::x], 20.);
 }
@@ -76,7 +76,7 @@ TEST(QuasiStatic, BalancedStatesThatTheModelObjectsToAreRejected)
   std::vector<Row> rows;
   try
   {
-    run_quasi_static(model, one_way, steps_of(1.),
+    run_quasi_static(model, one_way, make_settings(1.),
                      [&](const State &, const Row &row, const Evaluation &) { rows.push_back(row); });
     FAIL() << "went on";
   }
@@ -97,7 +97,7 @@ TEST(QuasiStatic, GivesUpNamingThePlaceAndKeepsWhatIsDone)
   std::string message;
   try
   {
-    run_quasi_static(model, one_way, steps_of(1.),
+    run_quasi_static(model, one_way, make_settings(1.),
                      [&](const State &state, const Row &row, const Evaluation &)
                      {
                        rows.push_back(row);
@@ -121,7 +121,7 @@ TEST(QuasiStatic, WorkOfTheDriveIsTheIntegralOfQ)
 {
   ToyModel model;
   const Drive there_and_back(DriveProfile::triangle, 0., 20., 1., 1.);
-  const auto rows = run(model, there_and_back, steps_of(1.));
+  const auto rows = run(model, there_and_back, make_settings(1.));
   const auto turn = std::find_if(rows.begin(), rows.end(), [](const Row &row) { return row[Column::x] == 20.; });
   // Q = x: the trapezoidal rule is exact.
   ASSERT_NE(turn, rows.end());

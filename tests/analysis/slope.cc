@@ -61,9 +61,9 @@ namespace
 
 TEST(SlopeOverCoefficient, StartsAtZeroAndEndsAtTheMaximum)
 {
-  Scene scene                  = model_a();
-  scene.slope.number_of_points = 13;
-  const auto sweep             = slope_sweep(scene);
+  Scene scene          = model_a();
+  scene.slope.n_points = 13;
+  const auto sweep     = slope_sweep(scene);
   EXPECT_EQ(names(sweep), (std::vector<std::string>{ "mu", "slope_forward", "slope_backward", "dimensionless_forward",
                                                      "dimensionless_backward" }));
   ASSERT_EQ(sweep.rows.size(), 13u);

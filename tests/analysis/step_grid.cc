@@ -11,7 +11,7 @@ using namespace sprag;
 namespace
 {
   /// Takes steps of random length through spans of 0.01 s and returns their durations.
-  std::set<double> durations_of(StepGrid grid)
+  std::set<double> step_durations(StepGrid grid)
   {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> exponent(-12., 0.);
@@ -24,10 +24,10 @@ namespace
       grid.begin(time, end, 5e-4);
       for (double last = time; !grid.is_finished(); last = time)
       {
-        const double wanted = 5e-4 * std::exp2(exponent(random));
-        grid.choose(wanted);
-        EXPECT_LE(grid.duration(), wanted * (1. + 1e-6));
-        time = grid.end_of_step();
+        const double target = 5e-4 * std::exp2(exponent(random));
+        grid.choose(target);
+        EXPECT_LE(grid.duration(), target * (1. + 1e-6));
+        time = grid.step_end();
         EXPECT_NEAR(time - last, grid.duration(), 1e-8 * grid.duration() + 1e-15);
         durations.insert(grid.duration());
         grid.advance();
@@ -42,9 +42,9 @@ namespace
 TEST(StepGrid, StepsOfAnyLengthMeetTheEndInFewDurations)
 {
   StepGrid grid;
-  EXPECT_LE(durations_of(grid).size(), 26u); // 1, 2, 3, 4, 6, 8 ... 4096, 6144 parts
+  EXPECT_LE(step_durations(grid).size(), 26u); // 1, 2, 3, 4, 6, 8 ... 4096, 6144 parts
   grid.use_halves_alone();
-  EXPECT_LE(durations_of(grid).size(), 14u); // 1, 2, 4, 8 ... 8192 parts
+  EXPECT_LE(step_durations(grid).size(), 14u); // 1, 2, 4, 8 ... 8192 parts
 }
 
 TEST(StepGrid, AnUnfinishedSpanGoesOn)
@@ -52,7 +52,7 @@ TEST(StepGrid, AnUnfinishedSpanGoesOn)
   StepGrid grid;
   grid.begin(0., 1., 0.5);
   grid.choose(0.5);
-  EXPECT_DOUBLE_EQ(grid.end_of_step(), 0.5);
+  EXPECT_DOUBLE_EQ(grid.step_end(), 0.5);
   grid.advance();
   EXPECT_FALSE(grid.needs_span(1.));
   EXPECT_TRUE(grid.needs_span(0.9));

@@ -17,11 +17,11 @@ namespace
 
   const Messages study = { "Analysis/Type=study", "Study/Type=transient", "Analysis/Model=beam" };
 
-  std::vector<Messages> values_of(const Messages &overrides)
+  std::vector<Messages> varied_values(const Messages &overrides)
   {
-    const Scene scene = scene_of(overrides);
+    const Scene scene = make_scene(overrides);
     std::vector<Messages> values;
-    for (const auto &point : points_of(scene.study))
+    for (const auto &point : make_study_points(scene.study))
       values.push_back(values_at(scene.study, point));
     return values;
   }
@@ -60,20 +60,20 @@ namespace
 
 TEST(StudyPoints, OfAGridTheLastParameterRunsFastest)
 {
-  EXPECT_EQ(values_of(with(study, "Study/Vary=Lever/Depth = 10, 20; Contact/Exponent = 1, 1.5")),
+  EXPECT_EQ(varied_values(with(study, "Study/Vary=Lever/Depth = 10, 20; Contact/Exponent = 1, 1.5")),
             (std::vector<Messages>{ { "10", "1" }, { "10", "1.5" }, { "20", "1" }, { "20", "1.5" } }));
 }
 
 TEST(StudyPoints, OfAListAllRunTogether)
 {
   const auto list = with(study, "Study/Combine=list");
-  EXPECT_EQ(values_of(with(list, "Study/Vary=Lever/Depth = 10, 20; Contact/Exponent = 1, 1.5")),
+  EXPECT_EQ(varied_values(with(list, "Study/Vary=Lever/Depth = 10, 20; Contact/Exponent = 1, 1.5")),
             (std::vector<Messages>{ { "10", "1" }, { "20", "1.5" } }));
 }
 
 TEST(StudyPoints, ARunIsTheSceneWithItsValues)
 {
-  const Scene scene = scene_of(with(study, "Study/Vary=Lever/Depth = 10, 20; Drive/Speed = 50"));
+  const Scene scene = make_scene(with(study, "Study/Vary=Lever/Depth = 10, 20; Drive/Speed = 50"));
   const Scene run   = scene_at(scene, { 1, 0 });
   EXPECT_EQ(run.analysis.type, AnalysisType::transient);
   EXPECT_EQ(run.lever.depth, 20.);
@@ -84,7 +84,7 @@ TEST(StudyPoints, ARunIsTheSceneWithItsValues)
 // As with --set: whoever gives a step has fixed ones.
 TEST(StudyPoints, AStepWithoutAToleranceIsFixed)
 {
-  const auto tolerance = [](const Messages &overrides) { return scene_at(scene_of(overrides), { 0 }).time.tolerance; };
+  const auto tolerance = [](const Messages &overrides) { return scene_at(make_scene(overrides), { 0 }).time.tolerance; };
   EXPECT_EQ(tolerance(with(study, "Study/Vary=Time/Step = 1e-5, 2e-5")), 0.);
   EXPECT_EQ(tolerance(with(with(study, "Time/Tolerance=1e-3"), "Study/Vary=Time/Step = 1e-5, 2e-5")), 1e-3);
   EXPECT_EQ(tolerance(with(study, "Study/Vary=Lever/Depth = 10, 20")), 5e-3);
@@ -92,16 +92,16 @@ TEST(StudyPoints, AStepWithoutAToleranceIsFixed)
 
 TEST(StudyPoints, ASceneThatIsRefusedSaysWhy)
 {
-  const Scene scene = scene_of(with(study, "Study/Vary=Lever/Length = 210, 100"));
+  const Scene scene = make_scene(with(study, "Study/Vary=Lever/Length = 210, 100"));
   EXPECT_NO_THROW(scene_at(scene, { 0 }));
   EXPECT_THROW(scene_at(scene, { 1 }), InputError);
 }
 
 TEST(StudyPoints, TheReferenceHasTheSceneAndItsOwnSettings)
 {
-  const Scene scene = scene_of(with(with(study, "Study/Vary=Lever/Depth = 10"), "Study/Reference=Contact/Exponent = 1.5"));
-  EXPECT_EQ(scene_of_reference(scene).contact.exponent, 1.5);
-  EXPECT_EQ(scene_of_reference(scene).lever.depth, 20.);
+  const Scene scene = make_scene(with(with(study, "Study/Vary=Lever/Depth = 10"), "Study/Reference=Contact/Exponent = 1.5"));
+  EXPECT_EQ(reference_scene(scene).contact.exponent, 1.5);
+  EXPECT_EQ(reference_scene(scene).lever.depth, 20.);
 }
 
 TEST(Trade, OnTheFrontNobodyCheaperIsAsExact)
@@ -162,14 +162,14 @@ TEST(Measures, AreThoseThatTheReferenceKnows)
   const Comparable reference = { { number("peak_P_forward", 10.), number("peak_P_backward", -20.), number("peak_Q_forward", 0.),
                                    number("reversal_1_frequency", none), number("reversal_2_frequency", 100.) },
                                  {} };
-  const auto measures        = measures_of(AnalysisType::transient, reference);
+  const auto measures        = make_measures(AnalysisType::transient, reference);
   ASSERT_EQ(measures.size(), 2u);
   EXPECT_EQ(measures[0].name, "peak_P");
   EXPECT_EQ(measures[1].name, "frequency");
   const Comparable run = {
     { number("peak_P_forward", 10.1), number("peak_P_backward", -19.), number("reversal_1_frequency", 3.) }, {}
   };
-  const auto errors = errors_of(AnalysisType::transient, run, reference);
+  const auto errors = compute_errors(AnalysisType::transient, run, reference);
   EXPECT_NEAR(errors.at(0), 0.05, 1e-14);
   EXPECT_TRUE(std::isnan(errors.at(1))); // the run does not know it
 }
@@ -183,7 +183,7 @@ TEST(StudyTrade, OfASmallTable)
   StudyRecords records      = { { 0, completed(0, 4., 101.) },   { 1, completed(1, 2., 104.) }, { 2, completed(2, 1., 84.) },
                                 { 3, completed(3, 3., 100.05) }, { 4, completed(4, 0.1, 1.) },  { 6, completed(6, 60., 100.) } };
   records[4].outcome        = RunOutcome::failed;
-  const auto trade          = trade_of(settings, points_of(settings), records);
+  const auto trade          = compute_trade(settings, make_study_points(settings), records);
   ASSERT_EQ(trade.measured.size(), 1u);
   const auto &measured = trade.measured.front();
   EXPECT_EQ(measured.measure.name, "loop_area");
@@ -211,7 +211,8 @@ TEST(StudyTrade, RecommendsNoneThatIsExactByChance)
                              { 2, completed(2, 1., 103.) },
                              { 3, completed(3, 0.5, 100.) },
                              { 4, completed(4, 60., 100.) } };
-  const auto recommended = [&] { return trade_of(settings, points_of(settings), records).measured.front().recommended; };
+  const auto recommended = [&]
+  { return compute_trade(settings, make_study_points(settings), records).measured.front().recommended; };
   EXPECT_EQ(recommended()[0], 3u);
   EXPECT_EQ(recommended()[1], 0u);
   EXPECT_EQ(recommended()[2], 0u);
@@ -225,11 +226,11 @@ TEST(StudyTrade, IsNoneWithoutAReferenceThatIsCompleted)
   StudySettings settings;
   settings.varied      = { { "Mesh/Face size", { "1", "2" } } };
   StudyRecords records = { { 0, completed(0, 4., 101.) }, { 2, completed(2, 60., 100.) } };
-  EXPECT_FALSE(trade_of(settings, points_of(settings), records).measured.empty());
+  EXPECT_FALSE(compute_trade(settings, make_study_points(settings), records).measured.empty());
   records[2].outcome = RunOutcome::failed;
-  EXPECT_TRUE(trade_of(settings, points_of(settings), records).measured.empty());
+  EXPECT_TRUE(compute_trade(settings, make_study_points(settings), records).measured.empty());
   records.erase(2);
-  EXPECT_TRUE(trade_of(settings, points_of(settings), records).measured.empty());
+  EXPECT_TRUE(compute_trade(settings, make_study_points(settings), records).measured.empty());
 }
 
 TEST(StudyRecord, IsGivenBackByItsLine)
@@ -246,9 +247,9 @@ TEST(StudyRecord, IsGivenBackByItsLine)
   record.warnings      = { "one", "" };
   record.found.summary = { { "P", none, "N", "of\tthe slide" }, { "verdict", std::string("flutter \\n"), "", "" } };
   record.found.curve   = there_and_back({ 0., 1. / 3. }, { 0. });
-  const auto line      = line_of(record);
+  const auto line      = to_line(record);
   EXPECT_EQ(line.find('\n'), std::string::npos);
-  const auto again = record_of(line);
+  const auto again = parse_record(line);
   EXPECT_EQ(again.run, record.run);
   EXPECT_EQ(again.outcome, record.outcome);
   EXPECT_EQ(again.reason, record.reason);
@@ -264,5 +265,5 @@ TEST(StudyRecord, IsGivenBackByItsLine)
   EXPECT_EQ(std::get<std::string>(again.found.summary[1].value), "flutter \\n");
   ASSERT_EQ(again.found.curve.size(), 3u);
   EXPECT_EQ(again.found.curve[1].x, 1. / 3.);
-  EXPECT_EQ(line_of(again), line);
+  EXPECT_EQ(to_line(again), line);
 }

@@ -65,7 +65,7 @@ namespace sprag
       return result;
     }
 
-    std::string objection(const State &state, const Evaluation &) const override
+    std::string check_validity(const State &state, const Evaluation &) const override
     {
       return objects(state.drive.x);
     }
@@ -97,7 +97,7 @@ namespace sprag
 
     static const Found &found_in(const Evaluation &evaluation)
     {
-      return std::any_cast<const Found &>(evaluation.of_model);
+      return std::any_cast<const Found &>(evaluation.model_data);
     }
   };
 } // namespace sprag

@@ -17,11 +17,11 @@ using namespace sprag;
 namespace
 {
   /// Ends of the steps that a clock makes if left alone.
-  std::vector<double> ends_of(StepClock clock)
+  std::vector<double> step_ends(StepClock clock)
   {
     std::vector<double> result;
     for (; !clock.finished(); clock.advance())
-      result.push_back(clock.end_of_step());
+      result.push_back(clock.step_end());
     return result;
   }
 
@@ -145,7 +145,7 @@ namespace
                       [](const double one, const double other) { return same_bits(one, other); });
   }
 
-  std::vector<double> columns_of(const Row &row)
+  std::vector<double> column_values(const Row &row)
   {
     std::vector<double> result;
     for (std::size_t i = 0; i < n_columns; ++i)
@@ -155,7 +155,7 @@ namespace
 
   bool same_bits(const Row &a, const Row &b)
   {
-    return same_bits(columns_of(a), columns_of(b)) && same_bits(a.sensor_forces, b.sensor_forces) &&
+    return same_bits(column_values(a), column_values(b)) && same_bits(a.sensor_forces, b.sensor_forces) &&
            same_bits(a.second_lever(), b.second_lever());
   }
 
@@ -202,7 +202,7 @@ namespace
 TEST(StepClock, EndsAStepOnEveryKink)
 {
   const Drive drive(DriveProfile::triangle, 0., 65., 112., 1., 5e-3);
-  const auto ends = ends_of(StepClock(drive, 5e-5, 0));
+  const auto ends = step_ends(StepClock(drive, 5e-5, 0));
   ASSERT_GE(drive.kinks().size(), 3u);
   for (const double kink : drive.kinks())
     EXPECT_NE(std::find(ends.begin(), ends.end(), kink), ends.end()) << kink;
@@ -217,10 +217,10 @@ TEST(StepClock, DividesEverySegmentEquallyIntoStepsNoLongerThanAsked)
     for (StepClock clock(drive, step, 0); !clock.finished(); clock.advance())
     {
       EXPECT_LE(clock.duration(), step * (1. + 1e-6));
-      const auto kink = std::upper_bound(drive.kinks().begin(), drive.kinks().end(), clock.end_of_step() - 1e-12);
+      const auto kink = std::upper_bound(drive.kinks().begin(), drive.kinks().end(), clock.step_end() - 1e-12);
       const double to = kink == drive.kinks().end() ? drive.duration() : *kink;
       // A whole number of steps to the next kink, to the round-off of times.
-      const double left = (to - clock.end_of_step()) / clock.duration();
+      const double left = (to - clock.step_end()) / clock.duration();
       EXPECT_NEAR(left, std::round(left), 1e-9 * std::max(1., left));
     }
 }
@@ -252,7 +252,7 @@ TEST(StepClock, HalvesWithoutMovingWhatIsBehindAndDoublesOnlyInStepWithTheWholeS
   const double whole = clock.duration();
   clock.advance();
   clock.halve();
-  EXPECT_NEAR(clock.end_of_step(), 1.5 * whole, 1e-15);
+  EXPECT_NEAR(clock.step_end(), 1.5 * whole, 1e-15);
   clock.advance();
   clock.grow(); // half a step along: not yet
   EXPECT_EQ(clock.duration(), 0.5 * whole);
@@ -266,7 +266,7 @@ TEST(StepClock, HalvesWithoutMovingWhatIsBehindAndDoublesOnlyInStepWithTheWholeS
   EXPECT_LE(clock.duration(), 16. * whole);
   while (!clock.finished())
   {
-    EXPECT_LE(clock.end_of_step(), drive.duration());
+    EXPECT_LE(clock.step_end(), drive.duration());
     clock.advance();
   }
 }

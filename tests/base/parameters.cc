@@ -49,10 +49,10 @@ namespace
 
   using Messages = std::vector<std::string>;
 
-  ParameterValues values_of(const std::map<std::string, Setting> &given)
+  ParameterValues to_values(const std::map<std::string, Setting> &specified)
   {
     ParameterValues values;
-    for (const auto &[name, setting] : given)
+    for (const auto &[name, setting] : specified)
       values[name] = setting.value;
     return values;
   }
@@ -76,12 +76,12 @@ TEST(Parameters, GivenValuesAreReadWithTheirPlaces)
                              "  set Table = a b/c=d.csv\n"
                              "END\n");
   EXPECT_TRUE(settings.mistakes.empty());
-  ASSERT_EQ(settings.given.size(), 3u);
-  EXPECT_EQ(settings.given.at("Geometry/Cylinder radius").value, "21.1");
-  EXPECT_EQ(settings.given.at("Geometry/Cylinder radius").place, settings.file + ":3");
-  EXPECT_EQ(settings.given.at("Drive/Profile").value, "harmonic");
-  EXPECT_EQ(settings.given.at("Drive/Profile").place, settings.file + ":6");
-  EXPECT_EQ(settings.given.at("Drive/Table").value, "a b/c=d.csv");
+  ASSERT_EQ(settings.specified.size(), 3u);
+  EXPECT_EQ(settings.specified.at("Geometry/Cylinder radius").value, "21.1");
+  EXPECT_EQ(settings.specified.at("Geometry/Cylinder radius").place, settings.file + ":3");
+  EXPECT_EQ(settings.specified.at("Drive/Profile").value, "harmonic");
+  EXPECT_EQ(settings.specified.at("Drive/Profile").place, settings.file + ":6");
+  EXPECT_EQ(settings.specified.at("Drive/Table").value, "a b/c=d.csv");
 }
 
 TEST(Parameters, OverridesCountMoreThanTheFileAndLaterOnesMost)
@@ -89,9 +89,9 @@ TEST(Parameters, OverridesCountMoreThanTheFileAndLaterOnesMost)
   const auto settings = read("subsection Geometry\n set Pivot height = 1\nend\n",
                              { "Geometry/Pivot height=2", "Geometry/Pivot height = 3", "Drive/Table=a=b/c" });
   EXPECT_TRUE(settings.mistakes.empty());
-  EXPECT_EQ(settings.given.at("Geometry/Pivot height").value, "3");
-  EXPECT_EQ(settings.given.at("Geometry/Pivot height").place, "--set");
-  EXPECT_EQ(settings.given.at("Drive/Table").value, "a=b/c");
+  EXPECT_EQ(settings.specified.at("Geometry/Pivot height").value, "3");
+  EXPECT_EQ(settings.specified.at("Geometry/Pivot height").place, "--set");
+  EXPECT_EQ(settings.specified.at("Drive/Table").value, "a=b/c");
 }
 
 TEST(Parameters, UnknownNamesAreReportedWithTheNearest)
@@ -118,17 +118,17 @@ TEST(Parameters, NumbersMayHaveUnitsThatAreConverted)
                              "subsection Friction\n set Coefficient = 73%\nend\n"
                              "subsection Mesh\n set Penalty = 2 GPa/m\n set Ratios = 5 %, 0.1\nend\n");
   EXPECT_TRUE(settings.mistakes.empty()) << settings.mistakes[0];
-  const auto values = values_of(settings.given);
+  const auto values = to_values(settings.specified);
   EXPECT_EQ(values.at("Geometry/Cylinder radius"), "56");
   EXPECT_EQ(values.at("Geometry/Pivot height"), "-25.4");
   EXPECT_EQ(values.at("Friction/Coefficient"), "0.73");
   EXPECT_EQ(values.at("Mesh/Penalty"), "2");
   EXPECT_EQ(values.at("Mesh/Ratios"), "0.05, 0.1");
-  EXPECT_EQ(settings.given.at("Geometry/Cylinder radius").written, "5.6 cm");
+  EXPECT_EQ(settings.specified.at("Geometry/Cylinder radius").written, "5.6 cm");
 
   const auto text = parameters_text(declared(), values, { { "Geometry/Cylinder radius", "5.6 cm" } });
   EXPECT_NE(text.find("set Cylinder radius = 56    # given as 5.6 cm\n"), std::string::npos) << text;
-  EXPECT_EQ(values_of(read(text).given).at("Geometry/Cylinder radius"), "56");
+  EXPECT_EQ(to_values(read(text).specified).at("Geometry/Cylinder radius"), "56");
 }
 
 TEST(Parameters, UnitsOfAnotherDimensionAreRefused)
@@ -168,7 +168,7 @@ TEST(Parameters, AByteOrderMarkIsPassedOver)
 {
   const auto settings = read("\xEF\xBB\xBFsubsection Mesh\n set Degree = 1\nend\n");
   EXPECT_TRUE(settings.mistakes.empty()) << settings.mistakes[0];
-  EXPECT_EQ(settings.given.at("Mesh/Degree").value, "1");
+  EXPECT_EQ(settings.specified.at("Mesh/Degree").value, "1");
 }
 
 TEST(Parameters, NumbersMustBeFiniteAndInRange)
@@ -258,23 +258,23 @@ TEST(Parameters, OverridesComeOnTopOfValuesReadBefore)
 {
   const ParameterValues before = { { "Geometry/Cylinder radius", "21.1" }, { "Mesh/Degree", "1" } };
   const auto settings = override_settings("scene.prm", before, { "Mesh/Degree=2", "Geomtry/Pivot height=7" }, declared());
-  EXPECT_EQ(settings.given.at("Mesh/Degree").value, "2");
-  EXPECT_EQ(settings.given.at("Mesh/Degree").place, "--set");
-  EXPECT_EQ(settings.given.at("Geometry/Cylinder radius").place, "scene.prm");
+  EXPECT_EQ(settings.specified.at("Mesh/Degree").value, "2");
+  EXPECT_EQ(settings.specified.at("Mesh/Degree").place, "--set");
+  EXPECT_EQ(settings.specified.at("Geometry/Cylinder radius").place, "scene.prm");
   ASSERT_EQ(settings.mistakes.size(), 1u);
   EXPECT_NE(settings.mistakes[0].find("did you mean 'Geometry'?"), std::string::npos) << settings.mistakes[0];
 }
 
 TEST(Parameters, PrintedTextReadsBackHereAndInDealII)
 {
-  const auto given = read("", { "Geometry/Cylinder radius=21.1", "Drive/Table=a b.csv", "Mesh/Penalty=1000" }).given;
-  const auto text  = parameters_text(declared(), values_of(given));
+  const auto specified = read("", { "Geometry/Cylinder radius=21.1", "Drive/Table=a b.csv", "Mesh/Penalty=1000" }).specified;
+  const auto text      = parameters_text(declared(), to_values(specified));
   EXPECT_NE(text.find("Radius R [mm]: a number > 0."), std::string::npos) << text;
 
   const auto again = read(text);
   EXPECT_TRUE(again.mistakes.empty()) << again.mistakes[0];
-  EXPECT_EQ(again.given.size(), declared().size());
-  EXPECT_EQ(parameters_text(declared(), values_of(again.given)), text);
+  EXPECT_EQ(again.specified.size(), declared().size());
+  EXPECT_EQ(parameters_text(declared(), to_values(again.specified)), text);
 
   dealii::ParameterHandler handler;
   for (const auto &parameter : declared())
@@ -294,10 +294,10 @@ TEST(Parameters, AnyTextReadsBackAsItWas)
        { "run#3/own.geo", "#", "a # b", "line\nfeed", "back\\", " blank ", "\\x41", "\t\x1b[31m", "\xc2\x9b", "\xc3\xa4" })
   {
     const auto printed = parameters_text(declared(), { { "Drive/Table", text } });
-    EXPECT_EQ(read(printed).given.at("Drive/Table").value, text) << printed;
+    EXPECT_EQ(read(printed).specified.at("Drive/Table").value, text) << printed;
     EXPECT_EQ(printed.find('\x1b'), std::string::npos);
   }
-  EXPECT_EQ(read("subsection Drive\n  set Table = C:\\x.csv # \\x41\nend\n").given.at("Drive/Table").value, "C:\\x.csv");
+  EXPECT_EQ(read("subsection Drive\n  set Table = C:\\x.csv # \\x41\nend\n").specified.at("Drive/Table").value, "C:\\x.csv");
 }
 
 TEST(Text, NearestNameToleratesHalfOfItsLetters)

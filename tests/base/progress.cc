@@ -27,9 +27,9 @@ namespace
     Progress progress;
   };
 
-  std::size_t count(const std::string &text, const char wanted)
+  std::size_t count(const std::string &text, const char character)
   {
-    return static_cast<std::size_t>(std::count(text.begin(), text.end(), wanted));
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), character));
   }
 } // namespace
 

@@ -27,7 +27,7 @@ namespace sprag
     return { R, 3., 12., (R - 3. - 12. * std::sin(rest_inclination)) / std::cos(rest_inclination) };
   }
 
-  inline FaceContactProperties properties_of(const ElasticBody<2> &body, const bool sprung, const double regularisation_speed)
+  inline FaceContactProperties make_properties(const ElasticBody<2> &body, const bool sprung, const double regularisation_speed)
   {
     FaceContactProperties result;
     set_cylinder(cylinder_below_bar(), result);

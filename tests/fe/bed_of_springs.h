@@ -92,7 +92,7 @@ namespace sprag
     }
 
     /// The length that makes a movement of a unit of a port, see PortWindow [mm].
-    double length_of(const unsigned int port) const
+    double unit_length(const unsigned int port) const
     {
       return ports.is_slope(port) ? 0.5 * width : 1.;
     }

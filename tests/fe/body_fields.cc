@@ -64,12 +64,12 @@ TEST(BodyFields, EachPartHasItsOwnStressUpToWhereItMeetsAnother)
   const BodyFields fields(stretched.body);
   const auto nodal       = fields.at(stretched.displacement);
   const double interface = stretched.bar.offset + stretched.bar.layer;
-  unsigned int of_layer = 0, at_interface = 0, at_hub = 0;
+  unsigned int n_layer = 0, at_interface = 0, at_hub = 0;
   for (unsigned int i = 0; i < nodal.size(); ++i)
   {
     const auto &node = fields.nodes()[i];
     const bool layer = node.part == material_id::layer;
-    of_layer += layer ? 1 : 0;
+    n_layer += layer ? 1 : 0;
     at_hub += node.at_hub ? 1 : 0;
     at_interface += std::abs(node.position[1] - interface) < 1e-9 ? 1 : 0;
     const double modulus = layer ? 20. : 70000., nu = layer ? 0. : 0.3;
@@ -81,18 +81,18 @@ TEST(BodyFields, EachPartHasItsOwnStressUpToWhereItMeetsAnother)
     EXPECT_NEAR(nodal[i].displacement[1], across * node.position[1], 1e-12);
   }
   // 8 elements along, 1 + 2 across, one row of which is at the hub and has nodes of its own.
-  EXPECT_EQ(of_layer, (3u + 15) * 3);
+  EXPECT_EQ(n_layer, (3u + 15) * 3);
   EXPECT_EQ(at_interface, 2u * (3 + 15));
   EXPECT_EQ(at_hub, 3u * (3 + 5));
   EXPECT_EQ(nodal.size(), (3u + 15) * (3 + 5));
   EXPECT_EQ(fields.elements().size(), 9u * 8 * 3);
-  EXPECT_EQ(fields.cells_of_element().size(), 4u * 4);
+  EXPECT_EQ(fields.element_cells().size(), 4u * 4);
   double area = 0.;
   for (unsigned int first = 0; first < fields.elements().size(); first += fields.nodes_per_element())
-    for (unsigned int q = 0; q < fields.cells_of_element().size(); q += 4)
+    for (unsigned int q = 0; q < fields.element_cells().size(); q += 4)
     {
       const auto corner = [&](const unsigned int c)
-      { return fields.nodes()[fields.elements()[first + fields.cells_of_element()[q + c]]].position; };
+      { return fields.nodes()[fields.elements()[first + fields.element_cells()[q + c]]].position; };
       for (unsigned int c = 0; c < 4; ++c)
         area += 0.5 * (corner(c)[0] * corner((c + 1) % 4)[1] - corner((c + 1) % 4)[0] * corner(c)[1]);
     }

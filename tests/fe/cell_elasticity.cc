@@ -103,9 +103,9 @@ TEST(CellElasticity, EachMaterialHasItsOwnPlane)
     EXPECT_NEAR(body.energy(affine(body, G)), energy, 1e-13 * energy);
   }
   const auto parts = lever_properties(model_a()).body;
-  EXPECT_EQ(parts.plane_of(material_id::lever), PlaneState::stress);
-  EXPECT_EQ(parts.plane_of(material_id::layer), PlaneState::strain);
-  EXPECT_EQ(parts.plane_of(material_id::cylinder), PlaneState::strain);
+  EXPECT_EQ(parts.plane_state(material_id::lever), PlaneState::stress);
+  EXPECT_EQ(parts.plane_state(material_id::layer), PlaneState::strain);
+  EXPECT_EQ(parts.plane_state(material_id::cylinder), PlaneState::strain);
 }
 
 // Together with lambda times the square of the dilatation's derivative.

@@ -21,9 +21,9 @@ namespace
 {
   using Vector = dealii::Vector<double>;
 
-  BasisSettings settings_of(const unsigned int modes, const std::string &cache = {})
+  BasisSettings make_settings(const unsigned int modes, const std::string &cache = {})
   {
-    return { modes, spring_of_bar, bar_inertia(1e-3, 1e-7), cache, {} };
+    return { modes, bar_spring, bar_inertia(1e-3, 1e-7), cache, {} };
   }
 
   PortForces forces_on(const PortLayout &ports)
@@ -70,7 +70,7 @@ TEST(CondensedBasis, WithAllModesIsTheFiniteElements)
 {
   const MeshedBar bar({});
   const unsigned int all = TotalCoordinates(*bar).size();
-  const auto basis       = make_basis(*bar, settings_of(all));
+  const auto basis       = make_basis(*bar, make_settings(all));
   ASSERT_EQ(basis.stiffness.size(), all);
   for (const bool sprung : { false, true })
   {
@@ -92,7 +92,7 @@ TEST(CondensedBasis, WithFewModesHasTheStaticsOfTheFiniteElements)
   for (const unsigned int modes : { 1u, 3u })
   {
     auto whole = sparse_structure(*bar, bar_inertia(1e-3, 1e-7), 2, damped_dynamics(false));
-    ModalStructure condensed(modal_data(make_basis(*bar, settings_of(modes)), damped_dynamics(false)));
+    ModalStructure condensed(modal_data(make_basis(*bar, make_settings(modes)), damped_dynamics(false)));
     whole.use_statics();
     condensed.use_statics();
     const auto forces   = forces_on(whole.ports());
@@ -114,7 +114,7 @@ TEST(CondensedBasis, WithASoftSpringHasTheComplianceOfTheHeldBody)
   {
     std::vector<double> unit((*bar).n_dofs(), 0.);
     unit[surface[loaded]] = 1.;
-    const auto expected   = response_of(*bar)(unit);
+    const auto expected   = make_response(*bar)(unit);
     double largest = 0., difference = 0.;
     for (unsigned int i = 0; i < surface.size(); ++i)
     {
@@ -131,8 +131,8 @@ TEST(CondensedBasis, WithASoftSpringHasTheComplianceOfTheHeldBody)
 TEST(CondensedBasis, TruncatedIsAsIfMadeWithFewerModes)
 {
   const MeshedBar bar({});
-  const auto made = make_basis(*bar, settings_of(3));
-  const auto cut  = truncated(make_basis(*bar, settings_of(8)), 3);
+  const auto made = make_basis(*bar, make_settings(3));
+  const auto cut  = truncated(make_basis(*bar, make_settings(8)), 3);
   ASSERT_EQ(cut.stiffness.size(), 3u);
   for (unsigned int i = 0; i < 3; ++i)
   {
@@ -149,7 +149,7 @@ TEST(CondensedBasis, TruncatedIsAsIfMadeWithFewerModes)
 TEST(CondensedBasis, ItsElasticDisplacementIsThatOfTheFiniteElements)
 {
   const MeshedBar bar({});
-  const auto settings = settings_of(3);
+  const auto settings = make_settings(3);
   const auto basis    = make_basis(*bar, settings);
   auto whole          = sparse_structure(*bar, bar_inertia(1e-3, 1e-7), 2, damped_dynamics(false));
   ModalStructure condensed(modal_data(basis, damped_dynamics(false)));
@@ -157,7 +157,7 @@ TEST(CondensedBasis, ItsElasticDisplacementIsThatOfTheFiniteElements)
   condensed.use_statics();
   const auto forces   = forces_on(whole.ports());
   const auto expected = whole.elastic_displacement(whole.deform(forces));
-  Vector difference   = condensed_displacement(*bar, basis, surface_dofs(*bar), response_of(*bar), condensed.deform(forces));
+  Vector difference   = condensed_displacement(*bar, basis, surface_dofs(*bar), make_response(*bar), condensed.deform(forces));
   difference -= expected;
   EXPECT_LE(difference.linfty_norm(), 1e-9 * expected.linfty_norm());
 }
@@ -166,8 +166,8 @@ TEST(CondensedBasis, IsFoundAgain)
 {
   const TemporaryFolder folder;
   const MeshedBar bar({});
-  const auto made  = condensed_basis(*bar, settings_of(3, folder.path));
-  const auto found = condensed_basis(*bar, settings_of(3, folder.path));
+  const auto made  = condensed_basis(*bar, make_settings(3, folder.path));
+  const auto found = condensed_basis(*bar, make_settings(3, folder.path));
   EXPECT_FALSE(made.from_cache);
   EXPECT_EQ(made.message, "");
   EXPECT_TRUE(found.from_cache);
@@ -185,28 +185,28 @@ TEST(CondensedBasis, IsFoundAgain)
 TEST(CondensedBasis, OfOtherLeversIsAnother)
 {
   const TemporaryFolder folder;
-  condensed_basis(*MeshedBar({}), settings_of(3, folder.path));
-  EXPECT_FALSE(condensed_basis(*MeshedBar({}), settings_of(4, folder.path)).from_cache);
-  EXPECT_FALSE(condensed_basis(*MeshedBar({}, 0.2), settings_of(3, folder.path)).from_cache);
+  condensed_basis(*MeshedBar({}), make_settings(3, folder.path));
+  EXPECT_FALSE(condensed_basis(*MeshedBar({}), make_settings(4, folder.path)).from_cache);
+  EXPECT_FALSE(condensed_basis(*MeshedBar({}, 0.2), make_settings(3, folder.path)).from_cache);
   Bar longer;
   longer.length *= 1.01;
-  EXPECT_FALSE(condensed_basis(*MeshedBar(longer), settings_of(3, folder.path)).from_cache);
-  auto heavier = settings_of(3, folder.path);
+  EXPECT_FALSE(condensed_basis(*MeshedBar(longer), make_settings(3, folder.path)).from_cache);
+  auto heavier = make_settings(3, folder.path);
   heavier.inertia.moment_of_inertia *= 1.01;
   EXPECT_FALSE(condensed_basis(*MeshedBar({}), heavier).from_cache);
-  auto with_tip = settings_of(3, folder.path);
+  auto with_tip = make_settings(3, folder.path);
   with_tip.inertia.tip_mass *= 1.01;
   EXPECT_FALSE(condensed_basis(*MeshedBar({}), with_tip).from_cache);
-  auto softer = settings_of(3, folder.path);
+  auto softer = make_settings(3, folder.path);
   softer.spring_stiffness *= 0.99;
   EXPECT_FALSE(condensed_basis(*MeshedBar({}), softer).from_cache);
-  EXPECT_TRUE(condensed_basis(*MeshedBar({}), settings_of(3, folder.path)).from_cache);
+  EXPECT_TRUE(condensed_basis(*MeshedBar({}), make_settings(3, folder.path)).from_cache);
 }
 
 TEST(CondensedBasis, MadeForAnotherSceneIsAnother)
 {
   const TemporaryFolder folder;
-  auto settings   = settings_of(3, folder.path);
+  auto settings   = make_settings(3, folder.path);
   settings.origin = "a scene";
   condensed_basis(*MeshedBar({}), settings);
   EXPECT_TRUE(condensed_basis(*MeshedBar({}), settings).from_cache);
@@ -232,13 +232,13 @@ TEST(CondensedBasis, LeftoversOfKilledProcessesAreRemoved)
   const auto at_work                              = written("basis-fedcba9876543210.h5.4713", true);
   const int writer                                = ::open(at_work.c_str(), O_RDWR);
   ASSERT_EQ(::flock(writer, LOCK_EX), 0);
-  EXPECT_EQ(condensed_basis(*MeshedBar({}), settings_of(3, folder.path)).message, "");
+  EXPECT_EQ(condensed_basis(*MeshedBar({}), make_settings(3, folder.path)).message, "");
   EXPECT_FALSE(std::filesystem::exists(left));
   EXPECT_TRUE(std::filesystem::exists(at_work));
   for (const auto &path : others)
     EXPECT_TRUE(std::filesystem::exists(path)) << path;
   ::close(writer);
-  EXPECT_TRUE(condensed_basis(*MeshedBar({}), settings_of(3, folder.path)).from_cache);
+  EXPECT_TRUE(condensed_basis(*MeshedBar({}), make_settings(3, folder.path)).from_cache);
   EXPECT_FALSE(std::filesystem::exists(at_work));
 }
 
@@ -246,7 +246,7 @@ TEST(CondensedBasis, DamagedFilesAreMadeAnew)
 {
   const TemporaryFolder folder;
   const MeshedBar bar({});
-  const auto made        = condensed_basis(*bar, settings_of(3, folder.path));
+  const auto made        = condensed_basis(*bar, make_settings(3, folder.path));
   const std::string file = only_file(folder.path);
   const auto size        = std::filesystem::file_size(file);
   const auto damages     = { 0, 1, 2 };
@@ -262,10 +262,10 @@ TEST(CondensedBasis, DamagedFilesAreMadeAnew)
       stream.seekp(static_cast<std::streamoff>(size / 2));
       stream << "damaged!";
     }
-    const auto again = condensed_basis(*bar, settings_of(3, folder.path));
+    const auto again = condensed_basis(*bar, make_settings(3, folder.path));
     EXPECT_FALSE(again.from_cache) << damage;
     EXPECT_EQ(again.stiffness, made.stiffness) << damage;
-    EXPECT_TRUE(condensed_basis(*bar, settings_of(3, folder.path)).from_cache) << damage;
+    EXPECT_TRUE(condensed_basis(*bar, make_settings(3, folder.path)).from_cache) << damage;
   }
 }
 
@@ -273,7 +273,7 @@ TEST(CondensedBasis, WithoutACacheFolderIsMadeAndSaysSo)
 {
   const TemporaryFolder folder;
   const auto file  = folder.write("file", "in the way");
-  const auto basis = condensed_basis(*MeshedBar({}), settings_of(3, file));
+  const auto basis = condensed_basis(*MeshedBar({}), make_settings(3, file));
   EXPECT_FALSE(basis.from_cache);
   EXPECT_NE(basis.message.find(file), std::string::npos);
   EXPECT_EQ(basis.stiffness.size(), 3u);

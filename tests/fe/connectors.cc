@@ -25,10 +25,10 @@ namespace
   /// Nodal values of a displacement, held nodes included.
   Vector displacement(const ElasticBody<2> &body, const Field &field)
   {
-    class Given : public dealii::Function<2>
+    class PrescribedField : public dealii::Function<2>
     {
     public:
-      explicit Given(const Field &field_)
+      explicit PrescribedField(const Field &field_)
           : dealii::Function<2>(2)
           , field(field_)
       {
@@ -42,7 +42,7 @@ namespace
       const Field &field;
     };
     Vector result(body.n_dofs());
-    dealii::VectorTools::interpolate(body.dofs(), Given(field), result);
+    dealii::VectorTools::interpolate(body.dofs(), PrescribedField(field), result);
     return result;
   }
 
@@ -159,10 +159,10 @@ TEST(Connectors, TheirEnergyIsTheWorkOfTheLoad)
   plate->assemble(u, stiffness, forces);
   const double energy = plate->energy(u);
   EXPECT_NEAR(energy, 0.5 * (u * forces), 1e-10 * energy);
-  double of_springs = 0.;
+  double spring_energy = 0.;
   for (const auto &connector : plate->connectors())
-    of_springs += 0.5 * connector.stiffness * std::pow(connector.compression(u), 2);
-  EXPECT_GT(of_springs, 1e-3 * energy);
+    spring_energy += 0.5 * connector.stiffness * std::pow(connector.compression(u), 2);
+  EXPECT_GT(spring_energy, 1e-3 * energy);
 }
 
 TEST(Connectors, APadBesideItsSideIsRefusedByName)

@@ -17,7 +17,7 @@ using namespace sprag;
 
 namespace
 {
-  Scene scene_of(const double radius, const double inner_radius, const double face_size)
+  Scene make_scene(const double radius, const double inner_radius, const double face_size)
   {
     Scene scene;
     scene.geometry.cylinder_radius = radius;
@@ -27,7 +27,7 @@ namespace
     return scene;
   }
 
-  double area_of_cylinder(const ElasticBody<2> &body)
+  double cylinder_area(const ElasticBody<2> &body)
   {
     dealii::FEValues<2> values(body.cell_mapping(), body.dofs().get_fe(), dealii::QGauss<2>(4), dealii::update_JxW_values);
     double area = 0.;
@@ -57,8 +57,8 @@ TEST(CylinderMesh, FollowsTheCircleFinelyWhereItTouches)
   {
     dealii::Triangulation<2> triangulation;
     make_bar({}, triangulation);
-    const unsigned int of_bar = triangulation.n_active_cells();
-    const auto scene          = scene_of(R, inner, size);
+    const unsigned int n_bar_cells = triangulation.n_active_cells();
+    const auto scene               = make_scene(R, inner, size);
     add_cylinder(scene, triangulation);
     auto properties                             = bar_properties({}, 0.3);
     properties.curved                           = true;
@@ -75,11 +75,11 @@ TEST(CylinderMesh, FollowsTheCircleFinelyWhereItTouches)
     EXPECT_NEAR(first, -half / R, 1e-9);
     EXPECT_NEAR(last, half / R, 1e-9);
     // The coarsest edges, of pi/12, take pi/12^4/32 of the outer radius off.
-    EXPECT_NEAR(area_of_cylinder(body), M_PI * (R * R - inner * inner), 1e-3 * R * R);
+    EXPECT_NEAR(cylinder_area(body), M_PI * (R * R - inner * inner), 1e-3 * R * R);
     unsigned int n_lever = 0;
     for (const auto &cell : triangulation.active_cell_iterators())
       n_lever += material_id::turns(cell->material_id()) ? 1 : 0;
-    EXPECT_EQ(n_lever, of_bar);
+    EXPECT_EQ(n_lever, n_bar_cells);
     EXPECT_EQ(body.friction_face().edges.size(), Bar().n);
   }
 }
@@ -88,10 +88,10 @@ TEST(CylinderMesh, RefusesFacetsAndACoreThatLeavesNothing)
 {
   dealii::Triangulation<2> triangulation;
   make_bar({}, triangulation);
-  auto scene        = scene_of(21.1, 5., 0.25);
+  auto scene        = make_scene(21.1, 5., 0.25);
   scene.mesh.degree = 1;
   EXPECT_THROW(add_cylinder(scene, triangulation), InputError);
-  scene = scene_of(21.1, 21.1, 0.25);
+  scene = make_scene(21.1, 21.1, 0.25);
   EXPECT_THROW(add_cylinder(scene, triangulation), InputError);
 }
 

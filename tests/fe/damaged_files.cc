@@ -22,7 +22,7 @@ namespace
   class DamagedFiles : public ::testing::Test
   {
   protected:
-    static std::string content_of(const fs::path &path)
+    static std::string read_content(const fs::path &path)
     {
       std::ifstream stream(path, std::ios::binary);
       return { std::istreambuf_iterator<char>(stream), {} };
@@ -32,7 +32,7 @@ namespace
     template <class Read>
     static void for_all_damages(const fs::path &path, const unsigned int places, const Read &read)
     {
-      const std::string whole = content_of(path);
+      const std::string whole = read_content(path);
       for (unsigned int i = 0; i < places; ++i)
       {
         const std::size_t at = (i * 2654435761u) % whole.size();

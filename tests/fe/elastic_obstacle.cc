@@ -20,15 +20,15 @@ namespace
 TEST(ElasticObstacle, PartsAddUpToTheTangentAndPressureIsSymmetric)
 {
   const MeshedPair bodies;
-  const auto properties = properties_of(*bodies, true, 0.);
+  const auto properties = make_properties(*bodies, true, 0.);
   FaceContact contact(*bodies, properties);
-  expect_parts_of_tangent(contact, pressed(*bodies, properties.ports, 2e-4, 0., 0.3), 1e-8);
+  expect_tangent_parts(contact, pressed(*bodies, properties.ports, 2e-4, 0., 0.3), 1e-8);
 }
 
 TEST(ElasticObstacle, ForcesOnLeverAndCylinderAreEqualAndOpposite)
 {
   const MeshedPair bodies;
-  const auto properties = properties_of(*bodies, false, 0.);
+  const auto properties = make_properties(*bodies, false, 0.);
   FaceContact contact(*bodies, properties);
   FaceEvaluation<2> found;
   const PressedStep step(contact, *bodies, properties.ports, 2e-4, 1.01);
@@ -49,42 +49,42 @@ TEST(ElasticObstacle, ForcesOnLeverAndCylinderAreEqualAndOpposite)
 TEST(ElasticObstacle, AnUndeformedCylinderIsARigidOne)
 {
   const MeshedPair bodies;
-  const auto properties = properties_of(*bodies, false, 0.);
+  const auto properties = make_properties(*bodies, false, 0.);
   const MeshedBar bar(bar_on_cylinder());
-  const auto rigid_properties = properties_of(*bar, false, 0.);
+  const auto rigid_properties = make_properties(*bar, false, 0.);
   FaceContact contact(*bodies, properties);
   FaceEvaluation<2> found;
   FaceContact rigid(*bar, rigid_properties);
-  FaceEvaluation<2> found_of_rigid;
+  FaceEvaluation<2> rigid_evaluation;
   for (const double speed : { 100., -100. })
   {
-    Vector ports(properties.ports.size()), of_rigid(rigid_properties.ports.size());
+    Vector ports(properties.ports.size()), rigid_ports(rigid_properties.ports.size());
     for (unsigned int i = 0; i < rigid_properties.ports.surface; ++i)
-      ports[i] = of_rigid[i] = i % 2 == 1 ? -0.01 : 0.;
+      ports[i] = rigid_ports[i] = i % 2 == 1 ? -0.01 : 0.;
     const DrivePoint drive{ 0., 0., speed };
     contact.evaluate_sliding({ ports, drive, speed }, found);
-    rigid.evaluate_sliding({ of_rigid, drive, speed }, found_of_rigid);
-    Row row, of_circle;
+    rigid.evaluate_sliding({ rigid_ports, drive, speed }, rigid_evaluation);
+    Row row, circle_row;
     contact.observe(found, row);
-    rigid.observe(found_of_rigid, of_circle);
+    rigid.observe(rigid_evaluation, circle_row);
     for (const auto column : { Column::P, Column::F, Column::Q, Column::normal_resultant, Column::friction_resultant })
-      EXPECT_NEAR(row[column], of_circle[column], 5e-3 * of_circle[Column::P]) << speed;
-    EXPECT_NEAR(row[Column::F] / row[Column::P], of_circle[Column::F] / of_circle[Column::P], 1e-4);
-    EXPECT_NEAR(row[Column::s], of_circle[Column::s], 1e-3);
-    EXPECT_NEAR(found.energy(), found_of_rigid.energy(), 1e-2 * found_of_rigid.energy());
+      EXPECT_NEAR(row[column], circle_row[column], 5e-3 * circle_row[Column::P]) << speed;
+    EXPECT_NEAR(row[Column::F] / row[Column::P], circle_row[Column::F] / circle_row[Column::P], 1e-4);
+    EXPECT_NEAR(row[Column::s], circle_row[Column::s], 1e-3);
+    EXPECT_NEAR(found.energy(), rigid_evaluation.energy(), 1e-2 * rigid_evaluation.energy());
     const double h = 1e-4;
-    EXPECT_NEAR(contact.mean_slip(found, ports, 0., ports, h), rigid.mean_slip(found_of_rigid, of_rigid, 0., of_rigid, h),
+    EXPECT_NEAR(contact.mean_slip(found, ports, 0., ports, h), rigid.mean_slip(rigid_evaluation, rigid_ports, 0., rigid_ports, h),
                 5e-5 * h);
-    Vector change(ports.size()), of_lever(of_rigid.size());
-    change[properties.ports.rotation()] = of_lever[rigid_properties.ports.rotation()] = 1e-6;
-    EXPECT_NEAR(contact.gap_change(found, change), rigid.gap_change(found_of_rigid, of_lever), 1e-8);
+    Vector change(ports.size()), rigid_change(rigid_ports.size());
+    change[properties.ports.rotation()] = rigid_change[rigid_properties.ports.rotation()] = 1e-6;
+    EXPECT_NEAR(contact.gap_change(found, change), rigid.gap_change(rigid_evaluation, rigid_change), 1e-8);
   }
 }
 
 TEST(ElasticObstacle, RefusesAContactBeyondTheCylindersFace)
 {
   const MeshedPair bodies;
-  const auto properties = properties_of(*bodies, false, 0.);
+  const auto properties = make_properties(*bodies, false, 0.);
   FaceContact contact(*bodies, properties);
   FaceEvaluation<2> found;
   Vector ports(properties.ports.size());

@@ -46,7 +46,7 @@ namespace sprag
     return face;
   }
 
-  inline std::vector<double> parts_of(const double from, const double to, const unsigned int number)
+  inline std::vector<double> divide(const double from, const double to, const unsigned int number)
   {
     std::vector<double> result;
     for (unsigned int i = 0; i <= number; ++i)

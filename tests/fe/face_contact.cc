@@ -21,7 +21,7 @@ namespace
   protected:
     FaceContactProperties properties(const bool sprung, const double regularisation_speed) const
     {
-      return properties_of(body, sprung, regularisation_speed);
+      return make_properties(body, sprung, regularisation_speed);
     }
 
     PressedStep step(const FaceContact &contact, const PortLayout &ports, const double x, const double share = 1.,
@@ -52,9 +52,9 @@ TEST_P(FaceContactOn, TangentIsTheDerivativeOfTheForces)
       // Sliding on, sticking, sliding back.
       for (const double x : { 1.01, 1.0003, 0.99 })
       {
-        const auto given = properties(sprung, regularisation);
-        FaceContact contact(body, given);
-        auto taken = step(contact, given.ports, x);
+        const auto contact_properties = properties(sprung, regularisation);
+        FaceContact contact(body, contact_properties);
+        auto taken = step(contact, contact_properties.ports, x);
         FaceEvaluation<2> found;
         EXPECT_LE(tangent_error(found.forces, taken.end, [&] { contact.evaluate(*taken, found); }), tolerance)
             << sprung << " " << x;
@@ -67,9 +67,9 @@ TEST_P(FaceContactOn, TangentOfSteadySlidingIsTheDerivativeOfTheForces)
   for (const bool sprung : { false, true })
     for (const double speed : { 100., -100. })
     {
-      const auto given = properties(sprung, 0.);
-      FaceContact contact(body, given);
-      const auto taken = step(contact, given.ports, 1.01);
+      const auto contact_properties = properties(sprung, 0.);
+      FaceContact contact(body, contact_properties);
+      const auto taken = step(contact, contact_properties.ports, 1.01);
       Vector ports     = taken.end;
       FaceEvaluation<2> found;
       EXPECT_LE(tangent_error(found.forces, ports,
@@ -84,9 +84,9 @@ TEST_P(FaceContactOn, TangentOfSteadySlidingIsTheDerivativeOfTheForces)
 // How far it looks is found on the way and outlasts a kill.
 TEST_P(FaceContactOn, ReachIsHistory)
 {
-  const auto given = properties(false, 0.);
-  FaceContact contact(body, given), fresh(body, given);
-  const OfLevers theta{ { given.rest_inclination } };
+  const auto contact_properties = properties(false, 0.);
+  FaceContact contact(body, contact_properties), fresh(body, contact_properties);
+  const PerLever theta{ { contact_properties.rest_inclination } };
   const auto narrow = contact.reachable_ports(1., theta);
   contact.widen_reach();
   const auto wide = contact.reachable_ports(1., theta);
@@ -108,15 +108,15 @@ TEST_P(FaceContactOn, WorksBalance)
     double last = 0.;
     for (const double share : { 1., 0.5 })
     {
-      const auto given = properties(true, 0.);
-      FaceContact contact(body, given);
-      const auto taken    = step(contact, given.ports, 1. + 0.05 * share, share, spectral_radius);
+      const auto contact_properties = properties(true, 0.);
+      FaceContact contact(body, contact_properties);
+      const auto taken    = step(contact, contact_properties.ports, 1. + 0.05 * share, share, spectral_radius);
       const double before = taken.found.energy();
       FaceEvaluation<2> found;
       contact.evaluate(*taken, found);
-      const StepWork work   = found.work();
-      const double of_ports = work_of(found.forces, taken.begin.position, taken.end);
-      const double left     = work.drive - of_ports - (found.energy() - before) - work.friction - work.algorithmic;
+      const StepWork work    = found.work();
+      const double port_work = compute_work(found.forces, taken.begin.position, taken.end);
+      const double left      = work.drive - port_work - (found.energy() - before) - work.friction - work.algorithmic;
       EXPECT_GT(work.friction, 0.);
       EXPECT_LE(std::abs(left), 1e-3 * share * share * work.friction) << spectral_radius;
       if (share < 1.)
@@ -130,10 +130,10 @@ TEST_P(FaceContactOn, WorksBalance)
 
 TEST_P(FaceContactOn, ApartNothingHappens)
 {
-  const auto given = properties(false, 0.);
-  FaceContact contact(body, given);
-  Vector ports(given.ports.size());
-  ports[given.ports.rotation()] = 0.02;
+  const auto contact_properties = properties(false, 0.);
+  FaceContact contact(body, contact_properties);
+  Vector ports(contact_properties.ports.size());
+  ports[contact_properties.ports.rotation()] = 0.02;
   FaceEvaluation<2> found;
   EXPECT_TRUE(contact.touch(ports, { 0., 0., 0. }, found).empty());
   EXPECT_TRUE(found.forces.ports.empty());
@@ -145,14 +145,14 @@ TEST_P(FaceContactOn, ApartNothingHappens)
   EXPECT_EQ(row[Column::contact_width], 0.);
   // Turned further the gap grows by the arm, some 12 mm.
   Vector change(ports.size());
-  change[given.ports.rotation()] = 1e-6;
+  change[contact_properties.ports.rotation()] = 1e-6;
   EXPECT_NEAR(contact.gap_change(found, change), 12e-6, 1e-6);
 }
 
 TEST(FaceContact, FindsAllPointsInReach)
 {
   const MeshedBar bar(bar_on_cylinder());
-  const auto properties = properties_of(*bar, false, 0.);
+  const auto properties = make_properties(*bar, false, 0.);
   const FacePatches<2> face((*bar).friction_face());
   const double R = cylinder_below_bar().cylinder_radius;
   for (const double x : { -6., -3., 0., 3., 6. })
@@ -183,7 +183,7 @@ TEST(FaceContact, FindsAllPointsInReach)
 TEST(FaceContact, ForcesOfSlidingAreThoseObserved)
 {
   const MeshedBar bar(bar_on_cylinder());
-  const auto properties = properties_of(*bar, false, 0.);
+  const auto properties = make_properties(*bar, false, 0.);
   FaceContact contact(*bar, properties);
   const PressedStep step(contact, *bar, properties.ports, 1e-3, 1.01);
   FaceEvaluation<2> found;
@@ -206,7 +206,7 @@ TEST(FaceContact, ForcesOfSlidingAreThoseObserved)
 TEST(FaceContact, TellsTheMeanSlip)
 {
   const MeshedBar bar(bar_on_cylinder());
-  const auto properties = properties_of(*bar, false, 0.);
+  const auto properties = make_properties(*bar, false, 0.);
   FaceContact contact(*bar, properties);
   const PressedStep step(contact, *bar, properties.ports, 1e-3, 1.01);
   const auto &ports = step.begin.position;

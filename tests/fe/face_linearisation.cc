@@ -23,7 +23,7 @@ namespace
     return result;
   }
 
-  PortForces forces_of(const FaceContact &contact, const SlidingState &state)
+  PortForces compute_forces(const FaceContact &contact, const SlidingState &state)
   {
     FaceEvaluation<2> found;
     contact.evaluate_sliding(state, found);
@@ -40,13 +40,13 @@ TEST(FaceLinearisation, RatesAreTheDerivativeOfTheForcesByVelocities)
     for (const double regularisation : { 0., 20. })
       for (const double speed : { 100., -100. })
       {
-        const auto properties = properties_of(*bar, sprung, regularisation);
+        const auto properties = make_properties(*bar, sprung, regularisation);
         FaceContact contact(*bar, properties);
         FaceEvaluation<2> found;
         const Vector ports = pressed(properties.ports, 0.01);
         const DrivePoint drive{ 0., 0., speed, 0. };
         const auto with_rates = [&](const Vector &rates) {
-          return forces_of(contact, { ports, drive, speed, &rates, ContactFriction::sliding });
+          return compute_forces(contact, { ports, drive, speed, &rates, ContactFriction::sliding });
         };
         const auto exact = contact.linearise({ ports, drive, speed }, found);
         ASSERT_FALSE(exact.ports.empty());
@@ -76,7 +76,7 @@ TEST(FaceLinearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
     for (const double speed : { 100., -100. })
       for (const double dt : { 1e-5, 1e-4 })
       {
-        const auto properties = properties_of(*bar, sprung, 0.);
+        const auto properties = make_properties(*bar, sprung, 0.);
         FaceContact contact(*bar, properties);
         FaceEvaluation<2> found;
         const Vector at   = pressed(properties.ports, 0.01);
@@ -125,12 +125,12 @@ TEST(FaceLinearisation, StuckIsTheTangentOfAStepInStick)
   const MeshedBar bar(bar_on_cylinder());
   for (const bool sprung : { false, true })
   {
-    const auto properties = properties_of(*bar, sprung, 0.);
+    const auto properties = make_properties(*bar, sprung, 0.);
     FaceContact contact(*bar, properties);
     FaceEvaluation<2> found;
     const Vector ports = pressed(properties.ports, 0.01);
     const DrivePoint drive{ 0., 0., 0., 0. };
-    const auto linear = forces_of(contact, { ports, drive, 100., nullptr, ContactFriction::stuck });
+    const auto linear = compute_forces(contact, { ports, drive, 100., nullptr, ContactFriction::stuck });
     const Vector rest(ports.size());
     const StepWeights weights{ 1e-5, 0., 0., 0.25, 0.5 };
     Motion accepted;
@@ -147,19 +147,19 @@ TEST(FaceLinearisation, StuckIsTheTangentOfAStepInStick)
 TEST(FaceLinearisation, IsNothingOutOfContact)
 {
   const MeshedBar bar(bar_on_cylinder());
-  const auto properties = properties_of(*bar, true, 0.);
+  const auto properties = make_properties(*bar, true, 0.);
   FaceContact contact(*bar, properties);
   FaceEvaluation<2> found;
   const Vector ports = pressed(properties.ports, -0.1);
   const DrivePoint drive{ 0., 0., 100., 0. };
-  EXPECT_TRUE(forces_of(contact, { ports, drive, 100. }).ports.empty());
+  EXPECT_TRUE(compute_forces(contact, { ports, drive, 100. }).ports.empty());
   EXPECT_TRUE(contact.linearise({ ports, drive, 100. }, found).ports.empty());
 }
 
 TEST(FaceLinearisation, PartsAddUpToTheTangentAndPressureIsSymmetric)
 {
   const MeshedBar bar(bar_on_cylinder());
-  const auto properties = properties_of(*bar, true, 0.);
+  const auto properties = make_properties(*bar, true, 0.);
   FaceContact contact(*bar, properties);
-  expect_parts_of_tangent(contact, pressed(properties.ports, 0.01), 1e-14);
+  expect_tangent_parts(contact, pressed(properties.ports, 0.01), 1e-14);
 }

@@ -23,8 +23,8 @@ namespace
   /// A straight face at eta = 3 from xi = 8 to 16 on an arc of +-0.5 rad of the cylinder, edges of 0.4 mm on some of 0.29 mm.
   struct Faces
   {
-    FrictionFace<2> lever    = face_along([](double xi) { return dealii::Point<2>(xi, 3.); }, parts_of(8., 16., 20), 2, 4, width);
-    FrictionFace<2> cylinder = face_along(on_circle, parts_of(-0.5, 0.5, 21), 2, 4, width);
+    FrictionFace<2> lever    = face_along([](double xi) { return dealii::Point<2>(xi, 3.); }, divide(8., 16., 20), 2, 4, width);
+    FrictionFace<2> cylinder = face_along(on_circle, divide(-0.5, 0.5, 21), 2, 4, width);
     FacePair pair{ lever, cylinder };
 
     unsigned int n_nodes() const
@@ -89,22 +89,22 @@ TEST(FacePair, RowsAndCurvaturesAreDerivatives)
     ASSERT_GT(patches.size(), 1u);
     for (const unsigned int patch : patches)
     {
-      PatchFacets of, other;
-      faces.pair.find_facets(patch, at, of);
-      const auto coordinates = faces.pair.coordinates(patch, { &of });
-      for (unsigned int f = 0; f < of.facets.size(); ++f)
+      PatchFacets patch_facets, other;
+      faces.pair.find_facets(patch, at, patch_facets);
+      const auto coordinates = faces.pair.coordinates(patch, { &patch_facets });
+      for (unsigned int f = 0; f < patch_facets.facets.size(); ++f)
       {
-        if (!of.facets[f].opposed)
+        if (!patch_facets.facets[f].opposed)
           continue;
-        const bool crosses = of.facets[f].end - of.facets[f].begin > 2;
+        const bool crosses = patch_facets.facets[f].end - patch_facets.facets[f].begin > 2;
         crossings += crosses ? 1 : 0;
-        const double of_gap  = crosses ? 3e-5 : 3e-6;
-        const double of_slip = crosses ? 3e-3 : 3e-6;
+        const double gap_tolerance  = crosses ? 3e-5 : 3e-6;
+        const double slip_tolerance = crosses ? 3e-3 : 3e-6;
         FacetRows rows, moved;
-        find_rows(of, of.facets[f], at, coordinates, R, rows);
+        find_rows(patch_facets, patch_facets.facets[f], at, coordinates, R, rows);
         Full gap_curvature(coordinates.size(), coordinates.size()), slip_gradient(coordinates.size(), coordinates.size());
-        add_curvature(of, of.facets[f], at, coordinates, R, 1., 0., gap_curvature);
-        add_curvature(of, of.facets[f], at, coordinates, R, 0., 1., slip_gradient);
+        add_curvature(patch_facets, patch_facets.facets[f], at, coordinates, R, 1., 0., gap_curvature);
+        add_curvature(patch_facets, patch_facets.facets[f], at, coordinates, R, 0., 1., slip_gradient);
         for (unsigned int j = 0; j < coordinates.size(); ++j)
         {
           const unsigned int port = index(faces, coordinates, j);
@@ -132,11 +132,11 @@ TEST(FacePair, RowsAndCurvaturesAreDerivatives)
           q[port] = from;
           EXPECT_NEAR(rows.gap[j], difference.gap, 3e-8) << f << " " << j;
           EXPECT_NEAR(rows.arc[j], difference.arc, 3e-8) << f << " " << j;
-          EXPECT_NEAR(rows.stretch[j], difference.weight, of_gap) << f << " " << j;
+          EXPECT_NEAR(rows.stretch[j], difference.weight, gap_tolerance) << f << " " << j;
           for (unsigned int i = 0; i < coordinates.size(); ++i)
           {
-            EXPECT_NEAR(gap_curvature(i, j), by_row[0][i] / (2. * h), of_gap) << f << " " << i << " " << j;
-            EXPECT_NEAR(slip_gradient(i, j), by_row[1][i] / (2. * h), of_slip) << f << " " << i << " " << j;
+            EXPECT_NEAR(gap_curvature(i, j), by_row[0][i] / (2. * h), gap_tolerance) << f << " " << i << " " << j;
+            EXPECT_NEAR(slip_gradient(i, j), by_row[1][i] / (2. * h), slip_tolerance) << f << " " << i << " " << j;
           }
         }
       }
@@ -149,17 +149,17 @@ namespace
 {
   /// Sum and moment about the origin of forces that a row is on the nodes of a patch, of the lever (first) or the cylinder.
   dealii::Tensor<1, 3> resultant(const Vector &row, const Faces &faces, const PairCoordinates &coordinates, const Vector &q,
-                                 const PairConfiguration &at, const bool of_lever)
+                                 const PairConfiguration &at, const bool moves_lever)
   {
     dealii::Tensor<1, 3> result;
     for (unsigned int a = 0; a < coordinates.nodes.size(); ++a)
-      if ((a < coordinates.n_lever) == of_lever)
+      if ((a < coordinates.n_lever) == moves_lever)
       {
         const unsigned int node = coordinates.nodes[a];
         dealii::Tensor<1, 2> position;
         for (unsigned int d = 0; d < 2; ++d)
-          position[d] = of_lever ? faces.lever.nodes[node].position[d] + q[2 * node + d]
-                                 : at.nodes[coordinates.first + a - coordinates.n_lever][d];
+          position[d] = moves_lever ? faces.lever.nodes[node].position[d] + q[2 * node + d]
+                                    : at.nodes[coordinates.first + a - coordinates.n_lever][d];
         result[0] += row[2 * a];
         result[1] += row[2 * a + 1];
         result[2] += position[0] * row[2 * a + 1] - position[1] * row[2 * a];
@@ -177,13 +177,13 @@ TEST(FacePair, ForcesAreEqualAndOppositeWithTheirMoments)
   double deepest = 0.;
   for (const unsigned int patch : near(faces, at))
   {
-    PatchFacets of;
-    faces.pair.find_facets(patch, at, of);
-    const auto coordinates = faces.pair.coordinates(patch, { &of });
-    for (const auto &facet : of.facets)
+    PatchFacets patch_facets;
+    faces.pair.find_facets(patch, at, patch_facets);
+    const auto coordinates = faces.pair.coordinates(patch, { &patch_facets });
+    for (const auto &facet : patch_facets.facets)
     {
       FacetRows rows;
-      find_rows(of, facet, at, coordinates, geometry.cylinder_radius, rows);
+      find_rows(patch_facets, facet, at, coordinates, geometry.cylinder_radius, rows);
       deepest = std::min(deepest, facet.gap);
       for (const auto *const row : { &rows.gap, &rows.slip })
       {
@@ -212,16 +212,16 @@ TEST(FacePair, UniformTractionsGiveExactNodalForcesOnFacesThatDoNotMatch)
   const double normal = 2., along = -0.7;
   for (unsigned int patch = 0; patch < upper.patches.size(); ++patch)
   {
-    PatchFacets of;
-    pair.find_facets(patch, at, of);
-    const auto coordinates = pair.coordinates(patch, { &of });
-    for (const auto &facet : of.facets)
+    PatchFacets patch_facets;
+    pair.find_facets(patch, at, patch_facets);
+    const auto coordinates = pair.coordinates(patch, { &patch_facets });
+    for (const auto &facet : patch_facets.facets)
     {
       ASSERT_TRUE(facet.opposed);
       EXPECT_NEAR(facet.gap, 0., 1e-14);
       EXPECT_NEAR(facet.stretch, 1., 1e-14);
       FacetRows rows;
-      find_rows(of, facet, at, coordinates, 0., rows);
+      find_rows(patch_facets, facet, at, coordinates, 0., rows);
       for (unsigned int i = 0; i < coordinates.theta(); ++i)
         forces[2 * coordinates.nodes[i / 2] + i % 2] += facet.weight * (normal * rows.gap[i] + along * rows.slip[i]);
     }
@@ -271,14 +271,14 @@ TEST(FacePair, AnUndeformedCylinderIsTheRigidCircle)
   bool is_first = true;
   for (const unsigned int patch : near(faces, at))
   {
-    PatchFacets of;
-    faces.pair.find_facets(patch, at, of);
-    const auto coordinates = faces.pair.coordinates(patch, { &of });
+    PatchFacets patch_facets;
+    faces.pair.find_facets(patch, at, patch_facets);
+    const auto coordinates = faces.pair.coordinates(patch, { &patch_facets });
     const auto &nodes      = faces.lever.edges[patch].nodes;
-    for (unsigned int f = 0; f < of.facets.size(); ++f)
+    for (unsigned int f = 0; f < patch_facets.facets.size(); ++f)
     {
       FacetRows rows;
-      find_rows(of, of.facets[f], at, coordinates, R, rows);
+      find_rows(patch_facets, patch_facets.facets[f], at, coordinates, R, rows);
       ContactKinematics<4> mean{};
       for (const auto &[part, weight] : { std::pair{ 0., 1. / 6. }, { 0.5, 4. / 6. }, { 1., 1. / 6. } })
       {
@@ -295,7 +295,7 @@ TEST(FacePair, AnUndeformedCylinderIsTheRigidCircle)
         mean.gap_row += weight * contact.gap_row;
         mean.slip_row += weight * contact.slip_row;
       }
-      EXPECT_NEAR(of.facets[f].gap, mean.gap, R * std::pow(a, 4) / 16.);
+      EXPECT_NEAR(patch_facets.facets[f].gap, mean.gap, R * std::pow(a, 4) / 16.);
       const unsigned int port[] = { coordinates.theta(), coordinates.x() };
       for (unsigned int d = 0; d < 2; ++d)
       {
@@ -313,34 +313,34 @@ TEST(FacePair, AnUndeformedCylinderIsTheRigidCircle)
       }
       if (is_first)
       {
-        first_arc  = of.facets[f].arc;
+        first_arc  = patch_facets.facets[f].arc;
         first_slip = mean.slip;
         is_first   = false;
       }
       // Over the whole face, to what the length of its edges is off the circle's.
-      EXPECT_NEAR(of.facets[f].arc - first_arc, mean.slip - first_slip, R * a * std::pow(a, 3));
+      EXPECT_NEAR(patch_facets.facets[f].arc - first_arc, mean.slip - first_slip, R * a * std::pow(a, 3));
     }
   }
 }
 
 TEST(FacePair, FacetsBesideTheCylindersFaceAreNotOpposed)
 {
-  const auto upper = face_along([](double xi) { return dealii::Point<2>(xi, 0.1); }, parts_of(0., 4., 8), 2, 4, width);
-  const auto lower = face_along([](double xi) { return dealii::Point<2>(xi, 0.); }, parts_of(1., 2.2, 5), 2, 4, width);
+  const auto upper = face_along([](double xi) { return dealii::Point<2>(xi, 0.1); }, divide(0., 4., 8), 2, 4, width);
+  const auto lower = face_along([](double xi) { return dealii::Point<2>(xi, 0.); }, divide(1., 2.2, 5), 2, 4, width);
   const FacePair pair(upper, lower);
   const Vector none(2 * static_cast<unsigned int>(upper.nodes.size() + lower.nodes.size()));
   const auto at = pair.configuration({ &none, 0., 0., { 0., 0. } });
   for (unsigned int patch = 0; patch < upper.patches.size(); ++patch)
   {
-    PatchFacets of;
-    pair.find_facets(patch, at, of);
-    for (unsigned int f = 0; f < of.facets.size(); ++f)
+    PatchFacets patch_facets;
+    pair.find_facets(patch, at, patch_facets);
+    for (unsigned int f = 0; f < patch_facets.facets.size(); ++f)
     {
       const double begin = 0.5 * patch + 0.0625 * f;
       const bool above   = begin > 1. - 1e-9 && begin + 0.0625 < 2.2 + 1e-9;
-      EXPECT_EQ(of.facets[f].opposed, above) << begin;
-      EXPECT_GT(of.facets[f].gap, 0.);
-      EXPECT_EQ(of.facets[f].weight > 0., above);
+      EXPECT_EQ(patch_facets.facets[f].opposed, above) << begin;
+      EXPECT_GT(patch_facets.facets[f].gap, 0.);
+      EXPECT_EQ(patch_facets.facets[f].weight > 0., above);
     }
   }
 }

@@ -41,8 +41,8 @@ TEST(FacePatches, AreFoundByBoxInThreeDimensions)
   EXPECT_EQ(found, (std::vector<unsigned int>{ 9, 15 }));
   // Beside the face the closest.
   EXPECT_EQ(face.patches_in({ { { 8., -1., 4.2 }, { 9., 1., 4.4 } } }), (std::vector<unsigned int>{ 34 }));
-  EXPECT_EQ(face.displacements_of({ 1, 0 }).size(), 24u);
-  EXPECT_EQ(face.patch_of_point(7), 7u);
+  EXPECT_EQ(face.patch_displacements({ 1, 0 }).size(), 24u);
+  EXPECT_EQ(face.point_patch(7), 7u);
 }
 
 // Where displacements move the face, a sphere touches what a search of all patches finds, also across a slit.

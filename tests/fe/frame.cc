@@ -40,7 +40,7 @@ namespace
                           { material_id::web, scene.lever.density },
                           { material_id::layer, scene.layer.density } };
     inertia.source    = InertiaSource::as_built;
-    const auto modes  = lever_modes(body, response_of(body), inertia, scene.spring.stiffness, 5);
+    const auto modes  = lever_modes(body, make_response(body), inertia, scene.spring.stiffness, 5);
     return { modes.stiffness, modes.total_mass, modes.moment_of_inertia };
   }
 } // namespace

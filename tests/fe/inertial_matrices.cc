@@ -40,7 +40,7 @@ namespace
     }
   };
 
-  Moments moments_of(const Bar &bar, const double factor)
+  Moments compute_moments(const Bar &bar, const double factor)
   {
     Moments result;
     const double middle = bar.offset + bar.layer;
@@ -79,12 +79,12 @@ TEST(InertialMatrices, ScalesTheDensitiesAndNotTheTip)
   const Bar shape;
   const MeshedBar bar(shape);
   const InertialMatrices matrices(*bar, bar_inertia(moment_of_inertia, tip_mass));
-  const double low    = shape.offset + shape.layer;
-  const double high   = low + shape.depth;
-  const double of_tip = tip_mass * (shape.length * shape.length + (low * low + low * high + high * high) / 3.);
-  const double factor = (moment_of_inertia - of_tip) / moments_of(shape, 1.).inertia;
+  const double low         = shape.offset + shape.layer;
+  const double high        = low + shape.depth;
+  const double tip_inertia = tip_mass * (shape.length * shape.length + (low * low + low * high + high * high) / 3.);
+  const double factor      = (moment_of_inertia - tip_inertia) / compute_moments(shape, 1.).inertia;
   EXPECT_NEAR(matrices.density_factor, factor, 1e-12 * factor);
-  const auto moments = moments_of(shape, factor);
+  const auto moments = compute_moments(shape, factor);
   EXPECT_NEAR(matrices.total_mass, moments.mass + tip_mass, 1e-12 * moments.mass);
   // In rotation the momentum is the mass times the velocity of its centre, (-eta, xi).
   const auto turned = matrices.coordinates.rigid_rotation();

@@ -20,9 +20,9 @@ namespace
   constexpr double pi = dealii::numbers::PI;
 
   /// What the default mesh leaves in stiffnesses, measured by StiffnessConvergesFromAbove.
-  constexpr double of_mesh = 2.5e-4;
+  constexpr double mesh_tolerance = 2.5e-4;
 
-  LeafSpring leaf_of(const LeafEnd end, const double thickness, const double poisson_ratio = 0.)
+  LeafSpring make_leaf(const LeafEnd end, const double thickness, const double poisson_ratio = 0.)
   {
     LeafSpring leaf;
     leaf.end           = end;
@@ -33,7 +33,7 @@ namespace
 
   const std::vector<LeafEnd> ends = { LeafEnd::clamped, LeafEnd::pinned, LeafEnd::guided };
 
-  double stiffness_of(const LeafSpring &leaf, const LeafElements &elements)
+  double compute_stiffness(const LeafSpring &leaf, const LeafElements &elements)
   {
     return LeafBody(leaf, PlaneState::stress, elements).rest().stiffness;
   }
@@ -67,10 +67,10 @@ TEST(LeafSpring, StiffnessIsThatOfBeamTheory)
     for (const double thickness : { 1., 1.4, 2. })
       for (const double distance : { 0., 12. })
       {
-        LeafSpring leaf       = leaf_of(end, thickness);
+        LeafSpring leaf       = make_leaf(end, thickness);
         leaf.clamp_distance   = distance;
         const double expected = beam_stiffness(leaf);
-        EXPECT_NEAR(LeafBody(leaf, PlaneState::stress).rest().stiffness, expected, of_mesh * expected);
+        EXPECT_NEAR(LeafBody(leaf, PlaneState::stress).rest().stiffness, expected, mesh_tolerance * expected);
       }
 }
 
@@ -81,22 +81,22 @@ TEST(LeafSpring, ClampsStiffenALittleByPoissonsRatio)
   const std::vector<double> shares = { 5., 3., 2. };
   for (unsigned int i = 0; i < 3; ++i)
   {
-    const LeafSpring leaf = leaf_of(ends[i], 1.4, 0.3);
+    const LeafSpring leaf = make_leaf(ends[i], 1.4, 0.3);
     const double more     = LeafBody(leaf, PlaneState::stress).rest().stiffness / beam_stiffness(leaf) - 1.;
     EXPECT_GT(more, 0.);
-    EXPECT_LE(more, shares[i] * 0.09 / 0.91 * 0.5 * leaf.thickness / leaf.length + of_mesh);
+    EXPECT_LE(more, shares[i] * 0.09 / 0.91 * 0.5 * leaf.thickness / leaf.length + mesh_tolerance);
   }
 }
 
 // Poisson's ratio is then nu/(1 - nu), which the clamps hinder as above.
 TEST(LeafSpring, PlaneStrainIsAPlate)
 {
-  const LeafSpring leaf = leaf_of(LeafEnd::guided, 1., 0.3);
+  const LeafSpring leaf = make_leaf(LeafEnd::guided, 1., 0.3);
   const double plate    = beam_stiffness(leaf) / (1. - 0.09);
   const double more     = LeafBody(leaf, PlaneState::strain).rest().stiffness / plate - 1.;
   const double ratio    = 0.3 / 0.7;
   EXPECT_GT(more, 0.);
-  EXPECT_LE(more, 2. * ratio * ratio / (1. - ratio * ratio) * 0.5 * leaf.thickness / leaf.length + of_mesh);
+  EXPECT_LE(more, 2. * ratio * ratio / (1. - ratio * ratio) * 0.5 * leaf.thickness / leaf.length + mesh_tolerance);
 }
 
 // Prescribed displacements: a coarser mesh is stiffer. Without locking the error, of third order at least as for the smooth part
@@ -106,22 +106,22 @@ TEST(LeafSpring, StiffnessConvergesFromAboveSlow)
   for (const LeafEnd end : ends)
     for (const double thickness : { 1., 2. })
     {
-      const LeafSpring leaf = leaf_of(end, thickness, 0.3);
-      const double fine     = stiffness_of(leaf, { 320, 4 });
+      const LeafSpring leaf = make_leaf(end, thickness, 0.3);
+      const double fine     = compute_stiffness(leaf, { 320, 4 });
       const auto by_default = leaf_elements(leaf);
       std::printf("end %d, %.1f mm: default %u x %u off by %.1e;", static_cast<int>(end), thickness, by_default.along,
-                  by_default.across, stiffness_of(leaf, by_default) / fine - 1.);
+                  by_default.across, compute_stiffness(leaf, by_default) / fine - 1.);
       double last = std::numeric_limits<double>::infinity();
       for (const unsigned int along : { 15u, 30u, 60u })
       {
-        const double error = stiffness_of(leaf, { along, 4 }) / fine - 1.;
+        const double error = compute_stiffness(leaf, { along, 4 }) / fine - 1.;
         std::printf(" %u: %.1e", along, error);
         EXPECT_GT(error, 0.);
-        EXPECT_LE(error, std::max(0.25 * last, of_mesh));
+        EXPECT_LE(error, std::max(0.25 * last, mesh_tolerance));
         last = error;
       }
       std::printf("\n");
-      EXPECT_NEAR(stiffness_of(leaf, by_default), fine, of_mesh * fine);
+      EXPECT_NEAR(compute_stiffness(leaf, by_default), fine, mesh_tolerance * fine);
     }
 }
 
@@ -131,7 +131,7 @@ TEST(LeafSpring, LawMeetsFiniteElementsBetweenSamples)
   for (const LeafAxial axial : { LeafAxial::free, LeafAxial::held })
     for (const double sagitta : { 0., 1.5 })
     {
-      LeafSpring leaf = leaf_of(LeafEnd::clamped, 1.4, 0.3);
+      LeafSpring leaf = make_leaf(LeafEnd::clamped, 1.4, 0.3);
       leaf.axial      = axial;
       leaf.sagitta    = sagitta;
       const auto law  = leaf_behaviour(leaf, PlaneState::stress, -0.02, 0.03).law;
@@ -159,7 +159,7 @@ TEST(LeafSpring, StiffnessIsTheDerivativeOfTheMoment)
   for (const LeafEnd end : ends)
     for (const LeafAxial axial : { LeafAxial::free, LeafAxial::held })
     {
-      LeafSpring leaf = leaf_of(end, 1.4, 0.3);
+      LeafSpring leaf = make_leaf(end, 1.4, 0.3);
       leaf.axial      = axial;
       leaf.sagitta    = 0.5;
       LeafBody body(leaf, PlaneState::stress);
@@ -182,13 +182,13 @@ TEST(LeafSpring, BentAndHeldLeavesMeetTheExtensibleElastica)
       for (const double sagitta : { 0., 1., -1. })
         for (const double distance : { 0., 8. })
         {
-          LeafSpring leaf     = leaf_of(end, 1.);
+          LeafSpring leaf     = make_leaf(end, 1.);
           leaf.axial          = axial;
           leaf.sagitta        = sagitta;
           leaf.clamp_distance = distance;
           LeafBody body(leaf, PlaneState::stress);
           ExtensibleElastica elastica(leaf);
-          const double allowed = shear_number(leaf) + of_mesh + 1e-4;
+          const double allowed = shear_number(leaf) + mesh_tolerance + 1e-4;
           for (const double turn : { -0.02, 0.001, 0.03 })
           {
             const double expected = elastica.moment(turn);
@@ -211,18 +211,18 @@ TEST(LeafSpring, VibratesLikeABeam)
   const std::vector<double> lowest = { 1.5 * pi, 1.25 * pi, 0.75 * pi };
   for (unsigned int i = 0; i < 3; ++i)
   {
-    const LeafSpring leaf  = leaf_of(ends[i], 1.);
-    const auto behaviour   = leaf_behaviour(leaf, PlaneState::stress, -0.01, 0.01);
-    const double of_length = leaf.density * leaf.width * leaf.thickness;
+    const LeafSpring leaf        = make_leaf(ends[i], 1.);
+    const auto behaviour         = leaf_behaviour(leaf, PlaneState::stress, -0.01, 0.01);
+    const double mass_per_length = leaf.density * leaf.width * leaf.thickness;
     ASSERT_EQ(behaviour.modes.size(), 8u);
     for (unsigned int mode = 0; mode < 3; ++mode)
     {
       const double guess      = lowest[i] + mode * pi;
       const double b          = root(equations[i], guess - 0.4, guess + 0.4);
-      const double omega      = b * b / (leaf.length * leaf.length) * std::sqrt(bending_stiffness(leaf) / of_length);
+      const double omega      = b * b / (leaf.length * leaf.length) * std::sqrt(bending_stiffness(leaf) / mass_per_length);
       const double slender    = b * leaf.thickness / leaf.length;
       const double correction = slender * slender / 12. * (1. + 2.4);
-      EXPECT_NEAR(std::sqrt(behaviour.modes[mode].stiffness), omega, (correction + of_mesh) * omega) << mode;
+      EXPECT_NEAR(std::sqrt(behaviour.modes[mode].stiffness), omega, (correction + mesh_tolerance) * omega) << mode;
     }
     // Along the leaf a rod clamped at one end, under an end that counts for nothing.
     const double rod = 0.5 * pi / leaf.length * std::sqrt(leaf.young_modulus / leaf.density);
@@ -237,14 +237,14 @@ TEST(LeafSpring, InertiaIsThatOfItsStaticShape)
   for (const LeafEnd end : ends)
     for (const double distance : { 0., 12. })
     {
-      LeafSpring leaf        = leaf_of(end, 1.);
-      leaf.clamp_distance    = distance;
-      const auto behaviour   = leaf_behaviour(leaf, PlaneState::stress, -0.01, 0.01);
-      const double of_length = leaf.density * leaf.width * leaf.thickness;
-      const double inertia   = of_length * integral(leaf, [&](const double x) { return std::pow(static_shape(leaf, x), 2); });
-      const double momentum  = -of_length * integral(leaf, [&](const double x) { return static_shape(leaf, x); });
-      const double allowed   = 3. * shear_number(leaf) + of_mesh;
-      EXPECT_NEAR(behaviour.mass, of_length * leaf.length, 1e-12 * behaviour.mass);
+      LeafSpring leaf              = make_leaf(end, 1.);
+      leaf.clamp_distance          = distance;
+      const auto behaviour         = leaf_behaviour(leaf, PlaneState::stress, -0.01, 0.01);
+      const double mass_per_length = leaf.density * leaf.width * leaf.thickness;
+      const double inertia = mass_per_length * integral(leaf, [&](const double x) { return std::pow(static_shape(leaf, x), 2); });
+      const double momentum = -mass_per_length * integral(leaf, [&](const double x) { return static_shape(leaf, x); });
+      const double allowed  = 3. * shear_number(leaf) + mesh_tolerance;
+      EXPECT_NEAR(behaviour.mass, mass_per_length * leaf.length, 1e-12 * behaviour.mass);
       EXPECT_NEAR(behaviour.inertia, inertia, allowed * inertia);
       EXPECT_NEAR(behaviour.momentum[1], momentum, allowed * std::abs(momentum));
       EXPECT_NEAR(behaviour.momentum[0], 0., 1e-9 * std::abs(momentum));
@@ -257,7 +257,7 @@ TEST(LeafSpring, ModesTakePartInWhatTheHubMoves)
 {
   for (const LeafEnd end : { LeafEnd::clamped, LeafEnd::pinned })
   {
-    const auto behaviour = leaf_behaviour(leaf_of(end, 1.), PlaneState::stress, -0.01, 0.01);
+    const auto behaviour = leaf_behaviour(make_leaf(end, 1.), PlaneState::stress, -0.01, 0.01);
     double inertia = 0., momentum = 0.;
     for (const auto &mode : behaviour.modes)
     {
@@ -292,7 +292,7 @@ TEST(LeafSpring, AsThinAsFoil)
 {
   for (const double thickness : { 0.1, 0.05 })
   {
-    const LeafSpring leaf    = leaf_of(LeafEnd::clamped, thickness);
+    const LeafSpring leaf    = make_leaf(LeafEnd::clamped, thickness);
     const double expected    = beam_stiffness(leaf);
     const MomentLaw law      = leaf_behaviour(leaf, PlaneState::stress, -0.01, 0.05).law;
     const double at_end      = law.moment(0.05) / 0.05;

@@ -233,10 +233,10 @@ TEST(LeverModel, HardeningSpringIsItsSecantAtEachTurn)
     scene.spring           = {};
     scene.spring.stiffness = moment / turn;
     MeshedLever secant(scene);
-    const Row of_secant = observed(secant.model, solved(secant.model, accepted, forward_to(30.)));
-    EXPECT_NEAR(row[Column::theta], of_secant[Column::theta], 1e-13);
-    EXPECT_NEAR(row[Column::P], of_secant[Column::P], 1e-9 * row[Column::P]);
-    EXPECT_NEAR(row[Column::support_displacement], of_secant[Column::support_displacement], 1e-11);
+    const Row secant_row = observed(secant.model, solved(secant.model, accepted, forward_to(30.)));
+    EXPECT_NEAR(row[Column::theta], secant_row[Column::theta], 1e-13);
+    EXPECT_NEAR(row[Column::P], secant_row[Column::P], 1e-9 * row[Column::P]);
+    EXPECT_NEAR(row[Column::support_displacement], secant_row[Column::support_displacement], 1e-11);
     // Of k turn + c turn^3: k turn^2 / 2 + c turn^4 / 4.
     const double linear = model_a().spring.stiffness * turn;
     EXPECT_NEAR(row[Column::spring_energy], 0.5 * linear * turn + 0.25 * (moment - linear) * turn,

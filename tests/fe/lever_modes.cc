@@ -22,18 +22,18 @@ namespace
     return { 200., -2., 0., 4., 100, 2 };
   }
 
-  double mass_of(const Bar &bar)
+  double bar_mass(const Bar &bar)
   {
     return 2.7e-9 * bar.length * bar.depth * bar.width;
   }
 
-  LeverModes modes_of(const Bar &bar, const double tip_mass, const double spring, const unsigned int n)
+  LeverModes compute_modes(const Bar &bar, const double tip_mass, const double spring, const unsigned int n)
   {
     const MeshedBar meshed(bar, 0.);
     const double L       = bar.length;
     const double rotary  = bar.depth * bar.depth / 12.;
-    const double inertia = mass_of(bar) * (L * L / 3. + rotary) + tip_mass * (L * L + rotary);
-    return lever_modes(*meshed, response_of(*meshed), bar_inertia(inertia, tip_mass), spring, n);
+    const double inertia = bar_mass(bar) * (L * L / 3. + rotary) + tip_mass * (L * L + rotary);
+    return lever_modes(*meshed, make_response(*meshed), bar_inertia(inertia, tip_mass), spring, n);
   }
 
   double root(const std::function<double(double)> &f, double low, double high)
@@ -51,7 +51,7 @@ namespace
   {
     const double bending = young_modulus * bar.width * std::pow(bar.depth, 3) / 12.;
     const double L       = bar.length;
-    return beta_length * beta_length * std::sqrt(bending / (mass_of(bar) * L * L * L));
+    return beta_length * beta_length * std::sqrt(bending / (bar_mass(bar) * L * L * L));
   }
 
   /// What rotary inertia and shear take off omega (Timoshenko) of a beam between pins, relatively: 1/2 (beta r)^2 (1 + E/(kappa
@@ -75,8 +75,8 @@ TEST(LeverModes, OfAHingedBarAreThoseOfABeam)
 {
   const Bar bar      = slender_bar();
   const double soft  = 10.;
-  const auto modes   = modes_of(bar, 0., soft, 4);
-  const double J     = mass_of(bar) * (bar.length * bar.length + 0.25 * bar.depth * bar.depth) / 3.;
+  const auto modes   = compute_modes(bar, 0., soft, 4);
+  const double J     = bar_mass(bar) * (bar.length * bar.length + 0.25 * bar.depth * bar.depth) / 3.;
   const double swing = soft / J;
   // Swinging it bends hardly: its frequency is 1/250 of the first one of bending. That the stiffness of 1e6 N/mm leaves a
   // rotation by 200 mm alone holds to round-off, 1e-16 (200 mm)^2 1e6 N/mm a node, beside the spring.
@@ -95,7 +95,7 @@ TEST(LeverModes, OfAHingedBarWithATipMassAreThoseOfABeam)
 {
   const Bar bar    = slender_bar();
   const double mu  = 0.5;
-  const auto modes = modes_of(bar, mu * mass_of(bar), 10., 4);
+  const auto modes = compute_modes(bar, mu * bar_mass(bar), 10., 4);
   for (unsigned int i = 1; i < 4; ++i)
   {
     const auto equation = [mu](const double x) { return std::cos(x) / std::sin(x) - 1. / std::tanh(x) - 2. * mu * x; };
@@ -106,7 +106,7 @@ TEST(LeverModes, OfAHingedBarWithATipMassAreThoseOfABeam)
 TEST(LeverModes, OfAHeldBarAreThoseOfABeam)
 {
   const Bar bar    = slender_bar();
-  const auto modes = modes_of(bar, 0., 1e12, 3);
+  const auto modes = compute_modes(bar, 0., 1e12, 3);
   for (unsigned int i = 0; i < 3; ++i)
   {
     const double estimate = i == 0 ? 1.875 : (i + 0.5) * M_PI;
@@ -123,7 +123,7 @@ TEST(LeverModes, AreOrthonormalAndTurnForward)
   // Few of them iteratively, all by the dense solver.
   for (const unsigned int n : { 10u, 1000000u })
   {
-    const auto modes = lever_modes(*bar, response_of(*bar), inertia, 100., n);
+    const auto modes = lever_modes(*bar, make_response(*bar), inertia, 100., n);
     ASSERT_EQ(modes.stiffness.size(), std::min(n, TotalCoordinates(*bar).size()));
     std::vector<Vector> totals;
     for (unsigned int i = 0; i < modes.stiffness.size(); ++i)

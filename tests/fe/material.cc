@@ -136,9 +136,9 @@ TEST(StVenantKirchhoff, StressAndTangentAreDerivativesOfTheEnergy)
           const auto at           = st_venant_kirchhoff<2>(lame, displacement);
           const double difference = st_venant_kirchhoff_energy<2>(lame, right) - st_venant_kirchhoff_energy<2>(lame, left);
           EXPECT_NEAR(at.piola[j / 2][j % 2], difference / (2. * h), allowed(h));
-          const auto of_stress = st_venant_kirchhoff<2>(lame, right).piola - st_venant_kirchhoff<2>(lame, left).piola;
+          const auto piola_change = st_venant_kirchhoff<2>(lame, right).piola - st_venant_kirchhoff<2>(lame, left).piola;
           for (unsigned int i = 0; i < 4; ++i)
-            EXPECT_NEAR(at.tangent[i][j], of_stress[i / 2][i % 2] / (2. * h), 2. * allowed(h)) << i << j;
+            EXPECT_NEAR(at.tangent[i][j], piola_change[i / 2][i % 2] / (2. * h), 2. * allowed(h)) << i << j;
         }
 }
 

@@ -107,7 +107,7 @@ namespace
     return 0.5 * (to - from) * (depth(from) + depth(to));
   }
 
-  double area_of_pockets(const Scene &scene)
+  double pocket_area(const Scene &scene)
   {
     const auto &frame   = scene.frame;
     const double pocket = (scene.lever.length - frame.root - (frame.pockets + 1) * frame.rib) / frame.pockets;
@@ -121,11 +121,11 @@ namespace
   }
 
   /// Metal of full width: the arm less its pockets, and the root around a hub of 5 mm with 10 mm from its axis to the outside.
-  double area_of_frame(const Scene &scene, const double front)
+  double frame_area(const Scene &scene, const double front)
   {
     const double arm  = taper(scene, scene.frame.root, scene.lever.length, 0.);
     const double root = (scene.frame.root + 10.) * (10. + std::max(front + scene.lever.depth, 10.));
-    return arm - area_of_pockets(scene) + root - M_PI * 25.;
+    return arm - pocket_area(scene) + root - M_PI * 25.;
   }
 
   void expect_plate(const Scene &scene, const dealii::Triangulation<2> &triangulation)
@@ -269,8 +269,8 @@ TEST(Mesh, FrameHasRootArmAndWebs)
     make_mesh(scene, triangulation);
     auto area = areas(triangulation);
     // The hub's circle is a polygon of 30 sides and more.
-    EXPECT_NEAR(area[material_id::lever], area_of_frame(scene, offset + 1.), 0.8);
-    EXPECT_NEAR(area[material_id::web], area_of_pockets(scene), 1e-8);
+    EXPECT_NEAR(area[material_id::lever], frame_area(scene, offset + 1.), 0.8);
+    EXPECT_NEAR(area[material_id::web], pocket_area(scene), 1e-8);
     EXPECT_NEAR(area[material_id::layer], 174., 1e-8);
     const auto face = boundary(triangulation, boundary_id::friction_face);
     EXPECT_NEAR(face.begin, 36., 1e-9);
@@ -291,7 +291,7 @@ TEST(Mesh, FrameCarriesAPlate)
     const auto scene = built(offset, LeverOutline::frame, PlateType::on_sensors);
     dealii::Triangulation<2> triangulation;
     make_mesh(scene, triangulation);
-    EXPECT_NEAR(areas(triangulation)[material_id::lever], area_of_frame(scene, offset + 15.), 0.8);
+    EXPECT_NEAR(areas(triangulation)[material_id::lever], frame_area(scene, offset + 15.), 0.8);
     expect_plate(scene, triangulation);
     expect_good_cells(scene, triangulation);
   }
@@ -305,7 +305,7 @@ TEST(Mesh, FrameWithoutWebHasHoles)
   make_mesh(scene, triangulation);
   auto area = areas(triangulation);
   EXPECT_EQ(area.count(material_id::web), 0u);
-  EXPECT_NEAR(area[material_id::lever], area_of_frame(scene, model_a_offset + 1.), 0.8);
+  EXPECT_NEAR(area[material_id::lever], frame_area(scene, model_a_offset + 1.), 0.8);
 }
 
 TEST(Mesh, FrameWithoutPocketsIsSolid)

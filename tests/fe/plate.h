@@ -44,15 +44,15 @@ namespace sprag
 
   inline void make_plate_on_bar(const PlateOnBar &scene, dealii::Triangulation<2> &triangulation)
   {
-    using Sizes           = std::vector<std::vector<double>>;
-    const auto parts      = [](const unsigned int n, const double length) { return std::vector<double>(n, length / n); };
-    const double of_plate = scene.end - scene.begin;
+    using Sizes               = std::vector<std::vector<double>>;
+    const auto parts          = [](const unsigned int n, const double length) { return std::vector<double>(n, length / n); };
+    const double plate_length = scene.end - scene.begin;
     dealii::Triangulation<2> bar, plate;
     dealii::GridGenerator::subdivided_hyper_rectangle(bar, Sizes{ parts(13, scene.length), parts(2, scene.depth) },
                                                       dealii::Point<2>(0., scene.front()),
                                                       dealii::Point<2>(scene.length, scene.front() + scene.depth));
     dealii::GridGenerator::subdivided_hyper_rectangle(
-        plate, Sizes{ parts(11, of_plate), { scene.layer, 0.5 * scene.thickness, 0.5 * scene.thickness } },
+        plate, Sizes{ parts(11, plate_length), { scene.layer, 0.5 * scene.thickness, 0.5 * scene.thickness } },
         dealii::Point<2>(scene.begin, scene.offset), dealii::Point<2>(scene.end, scene.back()));
     dealii::GridGenerator::merge_triangulations(bar, plate, triangulation);
     const double small = 1e-9 * scene.length;

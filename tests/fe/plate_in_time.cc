@@ -20,7 +20,7 @@ namespace
   using Vector = dealii::Vector<double>;
 
   /// On some nodes of the friction face, growing.
-  PortForces forces_of(const unsigned int step)
+  PortForces step_forces(const unsigned int step)
   {
     PortForces forces;
     forces.ports  = { 10, 11, 24, 25 };
@@ -38,7 +38,7 @@ namespace
     Motion motion = structure.rest();
     for (unsigned int step = 0; step < 12; ++step)
     {
-      const auto forces = forces_of(step);
+      const auto forces = step_forces(step);
       structure.free_ports(motion, all_ports(structure.ports().size()));
       const auto before = motion;
       motion            = structure.advance(motion, forces, {});
@@ -47,7 +47,7 @@ namespace
   }
 
   /// Row whose product with total coordinates is the momentum of plate and layer along eta.
-  Vector momentum_of_plate(const ElasticBody<2> &body, const LeverInertia &inertia)
+  Vector plate_momentum(const ElasticBody<2> &body, const LeverInertia &inertia)
   {
     const TotalCoordinates coordinates(body);
     Vector row(coordinates.size());
@@ -85,7 +85,7 @@ TEST(PlateInTime, ContactLessSensorsIsThePlatesInertia)
   auto structure     = sparse_structure(*plate, plate_inertia(), 4, undamped_dynamics(false));
   const auto &layout = structure.ports();
   ASSERT_EQ(layout.sensors, 2u);
-  const auto momentum = momentum_of_plate(*plate, plate_inertia());
+  const auto momentum = plate_momentum(*plate, plate_inertia());
   double largest      = 0.;
   march(structure,
         [&](const Motion &before, const Motion &after, const PortForces &forces, const StepWeights &w)
@@ -111,7 +111,7 @@ TEST(PlateInTime, SensorsAreOnlyReadButAnswerAsPorts)
     auto structure     = sparse_structure(*plate, plate_inertia(), 4, undamped_dynamics(sprung));
     const auto &layout = structure.ports();
     structure.use_statics();
-    const auto forces = forces_of(0);
+    const auto forces = step_forces(0);
     const auto motion = structure.deform(forces);
     const auto ports  = structure.port_positions(motion);
     for (unsigned int i = 0; i < layout.sensors; ++i)
@@ -150,7 +150,7 @@ TEST(PlateInTime, CondensedSensorsAreThoseOfTheFiniteElements)
     const auto expected = sensors(whole);
     const auto error    = [&](const unsigned int modes)
     {
-      const auto basis = make_basis(*plate, { modes, spring_of_bar, plate_inertia(), {}, {} });
+      const auto basis = make_basis(*plate, { modes, bar_spring, plate_inertia(), {}, {} });
       ModalStructure condensed(modal_data(basis, undamped_dynamics(sprung)));
       EXPECT_EQ(condensed.ports().sensors, 2u);
       EXPECT_EQ(condensed.ports().rotation(), layout.rotation());
@@ -171,10 +171,10 @@ TEST(PlateInTime, CondensedStaticsAreExactWithAnyNumberOfModes)
 {
   const PlateOnBar scene;
   const MeshedPlate plate(scene);
-  const auto basis = make_basis(*plate, { 3, spring_of_bar, plate_inertia(), {}, {} });
+  const auto basis = make_basis(*plate, { 3, bar_spring, plate_inertia(), {}, {} });
   ModalStructure condensed(modal_data(basis, undamped_dynamics(false)));
   condensed.use_statics();
-  const auto forces = forces_of(0);
+  const auto forces = step_forces(0);
   const auto ports  = condensed.port_positions(condensed.deform(forces));
   EXPECT_NEAR(sensor_sum(scene, ports, condensed.ports()), forces.values[1] + forces.values[3], 1e-8);
 }

@@ -42,9 +42,9 @@ namespace
   }
 
   // Largest pressure and width of a contact from 0.2 to 1.6 mm; the samples are 0.009 of its width apart.
-  void expect(const std::function<double(double)> &of_s, const double largest, const double tolerance)
+  void expect(const std::function<double(double)> &profile, const double largest, const double tolerance)
   {
-    const auto samples = sampled([&](const double xi) { return of_s((xi - 0.9) / 0.7); });
+    const auto samples = sampled([&](const double xi) { return profile((xi - 0.9) / 0.7); });
     const auto result  = recover(samples);
     ASSERT_TRUE(result.is_fitted);
     EXPECT_NEAR(result.largest / largest, 1., tolerance);
@@ -93,7 +93,7 @@ TEST(PressureRecovery, HasNoFloor)
   double largest = 0.;
   for (int i = -999; i < 1000; ++i)
     largest = std::max(largest, smooth(0.001 * i));
-  double of_largest = 0.08, of_profile = 0.09;
+  double largest_tolerance = 0.08, profile_tolerance = 0.09;
   for (const double cell : { 0.5, 0.25, 0.125, 0.0625 })
   {
     const auto dented = [&](const double xi)
@@ -112,10 +112,10 @@ TEST(PressureRecovery, HasNoFloor)
       misfit += (result.pressure[i] - p) * (result.pressure[i] - p);
       size += p * p;
     }
-    EXPECT_LT(std::abs(result.largest / largest - 1.), of_largest) << "cells of " << cell;
-    EXPECT_LT(std::sqrt(misfit / size), of_profile) << "cells of " << cell;
-    of_largest /= 4.;
-    of_profile /= 2.;
+    EXPECT_LT(std::abs(result.largest / largest - 1.), largest_tolerance) << "cells of " << cell;
+    EXPECT_LT(std::sqrt(misfit / size), profile_tolerance) << "cells of " << cell;
+    largest_tolerance /= 4.;
+    profile_tolerance /= 2.;
   }
 }
 

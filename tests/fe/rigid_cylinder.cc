@@ -32,8 +32,8 @@ namespace
   }
 
   /// Central differences of what a function tells of the kinematics.
-  template <class Of>
-  Coordinates differences(const RigidCylinder &cylinder, const Coordinates &q, const Of &of)
+  template <class Function>
+  Coordinates differences(const RigidCylinder &cylinder, const Coordinates &q, const Function &function)
   {
     Coordinates result;
     for (unsigned int i = 0; i < SurfaceKinematics::n; ++i)
@@ -42,7 +42,7 @@ namespace
       auto before = q, after = q;
       before[i] -= step;
       after[i] += step;
-      result[i] = (of(at(cylinder, after)) - of(at(cylinder, before))) / (2. * step);
+      result[i] = (function(at(cylinder, after)) - function(at(cylinder, before))) / (2. * step);
     }
     return result;
   }
@@ -87,20 +87,20 @@ TEST(RigidCylinder, IsACircleInAPlaneWhereItIsTrue)
 {
   const Geometry geometry = model_a().geometry;
   const RigidCylinder cylinder(geometry, {});
-  const auto solid              = at(cylinder, Coordinates({ 121., 45.57, 7., 0.086, 64., 0., 0. }));
-  const auto plane              = moving_circle_contact(placed_for_points(geometry, 64., 0.086), { 121., 45.57 });
-  const unsigned int of_plane[] = { 0, 1, 3, 4 };
+  const auto solid                 = at(cylinder, Coordinates({ 121., 45.57, 7., 0.086, 64., 0., 0. }));
+  const auto plane                 = moving_circle_contact(placed_for_points(geometry, 64., 0.086), { 121., 45.57 });
+  const unsigned int plane_index[] = { 0, 1, 3, 4 };
   EXPECT_NEAR(solid.gap, plane.gap, 1e-12);
   EXPECT_NEAR(solid.slip[0], plane.slip, 1e-12);
   EXPECT_NEAR(solid.slip[1], 7., 1e-12);
   for (unsigned int i = 0; i < 4; ++i)
   {
-    EXPECT_NEAR(solid.gap_row[of_plane[i]], plane.gap_row[i], 1e-12);
-    EXPECT_NEAR(solid.slip_row[0][of_plane[i]], plane.slip_row[i], 1e-12);
+    EXPECT_NEAR(solid.gap_row[plane_index[i]], plane.gap_row[i], 1e-12);
+    EXPECT_NEAR(solid.slip_row[0][plane_index[i]], plane.slip_row[i], 1e-12);
     for (unsigned int j = 0; j < 4; ++j)
     {
-      EXPECT_NEAR(solid.gap_curvature[of_plane[i]][of_plane[j]], plane.gap_curvature[i][j], 1e-10);
-      EXPECT_NEAR(solid.slip_curvature[0][of_plane[i]][of_plane[j]], plane.slip_curvature[i][j], 1e-10);
+      EXPECT_NEAR(solid.gap_curvature[plane_index[i]][plane_index[j]], plane.gap_curvature[i][j], 1e-10);
+      EXPECT_NEAR(solid.slip_curvature[0][plane_index[i]][plane_index[j]], plane.slip_curvature[i][j], 1e-10);
     }
   }
 }
@@ -109,10 +109,10 @@ TEST(RigidCylinder, BeyondItsEndsNothingTouches)
 {
   Cylinder cylinder;
   cylinder.length = 30.;
-  const RigidCylinder of(model_a().geometry, cylinder);
-  const auto pose = of.pose(64., 0.086);
-  EXPECT_LT(of.gap(pose, { 121., 45., 14.9 }), 0.);
-  EXPECT_NEAR(of.gap(pose, { 121., 45., 17. }), 2., 1e-12);
+  const RigidCylinder rounded(model_a().geometry, cylinder);
+  const auto pose = rounded.pose(64., 0.086);
+  EXPECT_LT(rounded.gap(pose, { 121., 45., 14.9 }), 0.);
+  EXPECT_NEAR(rounded.gap(pose, { 121., 45., 17. }), 2., 1e-12);
 }
 
 // Half of a slope by the scene and half by the shaft is the whole by the scene.

@@ -19,7 +19,7 @@ namespace
   using Changes = std::vector<std::pair<std::string, std::string>>;
 
   /// A bar faced with a layer, of twelve and six hexahedra, with some of its script changed.
-  Scene lever_of(const Changes &changes = {})
+  Scene lever_scene(const Changes &changes = {})
   {
     std::string script = "Point(1) = {0, 45.6, -20}; Point(2) = {210, 45.6, -20};\n"
                          "Point(3) = {0, 46.6, -20}; Point(4) = {210, 46.6, -20};\n"
@@ -50,7 +50,7 @@ namespace
     return scene;
   }
 
-  std::vector<std::string> mistakes_of(const Scene &scene)
+  std::vector<std::string> find_mistakes(const Scene &scene)
   {
     try
     {
@@ -65,7 +65,7 @@ namespace
 
   void expect_mistake(const Changes &changes, const std::string &message)
   {
-    const auto found = mistakes_of(lever_of(changes));
+    const auto found = find_mistakes(lever_scene(changes));
     ASSERT_EQ(found.size(), 1u) << (found.empty() ? "" : found[1]);
     EXPECT_EQ(found[0], "lever.geo: " + message);
   }
@@ -73,7 +73,7 @@ namespace
 
 TEST(SolidFile, KeepsItsGroups)
 {
-  const Scene scene = lever_of();
+  const Scene scene = lever_scene();
   EXPECT_TRUE(has_solid_file(scene));
   dealii::Triangulation<3> triangulation;
   read_solid_file(scene, triangulation);
@@ -94,7 +94,7 @@ TEST(SolidFile, KeepsItsGroups)
 
 TEST(SolidFile, CountsInThreeDimensionsAlone)
 {
-  Scene scene              = lever_of();
+  Scene scene              = lever_scene();
   scene.analysis.dimension = 2;
   EXPECT_FALSE(has_solid_file(scene));
   Mesh plane;
@@ -109,7 +109,7 @@ TEST(SolidFile, OtherElementsAreCounted)
   const std::string way = ", but must be made of hexahedra with 8 nodes; in a .geo extrude surfaces of quadrilaterals in layers: "
                           "'Recombine Surface {s}; Extrude {0, 0, 40} { Surface{s}; Layers{10}; Recombine; }', or use "
                           "'Transfinite Volume' and 'Recombine Surface'";
-  const auto found      = mistakes_of(lever_of({ { "Layers{2}; Recombine;", "" }, { "Layers{2}; Recombine;", "" } }));
+  const auto found      = find_mistakes(lever_scene({ { "Layers{2}; Recombine;", "" }, { "Layers{2}; Recombine;", "" } }));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NE(found[0].find(" elements 'Tetrahedron 4'"), std::string::npos) << found[0];
   EXPECT_EQ(found[0].substr(found[0].find(", but must")), way);
@@ -127,7 +127,7 @@ TEST(SolidFile, AFaceThatIsNotFlatIsRefusedWithWhatItIsOff)
 
 TEST(SolidFile, LinesOfNodesGoAlongTheAxes)
 {
-  const auto found = mistakes_of(lever_of({ { "{0, 0, 40}", "{5, 0, 40}" }, { "{0, 0, 40}", "{5, 0, 40}" } }));
+  const auto found = find_mistakes(lever_scene({ { "{0, 0, 40}", "{5, 0, 40}" }, { "{0, 0, 40}", "{5, 0, 40}" } }));
   ASSERT_EQ(found.size(), 1u);
   const std::string rule = "lever.geo: the sides of cells on 'friction face' must be rectangles in lines along x and z, from end "
                            "to end: the one at x = ";
@@ -155,7 +155,7 @@ TEST(SolidFile, MissingGroupsAreNamedWithTheNearest)
   expect_mistake({ { "\"friction face\"", "\"frictionface\"" } },
                  "no physical surface 'friction face', where the cylinder slides (surfaces found: 'frictionface', 'hub', "
                  "'inside'); did you mean 'frictionface'?");
-  const auto found = mistakes_of(lever_of({ { "\"lever\"", "\"Lever\"" }, { "\"hub\"", "\"clamp\"" } }));
+  const auto found = find_mistakes(lever_scene({ { "\"lever\"", "\"Lever\"" }, { "\"hub\"", "\"clamp\"" } }));
   ASSERT_EQ(found.size(), 3u);
   EXPECT_EQ(found[0],
             "lever.geo: unknown physical volume 'Lever': volumes are 'lever', 'plate', 'layer' and 'hub' (all but 'lever' "
@@ -164,19 +164,19 @@ TEST(SolidFile, MissingGroupsAreNamedWithTheNearest)
             "lever.geo: no physical volume 'lever', the metal (volumes found: 'Lever', 'layer'); did you mean 'Lever'?");
   EXPECT_EQ(found[2], "lever.geo: no physical surface 'hub', which carries the lever on its pivot, nor a volume 'hub' (surfaces "
                       "found: 'clamp', 'friction face', 'inside')");
-  Scene plate      = lever_of();
+  Scene plate      = lever_scene();
   plate.plate.type = PlateType::on_sensors;
-  EXPECT_EQ(mistakes_of(plate).size(), 3u);
+  EXPECT_EQ(find_mistakes(plate).size(), 3u);
 }
 
 // A tenth of a micrometre apart: nearer than nodes are meant to be.
 TEST(SolidFile, PartsThatTouchAndShareNoNodesAreRefused)
 {
-  const auto found = mistakes_of(
-      lever_of({ { "Line(1)", "Point(7) = {0, 46.6001, -20}; Point(8) = {210, 46.6001, -20}; Line(8) = {7, 8};\nLine(1)" },
-                 { "Line(6) = {3, 5}; Line(7) = {4, 6}", "Line(6) = {7, 5}; Line(7) = {8, 6}" },
-                 { "Curve Loop(2) = {2,", "Curve Loop(2) = {8," },
-                 { "Curve {1, 2, 3}", "Curve {1, 2, 3, 8}" } }));
+  const auto found = find_mistakes(
+      lever_scene({ { "Line(1)", "Point(7) = {0, 46.6001, -20}; Point(8) = {210, 46.6001, -20}; Line(8) = {7, 8};\nLine(1)" },
+                    { "Line(6) = {3, 5}; Line(7) = {4, 6}", "Line(6) = {7, 5}; Line(7) = {8, 6}" },
+                    { "Curve Loop(2) = {2,", "Curve Loop(2) = {8," },
+                    { "Curve {1, 2, 3}", "Curve {1, 2, 3, 8}" } }));
   ASSERT_EQ(found.size(), 2u);
   EXPECT_NE(found[0].find("24 nodes lie on a side of an element that they are no corners of"), std::string::npos) << found[0];
   EXPECT_NE(found[1].find("the part of 'layer'"), std::string::npos) << found[1];

@@ -154,10 +154,10 @@ namespace
     const Vector<double> found(solution.begin(), solution.end());
     const auto error = [&](const VectorTools::NormType norm)
     {
-      Vector<double> of_cells(cube.triangulation.n_active_cells());
-      VectorTools::integrate_difference(cube.body->cell_mapping(), cube.body->dofs(), found, exact, of_cells,
+      Vector<double> cell_errors(cube.triangulation.n_active_cells());
+      VectorTools::integrate_difference(cube.body->cell_mapping(), cube.body->dofs(), found, exact, cell_errors,
                                         QGauss<3>(degree + 2), norm);
-      return of_cells.l2_norm();
+      return cell_errors.l2_norm();
     };
     return { { error(VectorTools::L2_norm), error(VectorTools::H1_seminorm) } };
   }
@@ -211,11 +211,11 @@ TEST(SolidStiffness, ErrorsFallAtTheOrderOfTheDegree)
 {
   for (const unsigned int degree : { 1u, 2u })
   {
-    const unsigned int n  = degree == 1 ? 8 : 4;
-    const auto coarse     = errors(n, degree);
-    const auto fine       = errors(2 * n, degree);
-    const double of_value = std::log2(coarse[0] / fine[0]), of_gradient = std::log2(coarse[1] / fine[1]);
-    EXPECT_NEAR(of_value, degree + 1., 0.15) << "degree " << degree;
-    EXPECT_NEAR(of_gradient, degree, 0.1) << "degree " << degree;
+    const unsigned int n     = degree == 1 ? 8 : 4;
+    const auto coarse        = errors(n, degree);
+    const auto fine          = errors(2 * n, degree);
+    const double value_order = std::log2(coarse[0] / fine[0]), gradient_order = std::log2(coarse[1] / fine[1]);
+    EXPECT_NEAR(value_order, degree + 1., 0.15) << "degree " << degree;
+    EXPECT_NEAR(gradient_order, degree, 0.1) << "degree " << degree;
   }
 }

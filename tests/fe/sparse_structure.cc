@@ -224,19 +224,19 @@ TEST(SparseStructure, WorksBalance)
     SmallLever lever(sprung);
     for (const double dt : { 1e-3, 1e-5 })
     {
-      const auto step  = one_step(lever, dt);
-      const auto begin = lever.structure.stored_energy(step.begin);
-      const auto end   = lever.structure.stored_energy(step.end);
-      const auto sum   = [](const StoredEnergy &e) { return e.kinetic + e.spring + e.elastic + e.support; };
-      const auto from  = lever.structure.port_positions(step.begin);
-      const auto to    = lever.structure.port_positions(step.end);
-      double of_forces = 0.;
+      const auto step   = one_step(lever, dt);
+      const auto begin  = lever.structure.stored_energy(step.begin);
+      const auto end    = lever.structure.stored_energy(step.end);
+      const auto sum    = [](const StoredEnergy &e) { return e.kinetic + e.spring + e.elastic + e.support; };
+      const auto from   = lever.structure.port_positions(step.begin);
+      const auto to     = lever.structure.port_positions(step.end);
+      double force_work = 0.;
       for (unsigned int a = 0; a < step.forces.ports.size(); ++a)
-        of_forces += step.forces.values[a] * (to[step.forces.ports[a]] - from[step.forces.ports[a]]);
+        force_work += step.forces.values[a] * (to[step.forces.ports[a]] - from[step.forces.ports[a]]);
       StepWork work;
       lever.structure.add_work(step.begin, step.end, work);
       const double size = sum(begin) + sum(end) + std::abs(work.damping) + std::abs(work.algorithmic);
-      EXPECT_NEAR(sum(end) - sum(begin) + work.damping + work.algorithmic, of_forces, 1e-11 * size) << sprung << " " << dt;
+      EXPECT_NEAR(sum(end) - sum(begin) + work.damping + work.algorithmic, force_work, 1e-11 * size) << sprung << " " << dt;
       EXPECT_GT(end.layer, 0.);
       EXPECT_LT(end.layer, end.elastic);
     }

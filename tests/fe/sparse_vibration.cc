@@ -30,7 +30,7 @@ namespace
     return bar;
   }
 
-  LeverDynamics constants_of(const bool sprung, const bool damped)
+  LeverDynamics make_dynamics(const bool sprung, const bool damped)
   {
     LeverDynamics result;
     result.spring_stiffness = spring_stiffness;
@@ -216,11 +216,11 @@ namespace
     {
       const auto &delay         = forces.delays[d];
       const unsigned int at     = 2 * n + d;
-      const auto in_coordinates = [&](const Vector &of_ports)
+      const auto in_coordinates = [&](const Vector &port_values)
       {
         Vector result(n);
-        for (unsigned int port = 0; port < of_ports.size(); ++port)
-          lever.ports.add_force(forces.ports[port], of_ports[port], result);
+        for (unsigned int port = 0; port < port_values.size(); ++port)
+          lever.ports.add_force(forces.ports[port], port_values[port], result);
         return result;
       };
       const Vector force = in_coordinates(delay.force), by_position = in_coordinates(delay.stiffness_row),
@@ -243,12 +243,12 @@ namespace
     return result;
   }
 
-  double nearest(const Complex wanted, const std::vector<StructureMode> &modes)
+  double nearest(const Complex target, const std::vector<StructureMode> &modes)
   {
     double distance = 1e300;
     for (const auto &mode : modes)
-      distance = std::min(distance, std::abs(mode.eigenvalue - wanted));
-    return distance / std::abs(wanted);
+      distance = std::min(distance, std::abs(mode.eigenvalue - target));
+    return distance / std::abs(target);
   }
 } // namespace
 
@@ -258,7 +258,7 @@ TEST(SparseVibration, IsThatOfTheDenseMatrices)
   for (const bool sprung : { false, true })
     for (const bool in_contact : { true, false })
     {
-      MeshedLever lever(constants_of(sprung, true), 5);
+      MeshedLever lever(make_dynamics(sprung, true), 5);
       auto forces = contact_on(lever.structure.ports(), 1.);
       if (!in_contact)
         for (auto *const matrix : { &forces.pressure, &forces.friction, &forces.pressure_rate, &forces.friction_rate })
@@ -281,7 +281,7 @@ TEST(SparseVibration, IsThatOfTheDenseMatrices)
 
 TEST(SparseVibration, WithoutFrictionIsThatOfTheSymmetricProblem)
 {
-  MeshedLever lever(constants_of(false, false), 5);
+  MeshedLever lever(make_dynamics(false, false), 5);
   const auto forces = contact_on(lever.structure.ports(), 0.);
   for (const bool in_contact : { true, false })
   {
@@ -312,7 +312,7 @@ TEST(SparseVibration, IsThatOfAllModes)
 {
   for (const bool sprung : { false, true })
   {
-    auto constants          = constants_of(sprung, true);
+    auto constants          = make_dynamics(sprung, true);
     constants.modal_damping = 0.02;
     const unsigned int all  = MeshedLever(constants, 1).matrices->coordinates.size();
     MeshedLever lever(constants, all);
@@ -327,7 +327,7 @@ TEST(SparseVibration, IsThatOfAllModes)
 // Static shapes leave out the inertia of the modes beyond: of an eigenvalue at most its square over that of the first of them.
 TEST(SparseVibration, OfFewModesWithStaticShapesComesNear)
 {
-  MeshedLever lever(constants_of(false, false), 41);
+  MeshedLever lever(make_dynamics(false, false), 41);
   auto forces          = contact_on(lever.structure.ports(), 1.);
   forces.friction_rate = 0.;
   forces.delays.clear();
@@ -348,7 +348,7 @@ TEST(SparseVibration, OfFewModesWithStaticShapesComesNear)
 
 TEST(SparseVibration, MassDampingTakesHalfOfItsFactorOffEveryVibration)
 {
-  auto constants         = constants_of(false, false);
+  auto constants         = make_dynamics(false, false);
   constants.mass_damping = 34.;
   MeshedLever lever(constants, 5);
   const auto forces = contact_on(lever.structure.ports(), 0.);

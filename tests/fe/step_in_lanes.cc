@@ -89,7 +89,7 @@ TEST_P(StepInLanesOfAnAxis, AStepInTimeFollowsTheLawsAtEachPoint)
       }
       const auto placed = seen_at_end(state.position);
       const auto middle = seen_between(from + share * (state.position - from));
-      const auto slips  = slips_of(rigid, at_begin, from);
+      const auto slips  = compute_slips(rigid, at_begin, from);
       StepKinematics<7, 2> kinematics;
       kinematics.gap_begin = gap_begin;
       kinematics.gap_end   = placed.gap;
@@ -137,7 +137,7 @@ namespace
   /// line.
   template <class Quantity>
   std::optional<double> before(const std::vector<FacePoint<3>> &points, const unsigned int point, const double travel,
-                               const Quantity &of_point)
+                               const Quantity &at_point)
   {
     const double xi = points[point].position[0] - travel;
     std::optional<unsigned int> below, above;
@@ -153,7 +153,7 @@ namespace
     if (!below || !above)
       return {};
     const double from = points[*below].position[0], to = points[*above].position[0];
-    return of_point(*below) + (xi - from) / (to - from) * (of_point(*above) - of_point(*below));
+    return at_point(*below) + (xi - from) / (to - from) * (at_point(*above) - at_point(*below));
   }
 } // namespace
 
@@ -211,7 +211,7 @@ TEST_P(StepInLanesOfAnAxis, AStepWithoutInertiaFollowsTheLawsAtEachPoint)
       for (const auto &[node, shape] : points[q].nodes)
         for (unsigned int d = 0; d < 3; ++d)
           from[d] += shape * begin[3 * node + d];
-      return slips_of(rigid, at_begin, from);
+      return compute_slips(rigid, at_begin, from);
     };
     const auto remembered = [&](const unsigned int q)
     {
@@ -288,21 +288,21 @@ TEST_P(StepInLanesOfAnAxis, ForcesAreTheSameWithAndWithoutATangent)
   const auto begin = bed.pressed(0.1), end = bed.pressed(0.03);
   const DrivePoint from{ 0., Bed::x - 0.7, 112., 0. }, to{ 6e-3, Bed::x, 112., 0. };
   const Kinematic at_begin{ begin, {}, {} };
-  const auto step = [&](const Wanted wanted, FaceEvaluation<3> &found) {
-    bed.surface().evaluate(PortStep{ from, none, to, at_begin, end, {}, weights, &nothing, wanted }, found);
+  const auto step = [&](const Request request, FaceEvaluation<3> &found) {
+    bed.surface().evaluate(PortStep{ from, none, to, at_begin, end, {}, weights, &nothing, request }, found);
   };
-  const auto slide = [&](const Wanted wanted, FaceEvaluation<3> &found) {
-    bed.surface().evaluate_sliding(SlidingState{ end, to, 112., nullptr, ContactFriction::sliding, wanted }, found);
+  const auto slide = [&](const Request request, FaceEvaluation<3> &found) {
+    bed.surface().evaluate_sliding(SlidingState{ end, to, 112., nullptr, ContactFriction::sliding, request }, found);
   };
   const auto check = [](const auto &evaluate)
   {
     FaceEvaluation<3> at_once, one_by_one;
-    evaluate(Wanted::with_tangent, at_once);
-    evaluate(Wanted::forces, one_by_one);
+    evaluate(Request::with_tangent, at_once);
+    evaluate(Request::forces, one_by_one);
     EXPECT_FALSE(one_by_one.forces.has_tangent);
     EXPECT_EQ(one_by_one.forces.ports, at_once.forces.ports);
     EXPECT_EQ(one_by_one.forces.values, at_once.forces.values);
-    evaluate(Wanted::with_tangent, one_by_one);
+    evaluate(Request::with_tangent, one_by_one);
     EXPECT_TRUE(one_by_one.forces.has_tangent);
     EXPECT_GT(at_once.forces.ports.size(), 20u);
     EXPECT_EQ(one_by_one.forces.ports, at_once.forces.ports);
@@ -388,19 +388,22 @@ TEST_P(StepInLanesOfAnAxis, PointsInContactTellWhatAllPointsTell)
     EXPECT_EQ(found.points.size() < all.points.size(), overlap > 0.);
     const auto before = [](const auto &a, const auto &b) { return a.index < b.index; };
     EXPECT_TRUE(std::is_sorted(found.points.begin(), found.points.end(), before));
-    const auto deepest = [](const FaceEvaluation<3> &of)
-    { return std::min_element(of.points.begin(), of.points.end(), [](const auto &a, const auto &b) { return a.gap < b.gap; }); };
+    const auto deepest = [](const FaceEvaluation<3> &evaluation)
+    {
+      return std::min_element(evaluation.points.begin(), evaluation.points.end(),
+                              [](const auto &a, const auto &b) { return a.gap < b.gap; });
+    };
     EXPECT_EQ(deepest(found)->index, deepest(all)->index);
-    Row of_some, of_all;
-    view.observe(found, of_some);
-    view.observe(all, of_all);
-    EXPECT_GE(of_all[Column::active_points], overlap > 0. ? 100. : 0.);
+    Row some_row, all_row;
+    view.observe(found, some_row);
+    view.observe(all, all_row);
+    EXPECT_GE(all_row[Column::active_points], overlap > 0. ? 100. : 0.);
     for (std::size_t i = 0; i < n_columns; ++i)
     {
       const auto column = static_cast<Column>(i);
-      EXPECT_TRUE(of_some[column] == of_all[column] || (std::isnan(of_some[column]) && std::isnan(of_all[column]))) << i;
+      EXPECT_TRUE(some_row[column] == all_row[column] || (std::isnan(some_row[column]) && std::isnan(all_row[column]))) << i;
     }
-    EXPECT_EQ(of_some.across, of_all.across);
+    EXPECT_EQ(some_row.across, all_row.across);
     EXPECT_EQ(found.memory().size(), all.memory().size());
   }
 }
@@ -453,7 +456,8 @@ namespace
                           const unsigned int every)
   {
     const auto found  = evaluated(ports).forces;
-    const auto moment = [&](const unsigned int port) { return bed.length_of(port) * (port == bed.ports.rotation() ? 120. : 1.); };
+    const auto moment = [&](const unsigned int port)
+    { return bed.unit_length(port) * (port == bed.ports.rotation() ? 120. : 1.); };
     unsigned int compared = 0;
     for (unsigned int j = 0; j < found.ports.size(); ++j)
     {

@@ -52,17 +52,17 @@ TEST(SurfaceCompliance, IsThatOfSolvesWithUnitForces)
   // From the far end backwards, then across: tiles are found beside those that are known, below and above them.
   for (const PortSelection &ports : { PortSelection{ 300, 399 }, PortSelection{ 140 }, PortSelection{ 5, 150, 399 } })
   {
-    const auto tiles  = compliance.whole_tiles(ports);
-    const auto matrix = compliance.among(tiles);
+    const auto blocks = compliance.whole_blocks(ports);
+    const auto matrix = compliance.among(blocks);
     for (const unsigned int port : ports)
     {
-      const unsigned int column = place_of(port, tiles);
+      const unsigned int column = find_index(port, blocks);
       Vector force(lever.body->n_dofs()), response;
       force[dofs[port]] = 1.;
       lu.solve(force, response);
-      for (unsigned int i = 0; i < tiles.size(); ++i)
+      for (unsigned int i = 0; i < blocks.size(); ++i)
       {
-        EXPECT_NEAR(matrix(i, column), response[dofs[tiles[i]]], 1e-9 * response.linfty_norm());
+        EXPECT_NEAR(matrix(i, column), response[dofs[blocks[i]]], 1e-9 * response.linfty_norm());
         EXPECT_EQ(matrix(column, i), matrix(i, column));
       }
     }
@@ -75,7 +75,7 @@ TEST(SurfaceCompliance, SolvesStayThoseOfTheWholeMatrix)
   Vector force(lever.body->n_dofs()), before, after;
   force[face_dofs(lever.body->friction_face())[101]] = 1.;
   lever.cholesky.solve(force, before);
-  lever.cholesky.entries_of_inverse({ { 7, { 7, 9 } } });
+  lever.cholesky.compute_inverse_entries({ { 7, { 7, 9 } } });
   lever.cholesky.solve(force, after);
   EXPECT_GT(before.linfty_norm(), 0.);
   EXPECT_TRUE(before == after);

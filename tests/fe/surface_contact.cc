@@ -46,7 +46,7 @@ TEST(SurfaceContact, TheForcesOnTheSlopesAreMomentsOfTheTractions)
   const auto moment         = -1. * bed.resultant(found)[1]; // on the cylinder
   const auto [tilts, skews] = turns_by_slopes(8e-4, 0.032);
   const auto force          = [&](const unsigned int slope)
-  { return found.forces.values[place_of(bed.ports.slope(slope), found.forces.ports)]; };
+  { return found.forces.values[find_index(bed.ports.slope(slope), found.forces.ports)]; };
   EXPECT_GT(std::abs(force(0)), 10.);
   EXPECT_NEAR(force(0), tilts * moment, 1e-10 * moment.norm());
   EXPECT_NEAR(force(1), skews * moment, 1e-10 * moment.norm());
@@ -60,8 +60,9 @@ TEST(SurfaceContact, AShaftOnABedOfSpringsYieldsAsKnown)
   const double cosine = std::cos(inclination);
   const auto moment   = [&](const double tilt)
   {
-    const auto of = [&](const double d) { return 2. / 7. * std::pow(d, 3.5) - 0.4 * d_0 * std::pow(d, 2.5); };
-    return c / (tilt * tilt) * (of(d_0 + 0.5 * width * tilt) - of(std::max(0., d_0 - 0.5 * width * tilt)));
+    const auto antiderivative = [&](const double d) { return 2. / 7. * std::pow(d, 3.5) - 0.4 * d_0 * std::pow(d, 2.5); };
+    return c / (tilt * tilt) *
+           (antiderivative(d_0 + 0.5 * width * tilt) - antiderivative(std::max(0., d_0 - 0.5 * width * tilt)));
   };
   for (const double stiffness : { 1e5, 5e5, 3e6 })
   {
@@ -78,9 +79,9 @@ TEST(SurfaceContact, AShaftOnABedOfSpringsYieldsAsKnown)
     for (unsigned int i = 0; i < 6; ++i)
     {
       const auto found         = bed.evaluated(at, Bed::x - 0.7, at, 0.); // slides, so that nothing sticks at no force
-      const unsigned int place = place_of(bed.ports.slope(0), found.forces.ports);
-      const double unbalance   = found.forces.values[place] - stiffness * at[bed.ports.slope(0)];
-      at[bed.ports.slope(0)] += unbalance / (stiffness - found.forces.tangent(place, place));
+      const unsigned int place = find_index(bed.ports.slope(0), found.forces.ports);
+      const double residual    = found.forces.values[place] - stiffness * at[bed.ports.slope(0)];
+      at[bed.ports.slope(0)] += residual / (stiffness - found.forces.tangent(place, place));
     }
     // As far as a parabola is a circle, and as the closed form's moment is off, see above.
     const double approximation = 2. * (d_0 + 0.5 * width * Tilt) / 56. + 2.5 * 0.5 * 56. * Tilt * Tilt / d_0;
@@ -140,7 +141,7 @@ namespace
   {
     auto result = random_vector(bed.ports.size(), 1., 1);
     for (unsigned int port = 0; port < result.size(); ++port)
-      result[port] /= bed.length_of(port);
+      result[port] /= bed.unit_length(port);
     return result;
   }
 
@@ -148,7 +149,7 @@ namespace
   void weigh(const Bed &bed, const std::vector<unsigned int> &ports, dealii::Vector<double> &forces)
   {
     for (unsigned int i = 0; i < ports.size(); ++i)
-      forces[i] /= bed.length_of(ports[i]);
+      forces[i] /= bed.unit_length(ports[i]);
   }
 
   /// Compares the tangent at some ports with differences of the forces that `evaluated(ports)` finds. Points at the edge of the
@@ -166,10 +167,10 @@ namespace
     const FaceEvaluation<3> low = evaluated(before), high = evaluated(after);
     ASSERT_EQ(low.forces.ports, found.forces.ports);
     ASSERT_EQ(high.forces.ports, found.forces.ports);
-    dealii::Vector<double> of_ports(static_cast<unsigned int>(found.forces.ports.size())), slope(of_ports.size());
-    for (unsigned int i = 0; i < of_ports.size(); ++i)
-      of_ports[i] = change[found.forces.ports[i]];
-    found.forces.tangent.vmult(slope, of_ports);
+    dealii::Vector<double> port_values(static_cast<unsigned int>(found.forces.ports.size())), slope(port_values.size());
+    for (unsigned int i = 0; i < port_values.size(); ++i)
+      port_values[i] = change[found.forces.ports[i]];
+    found.forces.tangent.vmult(slope, port_values);
     auto difference = high.forces.values;
     difference -= low.forces.values;
     difference /= 2. * step;
@@ -237,30 +238,30 @@ TEST_P(SurfaceContactOfAnAxis, SlidingIsLinearisedByDisplacementsAndVelocities)
     ports[port] += 1e-3 * std::sin(1.3 * port);
   auto rates = random_vector(bed.ports.size(), 20., 3);
   for (unsigned int port = 0; port < rates.size(); ++port)
-    rates[port] /= bed.length_of(port);
+    rates[port] /= bed.unit_length(port);
   const DrivePoint drive{ 0., Bed::x, 112., 0. };
   const double speed = 100.;
   const auto change  = any_change(bed);
-  for (const bool of_rates : { false, true })
+  for (const bool by_rates : { false, true })
   {
     const auto at_rest = dealii::Vector<double>(bed.ports.size());
-    const auto &moving = of_rates ? rates : at_rest;
+    const auto &moving = by_rates ? rates : at_rest;
     FaceEvaluation<3> found;
     const auto linear = bed.surface().linearise({ ports, drive, speed, &moving, ContactFriction::sliding }, found);
-    const double step = of_rates ? 1e-3 : 1e-7;
+    const double step = by_rates ? 1e-3 : 1e-7;
     const auto forces = [&](const double side)
     {
       auto at = ports, with = moving;
-      (of_rates ? with : at).add(side * step, change);
+      (by_rates ? with : at).add(side * step, change);
       FaceEvaluation<3> result;
       bed.surface().evaluate_sliding({ at, drive, speed, &with, ContactFriction::sliding }, result);
       EXPECT_EQ(result.forces.ports, linear.ports);
       return result.forces.values;
     };
-    dealii::Vector<double> of_ports(static_cast<unsigned int>(linear.ports.size())), slope(of_ports.size());
-    for (unsigned int i = 0; i < of_ports.size(); ++i)
-      of_ports[i] = change[linear.ports[i]];
-    (of_rates ? linear.damping() : linear.stiffness()).vmult(slope, of_ports);
+    dealii::Vector<double> port_values(static_cast<unsigned int>(linear.ports.size())), slope(port_values.size());
+    for (unsigned int i = 0; i < port_values.size(); ++i)
+      port_values[i] = change[linear.ports[i]];
+    (by_rates ? linear.damping() : linear.stiffness()).vmult(slope, port_values);
     EXPECT_GT(slope.l2_norm(), 0.);
     auto difference = forces(1.);
     difference -= forces(-1.);
@@ -268,7 +269,7 @@ TEST_P(SurfaceContactOfAnAxis, SlidingIsLinearisedByDisplacementsAndVelocities)
     difference -= slope;
     weigh(bed, linear.ports, difference);
     weigh(bed, linear.ports, slope);
-    EXPECT_LT(difference.l2_norm(), (of_rates ? 1e-7 : 1e-4) * slope.l2_norm()) << of_rates;
+    EXPECT_LT(difference.l2_norm(), (by_rates ? 1e-7 : 1e-4) * slope.l2_norm()) << by_rates;
   }
 }
 

@@ -95,10 +95,10 @@ TEST(Widths, AsBuiltTheInertiaIsThatOfTheMaterial)
   inertia.hub               = 2e-4;
   inertia.source            = InertiaSource::as_built;
   const InertialMatrices matrices(*bar.body, inertia);
-  const auto of_strip = [&](const double from, const double to, const double width)
+  const auto strip_part = [&](const double from, const double to, const double width)
   { return 2.7e-9 * width * s.length * (to - from) * (s.length * s.length + from * from + from * to + to * to) / 3.; };
   const double middle   = s.offset + s.layer;
-  const double expected = of_strip(s.offset, middle, bar.web_width) + of_strip(middle, middle + s.depth, s.width) + 2e-4;
+  const double expected = strip_part(s.offset, middle, bar.web_width) + strip_part(middle, middle + s.depth, s.width) + 2e-4;
   EXPECT_EQ(matrices.density_factor, 1.);
   EXPECT_NEAR(matrices.moment_of_inertia, expected, 1e-12 * expected);
   EXPECT_NEAR(matrices.total_mass, 2.7e-9 * s.length * bar.section(), 1e-12 * matrices.total_mass);

@@ -36,7 +36,7 @@ namespace
   }
 
   /// Trial traction whose slip speed is `speed`: the inverse of the return mapping.
-  double trial_of(const double speed, const double pressure, const FrictionLaw &law, const double penalty, const double dt)
+  double compute_trial(const double speed, const double pressure, const FrictionLaw &law, const double penalty, const double dt)
   {
     return friction_coefficient(law, speed).coefficient * pressure + penalty * dt * speed;
   }
@@ -144,7 +144,7 @@ TEST(FrictionTraction, SlipSpeedAndCoefficientAreSolvedTogether)
       for (const double pressure : { 1e-3, 0.5, 4. })
         for (const double speed : { 1e-3, 1., 50., 112., 199.9, 250., 749., 2000. })
         {
-          const double trial = trial_of(speed, pressure, law, 500., dt);
+          const double trial = compute_trial(speed, pressure, law, 500., dt);
           expect_on_cone(trial, pressure, law, 500., dt);
           expect_on_cone(-trial, pressure, law, 500., dt);
         }
@@ -155,7 +155,7 @@ TEST(FrictionTraction, SlipSpeedIsTheOneThatTheTrialWasMadeOf)
   // mu rises, so the answer is the only one; its error is that of |trial| over eps dt.
   for (const double speed : { 1., 112., 190., 300., 740., 900. })
   {
-    const double trial  = trial_of(speed, 0.8, cork, 500., 0.01);
+    const double trial  = compute_trial(speed, 0.8, cork, 500., 0.01);
     const auto friction = friction_traction(trial, 0.8, cork, 500., 0.01);
     EXPECT_NEAR((trial - friction.traction) / 5., speed, 1e-14 * trial);
   }
@@ -166,9 +166,9 @@ TEST(FrictionTraction, DerivativesAgreeWithFiniteDifferencesOverThreeDecades)
   for (const auto &law : { coulomb, cork })
     for (const double pressure : { 0.1, 0.8, 4. })
       for (const double speed : { 20., 112., 150., 400. })
-        expect_derivatives(trial_of(speed, pressure, law, 500., 0.01), pressure, law, 500., 0.01);
+        expect_derivatives(compute_trial(speed, pressure, law, 500., 0.01), pressure, law, 500., 0.01);
   for (const double speed : { 5., 40., 90., 250. })
-    expect_derivatives(trial_of(speed, 0.8, table, 500., 0.01), 0.8, table, 500., 0.01);
+    expect_derivatives(compute_trial(speed, 0.8, table, 500., 0.01), 0.8, table, 500., 0.01);
 }
 
 TEST(FrictionTraction, DerivativesAreSignedWithTheTrial)

@@ -11,7 +11,7 @@ using namespace sprag;
 
 namespace
 {
-  FrictionLaw law_of(decltype(FrictionLaw::law) choice)
+  FrictionLaw make_law(decltype(FrictionLaw::law) choice)
   {
     return { std::move(choice), FrictionSpeed::sliding };
   }
@@ -29,7 +29,7 @@ namespace
 
 TEST(Friction, CoulombIsTheSameAtEverySpeed)
 {
-  const auto law = law_of(CoulombFriction{ 0.73 });
+  const auto law = make_law(CoulombFriction{ 0.73 });
   for (const double speed : { 0., 1., 112., 1e4 })
   {
     EXPECT_EQ(friction_coefficient(law, speed).coefficient, 0.73);
@@ -39,7 +39,7 @@ TEST(Friction, CoulombIsTheSameAtEverySpeed)
 
 TEST(Friction, CorkOnAluminiumHasThePapersValues)
 {
-  const auto law = law_of(CorkOnAluminium{});
+  const auto law = make_law(CorkOnAluminium{});
   EXPECT_DOUBLE_EQ(friction_coefficient(law, 0.).coefficient, 0.3491);
   EXPECT_NEAR(friction_coefficient(law, 112.).coefficient, 0.72852016, 1e-12);
   EXPECT_NEAR(friction_coefficient(law, 200.).coefficient, -7.086e-7 * 4e4 + 1.058e-3 * 200. + 0.6809, 1e-12);
@@ -49,7 +49,7 @@ TEST(Friction, CorkOnAluminiumHasThePapersValues)
 
 TEST(Friction, CorkOnAluminiumHardlyJumpsAtItsJoints)
 {
-  const auto law  = law_of(CorkOnAluminium{});
+  const auto law  = make_law(CorkOnAluminium{});
   const auto jump = [&](const double joint)
   { return friction_coefficient(law, joint).coefficient - friction_coefficient(law, std::nextafter(joint, 0.)).coefficient; };
   EXPECT_NEAR(std::abs(jump(200.)), 5.6e-5, 1e-6);
@@ -58,22 +58,23 @@ TEST(Friction, CorkOnAluminiumHardlyJumpsAtItsJoints)
 
 TEST(Friction, StribeckFallsFromRestAndGrowsAgainWithSpeed)
 {
-  const auto law = law_of(StribeckFriction{ 0.9, 0.6, 30., 2., 1e-3 });
+  const auto law = make_law(StribeckFriction{ 0.9, 0.6, 30., 2., 1e-3 });
   EXPECT_DOUBLE_EQ(friction_coefficient(law, 0.).coefficient, 0.9);
   EXPECT_DOUBLE_EQ(friction_coefficient(law, 0.).derivative, 1e-3);
   EXPECT_DOUBLE_EQ(friction_coefficient(law, 30.).coefficient, 0.6 + 0.3 / std::exp(1.) + 0.03);
   EXPECT_DOUBLE_EQ(friction_coefficient(law, 1e4).coefficient, 0.6 + 10.);
-  EXPECT_DOUBLE_EQ(friction_coefficient(law_of(StribeckFriction{ 0.9, 0.6, 30., 1., 0. }), 0.).derivative, -0.01);
+  EXPECT_DOUBLE_EQ(friction_coefficient(make_law(StribeckFriction{ 0.9, 0.6, 30., 1., 0. }), 0.).derivative, -0.01);
 }
 
 TEST(Friction, FallsWhereAnySpeedHasASmallerCoefficient)
 {
-  for (const auto &law : { law_of(CoulombFriction{}), law_of(CorkOnAluminium{}), law_of(StribeckFriction{ 0.4, 0.7, 50., 2. }),
-                           law_of(StribeckFriction{ 0.9, 0.6, 30., 1., 1.01e-2 }),
-                           law_of(TabulatedFriction({ 0., 20., 60., 120. }, { 0.3, 0.35, 0.345, 0.85 })) })
+  for (const auto &law :
+       { make_law(CoulombFriction{}), make_law(CorkOnAluminium{}), make_law(StribeckFriction{ 0.4, 0.7, 50., 2. }),
+         make_law(StribeckFriction{ 0.9, 0.6, 30., 1., 1.01e-2 }),
+         make_law(TabulatedFriction({ 0., 20., 60., 120. }, { 0.3, 0.35, 0.345, 0.85 })) })
     EXPECT_FALSE(falls_with_speed(law));
-  for (const auto &law : { law_of(StribeckFriction{ 0.9, 0.6, 30., 1., 0.99e-2 }),
-                           law_of(TabulatedFriction({ 0., 20., 60., 120. }, { 0.3, 0.35, 0.34, 0.36 })) })
+  for (const auto &law : { make_law(StribeckFriction{ 0.9, 0.6, 30., 1., 0.99e-2 }),
+                           make_law(TabulatedFriction({ 0., 20., 60., 120. }, { 0.3, 0.35, 0.34, 0.36 })) })
     EXPECT_TRUE(falls_with_speed(law));
 }
 
@@ -83,20 +84,20 @@ TEST(Friction, DerivativesAgreeWithFiniteDifferences)
   for (const double exponent : { 1., 1.5, 2., 4. })
     for (const double speed : { 2., 10., 30., 60., 300. })
     {
-      const auto law = law_of(StribeckFriction{ 0.9, 0.6, 30., exponent, 1e-3 });
+      const auto law = make_law(StribeckFriction{ 0.9, 0.6, 30., exponent, 1e-3 });
       const double h = 1e-3;
       const auto mu  = [&](const double v) { return friction_coefficient(law, v).coefficient; };
       EXPECT_NEAR(friction_coefficient(law, speed).derivative, (mu(speed + h) - mu(speed - h)) / (2. * h), 1e-10) << speed;
     }
   for (const double speed : { 1., 112., 199., 201., 500., 749., 751. })
-    expect_derivative(law_of(CorkOnAluminium{}), speed);
+    expect_derivative(make_law(CorkOnAluminium{}), speed);
   for (const double speed : { 5., 11., 60., 150., 250., 399., 700., 900. })
-    expect_derivative(law_of(measured), speed);
+    expect_derivative(make_law(measured), speed);
 }
 
 TEST(Friction, PiecesOfALawThatRisesAreTheLaw)
 {
-  for (auto law : { law_of(CorkOnAluminium{}), law_of(CoulombFriction{ 0.4 }) })
+  for (auto law : { make_law(CorkOnAluminium{}), make_law(CoulombFriction{ 0.4 }) })
   {
     law.factor        = 1.3;
     const auto pieces = rising_pieces(law);
@@ -111,13 +112,13 @@ TEST(Friction, PiecesOfALawThatRisesAreTheLaw)
       EXPECT_NEAR(2. * piece.quadratic * speed + piece.linear, expected.derivative, 1e-17);
     }
   }
-  EXPECT_TRUE(rising_pieces(law_of(StribeckFriction{})).empty());
-  EXPECT_TRUE(rising_pieces(law_of(measured)).empty());
+  EXPECT_TRUE(rising_pieces(make_law(StribeckFriction{})).empty());
+  EXPECT_TRUE(rising_pieces(make_law(measured)).empty());
 }
 
 TEST(Friction, TableMeetsItsRowsAndIsConstantBeyondThem)
 {
-  const auto law = law_of(measured);
+  const auto law = make_law(measured);
   EXPECT_DOUBLE_EQ(friction_coefficient(law, 100.).coefficient, 0.7);
   EXPECT_DOUBLE_EQ(friction_coefficient(law, 800.).coefficient, 1.0);
   EXPECT_DOUBLE_EQ(friction_coefficient(law, 0.).coefficient, 0.3);
@@ -128,7 +129,7 @@ TEST(Friction, TableMeetsItsRowsAndIsConstantBeyondThem)
 
 TEST(Friction, TableNeverOvershootsItsRows)
 {
-  const auto law = law_of(measured);
+  const auto law = make_law(measured);
   double before  = 0.;
   for (double speed = 0.; speed <= 900.; speed += 0.5)
   {

@@ -64,11 +64,11 @@ TEST(SurfaceFriction, StraightSlipInAnyDirectionIsThatOfOneSlip)
     {
       const Two d = along(angle, 1.);
       History history;
-      FrictionHistory<1> of_one;
+      FrictionHistory<1> plane_history;
       for (const auto &step : steps)
       {
         const auto friction = end_friction(history, stiffness, step.slip * d, step.pressure, law, dt);
-        const auto one      = end_friction(of_one, stiffness, One({ step.slip }), step.pressure, law, dt);
+        const auto one      = end_friction(plane_history, stiffness, One({ step.slip }), step.pressure, law, dt);
         EXPECT_NEAR((friction.traction - one.traction[0] * d).norm(), 0., 1e-12) << angle;
         EXPECT_NEAR((friction.slip_speed - one.slip_speed[0] * d).norm(), 0., 1e-10);
         EXPECT_NEAR(d * (friction.d_slip * d), one.d_slip[0][0], 1e-9 * stiffness);
@@ -78,8 +78,8 @@ TEST(SurfaceFriction, StraightSlipInAnyDirectionIsThatOfOneSlip)
         EXPECT_NEAR(friction.dissipated, one.dissipated, 1e-14);
         EXPECT_NEAR(friction.creep, one.creep, 1e-16);
         EXPECT_EQ(friction.slipping, one.slipping);
-        history = { friction.traction, friction.slip_speed, dt };
-        of_one  = { one.traction, one.slip_speed, dt };
+        history       = { friction.traction, friction.slip_speed, dt };
+        plane_history = { one.traction, one.slip_speed, dt };
       }
     }
 }

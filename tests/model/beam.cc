@@ -27,7 +27,7 @@ namespace
     return scene;
   }
 
-  BeamMesh mesh_of(const Scene &scene, const unsigned int number = elements)
+  BeamMesh make_beam_mesh(const Scene &scene, const unsigned int number = elements)
   {
     return { number, scene.lever.length };
   }
@@ -85,7 +85,7 @@ TEST(BeamFrequencies, OfAPinnedBarAreTheRootsOfTanIsTanh)
 {
   // A spring so soft that its mode is at 4e-6 of the first bending mode.
   const Scene scene      = bar(1e-6, 0., 0.);
-  const auto frequencies = free_frequencies(scene, mesh_of(scene));
+  const auto frequencies = free_frequencies(scene, make_beam_mesh(scene));
   const double known[]   = { 3.92660231, 7.06858275, 10.21017612 };
   const auto equation    = [](const double z) { return std::tan(z) - std::tanh(z); };
   const double before[]  = { 3.2, 6.4, 9.5 };
@@ -102,7 +102,7 @@ TEST(BeamFrequencies, OfAPinnedBarAreTheRootsOfTanIsTanh)
 TEST(BeamFrequencies, OfAClampedBarAreTheRootsOfCosTimesCoshIsMinusOne)
 {
   const Scene scene      = bar(1e16, 0., 0.);
-  const auto frequencies = free_frequencies(scene, mesh_of(scene));
+  const auto frequencies = free_frequencies(scene, make_beam_mesh(scene));
   const double known[]   = { 1.87510407, 4.69409113, 7.85475744 };
   const auto equation    = [](const double z) { return std::cos(z) + 1. / std::cosh(z); };
   for (unsigned int i = 0; i < 3; ++i)
@@ -125,11 +125,11 @@ TEST(BeamFrequencies, OfBarsWithATipMass)
     // Clamped: 1 + cos cosh + m z (cos sinh - sin cosh) = 0.
     const auto clamped = [m](const double z)
     { return 1. / std::cosh(z) + std::cos(z) + m * z * (std::cos(z) * std::tanh(z) - std::sin(z)); };
-    const auto frequencies = free_frequencies(scene, mesh_of(scene));
+    const auto frequencies = free_frequencies(scene, make_beam_mesh(scene));
     for (unsigned int i = 1; i < 4; ++i)
       expect_frequency(scene, frequencies[i], root(pinned, i * 3.14159, i * 3.14159 + 1.));
     scene.spring.stiffness = 1e16;
-    const auto held        = free_frequencies(scene, mesh_of(scene));
+    const auto held        = free_frequencies(scene, make_beam_mesh(scene));
     const double before[]  = { 0.5, 3.2, 6.3 };
     const double behind[]  = { 1.9, 4.8, 7.9 };
     for (unsigned int i = 0; i < 3; ++i)
@@ -150,7 +150,7 @@ TEST(BeamFrequencies, OfALeverOnItsSpringWithArmAndTipMass)
         const double k     = spring * L / bending_stiffness(scene);
         const double i     = (1. + m) * arm * arm / (L * L);
         const auto f       = [=](const double z) { return characteristic(z, m, k, i); };
-        const auto found   = free_frequencies(scene, mesh_of(scene));
+        const auto found   = free_frequencies(scene, make_beam_mesh(scene));
         unsigned int count = 0;
         for (double z = 0.05; count < 4; z += 0.01)
           if ((f(z) > 0.) != (f(z + 0.01) > 0.))
@@ -163,7 +163,7 @@ TEST(BeamFrequencies, ConvergeWithTheFourthPowerOfTheElements)
   const Scene scene  = bar(1e-6, 0., 0.);
   const double exact = root([](const double z) { return std::tan(z) - std::tanh(z); }, 6.4, 7.5);
   const auto error   = [&](const unsigned int number)
-  { return beta_L(scene, free_frequencies(scene, mesh_of(scene, number))[2]) / exact - 1.; };
+  { return beta_L(scene, free_frequencies(scene, make_beam_mesh(scene, number))[2]) / exact - 1.; };
   // Terms of higher order add a tenth at beta h = 0.9.
   EXPECT_NEAR(std::log2(error(8) / error(16)), 4., 0.1);
 }
@@ -182,7 +182,7 @@ TEST(BeamMass, MeetsTheMomentOfInertiaExactly)
       // of a unit rate of rotation along eta and xi.
       scene.support.type        = SupportType::sprung;
       scene.lever.young_modulus = 7e10;
-      const auto data           = beam_modes(scene, mesh_of(scene));
+      const auto data           = beam_modes(scene, make_beam_mesh(scene));
       EXPECT_NEAR(data.stiffness[0], 7.4e4 / 6.45, 1e-7 * data.stiffness[0]);
       const double turn = data.shapes(data.ports.rotation(), 0);
       EXPECT_NEAR(1. / (turn * turn), 6.45, 1e-6);
@@ -198,7 +198,7 @@ TEST(BeamStatics, DeflectsAndTurnsAsBeamTheorySays)
   const Scene scene = bar(7.4e4, 56.6, 0.);
   const double EI   = bending_stiffness(scene);
   const double L    = scene.lever.length;
-  ModalStructure structure(beam_modes(scene, mesh_of(scene)));
+  ModalStructure structure(beam_modes(scene, make_beam_mesh(scene)));
   structure.use_statics();
   const auto &compliance = structure.compliance();
   const unsigned int tip = 2 * elements - 2, hub = structure.ports().rotation();
@@ -218,7 +218,7 @@ TEST(BeamStatics, InPlaneStrainBendsAsAPlate)
   scene.analysis.plane = PlaneState::strain;
   const double EI      = bending_stiffness(scene) / (1. - std::pow(scene.lever.poisson_ratio, 2));
   const double L       = scene.lever.length;
-  ModalStructure structure(beam_modes(scene, mesh_of(scene)));
+  ModalStructure structure(beam_modes(scene, make_beam_mesh(scene)));
   structure.use_statics();
   const unsigned int tip = 2 * elements - 2;
   EXPECT_NEAR(structure.compliance()(tip, tip) / (L * L * L / (3. * EI)), 1., 1e-9);
@@ -227,7 +227,7 @@ TEST(BeamStatics, InPlaneStrainBendsAsAPlate)
 TEST(BeamDamping, IsTheShareOfCriticalOnBendingModesAlone)
 {
   const Scene scene = bar(7.4e4, 56.6, 0.);
-  const auto data   = beam_modes(scene, mesh_of(scene));
+  const auto data   = beam_modes(scene, make_beam_mesh(scene));
   for (unsigned int i = 0; i < data.stiffness.size(); ++i)
     for (unsigned int j = 0; j < data.stiffness.size(); ++j)
       EXPECT_DOUBLE_EQ(data.damping(i, j), i == j && i > 0 ? 2. * 0.01 * std::sqrt(data.stiffness[i]) : 0.) << i << j;
@@ -239,7 +239,7 @@ TEST(BeamDamping, OfRayleighLeavesTheSpringOut)
   scene.lever.modal_damping     = 0.;
   scene.lever.mass_damping      = 3.;
   scene.lever.stiffness_damping = 1e-5;
-  const auto data               = beam_modes(scene, mesh_of(scene));
+  const auto data               = beam_modes(scene, make_beam_mesh(scene));
   for (unsigned int i = 0; i < 4; ++i)
     for (unsigned int j = 0; j < 4; ++j)
     {
@@ -249,14 +249,14 @@ TEST(BeamDamping, OfRayleighLeavesTheSpringOut)
     }
   // Of a stiff lever nothing is left but the mass' part.
   scene.lever.young_modulus *= 1e6;
-  EXPECT_NEAR(beam_modes(scene, mesh_of(scene)).damping(0, 0), 3., 1e-5);
+  EXPECT_NEAR(beam_modes(scene, make_beam_mesh(scene)).damping(0, 0), 3., 1e-5);
 }
 
 TEST(BeamSupport, IsOneMoreModeOfFrameAndLeverOnTheirSpring)
 {
   Scene scene        = bar(7.4e4, 56.6, 2e-5);
   scene.support.type = SupportType::sprung;
-  const auto data    = beam_modes(scene, mesh_of(scene));
+  const auto data    = beam_modes(scene, make_beam_mesh(scene));
   const double mass  = 2e-3 + mass_per_length(scene) * scene.lever.length + 2e-5;
   ASSERT_EQ(data.support, data.stiffness.size() - 1);
   EXPECT_NEAR(data.stiffness[data.support], 5000. / mass, 1e-9 * 5000. / mass);

@@ -52,9 +52,9 @@ TEST(Circle, RowsAreTheDerivativesOfGapAndSlipAndCurvaturesThoseOfTheRows)
       EXPECT_NEAR(at_rest.slip_row[j], (right.slip - left.slip) / (2. * step), allowed) << j << ", h " << h;
       for (unsigned int i = 0; i < n; ++i)
       {
-        const double of_row = (i == 2 ? 150. : 1.) * allowed;
-        EXPECT_NEAR(at_rest.gap_curvature[i][j], gap_rows[i], of_row) << i << j << ", h " << h;
-        EXPECT_NEAR(at_rest.slip_curvature[i][j], slip_rows[i], of_row) << i << j << ", h " << h;
+        const double row_tolerance = (i == 2 ? 150. : 1.) * allowed;
+        EXPECT_NEAR(at_rest.gap_curvature[i][j], gap_rows[i], row_tolerance) << i << j << ", h " << h;
+        EXPECT_NEAR(at_rest.slip_curvature[i][j], slip_rows[i], row_tolerance) << i << j << ", h " << h;
       }
     }
 }

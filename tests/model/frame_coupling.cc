@@ -147,11 +147,11 @@ TEST(FrameCoupling, AddsToTheForcesOfTheContact)
     EXPECT_DOUBLE_EQ(both.values[i], expected);
     for (unsigned int j = 0; j < 5; ++j)
     {
-      double of_both = i > 0 && j > 0 ? alone.tangent(i - 1, j - 1) : 0.;
+      double expected_tangent = i > 0 && j > 0 ? alone.tangent(i - 1, j - 1) : 0.;
       for (unsigned int a = 0; a < 3; ++a)
         for (unsigned int b = 0; b < 3; ++b)
-          of_both += place[a] == i && place[b] == j ? contact.tangent(a, b) : 0.;
-      EXPECT_DOUBLE_EQ(both.tangent(i, j), of_both);
+          expected_tangent += place[a] == i && place[b] == j ? contact.tangent(a, b) : 0.;
+      EXPECT_DOUBLE_EQ(both.tangent(i, j), expected_tangent);
     }
   }
 }
@@ -203,15 +203,15 @@ TEST(FrameCoupling, EachLeverOfAPairCouplesAsASingleOne)
 {
   PortLayout pair = layout;
   pair.levers     = 2;
-  const auto part = [&](const Vector &of_pair, const unsigned int lever)
+  const auto part = [&](const Vector &pair_vector, const unsigned int lever)
   {
-    return ports(of_pair[pair.rotation(lever)], of_pair[pair.momentum_eta(lever)], of_pair[pair.momentum_xi(lever)],
-                 of_pair[pair.support()]);
+    return ports(pair_vector[pair.rotation(lever)], pair_vector[pair.momentum_eta(lever)], pair_vector[pair.momentum_xi(lever)],
+                 pair_vector[pair.support()]);
   };
   const auto joined = [&](const Vector &first, const Vector &second)
   {
     Vector result(pair.size());
-    for (unsigned int i = 0; i < pair.of_a_lever(); ++i)
+    for (unsigned int i = 0; i < pair.ports_per_lever(); ++i)
     {
       result[pair.first(0) + i] = first[i];
       result[pair.first(1) + i] = second[i];
@@ -226,7 +226,7 @@ TEST(FrameCoupling, EachLeverOfAPairCouplesAsASingleOne)
 
   FrameCoupling coupling(pair, rest), single(layout, rest);
   const PortForces both = with(coupling, PortForces(), at, z, implicit());
-  StepWork work, of_singles;
+  StepWork work, single_work;
   coupling.add_work(at, z, implicit(), work);
   double energy = 0.;
   Vector values(pair.size());
@@ -243,7 +243,7 @@ TEST(FrameCoupling, EachLeverOfAPairCouplesAsASingleOne)
       for (unsigned int j = 0; j < 4; ++j)
         tangent(place(forces.ports[i]), place(forces.ports[j])) += forces.tangent(i, j);
     }
-    single.add_work(own, part(z, lever), implicit(), of_singles);
+    single.add_work(own, part(z, lever), implicit(), single_work);
     energy += single.kinetic_energy(own);
   }
   ASSERT_EQ(both.ports, coupling.coupled_ports());
@@ -253,6 +253,6 @@ TEST(FrameCoupling, EachLeverOfAPairCouplesAsASingleOne)
     for (unsigned int j = 0; j < both.ports.size(); ++j)
       EXPECT_NEAR(both.tangent(i, j), tangent(both.ports[i], both.ports[j]), 1e-14 * tangent.linfty_norm());
   }
-  EXPECT_NEAR(work.algorithmic, of_singles.algorithmic, 1e-14);
+  EXPECT_NEAR(work.algorithmic, single_work.algorithmic, 1e-14);
   EXPECT_NEAR(coupling.kinetic_energy(at), energy, 1e-14);
 }

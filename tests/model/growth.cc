@@ -18,7 +18,7 @@ namespace
 {
   using Complex = std::complex<double>;
 
-  Scene lever_of(const ModelType model, const bool sprung)
+  Scene lever_scene(const ModelType model, const bool sprung)
   {
     Scene scene             = model_a();
     scene.analysis.model    = model;
@@ -37,8 +37,8 @@ namespace
 
   std::vector<Scene> levers()
   {
-    return { lever_of(ModelType::rigid, false), lever_of(ModelType::rigid, true), lever_of(ModelType::beam, false),
-             lever_of(ModelType::beam, true) };
+    return { lever_scene(ModelType::rigid, false), lever_scene(ModelType::rigid, true), lever_scene(ModelType::beam, false),
+             lever_scene(ModelType::beam, true) };
   }
 
   DrivePoint drive(const double x, const double direction)
@@ -116,7 +116,7 @@ TEST(Growth, OnlyDampingIsLeftWithoutFriction)
 // A flutter of the undamped lever under constant mu is fed by friction as it follows displacements and by nothing else.
 TEST(Growth, OfAnUndampedFlutterIsFrictions)
 {
-  const auto modes = modes_at(undamped(with_coulomb(lever_of(ModelType::beam, false), 0.73)), 65., -1.);
+  const auto modes = modes_at(undamped(with_coulomb(lever_scene(ModelType::beam, false), 0.73)), 65., -1.);
   double largest   = 0.;
   for (const auto &mode : modes)
   {
@@ -133,7 +133,7 @@ TEST(MassDamping, TakesHalfOfItsFactorOffEveryVibration)
 {
   for (const auto model_type : { ModelType::rigid, ModelType::beam })
   {
-    Scene scene              = undamped(lever_of(model_type, false));
+    Scene scene              = undamped(lever_scene(model_type, false));
     scene.lever.mass_damping = 34.;
     const auto model         = make_reduced_lever(scene);
     for (const bool in_contact : { true, false })
@@ -149,7 +149,7 @@ TEST(MassDamping, TakesHalfOfItsFactorOffEveryVibration)
 // At equal mass-proportional damping friction changes no more than it does without: lambda = -alpha/2 + sqrt(alpha^2/4 + mu^2).
 TEST(MassDamping, ShiftsTheEigenvaluesOfAFlutter)
 {
-  Scene scene              = undamped(with_coulomb(lever_of(ModelType::beam, false), 0.73));
+  Scene scene              = undamped(with_coulomb(lever_scene(ModelType::beam, false), 0.73));
   const auto without       = modes_at(scene, 65., -1.);
   scene.lever.mass_damping = 34.;
   const auto with          = modes_at(scene, 65., -1.);
@@ -167,7 +167,7 @@ TEST(MassDamping, ShiftsTheEigenvaluesOfAFlutter)
 
 TEST(Vibrations, OutOfContactAreThoseOfTheFreeLever)
 {
-  const Scene scene = undamped(lever_of(ModelType::beam, false));
+  const Scene scene = undamped(lever_scene(ModelType::beam, false));
   const auto model  = make_reduced_lever(scene);
   const auto modes  = model->vibrations(held(*model, drive(65., -1.)), false, 10);
   const auto free   = free_frequencies(scene, { beam_elements, scene.lever.length });
@@ -219,7 +219,7 @@ TEST(HeldSlide, OfABeamIsInEquilibrium)
 {
   for (const bool sprung : { false, true })
   {
-    const Scene scene = held_scene(lever_of(ModelType::beam, sprung));
+    const Scene scene = held_scene(lever_scene(ModelType::beam, sprung));
     const auto model  = make_reduced_lever(scene);
     ModalStructure structure(beam_modes(scene, { beam_elements, scene.lever.length }));
     for (const double direction : { 1., -1. })
@@ -271,7 +271,7 @@ TEST(HeldSlide, PerturbedFollowsItsEigenvalue)
   for (const auto type : { ModelType::rigid, ModelType::beam })
     for (unsigned int law = 0; law < 3; ++law)
     {
-      Scene scene                         = lever_of(type, false);
+      Scene scene                         = lever_scene(type, false);
       scene                               = held_scene(law > 0 ? scene : with_coulomb(scene, 0.73));
       scene.lever.depth                   = 20.;
       scene.friction.regularisation_speed = law == 2 ? 1. : 0.;

@@ -43,13 +43,13 @@ namespace
 
   const PortLayout layout{ 4, false };
 
-  PortForces with(const HubSpringExcess &spring, PortForces forces, const OfLevers &turns)
+  PortForces with(const HubSpringExcess &spring, PortForces forces, const PerLever &turns)
   {
     spring.add_forces(turns, true, forces);
     return forces;
   }
 
-  PortForces with(const HubSpringExcess &spring, PortForces forces, const OfLevers &begin, const OfLevers &end,
+  PortForces with(const HubSpringExcess &spring, PortForces forces, const PerLever &begin, const PerLever &end,
                   const StepWeights &weights)
   {
     spring.add_forces(begin, end, weights, forces);
@@ -68,8 +68,8 @@ TEST(HubSpring, ALinearOneAddsNothing)
 {
   HubSpringExcess spring(layout, MomentLaw(k));
   const auto forces = contact_forces({ 1, 2 });
-  expect_same(with(spring, forces, OfLevers{ { 0.03 } }), forces);
-  expect_same(with(spring, forces, OfLevers{ { 0.01 } }, OfLevers{ { 0.03 } }, generalised_alpha(1., 1e-4)), forces);
+  expect_same(with(spring, forces, PerLever{ { 0.03 } }), forces);
+  expect_same(with(spring, forces, PerLever{ { 0.01 } }, PerLever{ { 0.03 } }, generalised_alpha(1., 1e-4)), forces);
   EXPECT_TRUE(spring.loaded_ports().empty());
 }
 
@@ -78,7 +78,7 @@ TEST(HubSpring, ActsOnTheRotationBesidesTheContact)
   HubSpringExcess spring(layout, hardening());
   const double turn  = 0.023;
   const double force = -c * std::pow(turn, 3);
-  const auto apart   = with(spring, contact_forces({ 1, 2 }), OfLevers{ { turn } });
+  const auto apart   = with(spring, contact_forces({ 1, 2 }), PerLever{ { turn } });
   EXPECT_EQ(apart.ports, (std::vector<unsigned int>{ 1, 2, 4 }));
   EXPECT_EQ(apart.values[1], 2.);
   EXPECT_EQ(apart.tangent(1, 0), 10.);
@@ -86,7 +86,7 @@ TEST(HubSpring, ActsOnTheRotationBesidesTheContact)
   EXPECT_NEAR(apart.values[2], force, 1e-12 * k);
   EXPECT_NEAR(apart.tangent(2, 2), -3. * c * turn * turn, 1e-12 * k);
 
-  const auto together = with(spring, contact_forces({ 1, 4 }), OfLevers{ { turn } });
+  const auto together = with(spring, contact_forces({ 1, 4 }), PerLever{ { turn } });
   EXPECT_EQ(together.ports, (std::vector<unsigned int>{ 1, 4 }));
   EXPECT_NEAR(together.values[1], 2. + force, 1e-12 * k);
   EXPECT_NEAR(together.tangent(1, 1), 11. - 3. * c * turn * turn, 1e-12 * k);
@@ -100,7 +100,7 @@ TEST(HubSpring, ItsForceOfAStepMakesNoEnergy)
     for (const auto &[begin, end] : { std::pair<double, double>{ 0.01, 0.04 }, { 0.03, -0.02 }, { 0.02, 0.02 + 1e-9 } })
     {
       const auto weights = generalised_alpha(radius, 1e-4);
-      const auto forces  = with(spring, contact_forces({}), OfLevers{ { begin } }, OfLevers{ { end } }, weights);
+      const auto forces  = with(spring, contact_forces({}), PerLever{ { begin } }, PerLever{ { end } }, weights);
       StepWork work;
       spring.add_work({ { begin } }, { { end } }, weights, work);
       const double done = -forces.values[0] * (end - begin);
@@ -117,8 +117,8 @@ TEST(HubSpring, ItsTangentOfAStepMatchesDifferences)
   for (const double end : { 0.04, -0.013 })
   {
     const auto force = [&](const double at)
-    { return with(spring, contact_forces({}), OfLevers{ { 0.01 } }, OfLevers{ { at } }, weights).values[0]; };
-    const double tangent = with(spring, contact_forces({}), OfLevers{ { 0.01 } }, OfLevers{ { end } }, weights).tangent(0, 0);
+    { return with(spring, contact_forces({}), PerLever{ { 0.01 } }, PerLever{ { at } }, weights).values[0]; };
+    const double tangent = with(spring, contact_forces({}), PerLever{ { 0.01 } }, PerLever{ { end } }, weights).tangent(0, 0);
     // Third derivatives of the excess, 6 c, by h^2 / 6; round-off of the moments over h.
     EXPECT_NEAR(tangent, (force(end + h) - force(end - h)) / (2. * h), c * h * h + 1e-13 * k / h);
   }
@@ -148,10 +148,10 @@ TEST(HubSpring, ALeafsVibrationCouplesWithTheRotation)
 
 namespace
 {
-  const PortLayout of_pair{ 4, false, 0, 2 };
+  const PortLayout pair_layout{ 4, false, 0, 2 };
 
   /// What is stored beyond k phi^2 / 2 of each hub: 2 W of the mean opening, less swinging's share but for a millionth.
-  double joined_energy(const OfLevers &turns)
+  double joined_energy(const PerLever &turns)
   {
     const double opening = 0.5 * (turns[0] + turns[1]);
     const double swing   = 0.5 * (turns[0] - turns[1]);
@@ -161,8 +161,8 @@ namespace
 
 TEST(HubSpring, JoinedOnesOpenAgainstTheirMeanTurnAndSwingFreely)
 {
-  HubSpringExcess spring(of_pair, hardening(), true);
-  const OfLevers turns{ { 0.05, 0.01 } };
+  HubSpringExcess spring(pair_layout, hardening(), true);
+  const PerLever turns{ { 0.05, 0.01 } };
   const auto forces = with(spring, contact_forces({}), turns);
   ASSERT_EQ(forces.ports, (std::vector<unsigned int>{ 4, 9 }));
   // Both hubs feel the same moment, that of the mean turn: k phi_i of the structure and this together.
@@ -173,7 +173,7 @@ TEST(HubSpring, JoinedOnesOpenAgainstTheirMeanTurnAndSwingFreely)
   const double h = 1e-6;
   for (unsigned int j = 0; j < 2; ++j)
   {
-    OfLevers more = turns, less = turns;
+    PerLever more = turns, less = turns;
     more[j] += h;
     less[j] -= h;
     EXPECT_NEAR(forces.values[j], -(joined_energy(more) - joined_energy(less)) / (2. * h), 1e-8 * k);
@@ -186,9 +186,9 @@ TEST(HubSpring, JoinedOnesOpenAgainstTheirMeanTurnAndSwingFreely)
 
 TEST(HubSpring, AStepOfJoinedOnesMakesNoEnergyAndItsTangentMatchesDifferences)
 {
-  HubSpringExcess spring(of_pair, hardening(), true);
-  const OfLevers begin{ { 0.01, 0.03 } };
-  const OfLevers end{ { 0.04, 0.02 } };
+  HubSpringExcess spring(pair_layout, hardening(), true);
+  const PerLever begin{ { 0.01, 0.03 } };
+  const PerLever end{ { 0.04, 0.02 } };
   for (const double radius : { 1., 0.8, 0. })
   {
     const auto weights = generalised_alpha(radius, 1e-4);
@@ -202,7 +202,7 @@ TEST(HubSpring, AStepOfJoinedOnesMakesNoEnergyAndItsTangentMatchesDifferences)
     const double h = 1e-6;
     for (unsigned int j = 0; j < 2; ++j)
     {
-      OfLevers more = end, less = end;
+      PerLever more = end, less = end;
       more[j] += h;
       less[j] -= h;
       const auto right = with(spring, contact_forces({}), begin, more, weights).values;
@@ -215,8 +215,8 @@ TEST(HubSpring, AStepOfJoinedOnesMakesNoEnergyAndItsTangentMatchesDifferences)
 
 TEST(HubSpring, EachLeverOfAPairHasItsOwnWhereTheJointIsHeld)
 {
-  HubSpringExcess spring(of_pair, hardening());
-  const OfLevers turns{ { 0.05, 0.01 } };
+  HubSpringExcess spring(pair_layout, hardening());
+  const PerLever turns{ { 0.05, 0.01 } };
   const auto forces = with(spring, contact_forces({}), turns);
   for (unsigned int i = 0; i < 2; ++i)
     EXPECT_NEAR(forces.values[i], -c * std::pow(turns[i], 3), 1e-12 * k);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "model/kept_iteration.h"
+#include "model/modified_newton.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace
   constexpr unsigned int n = 40;
 
   /// A row of ports, which feel each other the less the further they are apart, and one of a block of its own.
-  PortCompliance row_of_ports()
+  PortCompliance port_chain()
   {
     dealii::FullMatrix<double> matrix(n);
     for (unsigned int i = 0; i < n; ++i)
@@ -34,9 +34,9 @@ namespace
     double deepest    = 0.;
     PortForces forces = PortForces();
 
-    PortEvaluation operator()(const Vector &z, const Wanted wanted = Wanted::with_tangent)
+    PortEvaluation operator()(const Vector &z, const Request request = Request::with_tangent)
     {
-      const bool with_tangent = wanted != Wanted::forces;
+      const bool with_tangent = request != Request::forces;
       ++evaluations;
       tangents += with_tangent ? 1 : 0;
       forces  = PortForces();
@@ -79,7 +79,7 @@ namespace
     Ball ball;
   };
 
-  const PortCompliance compliance = row_of_ports();
+  const PortCompliance compliance = port_chain();
   const Vector lengths            = []
   {
     Vector result(n + 1);
@@ -106,21 +106,21 @@ namespace
     return result;
   }
 
-  PortLoads loads_of(const Solved &solved)
+  PortLoads solved_loads(const Solved &solved)
   {
     return { solved.ball.forces.ports, solved.ball.forces.values };
   }
 
-  Solved by_kept_tangent(const double place, const double amount, const PortLoads &guess, KeptFactors &factors,
-                         std::shared_ptr<const KeptTangent> &kept)
+  Solved by_stored_jacobian(const double place, const double amount, const PortLoads &guess, JacobianFactors &factors,
+                            std::shared_ptr<const StoredJacobian> &kept)
   {
     Solved result{ {}, pressed_by(amount), { place } };
     const Vector free = result.z;
     const PortEquations equations{ compliance, free, lengths, selected };
     const auto weights = generalised_alpha(0.8, 1e-3);
     auto &ball         = result.ball;
-    const auto forces  = [&](const Vector &z, const Wanted wanted) { return ball(z, wanted); };
-    result.solution    = KeptIteration(equations, forces, weights, factors).solve(guess, kept, result.z, 0.1);
+    const auto forces  = [&](const Vector &z, const Request request) { return ball(z, request); };
+    result.solution    = ModifiedNewton(equations, forces, weights, factors).solve(guess, kept, result.z, 0.1);
     return result;
   }
 } // namespace
@@ -128,79 +128,79 @@ namespace
 // What is left out moves no point by more than 1e-8 of the overlap; a few times as much is allowed.
 TEST(KeptIteration, FindsWhatNewtonsMethodFinds)
 {
-  KeptFactors factors;
-  std::shared_ptr<const KeptTangent> kept;
-  auto guess            = loads_of(by_newton(12., 0.5));
-  unsigned int tangents = 0, given_up = 0;
+  JacobianFactors factors;
+  std::shared_ptr<const StoredJacobian> kept;
+  auto guess            = solved_loads(by_newton(12., 0.5));
+  unsigned int tangents = 0, abandoned = 0;
   for (unsigned int step = 0; step < 12; ++step)
   {
     const double place = 12. + 0.05 * step, amount = 0.5 + 0.005 * step;
     const auto expected = by_newton(place, amount);
     ASSERT_TRUE(expected.solution.newton.converged);
     ASSERT_GT(expected.ball.deepest, 0.);
-    const auto found = by_kept_tangent(place, amount, guess, factors, kept);
+    const auto found = by_stored_jacobian(place, amount, guess, factors, kept);
     if (!found.solution.newton.converged) // as between springs that touch and let go by turns
     {
-      ++given_up;
+      ++abandoned;
       kept  = nullptr;
-      guess = loads_of(expected);
+      guess = solved_loads(expected);
       continue;
     }
     EXPECT_EQ(found.ball.forces.ports, expected.ball.forces.ports);
     for (unsigned int i = 0; i <= n; ++i)
       EXPECT_NEAR(found.z[i], expected.z[i], 5e-8 * expected.ball.deepest) << "step " << step << ", port " << i;
-    guess = loads_of(found);
+    guess = solved_loads(found);
     tangents += found.ball.tangents;
     ASSERT_NE(kept, nullptr);
   }
-  EXPECT_LE(given_up, 2u);
+  EXPECT_LE(abandoned, 2u);
   EXPECT_LT(tangents, 36u); // else nothing is kept
 }
 
 TEST(KeptIteration, GoesOnFromARestoredTangentToTheLastBit)
 {
-  KeptFactors factors;
-  std::shared_ptr<const KeptTangent> kept;
-  auto guess = loads_of(by_newton(12., 0.5));
-  guess      = loads_of(by_kept_tangent(12., 0.5, guess, factors, kept));
+  JacobianFactors factors;
+  std::shared_ptr<const StoredJacobian> kept;
+  auto guess = solved_loads(by_newton(12., 0.5));
+  guess      = solved_loads(by_stored_jacobian(12., 0.5, guess, factors, kept));
 
-  KeptFactors others;
+  JacobianFactors others;
   Archive written;
   visit(written, kept);
   Archive read(written.bytes());
-  std::shared_ptr<const KeptTangent> restored;
+  std::shared_ptr<const StoredJacobian> restored;
   visit(read, restored);
-  const auto next  = by_kept_tangent(12.1, 0.51, guess, factors, kept),
-             again = by_kept_tangent(12.1, 0.51, guess, others, restored);
+  const auto next  = by_stored_jacobian(12.1, 0.51, guess, factors, kept),
+             again = by_stored_jacobian(12.1, 0.51, guess, others, restored);
   EXPECT_EQ(next.z, again.z);
   EXPECT_EQ(next.solution.newton.iterations, again.solution.newton.iterations);
 }
 
 TEST(KeptIteration, LetsGoOfWhatItHeld)
 {
-  KeptFactors factors;
-  std::shared_ptr<const KeptTangent> kept;
-  auto guess      = loads_of(by_newton(12., 0.5));
-  guess           = loads_of(by_kept_tangent(12., 0.5, guess, factors, kept));
-  const auto open = by_kept_tangent(12., -1., guess, factors, kept);
+  JacobianFactors factors;
+  std::shared_ptr<const StoredJacobian> kept;
+  auto guess      = solved_loads(by_newton(12., 0.5));
+  guess           = solved_loads(by_stored_jacobian(12., 0.5, guess, factors, kept));
+  const auto open = by_stored_jacobian(12., -1., guess, factors, kept);
   ASSERT_TRUE(open.solution.newton.converged);
   EXPECT_TRUE(open.ball.forces.ports.empty());
   for (unsigned int i = 0; i < n; ++i)
     EXPECT_NEAR(open.z[i], -1., 1e-12);
-  const auto again = by_kept_tangent(12., -1., {}, factors, kept);
+  const auto again = by_stored_jacobian(12., -1., {}, factors, kept);
   EXPECT_TRUE(again.solution.newton.converged);
 }
 
 TEST(KeptIteration, SaysWhereItDoesNotConverge)
 {
-  KeptFactors factors;
-  const auto wrong = std::make_shared<const KeptTangent>(KeptTangent{ { 3 }, dealii::FullMatrix<double>(1) });
+  JacobianFactors factors;
+  const auto wrong = std::make_shared<const StoredJacobian>(StoredJacobian{ { 3 }, dealii::FullMatrix<double>(1) });
   auto kept        = wrong;
   // Springs that pull: no correction makes the unbalance fall.
   Solved result{ {}, pressed_by(0.5), { 12., -30. } };
   const Vector free = result.z;
   const PortEquations equations{ compliance, free, lengths, selected };
-  const auto forces = [&](const Vector &z, const Wanted wanted) { return result.ball(z, wanted); };
-  const auto found  = KeptIteration(equations, forces, generalised_alpha(0.8, 1e-3), factors).solve({}, kept, result.z, 0.1);
+  const auto forces = [&](const Vector &z, const Request request) { return result.ball(z, request); };
+  const auto found  = ModifiedNewton(equations, forces, generalised_alpha(0.8, 1e-3), factors).solve({}, kept, result.z, 0.1);
   EXPECT_FALSE(found.newton.converged);
 }

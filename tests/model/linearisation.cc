@@ -47,7 +47,7 @@ namespace
     }
 
     /// Displacements at which the contact has the overlap, which may be negative.
-    Vector position(const double wanted) const
+    Vector position(const double target_gap) const
     {
       Vector z(contact.ports.size());
       for (unsigned int i = 0; i < contact.ports.surface; i += 2)
@@ -63,13 +63,13 @@ namespace
       Vector turn(z.size());
       turn[contact.ports.rotation()] = 1.;
       z[contact.ports.rotation()]    = kinematics(geometry, place).theta - contact.rest_inclination - 1e-3;
-      const double closed            = std::abs(wanted);
+      const double closed            = std::abs(target_gap);
       for (unsigned int i = 0; i < 8; ++i)
       {
         point.touch(z, drive(), found);
         z[contact.ports.rotation()] += (found.overlap() - closed) / point.gap_change(found, turn);
       }
-      z[contact.ports.rotation()] += (closed - wanted) / point.gap_change(found, turn);
+      z[contact.ports.rotation()] += (closed - target_gap) / point.gap_change(found, turn);
       return z;
     }
   };
@@ -242,19 +242,19 @@ TEST(Linearisation, PartsByPressureAreSymmetricAndFrictionIsNot)
 {
   for (const auto &slide : slides(0.05))
   {
-    const auto linear      = linearised(slide, slide.position(overlap));
-    const auto skewness_of = [&](const Full &matrix)
+    const auto linear           = linearised(slide, slide.position(overlap));
+    const auto compute_skewness = [&](const Full &matrix)
     {
       Full skew = matrix;
       skew.Tadd(-1., matrix);
       return skew.frobenius_norm() / matrix.frobenius_norm();
     };
-    EXPECT_LT(skewness_of(linear.pressure), 1e-14) << slide.name;
-    EXPECT_LT(skewness_of(linear.pressure_rate), 1e-14) << slide.name;
+    EXPECT_LT(compute_skewness(linear.pressure), 1e-14) << slide.name;
+    EXPECT_LT(compute_skewness(linear.pressure_rate), 1e-14) << slide.name;
     // A rigid lever on a rigid support has one port. With the axis at the pivot bending and rotation slip as little.
     if (slide.contact.ports.size() > 1)
     {
-      EXPECT_GT(skewness_of(linear.friction), 1e-3) << slide.name;
+      EXPECT_GT(compute_skewness(linear.friction), 1e-3) << slide.name;
     }
   }
 }

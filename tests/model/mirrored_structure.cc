@@ -49,10 +49,10 @@ namespace
     PortPerturbation result({ 0, 1, n_ports, n_ports + 1 });
     for (unsigned int i = 0; i < 2; ++i)
     {
-      auto of_lever = contact_forces(i == 0 ? first : second);
-      for (auto &port : of_lever.ports)
+      auto lever_forces = contact_forces(i == 0 ? first : second);
+      for (auto &port : lever_forces.ports)
         port += i * n_ports;
-      result.add(of_lever);
+      result.add(lever_forces);
     }
     return result;
   }

@@ -18,7 +18,7 @@ namespace
     return layout;
   }
 
-  ComplexVector vector_of(const std::vector<Complex> &values)
+  ComplexVector make_vector(const std::vector<Complex> &values)
   {
     ComplexVector result;
     for (auto &part : result)
@@ -49,16 +49,16 @@ namespace
   };
 
   /// Coordinates are the ports.
-  Pair pair_of(const std::vector<Complex> &a, const std::vector<Complex> &b, const Complex other_eigenvalue = { -1., 50. })
+  Pair make_mode_pair(const std::vector<Complex> &a, const std::vector<Complex> &b, const Complex other_eigenvalue = { -1., 50. })
   {
     Pair result;
     for (const auto *const values : { &a, &b })
     {
       StructureMode mode;
       mode.eigenvalue  = values == &a ? Complex(-1., 50.) : other_eigenvalue;
-      mode.coordinates = vector_of(*values);
+      mode.coordinates = make_vector(*values);
       result.modes.push_back(mode);
-      result.ports.push_back(vector_of(*values));
+      result.ports.push_back(make_vector(*values));
     }
     return result;
   }
@@ -66,9 +66,9 @@ namespace
 
 TEST(Mirroring, IsOneOrMinusOneOfLeversThatMoveAlike)
 {
-  EXPECT_NEAR(mirroring_of(vector_of(sum(1., first_moves, 1., second_moves)), two_levers()), 1., 1e-15);
-  EXPECT_NEAR(mirroring_of(vector_of(sum(1., first_moves, -1., second_moves)), two_levers()), -1., 1e-15);
-  EXPECT_NEAR(mirroring_of(vector_of(first_moves), two_levers()), 0., 1e-15);
+  EXPECT_NEAR(symmetric_share(make_vector(sum(1., first_moves, 1., second_moves)), two_levers()), 1., 1e-15);
+  EXPECT_NEAR(symmetric_share(make_vector(sum(1., first_moves, -1., second_moves)), two_levers()), -1., 1e-15);
+  EXPECT_NEAR(symmetric_share(make_vector(first_moves), two_levers()), 0., 1e-15);
 }
 
 // Any two combinations of what two levers do alone are modes of one eigenvalue.
@@ -76,10 +76,11 @@ TEST(Mirroring, TiedModesAreToldApartByIt)
 {
   for (const Complex factor : { Complex(0., 0.), Complex(0.4, 0.), Complex(-0.2, 3.), Complex(1., 1e-9) })
   {
-    auto pair = pair_of(sum(1., first_moves, factor, second_moves), sum({ 0.3, 0.7 }, first_moves, { -2., 1. }, second_moves));
+    auto pair =
+        make_mode_pair(sum(1., first_moves, factor, second_moves), sum({ 0.3, 0.7 }, first_moves, { -2., 1. }, second_moves));
     separate_ties(pair.modes, pair.ports, two_levers());
-    EXPECT_NEAR(mirroring_of(pair.ports[0], two_levers()), 1., 1e-12);
-    EXPECT_NEAR(mirroring_of(pair.ports[1], two_levers()), -1., 1e-12);
+    EXPECT_NEAR(symmetric_share(pair.ports[0], two_levers()), 1., 1e-12);
+    EXPECT_NEAR(symmetric_share(pair.ports[1], two_levers()), -1., 1e-12);
     for (unsigned int k = 0; k < 2; ++k)
       for (unsigned int part = 0; part < 2; ++part)
       {
@@ -94,15 +95,15 @@ TEST(Mirroring, ModesThatDoNotTieStayAsTheyAre)
 {
   const auto a = sum(1., first_moves, 0.4, second_moves);
   const auto b = sum(0.3, first_moves, -2., second_moves);
-  auto pair    = pair_of(a, b, { -1., 50.001 });
+  auto pair    = make_mode_pair(a, b, { -1., 50.001 });
   separate_ties(pair.modes, pair.ports, two_levers());
-  EXPECT_TRUE(pair.ports[0][0] == vector_of(a)[0]);
-  EXPECT_TRUE(pair.ports[1][1] == vector_of(b)[1]);
+  EXPECT_TRUE(pair.ports[0][0] == make_vector(a)[0]);
+  EXPECT_TRUE(pair.ports[1][1] == make_vector(b)[1]);
 }
 
 TEST(Mirroring, OneModeTwiceStaysAsItIs)
 {
-  auto pair = pair_of(first_moves, sum({ 0., 2. }, first_moves, 0., second_moves));
+  auto pair = make_mode_pair(first_moves, sum({ 0., 2. }, first_moves, 0., second_moves));
   separate_ties(pair.modes, pair.ports, two_levers());
-  EXPECT_TRUE(pair.ports[0][0] == vector_of(first_moves)[0]);
+  EXPECT_TRUE(pair.ports[0][0] == make_vector(first_moves)[0]);
 }

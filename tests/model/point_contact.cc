@@ -105,18 +105,18 @@ namespace
   {
   public:
     explicit Stepped(const Case &chosen, const double spectral_radius = 0.8)
-        : of(chosen)
+        : tested(chosen)
         , contact(chosen.properties())
         , weights(generalised_alpha(spectral_radius, step_length))
     {
-      begin.position = of.position(0., of.overlap_begin);
-      begin.velocity = of.position(step_length, of.overlap_end);
+      begin.position = tested.position(0., tested.overlap_begin);
+      begin.velocity = tested.position(step_length, tested.overlap_end);
       begin.velocity -= begin.position;
       begin.velocity *= 1. / step_length;
       begin.acceleration = Vector(begin.position.size());
-      accepted.drive     = of.drive(0.);
-      accepted.contact   = { of.memory };
-      end                = of.position(step_length, of.overlap_end);
+      accepted.drive     = tested.drive(0.);
+      accepted.contact   = { tested.memory };
+      end                = tested.position(step_length, tested.overlap_end);
     }
 
     const PortForces &forces(const Vector &at)
@@ -124,11 +124,11 @@ namespace
       const auto drifted = unaccelerated(begin, weights);
       Vector rate        = drifted.velocity;
       rate.add(weights.rate(), at, -weights.rate(), drifted.position);
-      contact.evaluate(PortStep{ accepted.drive, accepted.contact, of.drive(step_length), begin, at, rate, weights }, found);
+      contact.evaluate(PortStep{ accepted.drive, accepted.contact, tested.drive(step_length), begin, at, rate, weights }, found);
       return found.forces;
     }
 
-    const Case of;
+    const Case tested;
     PointContact contact;
     PointContact::Evaluation found;
     const StepWeights weights;
@@ -138,11 +138,11 @@ namespace
   };
 
   /// What a unit of the port moves at the contact [mm].
-  double arm(const Case &of, const unsigned int port)
+  double arm(const Case &tested, const unsigned int port)
   {
-    if (port == of.ports().rotation())
+    if (port == tested.ports().rotation())
       return 120.;
-    return port < of.ports().surface && port % 2 == 1 ? length / 8. : 1.;
+    return port < tested.ports().surface && port % 2 == 1 ? length / 8. : 1.;
   }
 
   // Central differences over h = 2e-6 mm: h^2/6 of the third derivative, 3 k mu'' (dv/dq)^2 = 4e8 N/mm^3 in a step of mu(v), less
@@ -152,13 +152,13 @@ namespace
   constexpr double tolerance = 1e-6 * stiffness;
 
   template <class Evaluate>
-  void expect_tangent(const Case &of, const Vector &at, const Evaluate &evaluate)
+  void expect_tangent(const Case &tested, const Vector &at, const Evaluate &evaluate)
   {
     const PortForces exact = evaluate(at);
     ASSERT_FALSE(exact.ports.empty());
     for (unsigned int j = 0; j < exact.ports.size(); ++j)
     {
-      const double h = width / arm(of, exact.ports[j]);
+      const double h = width / arm(tested, exact.ports[j]);
       Vector moved   = at;
       moved[exact.ports[j]] += h;
       const Vector right = evaluate(moved).values;
@@ -166,14 +166,14 @@ namespace
       const Vector left = evaluate(moved).values;
       for (unsigned int i = 0; i < exact.ports.size(); ++i)
         EXPECT_NEAR(exact.tangent(i, j), (right[i] - left[i]) / (2. * h),
-                    tolerance * arm(of, exact.ports[i]) * arm(of, exact.ports[j]))
-            << of.name << ", force on port " << exact.ports[i] << " by port " << exact.ports[j];
+                    tolerance * arm(tested, exact.ports[i]) * arm(tested, exact.ports[j]))
+            << tested.name << ", force on port " << exact.ports[i] << " by port " << exact.ports[j];
     }
   }
 
-  Vector on_all_ports(const Case &of, const PortForces &forces)
+  Vector on_all_ports(const Case &tested, const PortForces &forces)
   {
-    Vector result(of.ports().size());
+    Vector result(tested.ports().size());
     for (unsigned int a = 0; a < forces.ports.size(); ++a)
       result[forces.ports[a]] = forces.values[a];
     return result;

@@ -28,7 +28,7 @@ namespace
   }
 
   /// Two alike blocks, by default of four ports, and one of a single port.
-  PortCompliance of_two_levers_and_support(const unsigned int ports = 4)
+  PortCompliance two_lever_compliance(const unsigned int ports = 4)
   {
     PortCompliance result;
     const auto lever = std::make_shared<const Matrix>(symmetric(ports));
@@ -67,7 +67,7 @@ namespace
 
 TEST(PortForces, PortsOfDifferentBlocksFeelNothingOfEachOther)
 {
-  const auto compliance = of_two_levers_and_support();
+  const auto compliance = two_lever_compliance();
   ASSERT_EQ(compliance.size(), 9u);
   const auto f = forces(true);
   Vector z(9);
@@ -89,19 +89,19 @@ TEST(PortForces, CorrectionSolvesTheLinearisedEquations)
   for (const unsigned int ports : { 4u, 160u })
     for (const bool coupled : { false, true })
     {
-      const auto compliance = of_two_levers_and_support(ports);
+      const auto compliance = two_lever_compliance(ports);
       const auto everywhere = all_ports(compliance.size());
       const auto f          = forces(coupled, ports);
       Vector mismatch(compliance.size());
       for (auto &value : mismatch)
         value = any();
       const auto change = port_correction(compliance, f.ports, f.tangent, everywhere, mismatch);
-      Vector change_of_forces(f.values.size()), at_forces(f.values.size());
+      Vector force_changes(f.values.size()), at_forces(f.values.size());
       for (unsigned int a = 0; a < f.ports.size(); ++a)
         at_forces[a] = change[f.ports[a]];
-      f.tangent.vmult(change_of_forces, at_forces);
+      f.tangent.vmult(force_changes, at_forces);
       Vector expected = mismatch;
-      add_response(compliance, f.ports, change_of_forces, everywhere, expected);
+      add_response(compliance, f.ports, force_changes, everywhere, expected);
       expected -= change;
       EXPECT_LE(expected.linfty_norm(), 1e-11 * change.linfty_norm()) << ports << ' ' << coupled;
     }
@@ -109,7 +109,7 @@ TEST(PortForces, CorrectionSolvesTheLinearisedEquations)
 
 TEST(PortForces, DeterminantIsThatOfTheWholeMatrix)
 {
-  const auto compliance = of_two_levers_and_support();
+  const auto compliance = two_lever_compliance();
   for (const bool coupled : { false, true })
   {
     const auto f = forces(coupled);
@@ -142,7 +142,7 @@ TEST(PortForces, CorrectionOfASingleBlockSolvesTheLinearisedEquations)
     compliance.append(symmetric(n));
     const auto everywhere = all_ports(n);
     Matrix tangent(n);
-    Vector mismatch(n), change_of_forces(n);
+    Vector mismatch(n), force_changes(n);
     for (unsigned int i = 0; i < n; ++i)
     {
       mismatch[i] = any();
@@ -150,9 +150,9 @@ TEST(PortForces, CorrectionOfASingleBlockSolvesTheLinearisedEquations)
         tangent(i, j) = any();
     }
     const auto change = port_correction(compliance, everywhere, tangent, everywhere, mismatch);
-    tangent.vmult(change_of_forces, change);
+    tangent.vmult(force_changes, change);
     Vector expected = mismatch;
-    add_response(compliance, everywhere, change_of_forces, everywhere, expected);
+    add_response(compliance, everywhere, force_changes, everywhere, expected);
     expected -= change;
     EXPECT_LE(expected.linfty_norm(), 1e-11 * change.linfty_norm()) << n;
   }

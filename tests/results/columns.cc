@@ -70,7 +70,7 @@ TEST(Columns, OfAPairTellWhatTheSecondLeverHasAndWhatIsLeftBetweenThem)
   EXPECT_EQ(first.drive_force(), 5.);
   first.add_second_lever(second);
   EXPECT_EQ(first.drive_force(), 8.);
-  EXPECT_EQ(first.of_second_lever(Column::P), 8.);
+  EXPECT_EQ(first.second_value(Column::P), 8.);
   EXPECT_NEAR(first.swing(), 0.02, 1e-15);
   // The first lever presses the cylinder down, the second one up; friction at an inclination takes from either.
   EXPECT_NEAR(first.lateral_force(), 8. * std::cos(0.06) - 4. * std::sin(0.06) - 10. * std::cos(0.1) + 4. * std::sin(0.1), 1e-14);
@@ -89,7 +89,7 @@ TEST(Columns, OfAPairOnSensorsComeInOrder)
   std::set<std::string> names;
   for (const auto &column : columns)
     EXPECT_TRUE(names.insert(column.name).second) << column.name;
-  EXPECT_EQ(columns.size(), n_columns + 2 * 5 + columns_of_a_lever().size() + 3);
+  EXPECT_EQ(columns.size(), n_columns + 2 * 5 + lever_columns().size() + 3);
   EXPECT_EQ(columns[n_columns + 4].name, "sensor_sum");
   EXPECT_EQ(columns[n_columns + 5].name, "theta_2");
   EXPECT_EQ(columns[columns.size() - 4].name, "sensor_sum_2");

@@ -33,11 +33,11 @@ namespace
     /// What Python prints, `f` being the file opened by h5py with the given further arguments.
     std::string h5py(const std::string &statements, const std::string &arguments = "") const
     {
-      return output_of("/usr/bin/python3 -c 'import h5py\nf = h5py.File(\"" + path() + "\"" + arguments + ")\n" + statements +
-                       "' 2>&1");
+      return read_output("/usr/bin/python3 -c 'import h5py\nf = h5py.File(\"" + path() + "\"" + arguments + ")\n" + statements +
+                         "' 2>&1");
     }
 
-    static std::string output_of(const std::string &command)
+    static std::string read_output(const std::string &command)
     {
       std::FILE *pipe = popen(command.c_str(), "r");
       std::string output;
@@ -54,7 +54,7 @@ namespace
 
   Row row(const double time)
   {
-    return row_of({ { Column::time, time }, { Column::x, 112. * time }, { Column::Q, -2. * time } });
+    return make_row({ { Column::time, time }, { Column::x, 112. * time }, { Column::Q, -2. * time } });
   }
 
   FaceState face_state(const double time)
@@ -197,7 +197,7 @@ TEST_F(ResultFileTest, ReadableAfterTheWriterIsKilled)
   ASSERT_TRUE(WIFSIGNALED(status));
 
   EXPECT_EQ(h5py(print_progress, ", swmr=True"), "20 2128.0 (20, 3) 19.0\n");
-  EXPECT_EQ(output_of("h5clear -s " + path() + " && h5dump -d /table/time " + path() + " | grep -c ', 19$'"), "1\n");
+  EXPECT_EQ(read_output("h5clear -s " + path() + " && h5dump -d /table/time " + path() + " | grep -c ', 19$'"), "1\n");
   EXPECT_EQ(h5py(print_progress), "20 2128.0 (20, 3) 19.0\n");
 }
 
@@ -215,7 +215,7 @@ TEST_F(ResultFileTest, FinishedFileIsReadByH5dump)
   ResultFile file(path(), "set A = 1\n", three_points);
   write_rows(file, 2);
   file.finish({}, {});
-  EXPECT_EQ(output_of("h5dump -d /table/Q " + path() + " | grep -c -e 'NATIVE_DOUBLE\\|IEEE_F64LE'"), "1\n");
+  EXPECT_EQ(read_output("h5dump -d /table/Q " + path() + " | grep -c -e 'NATIVE_DOUBLE\\|IEEE_F64LE'"), "1\n");
 }
 
 TEST_F(ResultFileTest, ColumnsOfItsOwn)

@@ -8,7 +8,7 @@ using namespace sprag;
 
 namespace
 {
-  std::vector<Row> rows_of(const std::vector<double> &values)
+  std::vector<Row> make_rows(const std::vector<double> &values)
   {
     std::vector<Row> rows(values.size());
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -21,27 +21,27 @@ namespace
 
 TEST(RowStatistics, PassOverWhatIsNoNumber)
 {
-  const auto rows = rows_of({ no_number, 2., -5., no_number, 3. });
+  const auto rows = make_rows({ no_number, 2., -5., no_number, 3. });
   const auto Q    = [](const Row &row) { return row[Column::Q]; };
   EXPECT_EQ(signed_peak(rows, Q), -5.);
   EXPECT_EQ(largest(rows, Q), 5.);
   EXPECT_EQ(largest(rows, Column::Q), 5.);
   EXPECT_EQ(sum(rows, Column::Q), 0.);
-  EXPECT_EQ(row_of_largest(rows, Q), &rows[4]);
+  EXPECT_EQ(find_largest_row(rows, Q), &rows[4]);
 }
 
 TEST(RowStatistics, OfNoNumbersAreZero)
 {
-  const auto rows = rows_of({ no_number });
+  const auto rows = make_rows({ no_number });
   EXPECT_EQ(largest(rows, Column::Q), 0.);
   EXPECT_EQ(sum(rows, Column::Q), 0.);
-  EXPECT_EQ(row_of_largest(rows, [](const Row &row) { return row[Column::Q]; }), nullptr);
+  EXPECT_EQ(find_largest_row(rows, [](const Row &row) { return row[Column::Q]; }), nullptr);
 }
 
 TEST(RowStatistics, TakeARowOfAnInfiniteValueForNone)
 {
-  const auto rows = rows_of({ 1., std::numeric_limits<double>::infinity() });
-  EXPECT_EQ(row_of_largest(rows, [](const Row &row) { return row[Column::Q]; }), &rows[0]);
+  const auto rows = make_rows({ 1., std::numeric_limits<double>::infinity() });
+  EXPECT_EQ(find_largest_row(rows, [](const Row &row) { return row[Column::Q]; }), &rows[0]);
 }
 
 namespace

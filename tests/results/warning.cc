@@ -20,12 +20,12 @@ TEST(WarningText, CountsAndNames)
 
 TEST(WarningText, NothingWithoutWarnings)
 {
-  EXPECT_EQ(text_of({}), "");
+  EXPECT_EQ(to_text({}), "");
 }
 
 TEST(WarningText, HoldsAllPartsWithTheirLabels)
 {
-  EXPECT_EQ(text_of({ soft }), "\nWarning: soft\n  found:  found\n  effect: effect\n  remedy: remedy\n\n");
+  EXPECT_EQ(to_text({ soft }), "\nWarning: soft\n  found:  found\n  effect: effect\n  remedy: remedy\n\n");
 }
 
 TEST(WarningText, LongSentencesAreWrappedWithoutLosingAWord)
@@ -33,7 +33,7 @@ TEST(WarningText, LongSentencesAreWrappedWithoutLosingAWord)
   std::string sentence;
   for (int i = 0; i < 100; ++i)
     sentence += (i == 0 ? "" : " ") + std::string("word") + std::to_string(i);
-  const std::string text = text_of({ { "long", sentence, "effect", "remedy" } });
+  const std::string text = to_text({ { "long", sentence, "effect", "remedy" } });
   std::string joined;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)

@@ -25,7 +25,7 @@ namespace
     return read_scene(folder.write("scene.prm", ""), all);
   }
 
-  std::string output_of(const TemporaryFolder &folder)
+  std::string read_output(const TemporaryFolder &folder)
   {
     return (folder.path / "output").string();
   }
@@ -33,12 +33,12 @@ namespace
   void run_in(const TemporaryFolder &folder, const Scene &scene)
   {
     Warnings warnings;
-    run_design(scene, { output_of(folder), true }, warnings);
+    run_design(scene, { read_output(folder), true }, warnings);
   }
 
-  Scene best_of(const TemporaryFolder &folder, const std::vector<std::string> &changes = {})
+  Scene best_scene(const TemporaryFolder &folder, const std::vector<std::string> &changes = {})
   {
-    return read_scene(output_of(folder) + "/design-best.prm", changes);
+    return read_scene(read_output(folder) + "/design-best.prm", changes);
   }
 
   SlideStability slide_at(const Scene &lever, const double x, const std::string &way, DynamicsMaker &maker)
@@ -60,7 +60,7 @@ TEST(RunDesign, WritesTheLeverAsASceneThatRuns)
   const TemporaryFolder folder;
   run_in(folder, design(folder, { "Design/Free=Rotational spring/Stiffness = 1e4 ... 2e5", "Design/Aim=minimise largest force",
                                   "Design/Demands=damping slope >= 0.12" }));
-  const Scene best = best_of(folder);
+  const Scene best = best_scene(folder);
   EXPECT_EQ(best.analysis.type, AnalysisType::quasi_static);
   // Model A has 0.0898 N/mm with k = 7.4e4 N mm/rad.
   const double c = lever_quantities(best)[DesignQuantity::damping_slope];
@@ -70,7 +70,8 @@ TEST(RunDesign, WritesTheLeverAsASceneThatRuns)
                   lever_quantities(variant(best, { "Rotational spring/Stiffness=7.4e4" }))[DesignQuantity::damping_slope],
               1e-3 * best.spring.stiffness);
   const auto summary = in_time(variant(best, { "Analysis/Type=quasi-static" }));
-  EXPECT_NEAR(value_of(summary, "representative_slope_forward") - value_of(summary, "representative_slope_backward"), 0.24, 1e-5);
+  EXPECT_NEAR(find_value(summary, "representative_slope_forward") - find_value(summary, "representative_slope_backward"), 0.24,
+              1e-5);
 }
 
 TEST(RunDesign, WithoutALeverTheNearestIsKept)
@@ -89,9 +90,9 @@ TEST(RunDesign, WithoutALeverTheNearestIsKept)
     EXPECT_NE(text.find("Without 'damping slope >= 0.12' the others can be met"), std::string::npos) << text;
     EXPECT_NE(text.find("Without 'largest force <= 5' the others can be met"), std::string::npos) << text;
   }
-  EXPECT_TRUE(std::filesystem::exists(output_of(folder) + "/result.h5"));
-  EXPECT_FALSE(std::filesystem::exists(output_of(folder) + "/design-best.prm"));
-  EXPECT_NO_THROW(read_scene(output_of(folder) + "/design-nearest.prm"));
+  EXPECT_TRUE(std::filesystem::exists(read_output(folder) + "/result.h5"));
+  EXPECT_FALSE(std::filesystem::exists(read_output(folder) + "/design-best.prm"));
+  EXPECT_NO_THROW(read_scene(read_output(folder) + "/design-nearest.prm"));
 }
 
 TEST(RunDesign, AJudgeCorrectsTheClosedForm)
@@ -101,7 +102,7 @@ TEST(RunDesign, AJudgeCorrectsTheClosedForm)
   run_in(folder, design(folder, { "Lever/Depth=6", "Design/Free=Rotational spring/Stiffness = 1e4 ... 2e5", "Design/Judges=beam",
                                   "Design/Demands=largest force >= 20", "Design/Aim=minimise largest force",
                                   "Design/Judge in time=off" }));
-  const Scene best = best_of(folder, { "Analysis/Type=stability", "Analysis/Model=beam" });
+  const Scene best = best_scene(folder, { "Analysis/Type=stability", "Analysis/Model=beam" });
   EXPECT_GT(lever_quantities(best)[DesignQuantity::largest_force], 20.2);
   DynamicsMaker maker(false);
   const double Q = slide_at(best, 65., "backward", maker).slide->forces.Q;
@@ -121,7 +122,7 @@ TEST(RunDesign, TheTableInTimeCorrectsTheHarmonicBalanceSlow)
     run_isolation(lever, found, {});
     return found.fundamental;
   };
-  const Scene best = best_of(folder, { "Analysis/Type=isolation", "Isolation/End=steady state" });
+  const Scene best = best_scene(folder, { "Analysis/Type=isolation", "Isolation/End=steady state" });
   EXPECT_NEAR(fundamental(best), 3., 0.01);
   // By one harmonic it would be another lever.
   DesignQuantities by_one_harmonic;
@@ -134,15 +135,15 @@ TEST(RunDesign, ThinnestStableLeverIsAtTheEdgeOfStability)
   const TemporaryFolder folder;
   run_in(folder, design(folder, { "Design/Free=Lever/Depth = 3 ... 20", "Design/Judges=beam", "Design/Demands=growth rate <= 0",
                                   "Design/Aim=minimise Lever/Depth", "Design/Judge in time=off", "Design/Positions=2" }));
-  const double depth = best_of(folder).lever.depth;
+  const double depth = best_scene(folder).lever.depth;
   DynamicsMaker maker(false);
-  const auto worst = [&](const double of_depth)
+  const auto worst = [&](const double beam_depth)
   {
     double growth = -1e30;
     for (const double x : { 32.5, 65. })
       for (const std::string way : { "forward", "backward" })
-        growth = std::max(growth, slide_at(best_of(folder, { "Analysis/Type=stability", "Analysis/Model=beam",
-                                                             override_text("Lever/Depth", of_depth) }),
+        growth = std::max(growth, slide_at(best_scene(folder, { "Analysis/Type=stability", "Analysis/Model=beam",
+                                                                override_text("Lever/Depth", beam_depth) }),
                                            x, way, maker)
                                       .growth_rate());
     return growth;
@@ -163,12 +164,12 @@ TEST(RunDesignSlow, LeverIsConfirmedInTimeAndStableAtAllX)
                    "Design/Aim=minimise Geometry/Pivot distance", "Design/Judges=beam, condensed" });
   run_in(folder, design(folder, changes));
   const auto model = [&](const std::string &type) {
-    return best_of(folder, { "Analysis/Type=" + type, "Analysis/Model=condensed", "Output/Fields=none" });
+    return best_scene(folder, { "Analysis/Type=" + type, "Analysis/Model=condensed", "Output/Fields=none" });
   };
   DynamicsMaker maker(false);
   const Scene held = model("stability");
   for (unsigned int i = 1; i <= 13; ++i)
     for (const std::string way : { "forward", "backward" })
       EXPECT_EQ(slide_at(held, 5. * i, way, maker).kind, SlideKind::stable) << 5. * i << ' ' << way;
-  EXPECT_LE(value_of(in_time(model("transient")), "largest_pressure"), 0.8);
+  EXPECT_LE(find_value(in_time(model("transient")), "largest_pressure"), 0.8);
 }

@@ -54,7 +54,7 @@ namespace
     { transient, finite_element, 45., 45.2, 0.125, 0.496e9 },
   };
 
-  Scene scene_of(const Measured &run)
+  Scene make_scene(const Measured &run)
   {
     Scene scene          = model_a();
     scene.drive          = Drive(DriveProfile::triangle, run.start, run.stroke, 112., 1.);
@@ -70,7 +70,7 @@ namespace
     {
       SCOPED_TRACE(testing::Message() << "type " << static_cast<int>(run.type) << ", model " << static_cast<int>(run.model)
                                       << ", " << run.face_size << " mm");
-      const double expected = expected_memory(scene_of(run));
+      const double expected = expected_memory(make_scene(run));
       EXPECT_LT(expected, 1.3 * run.bytes);
       EXPECT_GT(expected, run.bytes / 1.3);
     }
@@ -100,7 +100,7 @@ namespace
 
   TEST(Memory, EachProcessAndLeverNeedsItsOwn)
   {
-    Scene scene = scene_of(measured[13]);
+    Scene scene = make_scene(measured[13]);
     EXPECT_NEAR(expected_memory(scene, 4), 4. * expected_memory(scene), 1e7);
     const double one = expected_memory(scene);
     scene.pair.type  = PairType::full;
@@ -170,7 +170,7 @@ namespace
       EXPECT_LT(files->available.bytes, needed);
       EXPECT_NO_THROW(require_memory(scene, 1, folder));
       EXPECT_THROW(require_memory(scene), InputError); // nobody said where
-      const auto text = text_of(*files);
+      const auto text = to_text(*files);
       EXPECT_NE(text.find("are kept in files"), std::string::npos) << text;
       EXPECT_NE(text.find(" GB in " + folder), std::string::npos) << text;
       scene.analysis.type = AnalysisType::modal; // whose modes need factors in memory all the time

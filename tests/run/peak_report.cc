@@ -31,9 +31,9 @@ TEST(PeakReport, TellsTheLargestPressureAndWhereItIs)
   std::vector<Entry> entries;
   add_largest_pressure(rows, entries);
   ASSERT_EQ(entries.size(), 4u);
-  EXPECT_EQ(value_of(entries, "largest_pressure"), 0.3);
-  EXPECT_EQ(value_of(entries, "largest_pressure_x"), 64.);
-  EXPECT_EQ(value_of(entries, "largest_pressure_xi"), 121.);
+  EXPECT_EQ(find_value(entries, "largest_pressure"), 0.3);
+  EXPECT_EQ(find_value(entries, "largest_pressure_x"), 64.);
+  EXPECT_EQ(find_value(entries, "largest_pressure_xi"), 121.);
   EXPECT_EQ(std::get<std::string>(entries[2].value), "backward");
 }
 
@@ -99,7 +99,7 @@ TEST(PeakReport, TakesTheScatterOfPassingElementsOffTheLargestPressure)
   EXPECT_NEAR(found.scatter, 0.02 * std::sqrt(2. / 9.), 0.004); // of one in three
   std::vector<Entry> entries;
   add_largest_pressure(all, entries, 0.25);
-  EXPECT_EQ(value_of(entries, "largest_pressure"), found.value);
+  EXPECT_EQ(find_value(entries, "largest_pressure"), found.value);
 }
 
 TEST(PeakReport, LeavesFewRowsAsTheyAre)

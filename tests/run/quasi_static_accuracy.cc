@@ -18,7 +18,7 @@ using namespace sprag;
 namespace
 {
   /// A run and what it tells of its errors.
-  struct Told
+  struct Estimates
   {
     std::vector<Row> rows;
     std::map<std::string, ErrorEstimate> errors;
@@ -26,9 +26,9 @@ namespace
     double penalty = 0.;
   };
 
-  Told told(const Scene &scene)
+  Estimates estimated(const Scene &scene)
   {
-    Told result;
+    Estimates result;
     Mesh mesh;
     make_mesh(scene, mesh);
     StaticLever<2> model(mesh, scene);
@@ -53,9 +53,9 @@ namespace
     return result;
   }
 
-  Told told_in_space(const Scene &scene)
+  Estimates estimated_in_space(const Scene &scene)
   {
-    Told result;
+    Estimates result;
     Mesh plane;
     make_mesh(scene, plane);
     SolidBody body(scene, plane);
@@ -100,7 +100,7 @@ TEST(QuasiStaticAccuracy, ToldErrorsMeetTheTrueOnes)
   const auto reference = run_scene(with_augmented_lagrangian(with_face_size(coarse_scene(0.5), 0.125)));
   for (const Scene &scene : { coarse_scene(0.5), from_file })
   {
-    const auto run   = told(scene);
+    const auto run   = estimated(scene);
     const auto ratio = [&](const std::string &quantity, const double value, const double exact)
     { return total_error(run.errors.at(quantity)) / std::abs(value / exact - 1.); };
     const double loop = ratio("loop_area", run.rows.back()[Column::drive_work], reference.back()[Column::drive_work]);
@@ -117,7 +117,7 @@ TEST(QuasiStaticAccuracy, ToldErrorsOfTheForcesHoldAlongTheWay)
 {
   Scene scene          = coarse_scene(0.5);
   scene.drive          = Drive(DriveProfile::triangle, 0., 30., 112., 0.5);
-  const auto run       = told(scene);
+  const auto run       = estimated(scene);
   const auto reference = run_scene(with_augmented_lagrangian(with_face_size(scene, 0.125)));
   for (const auto &[quantity, column] : { std::pair<std::string, Column>{ "P", Column::P }, { "Q", Column::Q } })
   {
@@ -144,7 +144,7 @@ TEST(QuasiStaticAccuracy, AFinerMeshTellsLessAndTheModelKeepsItsPenalties)
   run_quasi_static(model, scene.drive, settings, [&](const State &, const Row &row, const Evaluation &) { rows.push_back(row); });
   const auto coarse = quasi_static_accuracy(scene, rows, [&] { return plane_probes(scene, model, rows, settings, {}); });
   EXPECT_EQ(model.penalties().normal, penalties.normal);
-  const auto fine = told(with_face_size(scene, 0.25));
+  const auto fine = estimated(with_face_size(scene, 0.25));
   for (const auto &estimate : coarse)
   {
     if (estimate.quantity == "largest_stress")
@@ -158,25 +158,25 @@ TEST(QuasiStaticAccuracy, AFinerMeshTellsLessAndTheModelKeepsItsPenalties)
 TEST(QuasiStaticAccuracy, TheLargestStressIsWithinWhatIsTold)
 {
   Scene scene     = coarse_scene(0.5);
-  const auto run  = told(scene);
-  const auto fine = told(with_face_size(scene, 0.125));
+  const auto run  = estimated(scene);
+  const auto fine = estimated(with_face_size(scene, 0.125));
   ASSERT_FALSE(run.errors.at("largest_stress").parts.empty());
   for (const auto &[part, name] :
        { std::pair<std::size_t, std::string>{ 0, "largest_lever_stress" }, { 1, "largest_layer_stress" } })
   {
-    const double told_error = run.errors.at("largest_stress").parts.at(part).value;
-    EXPECT_GT(told_error, 0.5 * std::abs(run.stress.at(name) / fine.stress.at(name) - 1.)) << name;
-    EXPECT_LT(told_error, 0.1) << name;
+    const double estimated_error = run.errors.at("largest_stress").parts.at(part).value;
+    EXPECT_GT(estimated_error, 0.5 * std::abs(run.stress.at(name) / fine.stress.at(name) - 1.)) << name;
+    EXPECT_LT(estimated_error, 0.1) << name;
   }
 }
 
 /// In space the reference has cells of half the length and width, and a penalty three times as stiff.
 TEST(QuasiStaticAccuracy, InThreeDimensionsToldErrorsMeetTheTrueOnesSlow)
 {
-  const auto coarse    = told_in_space(solid_scene(1., 2));
+  const auto coarse    = estimated_in_space(solid_scene(1., 2));
   Scene fine           = solid_scene(0.5, 4);
   fine.contact.penalty = 3. * coarse.penalty;
-  const auto reference = told_in_space(fine).rows;
+  const auto reference = estimated_in_space(fine).rows;
   for (const auto &[quantity, column] : { std::pair<std::string, Column>{ "P", Column::P }, { "Q", Column::Q } })
   {
     double error = 0.;
@@ -205,8 +205,8 @@ TEST(QuasiStaticAccuracy, TellsTheInertiaThatIsLeftOut)
     rows.push_back(row);
     const auto [theta, s, slope] = kinematics(scene.geometry, x);
     const auto &geometry         = scene.geometry;
-    const double change_of_s     = -std::cos(theta) - (geometry.cylinder_radius - geometry.interface_offset) * slope;
-    const double curvature       = (std::cos(theta) * slope - std::sin(theta) * change_of_s / s) / s;
+    const double s_change        = -std::cos(theta) - (geometry.cylinder_radius - geometry.interface_offset) * slope;
+    const double curvature       = (std::cos(theta) * slope - std::sin(theta) * s_change / s) / s;
     const double moment          = scene.spring.stiffness * (theta - kinematics(geometry, 0.).theta);
     expected                     = std::max(expected, moment_of_inertia(scene) * 112. * 112. * curvature / moment);
   }
@@ -217,7 +217,7 @@ TEST(QuasiStaticAccuracy, TellsTheInertiaThatIsLeftOut)
 
 TEST(QuasiStaticAccuracy, SaysWhereTheContactIsTooNarrow)
 {
-  const auto run = told(coarse_scene(1.));
+  const auto run = estimated(coarse_scene(1.));
   EXPECT_TRUE(run.errors.at("largest_pressure").parts.empty());
   EXPECT_NE(run.errors.at("largest_pressure").unknown.find("faces wide"), std::string::npos);
   EXPECT_FALSE(run.errors.at("P").parts.empty());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "report/report.h"
-#include "report/brief.h"
+#include "report/console_summary.h"
 #include "report/summary_table.h"
 #include "report/transient_report.h"
 
@@ -71,11 +71,11 @@ TEST(Report, StickAfterTheTurnsOfATableIsNoDeviation)
   {
     const Scene scene  = moved_by(drive);
     const auto rows    = rows_with_stick(scene, 0.25);
-    const auto summary = summary_of(scene, rows);
+    const auto summary = make_summary(scene, rows);
     for (const std::string way : { "forward", "backward" })
     {
-      EXPECT_NEAR(value_of(summary, "deviation_Q_" + way), 0., 1e-12);
-      EXPECT_NEAR(value_of(summary, "deviation_P_" + way), 0., 1e-12);
+      EXPECT_NEAR(find_value(summary, "deviation_Q_" + way), 0., 1e-12);
+      EXPECT_NEAR(find_value(summary, "deviation_P_" + way), 0., 1e-12);
     }
   }
 }
@@ -106,8 +106,8 @@ TEST(Report, PeaksWithoutFriction)
     row[Column::F]                  = 0.01 * row[Column::P];
     row[Column::friction_resultant] = 0.;
   }
-  const auto summary = summary_of(scene, rows);
-  EXPECT_GT(value_of(summary, "peak_P_backward"), value_of(summary, "peak_P_forward"));
+  const auto summary = make_summary(scene, rows);
+  EXPECT_GT(find_value(summary, "peak_P_backward"), find_value(summary, "peak_P_forward"));
 }
 
 TEST(Report, SlopeIsToldWhereMuStaysAlone)
@@ -115,7 +115,7 @@ TEST(Report, SlopeIsToldWhereMuStaysAlone)
   const auto slope = [](const Drive &drive, const std::string &way)
   {
     const Scene scene = moved_by(drive);
-    return value_of(summary_of(scene, rows_with_stick(scene, 0.25)), "slope_" + way);
+    return find_value(make_summary(scene, rows_with_stick(scene, 0.25)), "slope_" + way);
   };
   // Turns within the 10 mm of the fit, behind which friction is not yet that of sliding.
   const Drive triangle(DriveProfile::triangle, 4., 65., 112., 2.);
@@ -133,8 +133,8 @@ TEST(Report, TurningPointBelongsToTheStrokeThatEndsThere)
 {
   const Scene scene  = moved_by(Drive(DriveProfile::harmonic, 0., 65., 112., 1.));
   const auto rows    = rows_with_stick(scene, 1.);
-  const auto summary = summary_of(scene, rows);
-  EXPECT_DOUBLE_EQ(value_of(summary, "peak_P_forward"), closed_form(scene, 65., 0.).P);
+  const auto summary = make_summary(scene, rows);
+  EXPECT_DOUBLE_EQ(find_value(summary, "peak_P_forward"), closed_form(scene, 65., 0.).P);
 }
 
 // A sine of 5 N by rows 0.3 rad apart, the largest of which is up to 0.06 N short of its peak.
@@ -154,8 +154,8 @@ TEST(Report, PeaksInTimeLieBetweenRows)
   const auto largest_row =
       std::max_element(rows.begin(), rows.end(), [](const Row &a, const Row &b) { return a[Column::P] < b[Column::P]; });
   const auto summary = transient_summary(model_a(), rows);
-  EXPECT_NEAR(value_of(summary, "peak_P_forward"), 25., 2e-3);
-  EXPECT_GT(value_of(summary, "peak_P_forward"), (*largest_row)[Column::P]);
+  EXPECT_NEAR(find_value(summary, "peak_P_forward"), 25., 2e-3);
+  EXPECT_GT(find_value(summary, "peak_P_forward"), (*largest_row)[Column::P]);
 }
 
 TEST(SummaryTable, FindsTheRowWhoseStarStandsForLeast)
@@ -187,16 +187,16 @@ TEST(SummaryTable, PrintsEntriesOfALineTogetherAndNothingThatDoesNotApply)
 {
   const double unknown = std::nan("");
   std::ostringstream printed;
-  print_brief(printed,
-              answer_lines(AnalysisType::transient, { { "peak_Q_forward", 18. },
-                                                      { "peak_Q_support_forward", 18. },
-                                                      { "peak_Q_backward", -23.456 },
-                                                      { "peak_Q_support_backward", -20. },
-                                                      { "reversal_1_frequency", unknown },
-                                                      { "reversal_1_overshoot_P", 0.24 },
-                                                      { "reversal_13_x", 65. },
-                                                      { "creep", 1. } }),
-              { { "P", "its peak", { { "step", 0.02, "Try less." } }, {} }, { "Q", "", {}, "No estimate." } }, 0.5);
+  print_console_summary(printed,
+                        answer_lines(AnalysisType::transient, { { "peak_Q_forward", 18. },
+                                                                { "peak_Q_support_forward", 18. },
+                                                                { "peak_Q_backward", -23.456 },
+                                                                { "peak_Q_support_backward", -20. },
+                                                                { "reversal_1_frequency", unknown },
+                                                                { "reversal_1_overshoot_P", 0.24 },
+                                                                { "reversal_13_x", 65. },
+                                                                { "creep", 1. } }),
+                        { { "P", "its peak", { { "step", 0.02, "Try less." } }, {} }, { "Q", "", {}, "No estimate." } }, 0.5);
   EXPECT_EQ(printed.str(), "  largest Q             forward 18 N, backward -23.46 N\n"
                            "  on the ground         backward -20 N\n"
                            "  reversal 1.           overshoot of P 24 %\n"

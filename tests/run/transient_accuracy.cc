@@ -36,7 +36,7 @@ namespace
     return (1. - share) * a[Column::P] + share * b[Column::P];
   }
 
-  std::vector<ErrorEstimate> told(const Scene &scene, const std::vector<Row> &rows)
+  std::vector<ErrorEstimate> estimated(const Scene &scene, const std::vector<Row> &rows)
   {
     DynamicsMaker maker(false);
     return transient_accuracy(scene, {}, rows, maker);
@@ -73,11 +73,11 @@ TEST(TransientAccuracy, ToldErrorsAreThoseOfShorterSteps)
     double largest_error = 0.;
     for (const Row &row : rows)
       largest_error = std::max(largest_error, std::abs(row[Column::P] - force_at(exact, row[Column::time])));
-    const auto ringing    = [&](const std::vector<Row> &of) { return oscillations(of, scene.drive).front(); };
+    const auto ringing    = [&](const std::vector<Row> &run_rows) { return oscillations(run_rows, scene.drive).front(); };
     const double errors[] = { largest_error / largest(rows, Column::P),
                               std::abs(ringing(rows).overshoot_P / ringing(exact).overshoot_P - 1.),
                               std::abs(ringing(rows).frequency / ringing(exact).frequency - 1.) };
-    const auto estimates  = told(scene, rows);
+    const auto estimates  = estimated(scene, rows);
     ASSERT_EQ(estimates.size(), 4u);
     for (unsigned int i = 0; i < 3; ++i)
     {
@@ -94,7 +94,7 @@ TEST(TransientAccuracy, ToldErrorsAreThoseOfShorterSteps)
 TEST(TransientAccuracy, SaysInWordsWhereNothingTurns)
 {
   const Scene scene = shipped("reversal-a", { "Analysis/Model=rigid", "Drive/Cycles=0.5" });
-  for (const auto &estimate : told(scene, beam_run(scene)))
+  for (const auto &estimate : estimated(scene, beam_run(scene)))
   {
     EXPECT_TRUE(estimate.parts.empty());
     EXPECT_NE(estimate.unknown.find("does not turn"), std::string::npos) << estimate.unknown;

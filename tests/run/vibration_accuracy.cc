@@ -36,7 +36,7 @@ namespace
     return scene;
   }
 
-  std::vector<ErrorEstimate> told(const Scene &scene)
+  std::vector<ErrorEstimate> estimated(const Scene &scene)
   {
     DynamicsMaker maker(false);
     const auto dynamics = maker.make(scene);
@@ -51,7 +51,7 @@ TEST(VibrationAccuracy, ToldErrorsHoldTheChangeToAFinerMesh)
   DynamicsMaker maker(false);
   const auto coarse = judge(scene, maker);
   const auto fine   = judge(slide(0.2), maker);
-  const auto errors = told(scene);
+  const auto errors = estimated(scene);
   ASSERT_EQ(errors.size(), 2u);
   const double growth    = std::abs(coarse.growth_rate() / fine.growth_rate() - 1.);
   const double frequency = std::abs(coarse.frequency() / fine.frequency() - 1.);
@@ -81,22 +81,22 @@ TEST(VibrationAccuracy, ToldErrorsHoldThePlaceBetweenTheNodes)
     return held_scene(scene);
   };
   DynamicsMaker maker(false);
-  const double coarse = judge(undamped_slide(1.), maker).frequency();
-  const double fine   = judge(undamped_slide(0.25), maker).frequency();
-  const double error  = std::abs(coarse / fine - 1.);
-  const double told_  = total_error(told(undamped_slide(1.))[1]);
+  const double coarse          = judge(undamped_slide(1.), maker).frequency();
+  const double fine            = judge(undamped_slide(0.25), maker).frequency();
+  const double error           = std::abs(coarse / fine - 1.);
+  const double estimated_error = total_error(estimated(undamped_slide(1.))[1]);
   EXPECT_GT(error, 0.02);
-  EXPECT_GT(told_, 0.5 * error);
-  EXPECT_LT(told_, 3. * error);
+  EXPECT_GT(estimated_error, 0.5 * error);
+  EXPECT_LT(estimated_error, 3. * error);
 }
 
 TEST(VibrationAccuracy, InThreeDimensionsToldErrorsHoldTheChangeToAFinerMeshSlow)
 {
   const Scene scene = slide_in_space(4., 2);
-  DynamicsMaker maker(false), of_fine(false);
+  DynamicsMaker maker(false), fine_maker(false);
   const auto coarse = judge(scene, maker);
-  const auto fine   = judge(slide_in_space(2., 4), of_fine);
-  const auto errors = told(scene);
+  const auto fine   = judge(slide_in_space(2., 4), fine_maker);
+  const auto errors = estimated(scene);
   ASSERT_EQ(errors.size(), 2u);
   const double true_errors[] = { std::abs(coarse.growth_rate() / fine.growth_rate() - 1.),
                                  std::abs(coarse.frequency() / fine.frequency() - 1.) };
@@ -112,5 +112,5 @@ TEST(VibrationAccuracy, LeversWithoutAMeshTellNone)
 {
   Scene scene          = slide(0.5);
   scene.analysis.model = ModelType::beam;
-  EXPECT_TRUE(told(scene).empty());
+  EXPECT_TRUE(estimated(scene).empty());
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "report/warnings.h"
-#include "report/brief.h"
+#include "report/console_summary.h"
 #include "scene/closed_form.h"
 #include "scene/contact_width.h"
 #include "scene/scene.h"
@@ -33,23 +33,23 @@ namespace
   /// Model A at x = 65 mm backward with the default mesh.
   Row usual_row()
   {
-    return row_of({ { Column::x, 65. },
-                    { Column::v, -112. },
-                    { Column::s, 120. },
-                    { Column::P, 25.4 },
-                    { Column::F, -18.5 },
-                    { Column::theta, 0.0993 },
-                    { Column::theta_closed_form, 0.0995 },
-                    { Column::contact_width, 2.5 },
-                    { Column::penetration, 0.0014 },
-                    { Column::indentation, 0.0164 },
-                    { Column::elastic_slip, 0.001 },
-                    { Column::largest_pressure, 0.34 },
-                    { Column::step, 1. },
-                    { Column::drive_work, 100. },
-                    { Column::friction_work, 60. },
-                    { Column::spring_energy, 39. },
-                    { Column::elastic_energy, 1. } });
+    return make_row({ { Column::x, 65. },
+                      { Column::v, -112. },
+                      { Column::s, 120. },
+                      { Column::P, 25.4 },
+                      { Column::F, -18.5 },
+                      { Column::theta, 0.0993 },
+                      { Column::theta_closed_form, 0.0995 },
+                      { Column::contact_width, 2.5 },
+                      { Column::penetration, 0.0014 },
+                      { Column::indentation, 0.0164 },
+                      { Column::elastic_slip, 0.001 },
+                      { Column::largest_pressure, 0.34 },
+                      { Column::step, 1. },
+                      { Column::drive_work, 100. },
+                      { Column::friction_work, 60. },
+                      { Column::spring_energy, 39. },
+                      { Column::elastic_energy, 1. } });
   }
 
   Row first_row()
@@ -124,11 +124,11 @@ TEST(RowWarnings, CoarseContact)
 
 TEST(RowWarnings, PressureOfSinglePoints)
 {
-  const auto with_peak = [](const double over_mean, const bool given, const double poisson_ratio)
+  const auto with_peak = [](const double over_mean, const bool specified, const double poisson_ratio)
   {
     Scene scene               = model_a();
     scene.layer.poisson_ratio = poisson_ratio;
-    if (given)
+    if (specified)
       scene.contact.penalty = 1e4;
     const Row row = usual_row();
     return names_with(Column::largest_pressure, over_mean * row[Column::P] / (row[Column::contact_width] * scene.lever.width),
@@ -221,14 +221,14 @@ TEST(SceneWarnings, DefaultsInAnotherDevice)
 {
   Scene scene = model_b();
   EXPECT_EQ(names(scene_warnings(scene)), Names{ "defaults_of_model_a" });
-  scene.given      = { "Geometry/Cylinder radius", "Geometry/Interface offset", "Geometry/Pivot distance",
+  scene.specified  = { "Geometry/Cylinder radius", "Geometry/Interface offset", "Geometry/Pivot distance",
                        "Rotational spring/Stiffness" };
   const auto found = scene_warnings(scene);
   ASSERT_EQ(names(found), Names{ "defaults_of_model_a" });
   EXPECT_NE(found[0].found.find("Lever/Length = 210, Lever/Depth = 20, Lever/Width = 40"), std::string::npos) << found[0].found;
   EXPECT_EQ(found[0].found.find("Moment of inertia"), std::string::npos) << found[0].found;
 
-  scene.given.insert({ "Lever/Length", "Lever/Depth", "Lever/Width" });
+  scene.specified.insert({ "Lever/Length", "Lever/Depth", "Lever/Width" });
   EXPECT_EQ(names(scene_warnings(scene)), Names{});
   scene.analysis.type  = AnalysisType::transient;
   scene.analysis.model = ModelType::rigid;
@@ -267,7 +267,7 @@ TEST(SceneWarnings, AnotherLeverIsNotScaledToTheInertiaOfModelA)
   Scene at_rest         = scene;
   at_rest.analysis.type = AnalysisType::quasi_static;
   EXPECT_EQ(names(scene_warnings(at_rest)), Names{});
-  scene.given = { "Lever/Moment of inertia" };
+  scene.specified = { "Lever/Moment of inertia" };
   EXPECT_EQ(names(scene_warnings(scene)), Names{});
 }
 
@@ -276,7 +276,7 @@ TEST(SceneWarnings, WhatAMapVariesIsGiven)
   Scene scene          = model_b();
   scene.analysis.type  = AnalysisType::map;
   scene.analysis.model = ModelType::rigid;
-  scene.given          = { "Geometry/Cylinder radius", "Geometry/Interface offset", "Geometry/Pivot distance",
+  scene.specified      = { "Geometry/Cylinder radius", "Geometry/Interface offset", "Geometry/Pivot distance",
                            "Rotational spring/Stiffness", "Lever/Moment of inertia" };
   EXPECT_EQ(names(scene_warnings(scene)), Names{ "defaults_of_model_a" });
   scene.map.second.name = "Contact/Stiffness";
@@ -332,10 +332,10 @@ TEST(SceneWarnings, NearLockingTellsTheSensitivityOfTheClosedForm)
     changed.friction.factor *= factor;
     return closed_form(changed, x, -112.).P;
   };
-  const double told = (P(1. + 1e-6) - P(1. - 1e-6)) / (2e-6 * P(1.));
-  const auto found  = scene_warnings(scene).at(0).found;
-  const auto begin  = found.find("mu e/(s - mu e) = ") + 18;
-  EXPECT_NEAR(std::stod(found.substr(begin)), told, 1e-4 * told) << found;
+  const double expected = (P(1. + 1e-6) - P(1. - 1e-6)) / (2e-6 * P(1.));
+  const auto found      = scene_warnings(scene).at(0).found;
+  const auto begin      = found.find("mu e/(s - mu e) = ") + 18;
+  EXPECT_NEAR(std::stod(found.substr(begin)), expected, 1e-4 * expected) << found;
 }
 
 TEST(SceneWarnings, StrainOfALeaf)
@@ -371,7 +371,7 @@ TEST(SceneWarnings, ValuesOfAnotherUnitNameIt)
     Scene scene = model_a();
     change(scene);
     EXPECT_EQ(names(scene_warnings(scene)), Names{}) << "not given";
-    scene.given.insert(parameter);
+    scene.specified.insert(parameter);
     const auto warnings = scene_warnings(scene);
     EXPECT_EQ(names(warnings), Names{ "implausible_values" }) << parameter;
     return warnings.empty() ? "" : warnings[0].remedy;
@@ -395,7 +395,7 @@ TEST(SceneWarnings, ValuesOfAnotherUnitNameIt)
   Scene stiff               = model_a();
   stiff.lever.young_modulus = 7e7;
   stiff.layer.young_modulus = 2e4;
-  stiff.given               = { "Lever/Young's modulus", "Friction layer/Young's modulus" };
+  stiff.specified           = { "Lever/Young's modulus", "Friction layer/Young's modulus" };
   EXPECT_EQ(names(scene_warnings(stiff)), Names{});
 }
 
@@ -429,17 +429,18 @@ namespace
 
 TEST(SceneWarnings, PositionsThatShake)
 {
-  const auto of = [](const auto &position) { return names(scene_warnings(measured_stroke(position))); };
+  const auto warned = [](const auto &position) { return names(scene_warnings(measured_stroke(position))); };
   std::minstd_rand random(1);
   std::normal_distribution<double> noise;
-  EXPECT_EQ(of([](const double x, unsigned int) { return x; }), Names{});
-  EXPECT_EQ(of([](const double x, const unsigned int i) { return x + 0.5 * std::sin(0.6 * i); }), Names{}); // 48 Hz
-  EXPECT_EQ(of([](const double, const unsigned int i) { return std::abs(std::remainder(i, 40.)); }), Names{});
-  EXPECT_EQ(of([](const double, const unsigned int i) { return i / 10 % 2 == 0 ? i % 10 : 10. - i % 10; }), Names{});
+  EXPECT_EQ(warned([](const double x, unsigned int) { return x; }), Names{});
+  EXPECT_EQ(warned([](const double x, const unsigned int i) { return x + 0.5 * std::sin(0.6 * i); }), Names{}); // 48 Hz
+  EXPECT_EQ(warned([](const double, const unsigned int i) { return std::abs(std::remainder(i, 40.)); }), Names{});
+  EXPECT_EQ(warned([](const double, const unsigned int i) { return i / 10 % 2 == 0 ? i % 10 : 10. - i % 10; }), Names{});
   for (const double step : { 0.1, 0.02 })
-    EXPECT_EQ(of([=](const double x, unsigned int) { return step * std::round(x / step); }), Names{ "shaking_drive" }) << step;
+    EXPECT_EQ(warned([=](const double x, unsigned int) { return step * std::round(x / step); }), Names{ "shaking_drive" })
+        << step;
   for (const double deviation : { 0.02, 0.005 })
-    EXPECT_EQ(of([&](const double x, unsigned int) { return x + deviation * noise(random); }), Names{ "shaking_drive" })
+    EXPECT_EQ(warned([&](const double x, unsigned int) { return x + deviation * noise(random); }), Names{ "shaking_drive" })
         << deviation;
 
   // Constant friction without inertia knows no speed.

@@ -233,10 +233,10 @@ TEST(ClosedForm, LoopAreaEqualsFrictionWork)
 /// The time of a row is rounded the more the later it is, and with it a power that begins at zero.
 TEST(ClosedForm, WorkLateInALongDriveTakesNoMoreThanInTheFirstCycle)
 {
-  Scene scene                    = model_a();
-  scene.drive                    = Drive(DriveProfile::triangle, 0., 65., 112., 1e4);
-  const double cycle             = 2. * 65. / 112.;
-  const auto first_step_of_cycle = [&](const double number)
+  Scene scene                 = model_a();
+  scene.drive                 = Drive(DriveProfile::triangle, 0., 65., 112., 1e4);
+  const double cycle          = 2. * 65. / 112.;
+  const auto first_cycle_step = [&](const double number)
   {
     unsigned int states = 0;
     const auto count    = [&](const DrivePoint &point)
@@ -248,8 +248,8 @@ TEST(ClosedForm, WorkLateInALongDriveTakesNoMoreThanInTheFirstCycle)
     const Work work    = work_between(scene.drive, count, begin, begin + cycle / 130.);
     return std::make_pair(work.drive, states);
   };
-  const auto [early_work, early] = first_step_of_cycle(1.);
-  const auto [late_work, late]   = first_step_of_cycle(9999.);
+  const auto [early_work, early] = first_cycle_step(1.);
+  const auto [late_work, late]   = first_cycle_step(9999.);
   EXPECT_EQ(late, early);
   EXPECT_NEAR(late_work, early_work, 1e-9 * early_work);
 }

@@ -22,7 +22,7 @@ namespace
 
   DesignSettings read(const Messages &more)
   {
-    return scene_of(design(more)).design;
+    return make_scene(design(more)).design;
   }
 } // namespace
 
@@ -58,39 +58,39 @@ TEST(ReadDesign, TextsBecomeDemandsAndAims)
 
 TEST(ReadDesign, MistakesNameTheNearestWord)
 {
-  const auto told = [](const std::string &setting, const std::string &message)
+  const auto expect_message = [](const std::string &setting, const std::string &message)
   {
     const auto all = mistakes("", design({ setting }));
     ASSERT_EQ(all.size(), 1u) << setting;
     EXPECT_NE(all.front().find(message), std::string::npos) << all.front();
   };
-  told("Design/Free=Geometry/Cylinder radios = 20 ... 80",
-       "'Geometry/Cylinder radios' is no parameter that can be free; did you mean 'Geometry/Cylinder radius'?");
-  told("Design/Free=Drive/Stroke = 20 ... 80", "'Drive/Stroke' is no parameter that can be free");
-  told("Design/Free=Lever/Depth = 5", "'Lever/Depth = 5' must have the form Section/Name = FROM ... TO");
-  told("Design/Free=Lever/Depth = 20 ... 5", "Lever/Depth must have bounds of which the second is larger");
-  told("Design/Free=Lever/Depth = -1 ... 5", "Lever/Depth = -1 must be a number > 0");
-  told("Design/Free=Lever/Depth = 1 ... 5; Lever/Depth = 1 ... 5", "Lever/Depth must be there once only");
-  told("Design/Free=", "must name a parameter and its bounds");
-  told("Design/Demands=damping slpe >= 0.1",
-       "'damping slpe' is neither a quantity nor a free parameter; did you mean 'damping slope'?");
-  told("Design/Demands=damping slope = 0.1", "'damping slope = 0.1' must have a value and a tolerance > 0 behind =");
-  told("Design/Demands=damping slope 0.1", "'damping slope 0.1' must have the form QUANTITY <= VALUE");
-  told("Design/Demands=damping slope >= 0.1 +- 0.01", "must have a single number at its end");
-  told("Design/Demands=damping slope >= 0.1 N", "0.1 N must be a number [N/mm]: 'N' has the dimension");
-  told("Design/Demands=growth rate <= 0", "must have beam where a growth rate is asked for");
-  told("Design/Aim=reduce largest force", "must be minimise QUANTITY or maximise QUANTITY");
-  told("Design/Second aim=minimise largest forc", "did you mean 'largest force'?");
-  told("Design/Judges=beem", "'beem' is no judge beside others; did you mean 'beam'?");
-  told("Design/Judges=table", "table counts only where transmissibility or relative amplitude is asked for");
-  told("Analysis/Dimension=3", "must be 2 in a design");
-  told("Rotational spring/Type=leaf", "must be torsional in a design");
+  expect_message("Design/Free=Geometry/Cylinder radios = 20 ... 80",
+                 "'Geometry/Cylinder radios' is no parameter that can be free; did you mean 'Geometry/Cylinder radius'?");
+  expect_message("Design/Free=Drive/Stroke = 20 ... 80", "'Drive/Stroke' is no parameter that can be free");
+  expect_message("Design/Free=Lever/Depth = 5", "'Lever/Depth = 5' must have the form Section/Name = FROM ... TO");
+  expect_message("Design/Free=Lever/Depth = 20 ... 5", "Lever/Depth must have bounds of which the second is larger");
+  expect_message("Design/Free=Lever/Depth = -1 ... 5", "Lever/Depth = -1 must be a number > 0");
+  expect_message("Design/Free=Lever/Depth = 1 ... 5; Lever/Depth = 1 ... 5", "Lever/Depth must be there once only");
+  expect_message("Design/Free=", "must name a parameter and its bounds");
+  expect_message("Design/Demands=damping slpe >= 0.1",
+                 "'damping slpe' is neither a quantity nor a free parameter; did you mean 'damping slope'?");
+  expect_message("Design/Demands=damping slope = 0.1", "'damping slope = 0.1' must have a value and a tolerance > 0 behind =");
+  expect_message("Design/Demands=damping slope 0.1", "'damping slope 0.1' must have the form QUANTITY <= VALUE");
+  expect_message("Design/Demands=damping slope >= 0.1 +- 0.01", "must have a single number at its end");
+  expect_message("Design/Demands=damping slope >= 0.1 N", "0.1 N must be a number [N/mm]: 'N' has the dimension");
+  expect_message("Design/Demands=growth rate <= 0", "must have beam where a growth rate is asked for");
+  expect_message("Design/Aim=reduce largest force", "must be minimise QUANTITY or maximise QUANTITY");
+  expect_message("Design/Second aim=minimise largest forc", "did you mean 'largest force'?");
+  expect_message("Design/Judges=beem", "'beem' is no judge beside others; did you mean 'beam'?");
+  expect_message("Design/Judges=table", "table counts only where transmissibility or relative amplitude is asked for");
+  expect_message("Analysis/Dimension=3", "must be 2 in a design");
+  expect_message("Rotational spring/Type=leaf", "must be torsional in a design");
 }
 
 TEST(ReadDesign, QuantitiesOfTheTableNeedLevers)
 {
-  const Messages of_table = design({ "Design/Demands=transmissibility <= 3", "Isolation/Damper=viscous" });
-  const auto all          = mistakes("", of_table);
+  const Messages table_scene = design({ "Design/Demands=transmissibility <= 3", "Isolation/Damper=viscous" });
+  const auto all             = mistakes("", table_scene);
   ASSERT_EQ(all.size(), 1u);
   EXPECT_NE(all.front().find("Isolation/Damper"), std::string::npos) << all.front();
   EXPECT_NE(mistakes("", design({ "Design/Demands=residual offset <= 1", "Isolation/Base motion=none" })), Messages());
@@ -102,8 +102,8 @@ TEST(ReadDesign, EveryQuantityHasOneName)
   for (const auto &info : design_quantities())
   {
     EXPECT_TRUE(names.insert(info.name).second) << info.name;
-    EXPECT_EQ(design_quantity_of(info.name), info.quantity);
-    EXPECT_EQ(info_of(info.quantity).name, info.name);
+    EXPECT_EQ(find_design_quantity(info.name), info.quantity);
+    EXPECT_EQ(design_quantity_info(info.quantity).name, info.name);
   }
   EXPECT_EQ(names.size(), static_cast<std::size_t>(DesignQuantity::parameter));
 }

@@ -46,7 +46,7 @@ namespace
     return Drive(DriveProfile::triangle, start, 65., 112., cycles, reversal_duration);
   }
 
-  std::vector<Drive> drives_of_all_kinds()
+  std::vector<Drive> all_drives()
   {
     return { smooth(0., 0.5),
              smooth(0., 1.),
@@ -162,24 +162,24 @@ TEST(Drive, DirectionIsThatOfTheStrokeWhateverTheTurn)
   const Drive drive(DriveProfile::harmonic, 45., 65., 112., 6.5);
   int way = 1;
   EXPECT_EQ(drive.at(0., Drive::Side::after).v, 0.);
-  EXPECT_EQ(direction_of(drive.at(0., Drive::Side::after).v), 1);
+  EXPECT_EQ(drive_direction(drive.at(0., Drive::Side::after).v), 1);
   EXPECT_EQ(drive.reversals().size(), 12u);
   for (const double turn : drive.reversals())
   {
     EXPECT_EQ(drive.at(turn, Drive::Side::before).v, 0.);
-    EXPECT_EQ(direction_of(drive.at(turn, Drive::Side::before).v), way) << turn;
-    EXPECT_EQ(direction_of(drive.at(turn, Drive::Side::after).v), -way) << turn;
+    EXPECT_EQ(drive_direction(drive.at(turn, Drive::Side::before).v), way) << turn;
+    EXPECT_EQ(drive_direction(drive.at(turn, Drive::Side::after).v), -way) << turn;
     way = -way;
   }
-  EXPECT_EQ(direction_of(drive.at(drive.duration()).v), 1);
+  EXPECT_EQ(drive_direction(drive.at(drive.duration()).v), 1);
 }
 
 TEST(Drive, RestKeepsTheDirectionThatLedToIt)
 {
   const Drive drive({ 0., 1., 2., 3., 4., 5., 6. }, { 40., 40., 20., 20., 30., 30., 10. });
-  EXPECT_EQ(direction_of(drive.at(0.5).v), 1);
-  EXPECT_EQ(direction_of(drive.at(2.5).v), -1);
-  EXPECT_EQ(direction_of(drive.at(4.5).v), 1);
+  EXPECT_EQ(drive_direction(drive.at(0.5).v), 1);
+  EXPECT_EQ(drive_direction(drive.at(2.5).v), -1);
+  EXPECT_EQ(drive_direction(drive.at(4.5).v), 1);
   // A rest at the beginning was reached forward.
   EXPECT_EQ(drive.reversals(), (std::vector<double>{ 1., 3., 5. }));
 }
@@ -297,7 +297,7 @@ TEST(SmoothDrive, IsContinuousAtItsKinks)
 
 TEST(Drive, PositionIsTheIntegralOfVelocityAndVelocityThatOfAcceleration)
 {
-  for (const Drive &drive : drives_of_all_kinds())
+  for (const Drive &drive : all_drives())
   {
     const auto ends = bounds(drive);
     for (std::size_t i = 0; i + 1 < ends.size(); ++i)
@@ -322,7 +322,7 @@ TEST(Drive, PositionIsTheIntegralOfVelocityAndVelocityThatOfAcceleration)
 
 TEST(Drive, AccelerationIsTheDerivativeOfVelocity)
 {
-  for (const Drive &drive : drives_of_all_kinds())
+  for (const Drive &drive : all_drives())
   {
     const auto ends = bounds(drive);
     for (std::size_t i = 0; i + 1 < ends.size(); ++i)

@@ -40,7 +40,7 @@ namespace
 
     Scene scene(const std::string &text, const Messages &more = {}) const
     {
-      return scene_of(identification(folder.write("stroke.csv", text), more));
+      return make_scene(identification(folder.write("stroke.csv", text), more));
     }
 
     /// What is said about a table or other settings, the path of the table left out.

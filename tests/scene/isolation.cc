@@ -13,7 +13,7 @@ using namespace sprag;
 
 namespace
 {
-  IsolationSettings base_of(const BaseMotionType type)
+  IsolationSettings make_base(const BaseMotionType type)
   {
     IsolationSettings settings;
     settings.base = type;
@@ -61,11 +61,11 @@ namespace
     return record;
   }
 
-  const Messages isolation  = { "Analysis/Type=isolation", "Isolation/Damper=constant friction" };
-  const Messages of_records = { "Analysis/Type=isolation", "Isolation/Damper=none", "Isolation/Base motion=record" };
+  const Messages isolation    = { "Analysis/Type=isolation", "Isolation/Damper=constant friction" };
+  const Messages record_scene = { "Analysis/Type=isolation", "Isolation/Damper=none", "Isolation/Base motion=record" };
 
   /// What is said about a file of these rows, its folder left out.
-  std::string said_of(const Messages &scene, const std::string &parameter, const std::string &text)
+  std::string find_message(const Messages &scene, const std::string &parameter, const std::string &text)
   {
     const TemporaryFolder folder;
     Messages overrides = scene;
@@ -85,17 +85,17 @@ namespace
 TEST(BaseMotion, RatesAreDerivatives)
 {
   for (const auto type : { BaseMotionType::none, BaseMotionType::harmonic, BaseMotionType::sweep, BaseMotionType::shock })
-    expect_derivatives(base_motion(base_of(type)), 0.01, 2.);
-  auto settings  = base_of(BaseMotionType::sweep);
+    expect_derivatives(base_motion(make_base(type)), 0.01, 2.);
+  auto settings  = make_base(BaseMotionType::sweep);
   settings.sweep = SweepForm::linear;
   expect_derivatives(base_motion(settings), 0.01, 20.);
-  settings       = base_of(BaseMotionType::shock);
+  settings       = make_base(BaseMotionType::shock);
   settings.shock = ShockForm::step;
   expect_derivatives(base_motion(settings), 0.01, 2.);
-  settings            = base_of(BaseMotionType::record);
+  settings            = make_base(BaseMotionType::record);
   settings.base_table = sine_record(3.);
   expect_derivatives(base_motion(settings), 0.01, 11.);
-  settings                   = base_of(BaseMotionType::random);
+  settings                   = make_base(BaseMotionType::random);
   settings.highest_frequency = 5.;
   expect_derivatives(base_motion(settings), 0.01, 19.);
 }
@@ -104,7 +104,7 @@ TEST(BaseMotion, ASweepEndsAtItsFinalFrequency)
 {
   for (const auto form : { SweepForm::linear, SweepForm::logarithmic })
   {
-    auto settings     = base_of(BaseMotionType::sweep);
+    auto settings     = make_base(BaseMotionType::sweep);
     settings.sweep    = form;
     const auto motion = base_motion(settings);
     // Between two zeros of x at the end lies half a period.
@@ -121,7 +121,7 @@ TEST(BaseMotion, ASweepEndsAtItsFinalFrequency)
 
 TEST(BaseMotion, AShockEndsAtRestOrAtItsSpeed)
 {
-  auto settings    = base_of(BaseMotionType::shock);
+  auto settings    = make_base(BaseMotionType::shock);
   const auto pulse = base_motion(settings);
   const double w   = 2. * M_PI * settings.base_frequency;
   EXPECT_NEAR(pulse.at(0.25 / settings.base_frequency, 0).a, settings.base_amplitude * w * w, 1e-9);
@@ -136,11 +136,11 @@ TEST(BaseMotion, AShockEndsAtRestOrAtItsSpeed)
 
 TEST(BaseMotion, JumpsAreWhereTheAccelerationDoesNotGoOn)
 {
-  auto shock = base_of(BaseMotionType::shock);
+  auto shock = make_base(BaseMotionType::shock);
   EXPECT_TRUE(base_motion(shock).jumps.empty());
   shock.shock = ShockForm::step;
   EXPECT_EQ(base_motion(shock).jumps, base_motion(shock).kinks);
-  auto record       = base_of(BaseMotionType::record);
+  auto record       = make_base(BaseMotionType::record);
   record.base_table = { { 0., 1., 2., 3. }, { 0., 1., -1., 0. } };
   EXPECT_TRUE(base_motion(record).jumps.empty());
   record.base_table.values.back() = 1.;
@@ -149,9 +149,9 @@ TEST(BaseMotion, JumpsAreWhereTheAccelerationDoesNotGoOn)
 
 TEST(BaseMotion, ARandomGroundHasItsRootMeanSquareAndItsSeed)
 {
-  auto settings     = base_of(BaseMotionType::random);
-  settings.duration = 100.;
-  const auto rms_of = [&]
+  auto settings          = make_base(BaseMotionType::random);
+  settings.duration      = 100.;
+  const auto compute_rms = [&]
   {
     const auto motion = base_motion(settings);
     double sum        = 0.;
@@ -159,7 +159,7 @@ TEST(BaseMotion, ARandomGroundHasItsRootMeanSquareAndItsSeed)
       sum += std::pow(motion.at(motion.kinks[i], i).a, 2);
     return std::sqrt(sum / static_cast<double>(motion.kinks.size()));
   };
-  EXPECT_NEAR(rms_of(), settings.rms_acceleration, 0.02 * settings.rms_acceleration);
+  EXPECT_NEAR(compute_rms(), settings.rms_acceleration, 0.02 * settings.rms_acceleration);
   const double first = base_motion(settings).at(0.3, 100).a;
   EXPECT_EQ(base_motion(settings).at(0.3, 100).a, first);
   settings.seed = 2;
@@ -167,7 +167,7 @@ TEST(BaseMotion, ARandomGroundHasItsRootMeanSquareAndItsSeed)
 
   settings.spectrum   = BaseSpectrum::table;
   settings.base_table = { { 1., 2., 4., 8. }, { 5., 5., 5., 5. } };
-  EXPECT_NEAR(rms_of(), std::sqrt(5. * 7.), 0.03 * std::sqrt(35.));
+  EXPECT_NEAR(compute_rms(), std::sqrt(5. * 7.), 0.03 * std::sqrt(35.));
 }
 
 TEST(BaseMotion, KanaiTajimiIsWhiteNoiseFilteredByTheGround)
@@ -178,7 +178,7 @@ TEST(BaseMotion, KanaiTajimiIsWhiteNoiseFilteredByTheGround)
 
 TEST(BaseMotion, DriftOfARecordIsTakenOff)
 {
-  auto settings           = base_of(BaseMotionType::record);
+  auto settings           = make_base(BaseMotionType::record);
   settings.base_table     = sine_record(3.);
   const double with_drift = base_motion(settings).at(10., 1999).v;
   EXPECT_NEAR(with_drift, 3. * (10. + 50.), 0.1);
@@ -190,20 +190,20 @@ TEST(BaseMotion, DriftOfARecordIsTakenOff)
 
 TEST(IsolationInput, WhatCannotBeIsRefused)
 {
-  EXPECT_EQ(mistakes_of(isolation), Messages{});
-  EXPECT_EQ(mistakes_of({ "Analysis/Type=isolation", "Analysis/Model=beam" }), Messages{});
+  EXPECT_EQ(find_mistakes(isolation), Messages{});
+  EXPECT_EQ(find_mistakes({ "Analysis/Type=isolation", "Analysis/Model=beam" }), Messages{});
   expect_refused({ "Analysis/Type=isolation", "Analysis/Model=rigid" }, { "Contact/Type=ideal" },
                  "Contact/Type = ideal: must be compliant with Isolation/Damper = lever and a model in time");
   expect_refused(
       { "Analysis/Type=isolation", "Analysis/Model=beam" }, { "Isolation/Initial displacement=-70" },
       "Isolation/Initial displacement = -70: must be less than Drive/Stroke = 65 mm either way, for which the levers are "
       "made");
-  EXPECT_EQ(mistakes_of(isolation, { "Isolation/Base motion=none" }),
+  EXPECT_EQ(find_mistakes(isolation, { "Isolation/Base motion=none" }),
             Messages{ "scene.prm: Isolation/Initial displacement = 0: must not be 0 mm with Base motion = none and no Initial "
                       "velocity: nothing moves" });
-  EXPECT_EQ(mistakes_of(isolation, { "Isolation/Base motion=record" }),
+  EXPECT_EQ(find_mistakes(isolation, { "Isolation/Base motion=record" }),
             Messages{ "scene.prm: Isolation/Base table = : must name a file" });
-  EXPECT_EQ(mistakes_of(isolation, { "Isolation/Damper=loop" }),
+  EXPECT_EQ(find_mistakes(isolation, { "Isolation/Damper=loop" }),
             Messages{ "scene.prm: Isolation/Loop table = : must name a file" });
   expect_refused(isolation, { "Isolation/Mass=0" }, "Isolation/Mass = 0: must be a number > 0 [t]");
   expect_refused(isolation, { "Isolation/Base motion=shock", "Isolation/End=steady state" },
@@ -226,12 +226,14 @@ TEST(IsolationInput, LeversThatEndOrLockAtTheBeginningAreRefused)
 TEST(IsolationInput, RecordsNeedAUnit)
 {
   const std::string rows = "0,1\n0.1,2\n0.2,3\n0.3,4\n";
-  EXPECT_NE(
-      said_of(of_records, "Isolation/Base table", "time,acceleration\n" + rows).find("unit of the acceleration is not known"),
-      std::string::npos);
-  EXPECT_EQ(said_of(of_records, "Isolation/Base table", "time [s], acceleration [m/s2]\n" + rows), "");
-  EXPECT_EQ(said_of({ of_records[0], of_records[1], of_records[2], "Isolation/Base unit=g" }, "Isolation/Base table", rows), "");
-  EXPECT_NE(said_of(of_records, "Isolation/Base table", "time [s], acceleration [V]\n" + rows).find("must be in mm/s2"),
+  EXPECT_NE(find_message(record_scene, "Isolation/Base table", "time,acceleration\n" + rows)
+                .find("unit of the acceleration is not known"),
+            std::string::npos);
+  EXPECT_EQ(find_message(record_scene, "Isolation/Base table", "time [s], acceleration [m/s2]\n" + rows), "");
+  EXPECT_EQ(
+      find_message({ record_scene[0], record_scene[1], record_scene[2], "Isolation/Base unit=g" }, "Isolation/Base table", rows),
+      "");
+  EXPECT_NE(find_message(record_scene, "Isolation/Base table", "time [s], acceleration [V]\n" + rows).find("must be in mm/s2"),
             std::string::npos);
 }
 
@@ -249,7 +251,7 @@ TEST(IsolationInput, TheUnitOfARecordScalesIt)
 namespace
 {
   /// Writes a record of four rows as HDF5, with the units given.
-  std::string record_of_units(const TemporaryFolder &folder, const std::string &of_time, const std::string &of_acceleration)
+  std::string record_with_units(const TemporaryFolder &folder, const std::string &time_unit, const std::string &acceleration_unit)
   {
     const std::string path = folder.path / "record.h5";
     const auto file        = hdf5::create_file(path);
@@ -259,19 +261,20 @@ namespace
       if (!unit.empty())
         hdf5::write_attribute(dataset, "unit", unit);
     };
-    write("time", { 0., 1., 2., 3. }, of_time);
-    write("acceleration", { 0., 0.5, 0.5, 0. }, of_acceleration);
+    write("time", { 0., 1., 2., 3. }, time_unit);
+    write("acceleration", { 0., 0.5, 0.5, 0. }, acceleration_unit);
     return path;
   }
 
   /// The acceleration in the second row, or what is said about the file.
-  std::string read_of_units(const std::string &of_time, const std::string &of_acceleration, const std::string &given = "")
+  std::string read_with_units(const std::string &time_unit, const std::string &acceleration_unit,
+                              const std::string &base_unit = "")
   {
     const TemporaryFolder folder;
-    Messages overrides = of_records;
-    overrides.push_back("Isolation/Base table=" + record_of_units(folder, of_time, of_acceleration));
-    if (!given.empty())
-      overrides.push_back("Isolation/Base unit=" + given);
+    Messages overrides = record_scene;
+    overrides.push_back("Isolation/Base table=" + record_with_units(folder, time_unit, acceleration_unit));
+    if (!base_unit.empty())
+      overrides.push_back("Isolation/Base unit=" + base_unit);
     try
     {
       return number_text(read_scene(folder.write("scene.prm", ""), overrides).isolation.base_table.values[1]);
@@ -285,27 +288,28 @@ namespace
 
 TEST(IsolationInput, ARecordInHdf5HasTheUnitOfItsDataset)
 {
-  EXPECT_EQ(read_of_units("s", "m/s^2"), "500");
-  EXPECT_EQ(read_of_units("", "mm/s^2"), "0.5");
-  EXPECT_EQ(read_of_units("s", "", "cm/s2"), "5");
-  EXPECT_EQ(read_of_units("ms", "inch/s2"), "12.7");
-  EXPECT_NE(read_of_units("s", "inch/s2", "m/s2").find("its unit is inch/s2, which Isolation/Base unit contradicts"),
+  EXPECT_EQ(read_with_units("s", "m/s^2"), "500");
+  EXPECT_EQ(read_with_units("", "mm/s^2"), "0.5");
+  EXPECT_EQ(read_with_units("s", "", "cm/s2"), "5");
+  EXPECT_EQ(read_with_units("ms", "inch/s2"), "12.7");
+  EXPECT_NE(read_with_units("s", "inch/s2", "m/s2").find("its unit is inch/s2, which Isolation/Base unit contradicts"),
             std::string::npos);
-  EXPECT_EQ(read_of_units("s", "m/s^2", "m/s2"), "500");
-  EXPECT_NE(read_of_units("s", "").find("the unit of the acceleration is not known"), std::string::npos);
-  EXPECT_NE(read_of_units("s", "m/s^2", "g").find("its unit is m/s^2, which Isolation/Base unit contradicts"), std::string::npos);
-  EXPECT_NE(read_of_units("mm", "m/s^2").find("'mm' has the dimension m, s has the dimension s"), std::string::npos);
+  EXPECT_EQ(read_with_units("s", "m/s^2", "m/s2"), "500");
+  EXPECT_NE(read_with_units("s", "").find("the unit of the acceleration is not known"), std::string::npos);
+  EXPECT_NE(read_with_units("s", "m/s^2", "g").find("its unit is m/s^2, which Isolation/Base unit contradicts"),
+            std::string::npos);
+  EXPECT_NE(read_with_units("mm", "m/s^2").find("'mm' has the dimension m, s has the dimension s"), std::string::npos);
 }
 
 TEST(IsolationScene, LeversAreThoseOfTheClosedFormUnlessAnotherModelIsGiven)
 {
-  const auto model = [](const Messages &overrides) { return scene_of(overrides).analysis.model; };
+  const auto model = [](const Messages &overrides) { return make_scene(overrides).analysis.model; };
   EXPECT_EQ(model({ "Analysis/Type=isolation" }), ModelType::closed_form);
   EXPECT_EQ(model({ "Analysis/Type=isolation", "Analysis/Model=beam" }), ModelType::beam);
   EXPECT_EQ(model({ "Analysis/Type=study", "Study/Type=isolation", "Study/Vary=Isolation/Mass = 0.1, 0.2" }),
             ModelType::closed_form);
   EXPECT_EQ(model({ "Analysis/Type=transient", "Analysis/Model=beam" }), ModelType::beam);
-  const auto text = parameters_text(scene_of({ "Analysis/Type=isolation" }));
+  const auto text = parameters_text(make_scene({ "Analysis/Type=isolation" }));
   EXPECT_NE(text.find("set Model"), std::string::npos);
   EXPECT_EQ(text.find("= finite element"), std::string::npos);
 }
@@ -316,19 +320,20 @@ TEST(IsolationInput, TablesThatCannotBeAreRefused)
   { EXPECT_NE(said.find(part), std::string::npos) << said; };
   const Messages random = { "Analysis/Type=isolation", "Isolation/Damper=none", "Isolation/Base motion=random",
                             "Isolation/Base spectrum=table", "Isolation/Base unit=m/s2" };
-  says(said_of(random, "Isolation/Base table", "1,1\n2,-1\n3,1\n4,1\n"), "row 2: density -1: must be >= 0");
-  says(said_of(random, "Isolation/Base table", "1,0\n2,0\n3,0\n4,0\n"), "must have a density above 0");
-  says(said_of(random, "Isolation/Base table", "1,0\n3,0\n2,0\n4,0\n"),
+  says(find_message(random, "Isolation/Base table", "1,1\n2,-1\n3,1\n4,1\n"), "row 2: density -1: must be >= 0");
+  says(find_message(random, "Isolation/Base table", "1,0\n2,0\n3,0\n4,0\n"), "must have a density above 0");
+  says(find_message(random, "Isolation/Base table", "1,0\n3,0\n2,0\n4,0\n"),
        "row 3: frequency 2: must be more than in the row before");
-  says(said_of(random, "Isolation/Base table", "100,1\n200,1\n300,1\n400,1\n"), "must have densities between");
+  says(find_message(random, "Isolation/Base table", "100,1\n200,1\n300,1\n400,1\n"), "must have densities between");
   const Messages record = { "Analysis/Type=isolation", "Isolation/Damper=none", "Isolation/Base motion=record",
                             "Isolation/Base unit=m/s2" };
-  says(said_of(record, "Isolation/Base table", "1,1\n2,1\n3,1\n4,1\n"), "row 1: time 1 s: must be 0");
+  says(find_message(record, "Isolation/Base table", "1,1\n2,1\n3,1\n4,1\n"), "row 1: time 1 s: must be 0");
   const Messages loop = { "Analysis/Type=isolation", "Isolation/Damper=loop" };
-  says(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n"), "on the way back: must have at least 4 rows");
-  says(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n2,4\n1,3\n0,1\n"), "dissipates nothing");
-  says(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n2,-2\n1,-1\n0.5,0\n"), "must be 0 at the end");
-  EXPECT_EQ(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n2,-2\n1,-1\n0,0\n"), "");
-  EXPECT_EQ(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n3,-3\n2,-2\n1,-1\n0,0\n"), "");
-  says(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n3,0\n3,-3\n2,-2\n1,-1\n0,0\n"), "does not change steadily");
+  says(find_message(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n"), "on the way back: must have at least 4 rows");
+  says(find_message(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n2,4\n1,3\n0,1\n"), "dissipates nothing");
+  says(find_message(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n2,-2\n1,-1\n0.5,0\n"), "must be 0 at the end");
+  EXPECT_EQ(find_message(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n2,-2\n1,-1\n0,0\n"), "");
+  EXPECT_EQ(find_message(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n3,-3\n2,-2\n1,-1\n0,0\n"), "");
+  says(find_message(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n3,0\n3,-3\n2,-2\n1,-1\n0,0\n"),
+       "does not change steadily");
 }

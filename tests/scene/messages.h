@@ -31,32 +31,32 @@ namespace sprag
   }
 
   /// Of the defaults with these overrides.
-  inline Messages mistakes_of(const Messages &overrides)
+  inline Messages find_mistakes(const Messages &overrides)
   {
     return mistakes("", overrides);
   }
 
-  inline Messages mistakes_of(Messages overrides, const Messages &more)
+  inline Messages find_mistakes(Messages overrides, const Messages &more)
   {
     overrides.insert(overrides.end(), more.begin(), more.end());
-    return mistakes_of(overrides);
+    return find_mistakes(overrides);
   }
 
   inline void expect_refused(const Messages &scene, const Messages &wrong, const std::string &message)
   {
-    EXPECT_EQ(mistakes_of(scene, wrong), (Messages{ "--set: " + message }));
+    EXPECT_EQ(find_mistakes(scene, wrong), (Messages{ "--set: " + message }));
   }
 
   /// Geometry of model B.
-  inline const Messages geometry_of_b = { "Geometry/Cylinder radius=21.1", "Geometry/Interface offset=0",
-                                          "Geometry/Pivot distance=193.9" };
+  inline const Messages geometry_b = { "Geometry/Cylinder radius=21.1", "Geometry/Interface offset=0",
+                                       "Geometry/Pivot distance=193.9" };
 
   inline Messages transient(const std::string &model)
   {
     return { "Analysis/Type=transient", "Analysis/Model=" + model };
   }
 
-  inline Scene scene_of(const Messages &overrides)
+  inline Scene make_scene(const Messages &overrides)
   {
     return read_scene(written(""), overrides);
   }

@@ -18,10 +18,10 @@ namespace
 
 TEST(MirroredPair, ModelsAAndBMayBeFull)
 {
-  for (const Messages &model : { Messages{}, geometry_of_b })
+  for (const Messages &model : { Messages{}, geometry_b })
     for (const Messages &pair : { full, held, in_time, leaf })
-      EXPECT_EQ(mistakes_of(pair, model), Messages{});
-  EXPECT_EQ(mistakes_of({ "Mirrored pair/Cylinder offset=40" }), Messages{}) << "counts in a full pair alone";
+      EXPECT_EQ(find_mistakes(pair, model), Messages{});
+  EXPECT_EQ(find_mistakes({ "Mirrored pair/Cylinder offset=40" }), Messages{}) << "counts in a full pair alone";
 }
 
 TEST(MirroredPair, AFreeJointNeedsOneAxisAndSpringsThatItCanFollow)
@@ -29,20 +29,20 @@ TEST(MirroredPair, AFreeJointNeedsOneAxisAndSpringsThatItCanFollow)
   expect_refused(
       full, { "Geometry/Pivot height=2" },
       "Geometry/Pivot height = 2: must be 0 mm with Mirrored pair/Joint = free: the levers swing together about one axis");
-  EXPECT_EQ(mistakes_of(held, { "Geometry/Pivot height=2" }), Messages{});
+  EXPECT_EQ(find_mistakes(held, { "Geometry/Pivot height=2" }), Messages{});
   expect_refused(leaf, { "Leaf spring/Axial=held" },
                  "Leaf spring/Axial = held: must be free with Mirrored pair/Joint = free, which nothing but the springs holds");
   expect_refused(leaf, { "Leaf spring/Joint=guided" },
                  "Leaf spring/Joint = guided: must be clamped or pinned with Mirrored pair/Joint = free, which nothing but the "
                  "springs holds");
-  EXPECT_EQ(mistakes_of(leaf, { "Mirrored pair/Joint=held", "Leaf spring/Axial=held" }), Messages{});
+  EXPECT_EQ(find_mistakes(leaf, { "Mirrored pair/Joint=held", "Leaf spring/Axial=held" }), Messages{});
 }
 
 TEST(MirroredPair, OnlyLeafSpringsHaveAJointWithMass)
 {
   expect_refused(full, { "Mirrored pair/Joint mass=1e-4" },
                  "Mirrored pair/Joint mass = 1e-4: must be 0 t with a torsional spring, which has no joint");
-  EXPECT_EQ(mistakes_of(leaf, { "Mirrored pair/Joint mass=1e-4" }), Messages{});
+  EXPECT_EQ(find_mistakes(leaf, { "Mirrored pair/Joint mass=1e-4" }), Messages{});
 }
 
 TEST(MirroredPair, TheCylinderStaysBetweenTheLevers)
@@ -50,7 +50,7 @@ TEST(MirroredPair, TheCylinderStaysBetweenTheLevers)
   // (R - e)/2 = 5.2 mm.
   expect_refused(in_time, { "Mirrored pair/Cylinder offset=5.3" },
                  "Mirrored pair/Cylinder offset = 5.3: must be at most (R - e - h)/2 = 5.2 mm either way");
-  EXPECT_EQ(mistakes_of(in_time, { "Mirrored pair/Cylinder offset=-1" }), Messages{});
+  EXPECT_EQ(find_mistakes(in_time, { "Mirrored pair/Cylinder offset=-1" }), Messages{});
 }
 
 TEST(MirroredPair, AnalysesThatTakeHalfOfItSaySo)
@@ -66,13 +66,13 @@ TEST(MirroredPair, EachLeverStandsInItsOwnMirroredAxes)
   pair.pair.type            = PairType::full;
   pair.pair.cylinder_offset = 0.3;
   pair.pair.friction_ratio  = 0.8;
-  EXPECT_EQ(number_of_levers(pair), 2u);
-  EXPECT_EQ(device_of_lever(pair, 0).geometry.pivot_height, -0.3);
-  EXPECT_EQ(device_of_lever(pair, 1).geometry.pivot_height, 0.3);
-  EXPECT_EQ(device_of_lever(pair, 0).friction.factor, 1.);
-  EXPECT_EQ(device_of_lever(pair, 1).friction.factor, 0.8);
+  EXPECT_EQ(count_levers(pair), 2u);
+  EXPECT_EQ(lever_device(pair, 0).geometry.pivot_height, -0.3);
+  EXPECT_EQ(lever_device(pair, 1).geometry.pivot_height, 0.3);
+  EXPECT_EQ(lever_device(pair, 0).friction.factor, 1.);
+  EXPECT_EQ(lever_device(pair, 1).friction.factor, 0.8);
   EXPECT_EQ(rest_inclination(pair), rest_inclination(model_a()));
   pair.pair.type = PairType::half;
-  EXPECT_EQ(device_of_lever(pair, 1).geometry.pivot_height, 0.);
+  EXPECT_EQ(lever_device(pair, 1).geometry.pivot_height, 0.);
   EXPECT_FALSE(swings(pair));
 }

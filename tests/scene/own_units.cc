@@ -16,9 +16,9 @@ namespace
                          "Map/Second to=25 mm" };
 
   /// One message, which begins so.
-  void expect_told(const Messages &overrides, const std::string &beginning)
+  void expect_message(const Messages &overrides, const std::string &beginning)
   {
-    const auto found = mistakes_of(overrides);
+    const auto found = find_mistakes(overrides);
     ASSERT_EQ(found.size(), 1u) << beginning;
     EXPECT_EQ(found[0].substr(0, beginning.size()), beginning);
   }
@@ -32,21 +32,21 @@ namespace
 
 TEST(OwnUnits, EndsOfAMapHaveThatOfItsParameter)
 {
-  const auto scene = scene_of(with(map, "Map/Second from=0.3 cm"));
+  const auto scene = make_scene(with(map, "Map/Second from=0.3 cm"));
   EXPECT_DOUBLE_EQ(scene.map.second.from, 3.);
   EXPECT_DOUBLE_EQ(scene.map.second.to, 25.);
   EXPECT_DOUBLE_EQ(scene.map.first.to, 1.2);
   EXPECT_EQ(scene.parameters->at("Map/Second from"), "3");
   EXPECT_NE(parameters_text(scene).find("given as 0.3 cm"), std::string::npos);
-  expect_told(with(map, "Map/Second from=3 N"), "--set: Map/Second from = 3 N: must be a number [mm]: 'N' has");
+  expect_message(with(map, "Map/Second from=3 N"), "--set: Map/Second from = 3 N: must be a number [mm]: 'N' has");
 }
 
 TEST(OwnUnits, StiffnessOfTheContactFollowsItsExponent)
 {
   const auto stiffness = [](const std::string &value, const std::string &exponent)
   {
-    return scene_of({ "Analysis/Type=transient", "Analysis/Model=rigid", "Contact/Stiffness=" + value,
-                      "Contact/Exponent=" + exponent })
+    return make_scene({ "Analysis/Type=transient", "Analysis/Model=rigid", "Contact/Stiffness=" + value,
+                        "Contact/Exponent=" + exponent })
         .contact.stiffness;
   };
   EXPECT_DOUBLE_EQ(stiffness("2 kN/mm^n", "1.5"), 2000.);
@@ -54,15 +54,15 @@ TEST(OwnUnits, StiffnessOfTheContactFollowsItsExponent)
   EXPECT_DOUBLE_EQ(stiffness("2 kN/mm", "1"), 2000.);
   EXPECT_NEAR(stiffness("2 MN/m^n", "1.5"), 2e6 / std::pow(1000., 1.5), 1e-9);
   for (const std::string wrong : { "2 kN/mm", "2 kN/mm^2", "2 kg/mm^1.5", "2 kN", "-2 kN/mm^n" })
-    expect_told({ "Analysis/Type=transient", "Analysis/Model=rigid", "Contact/Exponent=1.5", "Contact/Stiffness=" + wrong },
-                "--set: Contact/Stiffness = " + wrong + ": must be a number > 0 [N/mm^n]");
+    expect_message({ "Analysis/Type=transient", "Analysis/Model=rigid", "Contact/Exponent=1.5", "Contact/Stiffness=" + wrong },
+                   "--set: Contact/Stiffness = " + wrong + ": must be a number > 0 [N/mm^n]");
 }
 
 TEST(OwnUnits, EndsOfASearchHaveThatOfItsParameter)
 {
   const auto searches = [](const std::string &text)
   {
-    return critical_searches(scene_of({ "Analysis/Type=stability", "Analysis/Model=beam", "Stability/Critical=" + text }))
+    return critical_searches(make_scene({ "Analysis/Type=stability", "Analysis/Model=beam", "Stability/Critical=" + text }))
         .value();
   };
   const auto found = searches("Rotational spring/Stiffness 10 N m/rad 2e5; Lever/Depth 3mm 2.5 cm; Friction/Factor 50 % 2");
@@ -74,13 +74,13 @@ TEST(OwnUnits, EndsOfASearchHaveThatOfItsParameter)
   EXPECT_DOUBLE_EQ(found[1].to, 25.);
   EXPECT_DOUBLE_EQ(found[2].from, 0.5);
   for (const std::string wrong : { "Lever/Depth 3 N 20 mm", "Lever/Depth 3 mm", "Lever/Depth mm 3 20" })
-    EXPECT_EQ(mistakes_of({ "Analysis/Type=stability", "Analysis/Model=beam", "Stability/Critical=" + wrong }).size(), 1u)
+    EXPECT_EQ(find_mistakes({ "Analysis/Type=stability", "Analysis/Model=beam", "Stability/Critical=" + wrong }).size(), 1u)
         << wrong;
 }
 
 TEST(OwnUnits, BoundsAndDemandsOfADesignHaveThoseOfTheirQuantities)
 {
-  const auto scene   = scene_of({ "Analysis/Type=design", "Design/Free=Rotational spring/Stiffness = 10 N m/rad ... 200 N m/rad",
+  const auto scene = make_scene({ "Analysis/Type=design", "Design/Free=Rotational spring/Stiffness = 10 N m/rad ... 200 N m/rad",
                                   "Design/Demands=damping slope = 0.1 kN/m +- 1 N/m; Rotational spring/Stiffness <= 0.1 kN m/rad",
                                   "Design/Aim=minimise largest force" });
   const auto &design = scene.design;
@@ -91,7 +91,7 @@ TEST(OwnUnits, BoundsAndDemandsOfADesignHaveThoseOfTheirQuantities)
   EXPECT_DOUBLE_EQ(design.demanded[0].target, 0.1);
   EXPECT_DOUBLE_EQ(design.demanded[0].tolerance, 1e-3);
   EXPECT_DOUBLE_EQ(design.demanded[1].target, 1e5);
-  expect_told({ "Analysis/Type=design", "Design/Demands=damping slope = 0.1 MPa +- 1" },
-              "--set: Design/Demands = damping slope = 0.1 MPa +- 1: 'damping slope = 0.1 MPa +- 1': 0.1 MPa must be a number "
-              "[N/mm]: 'MPa' has");
+  expect_message({ "Analysis/Type=design", "Design/Demands=damping slope = 0.1 MPa +- 1" },
+                 "--set: Design/Demands = damping slope = 0.1 MPa +- 1: 'damping slope = 0.1 MPa +- 1': 0.1 MPa must be a number "
+                 "[N/mm]: 'MPa' has");
 }

@@ -135,9 +135,9 @@ TEST(PairClosedForm, AHeldJointLeavesEachLeverItsOwnSpring)
 // Virtual work without friction: the springs' energy over x and over the offset.
 TEST(PairClosedForm, WithoutFrictionForcesAreTheDerivativesOfTheSpringsEnergy)
 {
-  for (const Scene &of_pair : pairs(0.5, 1.))
+  for (const Scene &pair_scene : pairs(0.5, 1.))
   {
-    const Scene scene = with_coulomb(of_pair, 0.);
+    const Scene scene = with_coulomb(pair_scene, 0.);
     const double x    = 40.;
     const double Q    = drive_force(scene, x, 1.);
     EXPECT_NEAR(Q, derivative([&](const double at) { return spring_energy(scene, at); }, x), 1e-9 * Q);

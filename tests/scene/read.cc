@@ -108,44 +108,44 @@ TEST(ReadScene, PrintedParametersKeepTheTimeSteps)
   const std::vector<double> tolerances = { 5e-3, 0., 1e-2 };
   for (std::size_t i = 0; i < variants.size(); ++i)
   {
-    const Scene scene = scene_of(variants[i]);
+    const Scene scene = make_scene(variants[i]);
     const Scene again = read_scene(written(parameters_text(scene)));
     EXPECT_EQ(scene.time.tolerance, tolerances[i]);
     EXPECT_EQ(again.time.tolerance, tolerances[i]);
     EXPECT_EQ(parameters_text(again), parameters_text(scene));
   }
-  EXPECT_EQ(scene_of({ "Time/Step=1e-5", "Time/Tolerance=auto" }).time.tolerance, 0.);
-  EXPECT_EQ(scene_of({ "Time/Tolerance=0" }).time.tolerance, 0.);
+  EXPECT_EQ(make_scene({ "Time/Step=1e-5", "Time/Tolerance=auto" }).time.tolerance, 0.);
+  EXPECT_EQ(make_scene({ "Time/Tolerance=0" }).time.tolerance, 0.);
   EXPECT_EQ(parameters_text(read_scene(written(default_parameters_text()))), default_parameters_text());
 }
 
 TEST(ReadScene, WhatATransientAnalysisNeedsReachesTheScene)
 {
-  const Scene scene = scene_of({ "Analysis/Type=transient",
-                                 "Analysis/Model=beam",
-                                 "Analysis/Maximum energy residual=0.1",
-                                 "Lever/Moment of inertia=7",
-                                 "Lever/Tip mass=1e-5",
-                                 "Lever/Neutral axis offset=0",
-                                 "Lever/Modal damping=0.03",
-                                 "Lever/Mass damping=4",
-                                 "Lever/Stiffness damping=1e-6",
-                                 "Friction layer/Density=3e-10",
-                                 "Contact/Stiffness=3000",
-                                 "Contact/Exponent=1.5",
-                                 "Contact/Damping=0.1",
-                                 "Contact/Tangential stiffness=900",
-                                 "Support/Type=sprung",
-                                 "Support/Mass=1e-3",
-                                 "Support/Stiffness=6000",
-                                 "Support/Damping=0.05",
-                                 "Time/Step=1e-5",
-                                 "Time/Tolerance=1e-4",
-                                 "Time/Spectral radius=1",
-                                 "Condensed/Modes=7",
-                                 "Condensed/Cache=bases",
-                                 "Friction/Regularisation speed=0.5",
-                                 "Drive/Reversal duration=0.01" });
+  const Scene scene = make_scene({ "Analysis/Type=transient",
+                                   "Analysis/Model=beam",
+                                   "Analysis/Maximum energy residual=0.1",
+                                   "Lever/Moment of inertia=7",
+                                   "Lever/Tip mass=1e-5",
+                                   "Lever/Neutral axis offset=0",
+                                   "Lever/Modal damping=0.03",
+                                   "Lever/Mass damping=4",
+                                   "Lever/Stiffness damping=1e-6",
+                                   "Friction layer/Density=3e-10",
+                                   "Contact/Stiffness=3000",
+                                   "Contact/Exponent=1.5",
+                                   "Contact/Damping=0.1",
+                                   "Contact/Tangential stiffness=900",
+                                   "Support/Type=sprung",
+                                   "Support/Mass=1e-3",
+                                   "Support/Stiffness=6000",
+                                   "Support/Damping=0.05",
+                                   "Time/Step=1e-5",
+                                   "Time/Tolerance=1e-4",
+                                   "Time/Spectral radius=1",
+                                   "Condensed/Modes=7",
+                                   "Condensed/Cache=bases",
+                                   "Friction/Regularisation speed=0.5",
+                                   "Drive/Reversal duration=0.01" });
   EXPECT_EQ(scene.analysis.type, AnalysisType::transient);
   EXPECT_EQ(scene.analysis.model, ModelType::beam);
   EXPECT_EQ(scene.analysis.maximum_residual, 0.1);
@@ -176,16 +176,16 @@ TEST(ReadScene, WhatATransientAnalysisNeedsReachesTheScene)
 
 TEST(ReadScene, ReversalsTakeTimeInTransientAnalysesOnly)
 {
-  EXPECT_EQ(scene_of({ "Analysis/Type=transient" }).drive.reversal_duration(), 5e-3);
-  EXPECT_EQ(scene_of({ "Analysis/Type=transient", "Drive/Profile=harmonic" }).drive.reversal_duration(), 0.);
+  EXPECT_EQ(make_scene({ "Analysis/Type=transient" }).drive.reversal_duration(), 5e-3);
+  EXPECT_EQ(make_scene({ "Analysis/Type=transient", "Drive/Profile=harmonic" }).drive.reversal_duration(), 0.);
   for (const std::string type : { "quasi-static", "slope", "contact law" })
-    EXPECT_EQ(scene_of({ "Analysis/Type=" + type }).drive.reversal_duration(), 0.);
+    EXPECT_EQ(make_scene({ "Analysis/Type=" + type }).drive.reversal_duration(), 0.);
 
-  EXPECT_EQ(mistakes_of({ "Analysis/Type=transient", "Drive/Stroke=0.4" }),
+  EXPECT_EQ(find_mistakes({ "Analysis/Type=transient", "Drive/Stroke=0.4" }),
             (Messages{ "scene.prm: Drive/Reversal duration = 0.005: must be at most 0.00423278 s, or the ramps of speed do not "
                        "fit into the shortest stroke" }));
-  EXPECT_TRUE(mistakes_of({ "Analysis/Type=transient", "Drive/Stroke=0.4", "Drive/Reversal duration=0.00423278" }).empty());
-  EXPECT_TRUE(mistakes_of({ "Drive/Stroke=0.4" }).empty());
+  EXPECT_TRUE(find_mistakes({ "Analysis/Type=transient", "Drive/Stroke=0.4", "Drive/Reversal duration=0.00423278" }).empty());
+  EXPECT_TRUE(find_mistakes({ "Drive/Stroke=0.4" }).empty());
 }
 
 TEST(ReadScene, ScenesOfTheProgramAreFaultless)
@@ -224,15 +224,15 @@ TEST(ReadScene, AllMistakesAreFoundAtOnce)
 
 TEST(ReadScene, DriveMustMoveForward)
 {
-  EXPECT_EQ(mistakes_of({ "Drive/Stroke=0" }), (Messages{ "--set: Drive/Stroke = 0: must be a number > 0 [mm]" }));
-  EXPECT_EQ(mistakes_of({ "Drive/Start=-1" }), (Messages{ "--set: Drive/Start = -1: must be a number >= 0 [mm]" }));
-  EXPECT_EQ(mistakes_of({ "Drive/Start=20", "Drive/Stroke=10" }),
+  EXPECT_EQ(find_mistakes({ "Drive/Stroke=0" }), (Messages{ "--set: Drive/Stroke = 0: must be a number > 0 [mm]" }));
+  EXPECT_EQ(find_mistakes({ "Drive/Start=-1" }), (Messages{ "--set: Drive/Start = -1: must be a number >= 0 [mm]" }));
+  EXPECT_EQ(find_mistakes({ "Drive/Start=20", "Drive/Stroke=10" }),
             (Messages{ "--set: Drive/Stroke = 10: must be more than Start = 20 mm" }));
 }
 
 TEST(ReadScene, MaterialsMustBePossible)
 {
-  EXPECT_EQ(mistakes_of({ "Lever/Poisson's ratio=0.5", "Friction layer/Poisson's ratio=-1", "Friction/Coefficient=-0.1" }),
+  EXPECT_EQ(find_mistakes({ "Lever/Poisson's ratio=0.5", "Friction layer/Poisson's ratio=-1", "Friction/Coefficient=-0.1" }),
             (Messages{ "--set: Lever/Poisson's ratio = 0.5: must be a number > -1 and < 0.5",
                        "--set: Friction layer/Poisson's ratio = -1: must be a number > -1 and < 0.5",
                        "--set: Friction/Coefficient = -0.1: must be a number >= 0" }));
@@ -240,19 +240,19 @@ TEST(ReadScene, MaterialsMustBePossible)
 
 TEST(ReadScene, TablesMustBeReadable)
 {
-  EXPECT_EQ(mistakes_of({ "Friction/Law=table" }), (Messages{ "scene.prm: Friction/Table = : must name a file" }));
-  EXPECT_EQ(mistakes_of({ "Drive/Profile=table", "Drive/Table=none.csv" }),
+  EXPECT_EQ(find_mistakes({ "Friction/Law=table" }), (Messages{ "scene.prm: Friction/Table = : must name a file" }));
+  EXPECT_EQ(find_mistakes({ "Drive/Profile=table", "Drive/Table=none.csv" }),
             (Messages{ "--set: Drive/Table = none.csv: none.csv: cannot be read" }));
   written("0, 0.3\n1, x\n2\n", "mu.csv");
-  EXPECT_EQ(mistakes_of({ "Friction/Law=table", "Friction/Table=mu.csv" }),
+  EXPECT_EQ(find_mistakes({ "Friction/Law=table", "Friction/Table=mu.csv" }),
             (Messages{ "--set: Friction/Table = mu.csv: mu.csv:2: 1, x: must be two numbers",
                        "--set: Friction/Table = mu.csv: mu.csv:3: 2: must be two numbers" }));
   written("0, 0\n1, 10\n1, 20\n2, -5\n", "x.csv");
-  EXPECT_EQ(mistakes_of({ "Drive/Profile=table", "Drive/Table=x.csv" }),
+  EXPECT_EQ(find_mistakes({ "Drive/Profile=table", "Drive/Table=x.csv" }),
             (Messages{ "--set: Drive/Table = x.csv: row 3: 1 follows 1: the first column must increase from row to row" }));
   written("0, 0\n1, 10\n2, -5\n3, 140\n", "x.csv");
   EXPECT_EQ(
-      mistakes_of({ "Drive/Profile=table", "Drive/Table=x.csv" }),
+      find_mistakes({ "Drive/Profile=table", "Drive/Table=x.csv" }),
       (Messages{ "--set: Drive/Table = x.csv: x must be >= 0 mm throughout, it falls to -5: levers stand on one side of x = 0 "
                  "alone. Of a record about rest, max(x, 0) moves those of one side, max(-x, 0) those opposite, |x| both in turn "
                  "(Q then acts against the sign of x); a record that counts from elsewhere needs an offset" }));
@@ -261,7 +261,7 @@ TEST(ReadScene, TablesMustBeReadable)
 TEST(ReadScene, GuessesBringNoFurtherMistakes)
 {
   // With the default radius in place of the misspelt one the pivot distance would be too small.
-  EXPECT_EQ(mistakes_of({ "Geometry/Cylinder radus=20", "Geometry/Interface offset=0", "Geometry/Pivot distance=50" }).size(),
+  EXPECT_EQ(find_mistakes({ "Geometry/Cylinder radus=20", "Geometry/Interface offset=0", "Geometry/Pivot distance=50" }).size(),
             1u);
 }
 
@@ -286,22 +286,23 @@ TEST(ReadScene, TablesMayBeHDF5)
 {
   written_hdf5("drive.h5", { { "time", { 0., 1., 2., 3. } }, { "x", { 0., 30., 30., 0. } } });
   written_hdf5("mu.hdf5", { { "mu", { 0.25, 0.5, 0.75, 0.75 } }, { "speed", { 0., 10., 100., 200. } } });
-  const Scene scene = scene_of({ "Drive/Profile=table", "Drive/Table=drive.h5", "Friction/Law=table", "Friction/Table=mu.hdf5" });
+  const Scene scene =
+      make_scene({ "Drive/Profile=table", "Drive/Table=drive.h5", "Friction/Law=table", "Friction/Table=mu.hdf5" });
   EXPECT_EQ(scene.drive.reversals(), std::vector<double>{ 2. });
   EXPECT_EQ(scene.drive.maximum(), 30.);
   EXPECT_EQ(friction_coefficient(scene.friction, 10.).coefficient, 0.5);
   written_hdf5("matlab.h5", { { "Time", { 0., 1., 2., 3. } }, { "position", { 0., 30., 30., 0. } } }, 2);
-  EXPECT_EQ(scene_of({ "Drive/Profile=table", "Drive/Table=matlab.h5" }).drive.maximum(), 30.);
+  EXPECT_EQ(make_scene({ "Drive/Profile=table", "Drive/Table=matlab.h5" }).drive.maximum(), 30.);
 }
 
 TEST(ReadScene, UnitsOfTablesCount)
 {
   written("x [m], t [ms]\n0, 0\n0.03, 1000\n0.03, 2000\n0, 3000\n", "drive.csv");
-  const auto drive = scene_of({ "Drive/Profile=table", "Drive/Table=drive.csv" }).drive;
+  const auto drive = make_scene({ "Drive/Profile=table", "Drive/Table=drive.csv" }).drive;
   EXPECT_NEAR(drive.maximum(), 30., 1e-12);
   EXPECT_NEAR(drive.duration(), 3., 1e-12);
   written("\u00B5 [-], v [cm/s]\n0.25, 0\n0.5, 1\n0.75, 10\n0.75, 20\n", "mu.csv");
-  const auto friction = scene_of({ "Friction/Law=table", "Friction/Table=mu.csv" }).friction;
+  const auto friction = make_scene({ "Friction/Law=table", "Friction/Table=mu.csv" }).friction;
   EXPECT_EQ(friction_coefficient(friction, 10.).coefficient, 0.5);
 }
 
@@ -310,7 +311,7 @@ TEST(ReadScene, HDF5TablesMustBeTables)
   const auto drive = [](const std::string &name)
   {
     testing::internal::CaptureStderr();
-    const auto found = mistakes_of({ "Drive/Profile=table", "Drive/Table=" + name });
+    const auto found = find_mistakes({ "Drive/Profile=table", "Drive/Table=" + name });
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     return found;
   };
@@ -327,14 +328,14 @@ TEST(ReadScene, HDF5TablesMustBeTables)
 
 TEST(ReadScene, ParametersThatWouldNotCountAreRefused)
 {
-  EXPECT_EQ(mistakes_of({ "Friction/Coefficient=0.5" }),
+  EXPECT_EQ(find_mistakes({ "Friction/Coefficient=0.5" }),
             (Messages{ "--set: Friction/Coefficient = 0.5: counts only with Friction/Law = Coulomb" }));
   EXPECT_EQ(mistakes("subsection Friction\n set Coefficient = 0.73\nend\n"),
             (Messages{ "scene.prm:2: Friction/Coefficient = 0.73: counts only with Friction/Law = Coulomb" }));
-  EXPECT_EQ(mistakes_of({ "Friction/Table=mu.csv", "Drive/Table=x.csv" }),
+  EXPECT_EQ(find_mistakes({ "Friction/Table=mu.csv", "Drive/Table=x.csv" }),
             (Messages{ "--set: Drive/Table = x.csv: counts only with Drive/Profile = table",
                        "--set: Friction/Table = mu.csv: counts only with Friction/Law = table" }));
-  EXPECT_EQ(mistakes_of({ "Friction/Law=Coulomb", "Friction/Stribeck speed=20" }),
+  EXPECT_EQ(find_mistakes({ "Friction/Law=Coulomb", "Friction/Stribeck speed=20" }),
             (Messages{ "--set: Friction/Stribeck speed = 20: counts only with Friction/Law = Stribeck" }));
   // As printed.
   EXPECT_TRUE(mistakes("subsection Friction\n set Law = cork on aluminium\n set Coefficient = 0.73\nend\n").empty());

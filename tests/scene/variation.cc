@@ -16,7 +16,7 @@ namespace
 
   Messages values(const std::string &text)
   {
-    const auto scene = scene_of({ "Analysis/Type=study", "Study/Vary=" + text });
+    const auto scene = make_scene({ "Analysis/Type=study", "Study/Vary=" + text });
     return scene.study.varied.front().values;
   }
 
@@ -26,7 +26,7 @@ namespace
     for (const auto &message : messages)
       expected.push_back("--set: " + setting.substr(0, setting.find('=')) + " = " + setting.substr(setting.find('=') + 1) + ": " +
                          message);
-    EXPECT_EQ(mistakes_of(study, { setting }), expected);
+    EXPECT_EQ(find_mistakes(study, { setting }), expected);
   }
 } // namespace
 
@@ -72,7 +72,7 @@ TEST(Variation, RangesThatAreNone)
 TEST(Variation, ListsAndGridsThatCannotBe)
 {
   EXPECT_EQ(
-      mistakes_of(study, { "Study/Combine=list", "Study/Vary=Lever/Depth = 1, 2; Lever/Width = 1, 2, 3" }),
+      find_mistakes(study, { "Study/Combine=list", "Study/Vary=Lever/Depth = 1, 2; Lever/Width = 1, 2, 3" }),
       (Messages{ "--set: Study/Vary = Lever/Depth = 1, 2; Lever/Width = 1, 2, 3: must give each parameter as many values with "
                  "Combine = list: Lever/Depth has 2, Lever/Width has 3" }));
   expect_wrong("Study/Vary=Lever/Depth = 1 ... 2 : 1000; Lever/Width = 1 ... 2 : 1000",
@@ -82,24 +82,24 @@ TEST(Variation, ListsAndGridsThatCannotBe)
 TEST(Variation, OfAReference)
 {
   const auto scene =
-      scene_of({ "Analysis/Type=study", "Study/Reference=Mesh/Face size = 0.1; Friction plate/Sensors = 105, 135" });
+      make_scene({ "Analysis/Type=study", "Study/Reference=Mesh/Face size = 0.1; Friction plate/Sensors = 105, 135" });
   ASSERT_EQ(scene.study.reference_values.size(), 2u);
   EXPECT_EQ(scene.study.reference_values[1].values, (Messages{ "105, 135" }));
   expect_wrong("Study/Reference=Mesh/Face size = 1, 2",
                { "Mesh/Face size = 1, 2 must be auto or a number > 0 and nothing else" });
-  const auto metres = scene_of({ "Analysis/Type=study", "Study/Vary=Lever/Depth = 1 cm, 20" });
+  const auto metres = make_scene({ "Analysis/Type=study", "Study/Vary=Lever/Depth = 1 cm, 20" });
   EXPECT_EQ(metres.study.varied[0].values, (Messages{ "10", "20" }));
-  const auto range = scene_of({ "Analysis/Type=study", "Study/Vary=Lever/Depth = 1 cm ... 20 : 3" });
+  const auto range = make_scene({ "Analysis/Type=study", "Study/Vary=Lever/Depth = 1 cm ... 20 : 3" });
   EXPECT_EQ(range.study.varied[0].values, (Messages{ "10", "15", "20" }));
   expect_wrong("Study/Vary=Lever/Depth = 1 N ... 2 : 3", { "Lever/Depth = 1 N ... 2 : 3 must be a number > 0 [mm]: 'N' has the "
                                                            "dimension m.kg.s-2, mm has the dimension m" });
-  EXPECT_EQ(mistakes_of({ "Analysis/Type=study", "Study/Type=slope", "Study/Reference=Lever/Depth = 1" }).size(), 1u);
+  EXPECT_EQ(find_mistakes({ "Analysis/Type=study", "Study/Type=slope", "Study/Reference=Lever/Depth = 1" }).size(), 1u);
 }
 
 TEST(Variation, ItsOwnSceneIsNotChecked)
 {
   // Each run gives a length of its own.
-  EXPECT_TRUE(mistakes_of({ "Analysis/Type=study", "Lever/Length=10", "Study/Vary=Lever/Length = 210, 250" }).empty());
+  EXPECT_TRUE(find_mistakes({ "Analysis/Type=study", "Lever/Length=10", "Study/Vary=Lever/Length = 210, 250" }).empty());
 }
 
 TEST(Variation, FilesAreThoseBesideTheScene)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Holds the shape of the sources: include directions, the bound on the dimension, file lengths, comments that are no
-fragments, scenes all described, pages whose links hold and that are not too long."""
+fragments, identifiers in the field's words, scenes all described, pages whose links hold and that are not too long."""
 
 import os
 import pathlib
@@ -29,6 +29,12 @@ UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME)\b")
 
 # A comment is a sentence with a verb, or names the thing itself: no fragment.
 FRAGMENT = re.compile(r"\s*///?<? (Of|What|Whether|Where|How|By|As)\b")
+
+# Identifiers are the field's words: `stress`, `compute_stress`, `lever_stress`, not `stress_of` or `of_lever`.
+UNNAMED = re.compile(r"\b(of|of_\w+|\w+_of(?:_\w+)?|(?:\w+_)?(?:told|given|wanted)(?:_\w+)?)\b")
+NAMED = {"find_first_of", "find_last_of", "find_first_not_of", "find_last_not_of", "any_of", "all_of", "none_of", "is_any_of", "out_of_range",
+         "pack_rtree_of_indices", "moment_of_inertia", "out_of_plane", "is_power_of_two"}  # fmt: skip
+TEXT = re.compile(r"""/\*.*?\*/|//.*|"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])'|#include.*""")
 
 problems = []
 
@@ -80,6 +86,12 @@ def check_comments(path, lines):
         goes_on = line.lstrip().startswith("//")
 
 
+def check_identifiers(path, lines):
+    for number, line in enumerate(lines, 1):
+        for name in set(UNNAMED.findall(TEXT.sub("", line))) - NAMED:
+            report(path, number, f"the identifier {name} says no quantity or action of the field")
+
+
 n_sources = 0
 for path in own_files():
     try:
@@ -97,6 +109,8 @@ for path in own_files():
         n_sources += 1
         check_includes(path, lines)
         check_comments(path, lines)
+    if path.suffix in (".cc", ".h"):
+        check_identifiers(path, lines)
 
 scenes = sorted((ROOT / "params").glob("*.prm"))
 readme = ROOT / "params" / "README.md"

@@ -34,7 +34,7 @@ namespace sprag
     return scene;
   }
 
-  inline IsolationFindings findings_of(const Scene &scene)
+  inline IsolationFindings compute_findings(const Scene &scene)
   {
     IsolationFindings found;
     run_isolation(scene, found, {});
@@ -42,7 +42,7 @@ namespace sprag
   }
 
   /// Instants at which the table turned or stopped.
-  inline std::vector<TableState> turns_of(const Scene &scene)
+  inline std::vector<TableState> find_turns(const Scene &scene)
   {
     std::vector<TableState> turns;
     IsolationFindings found;

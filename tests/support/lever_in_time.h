@@ -6,13 +6,13 @@
 
 namespace sprag
 {
-  constexpr double spring_of_bar = 1e4; ///< [N mm/rad]
+  constexpr double bar_spring = 1e4; ///< [N mm/rad]
 
   /// Constants of a small lever without damping.
   inline LeverDynamics undamped_dynamics(const bool sprung)
   {
     LeverDynamics result;
-    result.spring_stiffness  = spring_of_bar;
+    result.spring_stiffness  = bar_spring;
     result.sprung            = sprung;
     result.support_mass      = 2e-5;
     result.support_stiffness = 50.;
@@ -33,9 +33,9 @@ namespace sprag
 
   /// Vibrations of a lever out of contact on its spring.
   inline LeverModes modes_on_spring(const ElasticBody<2> &body, const LeverInertia &inertia, const unsigned int number,
-                                    const double spring = spring_of_bar)
+                                    const double spring = bar_spring)
   {
-    return lever_modes(body, response_of(body), inertia, spring, number);
+    return lever_modes(body, make_response(body), inertia, spring, number);
   }
 
   inline SparseStructure sparse_structure(const ElasticBody<2> &body, const LeverInertia &inertia, const unsigned int modes,

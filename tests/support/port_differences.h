@@ -11,7 +11,7 @@
 namespace sprag
 {
   /// Of constant forces on ports that move.
-  inline double work_of(const PortForces &forces, const dealii::Vector<double> &from, const dealii::Vector<double> &to)
+  inline double compute_work(const PortForces &forces, const dealii::Vector<double> &from, const dealii::Vector<double> &to)
   {
     double sum = 0.;
     for (unsigned int a = 0; a < forces.ports.size(); ++a)
@@ -57,7 +57,7 @@ namespace sprag
   /// That the parts of a slide's tangent, summed apart, are what Newton's method is given, and that the pressure's is symmetric,
   /// up to a share of the tangent.
   template <class Contact>
-  void expect_parts_of_tangent(Contact &contact, const dealii::Vector<double> &ports, const double skewness)
+  void expect_tangent_parts(Contact &contact, const dealii::Vector<double> &ports, const double skewness)
   {
     const DrivePoint drive{ 0., 0., 100., 0. };
     for (const auto friction : { ContactFriction::sliding, ContactFriction::none, ContactFriction::stuck })

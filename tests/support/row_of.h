@@ -8,7 +8,7 @@
 namespace sprag
 {
   /// A row with these values alone.
-  inline Row row_of(const std::vector<std::pair<Column, double>> &values)
+  inline Row make_row(const std::vector<std::pair<Column, double>> &values)
   {
     Row row;
     for (const auto &[column, value] : values)

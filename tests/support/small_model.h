@@ -24,7 +24,7 @@ namespace sprag
       return 0.;
     }
 
-    std::string objection(const State &, const Evaluation &) const override
+    std::string check_validity(const State &, const Evaluation &) const override
     {
       return {};
     }

@@ -57,9 +57,9 @@ TEST(CalibratedReversal, TheBeamsPeakIsThatOfTheMeshSlow)
     const auto parts = calibrate_parts(calibration(model));
     auto beam        = reduced_constants(parts.scene).overrides;
     beam.push_back("Analysis/Type=transient");
-    const double of_mesh = peak_P(prepared(variant(parts.scene, { "Analysis/Type=transient", "Analysis/Model=condensed" })));
-    const double of_beam = peak_P(prepared(variant(parts.scene, beam)));
-    EXPECT_NEAR(of_beam, of_mesh, 1e-2 * of_mesh) << model;
+    const double mesh_result = peak_P(prepared(variant(parts.scene, { "Analysis/Type=transient", "Analysis/Model=condensed" })));
+    const double beam_result = peak_P(prepared(variant(parts.scene, beam)));
+    EXPECT_NEAR(beam_result, mesh_result, 1e-2 * mesh_result) << model;
   }
 }
 
@@ -70,12 +70,12 @@ TEST(CalibratedReversal, SlowTheBeamIsThatOfTheFullFiniteElements)
   const auto parts = calibrate_parts(calibration("a"));
   auto beam        = reduced_constants(parts.scene).overrides;
   beam.push_back("Analysis/Type=transient");
-  const Scene reduced = prepared(variant(parts.scene, beam));
-  const Scene meshed  = prepared(variant(parts.scene, { "Analysis/Type=transient", "Analysis/Model=finite element" }));
-  const auto of_beam  = contact_frequencies(reduced);
-  const auto of_mesh  = contact_frequencies(meshed);
+  const Scene reduced    = prepared(variant(parts.scene, beam));
+  const Scene meshed     = prepared(variant(parts.scene, { "Analysis/Type=transient", "Analysis/Model=finite element" }));
+  const auto beam_result = contact_frequencies(reduced);
+  const auto mesh_result = contact_frequencies(meshed);
   for (unsigned int i = 0; i < 2; ++i)
-    EXPECT_NEAR(of_beam[i], of_mesh[i], 5e-3 * of_mesh[i]);
+    EXPECT_NEAR(beam_result[i], mesh_result[i], 5e-3 * mesh_result[i]);
   const double peak = peak_P(prepared(variant(meshed, { "Mesh/Face size=0.5" })));
   EXPECT_NEAR(peak_P(reduced), peak, 1e-2 * peak);
 }

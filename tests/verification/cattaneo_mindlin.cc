@@ -24,7 +24,7 @@ namespace
     return { -0.012 * std::max(0., x - 1.), 0.07 * std::min(x, 1.) - radius };
   }
 
-  LeverProperties properties_of(const double friction)
+  LeverProperties make_properties(const double friction)
   {
     auto properties               = block_properties(rigid_circle(radius, centre), friction);
     properties.body.point_spacing = 0.002;
@@ -40,10 +40,10 @@ namespace
     FaceProfile face;
   };
 
-  using PropertiesOf = std::function<LeverProperties(double friction)>;
+  using MakeProperties = std::function<LeverProperties(double friction)>;
 
   /// Pressed without friction, then moved along up to each of `positions` in turn.
-  std::vector<Outcome> loaded(const dealii::Triangulation<2> &triangulation, const PropertiesOf &properties_with,
+  std::vector<Outcome> loaded(const dealii::Triangulation<2> &triangulation, const MakeProperties &properties_with,
                               const std::vector<double> &positions, const double friction)
   {
     Equilibrium at{};
@@ -72,7 +72,7 @@ namespace
   {
     dealii::Triangulation<2> triangulation;
     make_block(mirrored(graded_parts(cell, 1.2, 1.25, 20.)), graded_parts(cell, 0.3, 1.25, 20.), triangulation);
-    return loaded(triangulation, properties_of, positions, friction);
+    return loaded(triangulation, make_properties, positions, friction);
   }
 
   /// Two equal parabolas, which together are as far apart as circle and block; their cells do not match.

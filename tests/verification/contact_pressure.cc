@@ -177,9 +177,9 @@ TEST(ContactPressure, OfASecondLeverIsRecoveredToo)
     const Row &row = found.rows[i];
     const auto &p  = found.faces[i].pressure_2;
     expect_one_peak(p, row[Column::x]);
-    EXPECT_NEAR(*std::max_element(p.begin(), p.end()) / row.of_second_lever(Column::largest_pressure), 1., 1e-3);
-    EXPECT_NEAR(resultant(found.weights, p) / row.of_second_lever(Column::P), 1., 3e-3); // P is normal to the undeformed face
-    EXPECT_NE(row.of_second_lever(Column::largest_pressure), row[Column::largest_pressure]);
+    EXPECT_NEAR(*std::max_element(p.begin(), p.end()) / row.second_value(Column::largest_pressure), 1., 1e-3);
+    EXPECT_NEAR(resultant(found.weights, p) / row.second_value(Column::P), 1., 3e-3); // P is normal to the undeformed face
+    EXPECT_NE(row.second_value(Column::largest_pressure), row[Column::largest_pressure]);
   }
 }
 

@@ -40,7 +40,7 @@ namespace
   {
   public:
     explicit Cantilever(const LeafSpring &leaf, const LeafElements &elements)
-        : body(meshed(leaf, elements), properties_of(leaf))
+        : body(meshed(leaf, elements), make_properties(leaf))
         , statics(body, clamp())
         , displacement(body.n_dofs())
     {
@@ -112,7 +112,7 @@ namespace
       return triangulation;
     }
 
-    static BodyProperties properties_of(const LeafSpring &leaf)
+    static BodyProperties make_properties(const LeafSpring &leaf)
     {
       BodyProperties properties;
       properties.material  = MaterialModel::st_venant_kirchhoff;

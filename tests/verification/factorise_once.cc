@@ -26,8 +26,8 @@ namespace
   class Meshed
   {
   public:
-    Meshed(const Scene &of, const Solution solution)
-        : scene(of)
+    Meshed(const Scene &scene_, const Solution solution)
+        : scene(scene_)
     {
       scene.analysis.solution = solution;
       make_mesh(scene, triangulation);

@@ -14,7 +14,7 @@ namespace
   {
   }
 
-  Growth growth_of(const JudgedSlide &judged)
+  Growth compute_growth(const JudgedSlide &judged)
   {
     HeldRun run(judged.dynamics.model(), judged.step());
     return measure_growth(judged.dynamics.model(), judged.stability, judged.scene.sprag_slip, run, ignore);
@@ -26,7 +26,7 @@ namespace
     return lambda * (1. + lambda * lambda * dt * dt / 12.);
   }
 
-  void expect_as_predicted(const JudgedSlide &judged, const Growth &growth, const double of_growth = 1e-4)
+  void expect_as_predicted(const JudgedSlide &judged, const Growth &growth, const double growth_tolerance = 1e-4)
   {
     EXPECT_TRUE(growth.reached);
     EXPECT_TRUE(growth.slid);
@@ -35,7 +35,7 @@ namespace
     // Left is what an amplitude of 1e-3 of the indentation makes of a contact that is not linear, and what the first steps excite
     // beside the mode: 1e-4 of the growth, and of the frequency as many times less as a radian is shorter than the window.
     const auto expected = in_steps(growth.eigenvalue, judged.step());
-    EXPECT_NEAR(growth.envelope.rate, expected.real(), of_growth * std::abs(expected.real()));
+    EXPECT_NEAR(growth.envelope.rate, expected.real(), growth_tolerance * std::abs(expected.real()));
     EXPECT_NEAR(growth.frequency, expected.imag() / (2. * M_PI), 1e-5 * expected.imag() / (2. * M_PI));
     EXPECT_LT(growth.envelope.scatter, 1e-3);
   }
@@ -107,7 +107,7 @@ TEST(Growth, OfAPairThatSwingsWhereHalfOfItIsStable)
   EXPECT_EQ(judged.stability.kind, SlideKind::flutter);
   EXPECT_NEAR(judged.mode().mirroring, -1., 1e-6);
   EXPECT_NEAR(judged.mode().growth.friction_support, 0., 1e-6 * judged.mode().mode.eigenvalue.real());
-  const auto growth = growth_of(judged);
+  const auto growth = compute_growth(judged);
   EXPECT_NEAR(growth.growth_difference(), 0., 0.003);
   EXPECT_NEAR(growth.frequency_difference(), 0., 0.0005);
   // A held joint gives each lever its spring, but the frame still stays where it is.
@@ -119,14 +119,14 @@ TEST(Growth, OfModelAIsThatOfItsEigenvalue)
 {
   const JudgedSlide judged(backward_a(ModelType::beam, 6.));
   ASSERT_EQ(judged.stability.kind, SlideKind::flutter);
-  expect_as_predicted(judged, growth_of(judged));
+  expect_as_predicted(judged, compute_growth(judged));
 }
 
 TEST(Growth, OfModelBIsThatOfItsEigenvalue)
 {
   const JudgedSlide judged(backward_b());
   ASSERT_EQ(judged.stability.kind, SlideKind::flutter);
-  expect_as_predicted(judged, growth_of(judged));
+  expect_as_predicted(judged, compute_growth(judged));
 }
 
 TEST(Growth, OfACondensedLeverIsThatOfItsEigenvalue)
@@ -135,7 +135,7 @@ TEST(Growth, OfACondensedLeverIsThatOfItsEigenvalue)
   ASSERT_EQ(judged.stability.kind, SlideKind::flutter);
   // The start of Newton's method decides on the round-off of the first steps: 1.04e-4 from the line of the last two forces with
   // modes in axes that do not turn, 2.2e-4 in those of the hub.
-  expect_as_predicted(judged, growth_of(judged), 4e-4);
+  expect_as_predicted(judged, compute_growth(judged), 4e-4);
 }
 
 TEST(Growth, OfAMeshedLeverIsThatOfItsEigenvalueSlow)
@@ -145,7 +145,7 @@ TEST(Growth, OfAMeshedLeverIsThatOfItsEigenvalueSlow)
   const JudgedSlide judged(scene);
   ASSERT_EQ(judged.stability.kind, SlideKind::flutter);
   // Round-off of the first steps depends on the BLAS: below 1e-4 without AVX-512, 1.26e-4 with it.
-  expect_as_predicted(judged, growth_of(judged), 2e-4);
+  expect_as_predicted(judged, compute_growth(judged), 2e-4);
 }
 
 TEST(Growth, OfAStableSlideIsItsDecay)
@@ -157,7 +157,7 @@ TEST(Growth, OfAStableSlideIsItsDecay)
       scene.support.type = support;
       const JudgedSlide judged(scene);
       ASSERT_EQ(judged.stability.kind, SlideKind::stable);
-      const auto growth = growth_of(judged);
+      const auto growth = compute_growth(judged);
       EXPECT_LT(growth.envelope.rate, 0.);
       EXPECT_TRUE(growth.reached);
       EXPECT_LT(std::abs(growth.growth_difference()), 0.03) << static_cast<int>(type) << static_cast<int>(support);
@@ -171,7 +171,7 @@ TEST(Growth, UnderARegularisedLawThatRisesWithSpeedIsThatOfItsEigenvalue)
 {
   const JudgedSlide judged(regularised_cork(backward_a(ModelType::beam, 6.)));
   const JudgedSlide constant(backward_a(ModelType::beam, 6.));
-  const auto growth = growth_of(judged);
+  const auto growth = compute_growth(judged);
   EXPECT_TRUE(growth.reached);
   EXPECT_LT(std::abs(growth.growth_difference()), 1e-3);
   EXPECT_LT(std::abs(growth.frequency_difference()), 1e-3);
@@ -185,7 +185,7 @@ TEST(Growth, UnderALawThatRisesWithSpeedIsThatOfItsEigenvalue)
   {
     const JudgedSlide judged(cork(backward_a(type, 6.)));
     const JudgedSlide constant(backward_a(type, 6.));
-    const auto growth = growth_of(judged);
+    const auto growth = compute_growth(judged);
     EXPECT_TRUE(growth.reached);
     EXPECT_TRUE(growth.slid);
     EXPECT_LT(std::abs(growth.growth_difference()), 3e-3) << static_cast<int>(type);
@@ -208,7 +208,7 @@ TEST(Growth, IsFrictions)
     for (const auto &mode : modes)
       largest = std::max(largest, mode.mode.eigenvalue.real());
     EXPECT_LT(largest, 0.);
-    EXPECT_GT(growth_of(judged).envelope.rate, 50.);
+    EXPECT_GT(compute_growth(judged).envelope.rate, 50.);
   }
 }
 
@@ -235,7 +235,7 @@ namespace
   }
 
   /// P of a perturbed run less that of its twin in the same steps, from the perturbation's initial to its final amplitude.
-  std::vector<Sample> difference_of_twins(const JudgedSlide &judged, const double speed, double &travel)
+  std::vector<Sample> twin_difference(const JudgedSlide &judged, const double speed, double &travel)
   {
     const auto &settings = judged.scene.sprag_slip;
     auto &model          = judged.dynamics.model();
@@ -269,15 +269,15 @@ TEST(Growth, OnACreepingDriveIsThatOfItsEigenvalue)
     slow.drive = Drive(DriveProfile::triangle, 0., 65., speed, 1.);
     const JudgedSlide judged(slow);
     double travel      = 0.;
-    const auto signal  = difference_of_twins(judged, speed, travel);
-    const auto fit     = fit_exponential(envelope_of(signal));
+    const auto signal  = twin_difference(judged, speed, travel);
+    const auto fit     = fit_exponential(compute_envelope(signal));
     const auto lambda  = judged.mode().mode.eigenvalue;
     const double found = fit_frequency(crossings(signal));
     EXPECT_LT(travel, 0.05);
     EXPECT_NEAR(fit.rate, lambda.real(), 0.03 * lambda.real());
     EXPECT_NEAR(found, lambda.imag() / (2. * M_PI), 0.005 * lambda.imag() / (2. * M_PI));
     // By 1e-3 in amplitude altogether: it grows through all of the window.
-    const auto sizes = envelope_of(signal);
+    const auto sizes = compute_envelope(signal);
     EXPECT_GT(sizes.back().value / sizes.front().value, 100.);
   }
 }

@@ -16,8 +16,8 @@ namespace sprag
     Dynamics dynamics;
     SlideStability stability;
 
-    explicit JudgedSlide(const Scene &of)
-        : scene(held_scene(of))
+    explicit JudgedSlide(const Scene &scene_)
+        : scene(held_scene(scene_))
         , dynamics(DynamicsMaker().make(scene))
         , stability(judge(dynamics.model(), held_drive(scene), judged_modes(scene)))
     {
@@ -35,7 +35,7 @@ namespace sprag
 
     double step() const
     {
-      return step_of(mode(), scene.sprag_slip);
+      return choose_step(mode(), scene.sprag_slip);
     }
 
     /// At another x, by the same model.

@@ -95,7 +95,7 @@ namespace
 
   // Two half planes of one material in contact, a flat one and a parabola: E* = E / (2 (1 - nu^2)). As above; the cells of the
   // two do not match.
-  void expect_hertz_of_two(const Enforcement enforcement, const double penalty)
+  void expect_two_body_hertz(const Enforcement enforcement, const double penalty)
   {
     const double radius = 20., nu = 0.3, depth = 0.09;
     const BentBlock upper{ mirrored(graded_parts(0.025, 1.2, 1.25, 20.)), graded_parts(0.025, 0.3, 1.25, 20.), 0. };
@@ -125,12 +125,12 @@ TEST(Hertz, RigidCylinderOnAHalfPlaneByMultipliers)
 
 TEST(Hertz, ElasticCylinderOnAHalfPlaneByPenalty)
 {
-  expect_hertz_of_two(Enforcement::penalty, 4e4);
+  expect_two_body_hertz(Enforcement::penalty, 4e4);
 }
 
 TEST(Hertz, ElasticCylinderOnAHalfPlaneByMultipliers)
 {
-  expect_hertz_of_two(Enforcement::augmented_lagrangian, 2e4);
+  expect_two_body_hertz(Enforcement::augmented_lagrangian, 2e4);
 }
 
 TEST(Hertz, RigidCylinderOnAHalfPlaneOfDegree1)

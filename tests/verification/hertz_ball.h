@@ -29,14 +29,14 @@ namespace sprag
   /// What a block's displacement in a direction lacks of that of a half-space, as it is where its face is some distance from the
   /// origin [mm]: the block ends.
   template <class Displacement>
-  double missing(const RubbedBlock &rubbed, const Displacement &of_half_space, const RubbedBlock::Vector &direction,
+  double missing(const RubbedBlock &rubbed, const Displacement &half_space_displacement, const RubbedBlock::Vector &direction,
                  const double distance)
   {
     double sum = 0., nodes = 0.;
     for (const auto &[place, moved] : rubbed.displacements())
       if (const double r = std::hypot(place[0], place[2]); std::abs(r - distance) < 0.25 * distance)
       {
-        sum += of_half_space(RubbedBlock::Vector(place)) - moved * direction;
+        sum += half_space_displacement(RubbedBlock::Vector(place)) - moved * direction;
         nodes += 1.;
       }
     EXPECT_GT(nodes, 0.);

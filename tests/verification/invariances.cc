@@ -78,7 +78,7 @@ namespace
 
   /// Rows of a run whose positions and forces are multiplied by constants; `moved` are those between a reversal and the end.
   void expect_same(const std::vector<Row> &rows, const std::vector<Row> &reference, const double length, const double force,
-                   const double tolerance, const double tolerance_of_moved)
+                   const double tolerance, const double moved_tolerance)
   {
     double peak_P = 0., peak_Q = 0.;
     for (const Row &row : reference)
@@ -86,9 +86,9 @@ namespace
       peak_P = std::max(peak_P, row[Column::P]);
       peak_Q = std::max(peak_Q, std::abs(row[Column::Q]));
     }
-    const auto expect_row = [&](const Row &row, const Row &other, const double tolerance_of_x, const double share)
+    const auto expect_row = [&](const Row &row, const Row &other, const double x_tolerance, const double share)
     {
-      EXPECT_NEAR(row[Column::x] / length, other[Column::x], tolerance_of_x);
+      EXPECT_NEAR(row[Column::x] / length, other[Column::x], x_tolerance);
       EXPECT_NEAR(row[Column::P] / force, other[Column::P], share * peak_P);
       EXPECT_NEAR(row[Column::Q] / force, other[Column::Q], share * peak_Q);
       EXPECT_NEAR(row[Column::theta], other[Column::theta], share);
@@ -102,8 +102,7 @@ namespace
       if (reference[i][Column::v] > 0.)
         forward = std::max(forward, expect_row(rows[i], reference[i], same_x, tolerance));
       else
-        backward =
-            std::max(backward, expect_row(rows[i], reference[i], std::max(same_x, tolerance_of_moved), tolerance_of_moved));
+        backward = std::max(backward, expect_row(rows[i], reference[i], std::max(same_x, moved_tolerance), moved_tolerance));
     const double at_end = expect_row(rows.back(), reference.back(), same_x, tolerance);
     std::printf("largest difference of P and Q over their peaks: %.1e forward, %.1e backward, %.1e at the end\n", forward,
                 backward, at_end);
@@ -202,16 +201,16 @@ namespace
   };
 
   /// A loop between 50 and 60 mm.
-  Ledger ledger_of(const Scene &scene, const double step)
+  Ledger compute_ledger(const Scene &scene, const double step)
   {
     const Scene finer  = with_step(with_drive(scene, Drive(DriveProfile::triangle, 50., 60., 112., 1.)), step);
-    const auto summary = summary_of(finer, run_scene(finer));
-    return { value_of(summary, "loop_area"), value_of(summary, "friction_work"), value_of(summary, "energy_residual") };
+    const auto summary = make_summary(finer, run_scene(finer));
+    return { find_value(summary, "loop_area"), find_value(summary, "friction_work"), find_value(summary, "energy_residual") };
   }
 
   double residual(const Scene &scene, const double step)
   {
-    const auto ledger = ledger_of(scene, step);
+    const auto ledger = compute_ledger(scene, step);
     std::printf("step %-5g drive work %.5f, friction work %.5f, residual %.5f N mm\n", step, ledger.drive, ledger.friction,
                 ledger.residual);
     return ledger.residual / ledger.friction;

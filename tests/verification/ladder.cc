@@ -33,7 +33,7 @@ namespace
 
   Oscillation oscillation(const Scene &scene)
   {
-    return oscillation_of(scene, run_any_in_time(scene));
+    return compute_oscillation(scene, run_any_in_time(scene));
   }
 } // namespace
 

@@ -111,10 +111,10 @@ namespace
 
   void expect_explained(const std::string &model, const std::string &name, const std::vector<std::string> &changes)
   {
-    const Scene given = calibration(model, changes);
-    const double k    = *given.calibration.stiffness;
-    const auto parts  = calibrate_parts(given);
-    const auto found  = shares(parts.scene, k);
+    const Scene calibrated = calibration(model, changes);
+    const double k         = *calibrated.calibration.stiffness;
+    const auto parts       = calibrate_parts(calibrated);
+    const auto found       = shares(parts.scene, k);
     for (const unsigned int stroke : { 0u, 1u })
     {
       const double e_at_turn = stroke == 0 ? 0. : std::abs(found[0].back().e);
@@ -153,9 +153,9 @@ TEST(LeafDeviation, CalibratedPartsHaveTheMomentOfInertiaOfTable1)
       const double to = from + depth;
       return density * lever.width * (depth * L * L * L / 3. + L * (to * to * to - from * from * from) / 3.);
     };
-    const double of_leaf = leaf.density * leaf.width * leaf.thickness * std::pow(leaf.length, 3) / 105.;
+    const double leaf_inertia = leaf.density * leaf.width * leaf.thickness * std::pow(leaf.length, 3) / 105.;
     const double sum = rectangle(layer.density, e, layer.thickness) + rectangle(lever.density, e + layer.thickness, lever.depth) +
-                       lever.hub_inertia + of_leaf;
+                       lever.hub_inertia + leaf_inertia;
     std::printf("model %s: %.4f t mm2 at the hub, J by hand off by %.1e\n", model.c_str(), lever.hub_inertia, sum / J - 1.);
     EXPECT_NEAR(sum, J, 1e-4 * J);
   }

@@ -139,9 +139,9 @@ TEST(LoopArea, IsWhatIsDissipatedAndStored)
       const Row &end   = rows.back();
       const double sum = end[Column::friction_work] + end[Column::damping_work] + end[Column::algorithmic_work] +
                          stored_energy(end) - stored_energy(rows.front());
-      const double of_A = paper.geometry.interface_offset > 0. ? 677.8639 : 983.2653;
-      EXPECT_NEAR(area, sum, 1e-4 * of_A);
+      const double reference_area = paper.geometry.interface_offset > 0. ? 677.8639 : 983.2653;
+      EXPECT_NEAR(area, sum, 1e-4 * reference_area);
       // And about the closed form's, from which bending, yield and slow sliding in the reversal's 5 ms take 1.5 %.
-      EXPECT_NEAR(area, of_A, 0.02 * of_A);
+      EXPECT_NEAR(area, reference_area, 0.02 * reference_area);
     }
 }

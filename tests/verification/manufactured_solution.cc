@@ -153,7 +153,7 @@ namespace
                          triangulation);
   }
 
-  Vector<double> loads_of(const Problem &problem, const ElasticBody<2> &body)
+  Vector<double> assemble_loads(const Problem &problem, const ElasticBody<2> &body)
   {
     const auto &fe = body.dofs().get_fe();
     FEValues<2> values(fe, QGauss<2>(fe.degree + 3), update_values | update_quadrature_points | update_JxW_values);
@@ -176,7 +176,7 @@ namespace
   /// Newton's method from the interpolated displacement to round-off, which grows with lambda/mu, up to 5e3.
   Vector<double> equilibrium(const Problem &problem, const ElasticBody<2> &body)
   {
-    const auto loads = loads_of(problem, body);
+    const auto loads = assemble_loads(problem, body);
     Vector<double> displacement(body.n_dofs());
     VectorTools::interpolate(body.dofs(), problem.exact, displacement);
     PETScWrappers::SparseMatrix matrix;
@@ -206,7 +206,7 @@ namespace
     return displacement;
   }
 
-  Errors errors_of(const Problem &problem, const unsigned int degree, const unsigned int n)
+  Errors compute_errors(const Problem &problem, const unsigned int degree, const unsigned int n)
   {
     Triangulation<2> triangulation;
     make_square(n, triangulation);
@@ -218,11 +218,11 @@ namespace
     const ElasticBody<2> body(triangulation, properties);
     const auto displacement = equilibrium(problem, body);
 
-    Vector<float> of_cells;
+    Vector<float> cell_errors;
     const auto norm = [&](const VectorTools::NormType type)
     {
-      VectorTools::integrate_difference(body.dofs(), displacement, problem.exact, of_cells, QGauss<2>(degree + 3), type);
-      return VectorTools::compute_global_error(triangulation, of_cells, type);
+      VectorTools::integrate_difference(body.dofs(), displacement, problem.exact, cell_errors, QGauss<2>(degree + 3), type);
+      return VectorTools::compute_global_error(triangulation, cell_errors, type);
     };
     return { norm(VectorTools::L2_norm), norm(VectorTools::H1_seminorm) };
   }
@@ -231,8 +231,8 @@ namespace
   // 0.1 from 16 to 32 cells (0.15 where the displacement is finite).
   void expect_orders(const Problem &problem, const unsigned int degree)
   {
-    const auto coarse = errors_of(problem, degree, 16);
-    const auto fine   = errors_of(problem, degree, 32);
+    const auto coarse = compute_errors(problem, degree, 16);
+    const auto fine   = compute_errors(problem, degree, 32);
     const double l2   = std::log2(coarse.l2 / fine.l2);
     const double h1   = std::log2(coarse.h1 / fine.h1);
     ::testing::Test::RecordProperty("L2", std::to_string(l2));

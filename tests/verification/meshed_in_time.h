@@ -33,7 +33,7 @@ namespace sprag
   }
 
   /// Oscillation after the only reversal.
-  inline Oscillation oscillation_of(const Scene &scene, const TransientRun &run)
+  inline Oscillation compute_oscillation(const Scene &scene, const TransientRun &run)
   {
     return oscillations(run.rows, scene.drive).front();
   }

@@ -26,21 +26,21 @@ namespace
     double friction_ratio;
   };
 
-  std::string name_of(const testing::TestParamInfo<Case> &info)
+  std::string case_name(const testing::TestParamInfo<Case> &info)
   {
-    const Case &of = info.param;
-    return std::string(of.joint == SpringJoint::free ? "Free" : "Held") +
-           (of.offset > 0.   ? "OffTheMiddle"
-            : of.offset < 0. ? "OffTheOtherWay"
-                             : "") +
-           (of.friction_ratio != 1. ? "WithUnequalFriction" : "");
+    const Case &tested = info.param;
+    return std::string(tested.joint == SpringJoint::free ? "Free" : "Held") +
+           (tested.offset > 0.   ? "OffTheMiddle"
+            : tested.offset < 0. ? "OffTheOtherWay"
+                                 : "") +
+           (tested.friction_ratio != 1. ? "WithUnequalFriction" : "");
   }
 
   double second(const Row &row, const Column column)
   {
-    const auto &of_levers = columns_of_a_lever();
+    const auto &per_lever = lever_columns();
     return row.second_lever().at(
-        static_cast<std::size_t>(std::find(of_levers.begin(), of_levers.end(), column) - of_levers.begin()));
+        static_cast<std::size_t>(std::find(per_lever.begin(), per_lever.end(), column) - per_lever.begin()));
   }
 
   /// Rows in sliding: 2 mm of every stroke are its passage through stick.
@@ -90,7 +90,7 @@ namespace
     {
     }
 
-    ClosedFormState closed_form_of(const unsigned int lever, const Row &row) const
+    ClosedFormState closed_form_state(const unsigned int lever, const Row &row) const
     {
       return pair_closed_form(scene, row[Column::x], row[Column::v])[lever].state;
     }
@@ -106,18 +106,18 @@ namespace
 // falls.
 TEST_P(PairOfLevers, DeviateFromTheirClosedFormAsASingleLeverDoes)
 {
-  const auto of_single = [](const Column column, const Column reference)
+  const auto single_value = [](const Column column, const Column reference)
   { return largest(sliding(single()), [&](const Row &row) { return row[column] - row[reference]; }); };
-  const double P = of_single(Column::P, Column::P_closed_form);
-  const double Q = of_single(Column::Q, Column::Q_closed_form);
+  const double P = single_value(Column::P, Column::P_closed_form);
+  const double Q = single_value(Column::Q, Column::Q_closed_form);
   ASSERT_LT(P, 0.01 * largest(single(), [](const Row &row) { return row[Column::P]; }));
   for (const Row &row : slides)
   {
-    EXPECT_NEAR(row[Column::P], closed_form_of(0, row).P, 1.2 * P) << "x " << row[Column::x];
-    EXPECT_NEAR(second(row, Column::P), closed_form_of(1, row).P, 1.2 * P) << "x " << row[Column::x];
-    EXPECT_NEAR(row[Column::Q], closed_form_of(0, row).Q, 1.2 * Q) << "x " << row[Column::x];
-    EXPECT_NEAR(second(row, Column::Q), closed_form_of(1, row).Q, 1.2 * Q) << "x " << row[Column::x];
-    EXPECT_EQ(row[Column::P_closed_form], closed_form_of(0, row).P);
+    EXPECT_NEAR(row[Column::P], closed_form_state(0, row).P, 1.2 * P) << "x " << row[Column::x];
+    EXPECT_NEAR(second(row, Column::P), closed_form_state(1, row).P, 1.2 * P) << "x " << row[Column::x];
+    EXPECT_NEAR(row[Column::Q], closed_form_state(0, row).Q, 1.2 * Q) << "x " << row[Column::x];
+    EXPECT_NEAR(second(row, Column::Q), closed_form_state(1, row).Q, 1.2 * Q) << "x " << row[Column::x];
+    EXPECT_EQ(row[Column::P_closed_form], closed_form_state(0, row).P);
   }
 }
 
@@ -131,9 +131,9 @@ TEST_P(PairOfLevers, PushTheCylinderAsideAsTheClosedFormSays)
   {
     const auto upward = [](const ClosedFormState &lever)
     { return lever.P * std::cos(lever.contact.theta) - lever.F * std::sin(lever.contact.theta); };
-    const double expected = upward(closed_form_of(1, row)) - upward(closed_form_of(0, row));
-    const double unequal  = std::max(inequality(closed_form_of(0, row).P, closed_form_of(1, row).P),
-                                     inequality(closed_form_of(0, row).F, closed_form_of(1, row).F));
+    const double expected = upward(closed_form_state(1, row)) - upward(closed_form_state(0, row));
+    const double unequal  = std::max(inequality(closed_form_state(0, row).P, closed_form_state(1, row).P),
+                                     inequality(closed_form_state(0, row).F, closed_form_state(1, row).F));
     EXPECT_NEAR(row.lateral_force(), expected, (2. * unequal + 0.02) * deviation) << "x " << row[Column::x];
     pushed = std::max(pushed, std::abs(expected));
   }
@@ -168,13 +168,13 @@ TEST_P(PairOfLevers, AreHeldByTheMomentsThatTheJointGivesThem)
 
 TEST_P(PairOfLevers, TurnTheDrivesWorkIntoFrictionAndStoredEnergy)
 {
-  const auto residual = [](const std::vector<Row> &of, const Row &row)
+  const auto residual = [](const std::vector<Row> &run_rows, const Row &row)
   {
     const auto stored = [](const Row &r) { return r[Column::spring_energy] + r[Column::elastic_energy]; };
-    return row[Column::drive_work] - row[Column::friction_work] - stored(row) + stored(of.front());
+    return row[Column::drive_work] - row[Column::friction_work] - stored(row) + stored(run_rows.front());
   };
-  const auto share = [&](const std::vector<Row> &of)
-  { return std::abs(residual(of, of.back())) / of.back()[Column::drive_work]; };
+  const auto share = [&](const std::vector<Row> &run_rows)
+  { return std::abs(residual(run_rows, run_rows.back())) / run_rows.back()[Column::drive_work]; };
   EXPECT_LE(share(rows), 1.5 * share(single()) + 1e-4);
   EXPECT_GT(rows.back()[Column::friction_work], 0.);
 }
@@ -189,4 +189,4 @@ INSTANTIATE_TEST_SUITE_P(MirroredPair, PairOfLevers,
                                          Case{ SpringJoint::free, 0.5, 1. }, Case{ SpringJoint::held, 0.5, 1. },
                                          Case{ SpringJoint::held, -0.5, 1. }, Case{ SpringJoint::free, 0., 0.8 },
                                          Case{ SpringJoint::held, 0., 0.8 }, Case{ SpringJoint::free, 0.5, 0.8 }),
-                         name_of);
+                         case_name);

@@ -156,10 +156,10 @@ TEST(MirroredPairInTime, ModesOfAllFidelitiesAgree)
   scene.condensed.modes = 40;
   scene.spring          = prepared_spring(scene);
   scene                 = undamped(scene);
-  const auto modes      = [](const Scene &of)
+  const auto modes      = [](const Scene &slide_scene)
   {
     DynamicsMaker maker(false);
-    const auto dynamics = maker.make(of);
+    const auto dynamics = maker.make(slide_scene);
     const auto slide    = dynamics.model().hold({ 0., 45.5, 112., 0. }, ContactFriction::sliding);
     EXPECT_TRUE(slide);
     auto found = dynamics.model().vibrations(*slide, true, 6);

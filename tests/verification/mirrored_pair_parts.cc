@@ -55,15 +55,15 @@ namespace
   void expect_twice(const std::vector<Row> &both, const std::vector<Row> &single, const std::string &name)
   {
     using Index           = std::size_t;
-    const auto &of_levers = columns_of_a_lever();
-    for (Index c = 0; c < of_levers.size(); ++c)
+    const auto &per_lever = lever_columns();
+    for (Index c = 0; c < per_lever.size(); ++c)
     {
-      const auto of_single = [&](const Index i) { return single[i][of_levers[c]]; };
-      const auto column    = name + ", " + column_info(of_levers[c]).name;
+      const auto single_value = [&](const Index i) { return single[i][per_lever[c]]; };
+      const auto column       = name + ", " + column_info(per_lever[c]).name;
       expect_same(
-          column, both.size(), [&](const Index i) { return both[i][of_levers[c]]; }, of_single);
+          column, both.size(), [&](const Index i) { return both[i][per_lever[c]]; }, single_value);
       expect_same(
-          column + " of the second lever", both.size(), [&](const Index i) { return both[i].second_lever()[c]; }, of_single);
+          column + " of the second lever", both.size(), [&](const Index i) { return both[i].second_lever()[c]; }, single_value);
     }
     for (const auto column : { Column::friction_work, Column::drive_work, Column::spring_energy, Column::elastic_energy })
       expect_same(
@@ -83,14 +83,14 @@ namespace
 // Both levers do the same in the same order, whatever they are made of, and the joint adds nothing.
 TEST(MirroredPairSlow, WithoutOffsetIsASingleLeverTwice)
 {
-  const Scene linear                                        = coarse_scene();
-  const std::vector<std::pair<std::string, Scene>> of_parts = { { "linear", linear },
-                                                                { "hardening spring", with_hardening(linear) },
-                                                                { "augmented Lagrangian", with_augmented_lagrangian(linear) },
-                                                                { "neo-Hookean", with_neo_hookean(linear) },
-                                                                { "elastic cylinder", on_solid_cylinder(linear, 200., 0.5) },
-                                                                { "plate", with_plate(linear) } };
-  for (const auto &[name, scene] : of_parts)
+  const Scene linear                                           = coarse_scene();
+  const std::vector<std::pair<std::string, Scene>> part_scenes = { { "linear", linear },
+                                                                   { "hardening spring", with_hardening(linear) },
+                                                                   { "augmented Lagrangian", with_augmented_lagrangian(linear) },
+                                                                   { "neo-Hookean", with_neo_hookean(linear) },
+                                                                   { "elastic cylinder", on_solid_cylinder(linear, 200., 0.5) },
+                                                                   { "plate", with_plate(linear) } };
+  for (const auto &[name, scene] : part_scenes)
   {
     const auto single = run_scene(scene);
     for (const auto joint : { SpringJoint::held, SpringJoint::free })
@@ -112,7 +112,7 @@ TEST(MirroredPair, ThatDiffersIsCarriedByItsSprungFrame)
   double unequal          = 0.;
   for (const Row &row : rows)
   {
-    const double second = row.of_second_lever(Column::Q);
+    const double second = row.second_value(Column::Q);
     EXPECT_NEAR(2. * scene.support.stiffness * row[Column::support_displacement], row[Column::Q] + second, 1e-8);
     unequal = std::max(unequal, std::abs(row[Column::Q] - second));
   }

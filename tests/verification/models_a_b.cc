@@ -103,11 +103,11 @@ TEST(ModelsAAndB, StayNearTheClosedForm)
        { Bounds{ with_coulomb(model_a(), mu), 0.006, 0.010, 0.012, 0.018 }, Bounds{ model_a(), 0.006, 0.011, 0.014, 0.023 },
          Bounds{ with_coulomb(model_b(), mu), 0.008, 0.006, 0.021, 0.025 }, Bounds{ model_b(), 0.008, 0.006, 0.027, 0.034 } })
   {
-    const auto summary = summary_of(scene, run_scene(scene));
-    EXPECT_LT(value_of(summary, "deviation_P_forward"), P_forward);
-    EXPECT_LT(value_of(summary, "deviation_P_backward"), P_backward);
-    EXPECT_LT(value_of(summary, "deviation_Q_forward"), Q_forward);
-    EXPECT_LT(value_of(summary, "deviation_Q_backward"), Q_backward);
+    const auto summary = make_summary(scene, run_scene(scene));
+    EXPECT_LT(find_value(summary, "deviation_P_forward"), P_forward);
+    EXPECT_LT(find_value(summary, "deviation_P_backward"), P_backward);
+    EXPECT_LT(find_value(summary, "deviation_Q_forward"), Q_forward);
+    EXPECT_LT(find_value(summary, "deviation_Q_backward"), Q_backward);
   }
 }
 
@@ -274,7 +274,7 @@ TEST(ModelsAAndB, AugmentationRemovesTheOverlapInAFewSolutions)
   {
     const auto rows    = run_scene(with_augmented_lagrangian(model));
     const auto penalty = run_scene(model);
-    const auto overlap = [](const std::vector<Row> &of_run) { return largest(of_run, Column::penetration); };
+    const auto overlap = [](const std::vector<Row> &run_rows) { return largest(run_rows, Column::penetration); };
     EXPECT_GT(overlap(penalty), 0.);
     EXPECT_LE(overlap(rows), 0.5 * overlap(penalty));
     const double worst   = largest(rows, Column::augmentations);
@@ -335,10 +335,10 @@ TEST(ModelsAAndB, StrongFrictionPassesTheReversal)
       SCOPED_TRACE(name);
       const auto rows = run_scene(scene);
       EXPECT_EQ(rows.back()[Column::x], 0.);
-      const auto summary = summary_of(scene, rows);
+      const auto summary = make_summary(scene, rows);
       // Bending and compression grow with the force: 1.4 times P of mu 0.73.
-      EXPECT_LT(value_of(summary, "deviation_P_forward"), 0.01);
-      EXPECT_LT(value_of(summary, "deviation_P_backward"), 0.017);
+      EXPECT_LT(find_value(summary, "deviation_P_forward"), 0.01);
+      EXPECT_LT(find_value(summary, "deviation_P_backward"), 0.017);
     }
 }
 
@@ -396,7 +396,7 @@ TEST(Drives, HarmonicDriveMeetsTheClosedFormToItsResolutionOfTheSpeed)
 {
   const Scene scene =
       with_drive(with_face_size(with_stiffness(model_a(), 1000.), 1.), Drive(DriveProfile::harmonic, 0., 65., 180., 1.));
-  const double off = value_of(summary_of(scene, run_scene(scene)), "deviation_P_backward");
+  const double off = find_value(make_summary(scene, run_scene(scene)), "deviation_P_backward");
   std::printf("harmonic drive, deviation of P: %.2e\n", off);
   EXPECT_LT(off, 4e-3);
 }

@@ -48,7 +48,7 @@ namespace sprag
     {
       return 0.;
     }
-    const PortSelection &reachable_ports(double, const OfLevers &) const
+    const PortSelection &reachable_ports(double, const PerLever &) const
     {
       return all;
     }

@@ -186,9 +186,9 @@ TEST(SprungSupport, ItsEnergyClosesTheLedger)
   {
     const Scene scene  = with_step(on_sprung_support(with_drive(with_coulomb(model, mu), forward), 10.), 0.25);
     const auto rows    = run_scene(scene);
-    const auto summary = summary_of(scene, rows);
-    const double share = value_of(summary, "energy_residual") / value_of(summary, "loop_area");
-    const double held  = rows.back()[Column::support_energy] / value_of(summary, "loop_area");
+    const auto summary = make_summary(scene, rows);
+    const double share = find_value(summary, "energy_residual") / find_value(summary, "loop_area");
+    const double held  = rows.back()[Column::support_energy] / find_value(summary, "loop_area");
     std::printf("residual %.1e of the work, the support holds %.1e\n", share, held);
     EXPECT_GT(held, 0.015);
     EXPECT_LT(std::abs(share), 0.1 * held);

@@ -58,7 +58,7 @@ namespace
     return with_lever(in_time(model_a(), ModelType::beam), 6., 10451., 1.4726);
   }
 
-  Oscillation oscillation_of(const Scene &scene)
+  Oscillation compute_oscillation(const Scene &scene)
   {
     return oscillations(run_in_time(scene).rows, scene.drive).at(0);
   }
@@ -115,18 +115,18 @@ TEST(Beam, TendsToTheRigidLeverInProportionToItsFlexibility)
     Scene scene          = base;
     scene.analysis.model = ModelType::beam;
     scene.lever.young_modulus *= factor;
-    const auto rows    = run_in_time(scene).rows;
-    const double of_P  = largest_difference(rows, rigid, Column::P) / peak(rigid, Column::P);
-    const double theta = largest_difference(rows, rigid, Column::theta) / peak(rigid, Column::theta);
-    EXPECT_LT(of_P, 0.6 / factor);
+    const auto rows      = run_in_time(scene).rows;
+    const double P_error = largest_difference(rows, rigid, Column::P) / peak(rigid, Column::P);
+    const double theta   = largest_difference(rows, rigid, Column::theta) / peak(rigid, Column::theta);
+    EXPECT_LT(P_error, 0.6 / factor);
     EXPECT_LT(theta, 0.6 / factor);
     // Round-off of an overlap of 0.01 mm between lengths of 200 mm rings along: 5e-11 of P in the smaller difference.
     if (before > 0.)
     {
-      EXPECT_NEAR(before / of_P, 10., 0.05 + 5e-10 / of_P) << factor;
+      EXPECT_NEAR(before / P_error, 10., 0.05 + 5e-10 / P_error) << factor;
     }
-    before = of_P;
-    RecordProperty("P_at_" + std::to_string(factor), std::to_string(of_P * factor) + "/factor");
+    before = P_error;
+    RecordProperty("P_at_" + std::to_string(factor), std::to_string(P_error * factor) + "/factor");
   }
 }
 
@@ -181,7 +181,7 @@ TEST(Reversal, OnlyRingsAndDecaysWithAThickLever)
 {
   for (const auto &paper : { model_a(), model_b() })
   {
-    const auto found = oscillation_of(around_the_reversal(aluminium_lever(paper)));
+    const auto found = compute_oscillation(around_the_reversal(aluminium_lever(paper)));
     EXPECT_EQ(found.verdict, Verdict::decays);
     EXPECT_EQ(found.open_share, 0.);
     EXPECT_LT(found.growth_rate, 0.);
@@ -213,7 +213,7 @@ TEST(StiffModes, AreFollowedWhereTheyGrow)
   scene.lever.moment_of_inertia = 6.45e-3;
   scene.drive                   = Drive(DriveProfile::triangle, 50., 65., 112., 0.5, 5e-3);
   const auto reference          = contact_reference(scene);
-  const auto peak_of            = [&](const TimeSettings &time, const double longest)
+  const auto compute_peak       = [&](const TimeSettings &time, const double longest)
   {
     const auto model = make_reduced_lever(scene);
     double most      = 0.;
@@ -223,11 +223,11 @@ TEST(StiffModes, AreFollowedWhereTheyGrow)
   };
   const auto model     = make_reduced_lever(scene);
   const double longest = longest_step(growing_modes(*model, scene.drive), scene.time.spectral_radius);
-  const double fine    = peak_of({ 2e-6, 0., 1. }, longest);
-  const double found   = peak_of(scene.time, longest);
+  const double fine    = compute_peak({ 2e-6, 0., 1. }, longest);
+  const double found   = compute_peak(scene.time, longest);
   EXPECT_GT(fine, 25.);
   EXPECT_NEAR(found, fine, 0.02 * fine);
-  EXPECT_LT(peak_of(scene.time, std::numeric_limits<double>::infinity()), 0.6 * fine);
+  EXPECT_LT(compute_peak(scene.time, std::numeric_limits<double>::infinity()), 0.6 * fine);
   std::cout << "peak of P: " << fine << " N in steps of 2e-6 s, " << found << " in adaptive ones of up to " << longest << " s\n";
 }
 
@@ -246,10 +246,10 @@ TEST(Verdict, DoesNotDependOnTheUnitOfForce)
       scene.lever.moment_of_inertia *= factor;
       return scene;
     };
-    const auto found = oscillation_of(times(1.));
+    const auto found = compute_oscillation(times(1.));
     for (const double factor : { 1e-3, 1e3 })
     {
-      const auto scaled = oscillation_of(times(factor));
+      const auto scaled = compute_oscillation(times(factor));
       EXPECT_EQ(scaled.verdict, found.verdict) << factor;
       EXPECT_NEAR(scaled.scale, factor * found.scale, 1e-6 * factor * found.scale);
       if (found.verdict != Verdict::decays)

@@ -75,16 +75,16 @@ namespace sprag
       law.mode           = duration > 0. ? mode : FrictionMode::stick;
       found.response     = step_response(sprag::step_to(found.point, slip_begin), step.trial.contact[0], law);
       found.external     = load.force;
-      found.unbalance    = load.force + found.response.force;
+      found.residual     = load.force + found.response.force;
       found.tangent      = load.derivative + found.response.tangent;
       found.rate         = duration > 0. ? (found.point.slip - slip_begin) / duration : 0.;
-      return { found.unbalance.norm(), found.response.pressure / properties.penalty, found };
+      return { found.residual.norm(), found.response.pressure / properties.penalty, found };
     }
 
     dealii::Vector<double> correction(const Evaluation &evaluation) override
     {
       const auto &found                 = found_in(evaluation);
-      const dealii::Tensor<1, n> change = -1. * (invert(found.tangent) * found.unbalance);
+      const dealii::Tensor<1, n> change = -1. * (invert(found.tangent) * found.residual);
       dealii::Vector<double> result(n);
       for (int i = 0; i < n; ++i)
         result[i] = change[i];
@@ -129,14 +129,14 @@ namespace sprag
     {
       ContactKinematics<n> point;
       StepResponse<n> response;
-      dealii::Tensor<1, n> external, unbalance;
+      dealii::Tensor<1, n> external, residual;
       dealii::Tensor<2, n> tangent;
       double rate = 0.;
     };
 
     static const Found &found_in(const Evaluation &evaluation)
     {
-      return std::any_cast<const Found &>(evaluation.of_model);
+      return std::any_cast<const Found &>(evaluation.model_data);
     }
 
     static dealii::Tensor<1, n> displacement(const dealii::Vector<double> &coordinates)

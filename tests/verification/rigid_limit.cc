@@ -32,11 +32,11 @@ namespace
   };
 
   /// Relative to the stroke's peak, the first 2 mm after the reversal apart.
-  Deviation deviation_of(const Scene &scene)
+  Deviation compute_deviation(const Scene &scene)
   {
-    const auto summary = summary_of(scene, run_scene(scene));
-    return { value_of(summary, "deviation_P_forward"), value_of(summary, "deviation_Q_forward"),
-             value_of(summary, "deviation_P_backward"), value_of(summary, "deviation_Q_backward") };
+    const auto summary = make_summary(scene, run_scene(scene));
+    return { find_value(summary, "deviation_P_forward"), find_value(summary, "deviation_Q_forward"),
+             find_value(summary, "deviation_P_backward"), find_value(summary, "deviation_Q_backward") };
   }
 
   void expect_closed_form(const double face_size, const double tolerance_P, const double tolerance_Q)
@@ -44,7 +44,7 @@ namespace
     for (const auto &[name, scene] : cases(face_size))
     {
       SCOPED_TRACE(name);
-      const auto off = deviation_of(scene);
+      const auto off = compute_deviation(scene);
       EXPECT_LT(off.P_forward, tolerance_P);
       EXPECT_LT(off.P_backward, tolerance_P);
       EXPECT_LT(off.Q_forward, tolerance_Q);
@@ -74,7 +74,7 @@ TEST(SlowRigidLimit, ErrorOverFaceSize)
   for (const double face_size : { 1., 0.5, 0.25, 0.125 })
     for (const auto &[name, scene] : cases(face_size))
     {
-      const auto off = deviation_of(scene);
+      const auto off = compute_deviation(scene);
       std::printf("%-11s %14g   %-10.2e  %-10.2e  %-10.2e  %-10.2e\n", name, face_size, off.P_forward, off.P_backward,
                   off.Q_forward, off.Q_backward);
       for (const double error : { off.P_forward, off.P_backward, off.Q_forward, off.Q_backward })

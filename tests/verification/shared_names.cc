@@ -109,7 +109,7 @@ namespace
         values[entry.name] = *value;
   }
 
-  Values values_of(const Row &row)
+  Values row_values(const Row &row)
   {
     Values values;
     for (std::size_t i = 0; i < all_columns().size(); ++i)
@@ -118,20 +118,20 @@ namespace
     return values;
   }
 
-  Values of_stroke(std::vector<Row> rows, const std::vector<Entry> &summary)
+  Values stroke_values(std::vector<Row> rows, const std::vector<Entry> &summary)
   {
-    Values values = values_of(rows.back());
+    Values values = row_values(rows.back());
     add(summary, values);
     return values;
   }
 
-  Values in_time_of(const ModelType model)
+  Values transient_values(const ModelType model)
   {
     const Scene scene = stroke(model);
     auto rows         = run_any_in_time(scene).rows;
     for (auto &row : rows)
       add_closed_form(scene, row);
-    Values values = of_stroke(rows, transient_summary(scene, rows));
+    Values values = stroke_values(rows, transient_summary(scene, rows));
     if (model == ModelType::rigid)
       values.erase("elastic_energy"); // without that of bending
     return values;
@@ -143,7 +143,7 @@ namespace
     scene.analysis.type = AnalysisType::quasi_static;
     scene.drive         = Drive(DriveProfile::triangle, 40., 46., 112., 0.5);
     const auto rows     = run_scene(scene);
-    return of_stroke(rows, summary_of(scene, rows));
+    return stroke_values(rows, make_summary(scene, rows));
   }
 
   Values by_closed_form()
@@ -154,7 +154,7 @@ namespace
     std::vector<Row> rows;
     run_closed_form(scene, [&](const Row &row) { rows.push_back(row); });
     // Contact and lever are ideal: there is nothing that these could be.
-    Values values = of_stroke(rows, summary_of(scene, rows));
+    Values values = stroke_values(rows, make_summary(scene, rows));
     for (const auto name : { "contact_width", "indentation", "elastic_energy" })
     {
       EXPECT_EQ(values.at(name), 0.) << name;
@@ -201,10 +201,10 @@ namespace
 TEST(SharedNames, MeanOneQuantityAtEveryFidelity)
 {
   const std::map<std::string, Values> models = { { "closed form", by_closed_form() },
-                                                 { "rigid", in_time_of(ModelType::rigid) },
-                                                 { "beam", in_time_of(ModelType::beam) },
-                                                 { "condensed", in_time_of(ModelType::condensed) },
-                                                 { "finite elements", in_time_of(ModelType::finite_element) },
+                                                 { "rigid", transient_values(ModelType::rigid) },
+                                                 { "beam", transient_values(ModelType::beam) },
+                                                 { "condensed", transient_values(ModelType::condensed) },
+                                                 { "finite elements", transient_values(ModelType::finite_element) },
                                                  { "rigid, held", held(ModelType::rigid) },
                                                  { "beam, held", held(ModelType::beam) },
                                                  { "condensed, held", held(ModelType::condensed) },

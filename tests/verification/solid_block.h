@@ -44,7 +44,7 @@ namespace sprag
                      for (const unsigned int direction : { 0u, 2u })
                        if ((direction == 0 ? planes.xi : planes.zeta).front() == 0.)
                          dealii::VectorTools::interpolate_boundary_values(
-                             dofs, symmetry_of(direction), dealii::Functions::ZeroFunction<3>(3), constraints,
+                             dofs, symmetry_id(direction), dealii::Functions::ZeroFunction<3>(3), constraints,
                              dofs.get_fe().component_mask(dealii::FEValuesExtractors::Scalar(direction)));
                    });
       face = find_friction_face(body->cell_mapping(), body->dofs(), dealii::AffineConstraints<double>(), body->body_properties(),
@@ -62,7 +62,7 @@ namespace sprag
       return body->n_dofs();
     }
 
-    unsigned int dof_of(const unsigned int port) const
+    unsigned int port_dof(const unsigned int port) const
     {
       return face.nodes[port / 3].dofs[port % 3];
     }
@@ -75,10 +75,10 @@ namespace sprag
 
     /// Columns of the compliance: displacements of all degrees of freedom, one column after another, by unit forces on some of
     /// them [mm/N].
-    std::vector<double> columns(const std::vector<unsigned int> &of_dofs) const
+    std::vector<double> columns(const std::vector<unsigned int> &column_dofs) const
     {
       SparseColumns unit;
-      for (const unsigned int dof : of_dofs)
+      for (const unsigned int dof : column_dofs)
       {
         if (!is_held(dof))
           unit.add(dof, 1.);
@@ -93,7 +93,7 @@ namespace sprag
     }
 
   private:
-    static constexpr dealii::types::boundary_id symmetry_of(const unsigned int direction)
+    static constexpr dealii::types::boundary_id symmetry_id(const unsigned int direction)
     {
       return 100 + direction;
     }
@@ -101,11 +101,11 @@ namespace sprag
     void make_cells(const Planes &planes)
     {
       std::vector<std::vector<double>> sizes;
-      for (const auto &of : { planes.xi, planes.eta, planes.zeta })
+      for (const auto &coordinates : { planes.xi, planes.eta, planes.zeta })
       {
         sizes.emplace_back();
-        for (std::size_t i = 1; i < of.size(); ++i)
-          sizes.back().push_back(of[i] - of[i - 1]);
+        for (std::size_t i = 1; i < coordinates.size(); ++i)
+          sizes.back().push_back(coordinates[i] - coordinates[i - 1]);
       }
       const dealii::Point<3> begin(planes.xi.front(), planes.eta.front(), planes.zeta.front());
       const dealii::Point<3> end(planes.xi.back(), planes.eta.back(), planes.zeta.back());
@@ -120,8 +120,8 @@ namespace sprag
             const auto centre = side->center();
             side->set_boundary_id(centre[1] < begin[1] + small   ? boundary_id::friction_face
                                   : centre[1] > end[1] - small   ? boundary_id::hub
-                                  : centre[0] < begin[0] + small ? symmetry_of(0)
-                                  : centre[2] < begin[2] + small ? symmetry_of(2)
+                                  : centre[0] < begin[0] + small ? symmetry_id(0)
+                                  : centre[2] < begin[2] + small ? symmetry_id(2)
                                                                  : 0);
           }
       }
@@ -151,7 +151,7 @@ namespace sprag
         result.ports.insert(result.ports.end(), { 3 * i, 3 * i + 1, 3 * i + 2 });
     std::vector<unsigned int> dofs;
     for (const unsigned int port : result.ports)
-      dofs.push_back(block.dof_of(port));
+      dofs.push_back(block.port_dof(port));
     result.compliance.reinit(dofs.size(), dofs.size());
     for (std::size_t first = 0; first < dofs.size(); first += together)
     {
@@ -198,7 +198,7 @@ namespace sprag
                  { { ports.surface, [this](const PortSelection &) { return near.ports; },
                      [this](const PortSelection &)
                      { return std::make_shared<const dealii::FullMatrix<double>>(near.compliance); } } })
-        , contact(block.friction_face(), properties_of(obstacle, ports))
+        , contact(block.friction_face(), make_properties(obstacle, ports))
         , elastic(ports.size())
         , placed(ports.size())
     {
@@ -222,7 +222,7 @@ namespace sprag
       };
       const auto result = solve_by_newton(
           elastic, 1e-14, evaluate,
-          [&](const Pressed &pressed) { return window.correction(pressed.of_ports, found.forces, looked_at); },
+          [&](const Pressed &pressed) { return window.correction(pressed.port_residual, found.forces, looked_at); },
           [&](const dealii::Vector<double> &change) { return change.linfty_norm(); });
       EXPECT_TRUE(result.converged) << place;
       contact.add_points(found);
@@ -250,8 +250,8 @@ namespace sprag
       for (const auto &point : found.points)
         if (point.pressure > 0.)
         {
-          const auto &of_face = block.friction_face().points[point.index];
-          result.push_back({ of_face.position[0], of_face.position[2], of_face.weight, point.pressure,
+          const auto &face_point = block.friction_face().points[point.index];
+          result.push_back({ face_point.position[0], face_point.position[2], face_point.weight, point.pressure,
                              Vector({ point.end_force[0], point.end_force[1], point.end_force[2] }), point.traction,
                              point.slipping });
         }
@@ -272,8 +272,8 @@ namespace sprag
     {
       std::vector<double> moved(block.n_dofs(), 0.);
       for (unsigned int i = 0; i < found.forces.ports.size(); ++i)
-        if (const unsigned int port = found.forces.ports[i]; ports.is_surface(port) && !block.is_held(block.dof_of(port)))
-          moved[block.dof_of(port)] = found.forces.values[i];
+        if (const unsigned int port = found.forces.ports[i]; ports.is_surface(port) && !block.is_held(block.port_dof(port)))
+          moved[block.port_dof(port)] = found.forces.values[i];
       block.respond(moved);
       std::vector<std::pair<dealii::Point<3>, Vector>> result;
       for (const auto &node : block.friction_face().nodes)
@@ -289,7 +289,7 @@ namespace sprag
       return result;
     }
 
-    static SurfaceContactProperties properties_of(const Obstacle &obstacle, const PortLayout &ports)
+    static SurfaceContactProperties make_properties(const Obstacle &obstacle, const PortLayout &ports)
     {
       Geometry geometry;
       geometry.cylinder_radius = obstacle.radius;
@@ -312,7 +312,7 @@ namespace sprag
     {
       double residual;
       double overlap;
-      Residual of_ports;
+      Residual port_residual;
     };
 
     const SolidBlock &block;

@@ -12,7 +12,7 @@ namespace
   // 0.02 mm press on a circle of 1 mm.
   constexpr double R = 50., shear_modulus = 200., coefficient = 0.4, depth = 0.02;
 
-  std::vector<double> half_of_the_face(const double cell)
+  std::vector<double> half_face(const double cell)
   {
     return graded_parts(cell, 1.25, 1.7, 20.);
   }
@@ -32,10 +32,10 @@ namespace
 
   /// Pressed without friction, then pushed along the face so far, over the way at which all of it slides.
   ///   c = a (1 - Q / (mu P))^(1/3),  shift = 3 mu P / (16 a) sum (2 - nu) / G [1 - (c/a)^2]
-  Deviation pushed(const SolidBlock &of, const NearFace &near, const double poisson_ratio, const double penalty,
+  Deviation pushed(const SolidBlock &solid, const NearFace &near, const double poisson_ratio, const double penalty,
                    const Vector &direction, const double share)
   {
-    RubbedBlock rubbed(of, near, { R, R, penalty });
+    RubbedBlock rubbed(solid, near, { R, R, penalty });
     for (const double part : { 0.3, 1. })
       rubbed.move(Vector({ 0., -part * depth, 0. }), 0.);
     const auto ball   = hertz_ball(rubbed.force()[1], R, shear_modulus / (1. - poisson_ratio));
@@ -67,17 +67,17 @@ namespace
     return result;
   }
 
-  void expect_closed_form(const SolidBlock &of, const double poisson_ratio, const Vector &direction, const double stick_tolerance,
-                          const double shift_tolerance, const double largest_across)
+  void expect_closed_form(const SolidBlock &solid, const double poisson_ratio, const Vector &direction,
+                          const double stick_tolerance, const double shift_tolerance, const double largest_across)
   {
-    const auto near = with_mirror_image(near_face(of, 1.8));
+    const auto near = with_mirror_image(near_face(solid, 1.8));
     for (const double share : { 0.3, 0.75 })
     {
       Deviation found{};
       std::vector<double> shift;
       for (const double penalty : { 3e3, 1.5e4 })
       {
-        found = pushed(of, near, poisson_ratio, penalty, direction, share);
+        found = pushed(solid, near, poisson_ratio, penalty, direction, share);
         shift.push_back(found.shift);
       }
       EXPECT_NEAR(found.stick, 1., stick_tolerance) << "Q / mu P " << found.load;
@@ -93,19 +93,19 @@ namespace
 // shift is not.
 TEST(SolidCattaneoMindlin, BallsPushedAlongTheFace)
 {
-  const auto half = half_of_the_face(0.3);
+  const auto half = half_face(0.3);
   expect_closed_form(block(mirrored(half), half, 0.), 0., Vector({ 1., 0., 0. }), 0.03, 0.01, 0.06);
 }
 
 TEST(SolidCattaneoMindlin, BallsPushedAcrossTheFaceSlow)
 {
-  const auto half = half_of_the_face(0.25);
+  const auto half = half_face(0.25);
   expect_closed_form(block(half, mirrored(half), 0.), 0., Vector({ 0., 0., 1. }), 0.03, 0.01, 0.06);
 }
 
 TEST(SolidCattaneoMindlin, BallsPushedAskewSlow)
 {
-  const auto whole = mirrored(half_of_the_face(0.25));
+  const auto whole = mirrored(half_face(0.25));
   expect_closed_form(block(whole, whole, 0.), 0., Vector({ 0.6, 0., 0.8 }), 0.03, 0.01, 0.06);
 }
 
@@ -113,6 +113,6 @@ TEST(SolidCattaneoMindlin, BallsPushedAskewSlow)
 // out.
 TEST(SolidCattaneoMindlin, BallsThatContractSlow)
 {
-  const auto half = half_of_the_face(0.25);
+  const auto half = half_face(0.25);
   expect_closed_form(block(mirrored(half), half, 0.42), 0.42, Vector({ 1., 0., 0. }), 0.03, 0.01, 0.2);
 }

@@ -34,19 +34,19 @@ TEST(SolidCompliance, BetweenPortsItIsThatOfTheWholeBody)
     if (const double xi = nodes[port / 3].position[0]; xi > begin && xi < end)
       inner.push_back(port);
   LayeredCompliance compliance(body, begin, end);
-  const auto of_ports = compliance.among(inner);
-  const auto &found   = *of_ports;
+  const auto port_compliance = compliance.among(inner);
+  const auto &found          = *port_compliance;
 
-  const auto dof_of = [&](const unsigned int place) { return nodes[inner[place] / 3].dofs[inner[place] % 3]; };
+  const auto inner_dof = [&](const unsigned int place) { return nodes[inner[place] / 3].dofs[inner[place] % 3]; };
   double worst = 0., largest = 0.;
   for (unsigned int column = 1; column < inner.size(); column += 31) // by and by in all directions and places across
-    if (!body.is_held(dof_of(column)))
+    if (!body.is_held(inner_dof(column)))
     {
-      const auto exact = response(body, dof_of(column));
+      const auto exact = response(body, inner_dof(column));
       for (unsigned int row = 0; row < inner.size(); ++row)
       {
-        worst   = std::max(worst, std::abs(exact[dof_of(row)] - found(row, column)));
-        largest = std::max(largest, std::abs(exact[dof_of(row)]));
+        worst   = std::max(worst, std::abs(exact[inner_dof(row)] - found(row, column)));
+        largest = std::max(largest, std::abs(exact[inner_dof(row)]));
       }
     }
   EXPECT_LT(worst, 5e-4 * largest);

@@ -32,7 +32,7 @@ namespace
     return result;
   }
 
-  double size_of(const std::vector<double> &values)
+  double magnitude(const std::vector<double> &values)
   {
     double result = 0.;
     for (const double value : values)
@@ -44,10 +44,10 @@ namespace
   double difference(std::vector<double> a, const std::vector<double> &b)
   {
     EXPECT_EQ(a.size(), b.size());
-    const double size = size_of(a);
+    const double size = magnitude(a);
     for (std::size_t i = 0; i < a.size(); ++i)
       a[i] -= b[i];
-    return size_of(a) / size;
+    return magnitude(a) / size;
   }
 
   TEST(SolidFactors, InFilesFindTheSameAndLeaveNothing)
@@ -91,6 +91,6 @@ namespace
         for (unsigned int j = 0; j < dofs.size() && !body.is_held(dofs[i]); ++j)
           left[dofs[i]] -= matrix(i, j) * displacements[dofs[j]];
     }
-    EXPECT_LT(size_of(left), 1e-8);
+    EXPECT_LT(magnitude(left), 1e-8);
   }
 } // namespace

@@ -86,7 +86,7 @@ namespace
     return static_cast<unsigned int>(std::find_if(plane.nodes.begin(), plane.nodes.end(), is_there) - plane.nodes.begin());
   }
 
-  double volume(const FieldMesh &mesh, const double of_lever)
+  double volume(const FieldMesh &mesh, const double lever_number)
   {
     const auto node = [&](const unsigned int number) {
       return dealii::Tensor<1, 3>({ mesh.nodes[3 * number], mesh.nodes[3 * number + 1], mesh.nodes[3 * number + 2] });
@@ -95,7 +95,7 @@ namespace
     for (std::size_t first = 0; first < mesh.cells.size(); first += 8)
     {
       const auto corner = [&](const unsigned int i) { return node(mesh.cells[first + i]); };
-      if (mesh.fixed[1].values[mesh.cells[first]] != static_cast<float>(of_lever))
+      if (mesh.fixed[1].values[mesh.cells[first]] != static_cast<float>(lever_number))
         continue;
       // Six tetrahedra about the edge from the first corner to the one opposite, in XDMF's order.
       for (const auto &[a, b] : { std::pair(1u, 2u), { 2u, 3u }, { 3u, 7u }, { 7u, 4u }, { 4u, 5u }, { 5u, 1u } })

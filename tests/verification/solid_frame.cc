@@ -63,10 +63,10 @@ TEST(SolidFrame, MassAndMomentOfInertiaAreThePlanes)
     scene.lever.inertia        = InertiaSource::as_built;
     Mesh plane;
     make_mesh(scene, plane);
-    const ElasticBody<2> of_plane(plane, lever_properties(scene).body);
-    const InertialMatrices expected(of_plane, inertia_of(scene));
+    const ElasticBody<2> plane_body(plane, lever_properties(scene).body);
+    const InertialMatrices expected(plane_body, lever_inertia(scene));
     const SolidBody body(scene, plane);
-    const BodyMass<3> mass(body, inertia_of(scene));
+    const BodyMass<3> mass(body, lever_inertia(scene));
     EXPECT_NEAR(mass.total_mass, expected.total_mass, 1e-10 * expected.total_mass) << web;
     EXPECT_NEAR(mass.moment_of_inertia, expected.moment_of_inertia, 1e-10 * expected.moment_of_inertia) << web;
   }

@@ -51,13 +51,13 @@ TEST(SolidHertz, ABallOnABlock)
   {
     RubbedBlock rubbed(block, near, { R, R, penalty });
     press(rubbed, depth);
-    const auto found       = pressed(rubbed);
-    const auto ball        = hertz_ball(found.P, R, modulus);
-    const auto of_the_ball = [&](const RubbedBlock::Vector &place) { return ball.displacement(place.norm()); };
+    const auto found             = pressed(rubbed);
+    const auto ball              = hertz_ball(found.P, R, modulus);
+    const auto ball_displacement = [&](const RubbedBlock::Vector &place) { return ball.displacement(place.norm()); };
     EXPECT_NEAR(found.xi, found.zeta, 5e-3 * ball.a); // its points are denser along xi
     radius.push_back(found.xi / ball.a);
     pressure.push_back(found.largest / ball.p0);
-    approach.push_back((depth + missing(rubbed, of_the_ball, RubbedBlock::Vector({ 0., 1., 0. }), 5. * ball.a)) /
+    approach.push_back((depth + missing(rubbed, ball_displacement, RubbedBlock::Vector({ 0., 1., 0. }), 5. * ball.a)) /
                        (ball.a * ball.a / R));
   }
   EXPECT_GT(std::abs(radius.back() - 1.), 5e-3); // or the penalty would not matter

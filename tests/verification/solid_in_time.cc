@@ -32,7 +32,7 @@ namespace
     return scene;
   }
 
-  std::vector<Eigenmode> modes_of(const Scene &scene, const bool in_contact, const unsigned int number = 40)
+  std::vector<Eigenmode> compute_modes(const Scene &scene, const bool in_contact, const unsigned int number = 40)
   {
     DynamicsMaker maker(false);
     const auto dynamics = maker.make(scene);
@@ -42,9 +42,9 @@ namespace
   }
 
   /// The eigenvalue closest to one.
-  std::complex<double> closest(const std::vector<Eigenmode> &modes, const std::complex<double> wanted)
+  std::complex<double> closest(const std::vector<Eigenmode> &modes, const std::complex<double> target)
   {
-    const auto distance = [&](const Eigenmode &mode) { return std::abs(mode.mode.eigenvalue - wanted); };
+    const auto distance = [&](const Eigenmode &mode) { return std::abs(mode.mode.eigenvalue - target); };
     return std::min_element(modes.begin(), modes.end(), [&](const auto &a, const auto &b) { return distance(a) < distance(b); })
         ->mode.eigenvalue;
   }
@@ -56,7 +56,7 @@ TEST(SolidInTime, ModesOfThePlaneAreAmongThem)
 {
   for (const bool in_contact : { false, true })
   {
-    const auto plane = modes_of(held_model_a(2), in_contact), solid = modes_of(held_model_a(3), in_contact);
+    const auto plane = compute_modes(held_model_a(2), in_contact), solid = compute_modes(held_model_a(3), in_contact);
     unsigned int compared = 0;
     for (const auto &mode : plane)
     {
@@ -73,9 +73,9 @@ TEST(SolidInTime, AHeldSlideIsThatOfThePlane)
 {
   DynamicsMaker maker(false);
   const Scene plane = held_model_a(2), solid = held_model_a(3);
-  const auto of_plane = maker.make(plane), of_solid = maker.make(solid);
-  const auto expected = of_plane.model().hold(held_drive(plane), ContactFriction::sliding);
-  const auto found    = of_solid.model().hold(held_drive(solid), ContactFriction::sliding);
+  const auto plane_dynamics = maker.make(plane), solid_dynamics = maker.make(solid);
+  const auto expected = plane_dynamics.model().hold(held_drive(plane), ContactFriction::sliding);
+  const auto found    = solid_dynamics.model().hold(held_drive(solid), ContactFriction::sliding);
   ASSERT_TRUE(expected && found);
   EXPECT_NEAR(found->forces.P, expected->forces.P, 1e-5 * expected->forces.P);
   EXPECT_NEAR(found->forces.Q, expected->forces.Q, 1e-5 * std::abs(expected->forces.Q));
@@ -90,8 +90,8 @@ INSTANTIATE_TEST_SUITE_P(From, SolidRunInTime, testing::Values(0., 20.));
 
 TEST_P(SolidRunInTime, IsThatOfThePlane)
 {
-  const double start = GetParam();
-  const auto P_of    = [start](const unsigned int dimension)
+  const double start   = GetParam();
+  const auto compute_P = [start](const unsigned int dimension)
   {
     Scene scene = held_model_a(dimension, AnalysisType::transient);
     scene.drive = Drive(DriveProfile::triangle, start, start + 4., 112., 0.5);
@@ -100,7 +100,7 @@ TEST_P(SolidRunInTime, IsThatOfThePlane)
       result.push_back(row[Column::P]);
     return result;
   };
-  const auto plane = P_of(2), solid = P_of(3);
+  const auto plane = compute_P(2), solid = compute_P(3);
   ASSERT_EQ(plane.size(), solid.size());
   const double largest = *std::max_element(plane.begin(), plane.end());
   EXPECT_GT(largest, 0.5);
@@ -176,12 +176,12 @@ TEST(SolidInTime, SlidesBothWaysOneAfterTheOther)
   Scene plane    = solid;
   plane.analysis = held_model_a(2, AnalysisType::transient).analysis;
   DynamicsMaker maker(false);
-  const auto of_plane = maker.make(plane), of_solid = maker.make(solid);
+  const auto plane_dynamics = maker.make(plane), solid_dynamics = maker.make(solid);
   for (const double x : { 30., 60., 45. })
     for (const double v : { 112., 0., -0., -112. })
     {
-      const auto expected = of_plane.model().sliding_forces({ 0., x, v, 0. }),
-                 found    = of_solid.model().sliding_forces({ 0., x, v, 0. });
+      const auto expected = plane_dynamics.model().sliding_forces({ 0., x, v, 0. }),
+                 found    = solid_dynamics.model().sliding_forces({ 0., x, v, 0. });
       ASSERT_TRUE(expected && found) << x << " " << v;
       EXPECT_NEAR(found->P, expected->P, 1e-4 * expected->P) << x << " " << v;
     }

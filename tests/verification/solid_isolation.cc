@@ -47,10 +47,10 @@ namespace
     LeverTable table(scene, outward.model(), inward.model(), transient_settings(scene, {}));
     TableOnLevers result;
     run_isolation(scene, table, result.found,
-                  [&](const IsolatedTable &of, const bool is_before)
+                  [&](const IsolatedTable &moving_table, const bool is_before)
                   {
                     if (!is_before)
-                      result.z.push_back(of.state().z);
+                      result.z.push_back(moving_table.state().z);
                   });
     return result;
   }

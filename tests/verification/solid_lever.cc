@@ -17,7 +17,7 @@ namespace
   using Vector = Resultant::Vector;
 
   /// Of the forces by which the hub holds the lever, where it is undeformed, from the stiffness of the cells beside it.
-  Resultant forces_of_hub(const SolidBody &body, const dealii::Vector<double> &displacement)
+  Resultant hub_forces(const SolidBody &body, const dealii::Vector<double> &displacement)
   {
     Resultant result;
     const auto &fe = body.dofs().get_fe();
@@ -26,7 +26,7 @@ namespace
     std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
     CellElasticity<3> elasticity(body.cell_mapping(), fe, body.body_properties());
     dealii::FullMatrix<double> stiffness(dofs.size());
-    dealii::Vector<double> of_cell(fe.n_dofs_per_cell()), forces(fe.n_dofs_per_cell());
+    dealii::Vector<double> cell_displacement(fe.n_dofs_per_cell()), forces(fe.n_dofs_per_cell());
     for (const auto &cell : body.dofs().active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
@@ -34,8 +34,8 @@ namespace
       if (cell->material_id() == material_id::hub || std::none_of(dofs.begin(), dofs.end(), is_held))
         continue;
       for (unsigned int i = 0; i < dofs.size(); ++i)
-        of_cell[i] = displacement[dofs[i]];
-      elasticity.reinit(cell, of_cell);
+        cell_displacement[i] = displacement[dofs[i]];
+      elasticity.reinit(cell, cell_displacement);
       elasticity.assemble(stiffness, forces);
       for (unsigned int i = 0; i < dofs.size(); ++i)
         if (body.is_held(dofs[i]))
@@ -48,9 +48,9 @@ namespace
     return result;
   }
 
-  /// Calls of_state(body, lever, state, row) where a cylinder out of true in both directions presses.
-  template <class OfState>
-  void visit_tilted_run(const OfState &of_state)
+  /// Calls visit_state(body, lever, state, row) where a cylinder out of true in both directions presses.
+  template <class StateVisitor>
+  void visit_tilted_run(const StateVisitor &visit_state)
   {
     const Scene scene = tilted(solid_model_a(0.3), 2e-4, 1e-3);
     Mesh plane;
@@ -63,7 +63,7 @@ namespace
                      {
                        visited += row[Column::P] > 0.1 ? 1 : 0;
                        if (row[Column::P] > 0.1)
-                         of_state(body, lever, state, row);
+                         visit_state(body, lever, state, row);
                      });
     EXPECT_GT(visited, 20u);
   }
@@ -139,10 +139,10 @@ TEST(SolidLever, TheHubCarriesTheForcesOfTheFace)
   visit_tilted_run(
       [&](const SolidBody &body, const StaticLever<3> &lever, const State &state, const Row &row)
       {
-        const auto of_face = forces_on(body, state)[0];
-        const auto of_hub  = forces_of_hub(body, lever.body_displacements(state.coordinates, state.forces).front());
-        EXPECT_LT((of_face.force + of_hub.force).norm(), 1e-8 * of_face.force.norm());
-        EXPECT_LT((of_face.moment + of_hub.moment).norm(), 1e-8 * of_face.moment.norm());
+        const auto face_resultant = forces_on(body, state)[0];
+        const auto hub_resultant  = hub_forces(body, lever.body_displacements(state.coordinates, state.forces).front());
+        EXPECT_LT((face_resultant.force + hub_resultant.force).norm(), 1e-8 * face_resultant.force.norm());
+        EXPECT_LT((face_resultant.moment + hub_resultant.moment).norm(), 1e-8 * face_resultant.moment.norm());
         const auto where_moved  = forces_on(body, state)[1];
         const double by_columns = offset * row.across[0] - row.across[2];
         EXPECT_GT(std::abs(row.across[2]), 1.);

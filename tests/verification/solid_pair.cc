@@ -22,14 +22,14 @@ namespace
 
   using Value = std::function<double(const Row &)>;
 
-  Value of_first(const Column column)
+  Value first_value(const Column column)
   {
     return [column](const Row &row) { return row[column]; };
   }
 
-  Value of_second(const Column column)
+  Value second_value(const Column column)
   {
-    return [column](const Row &row) { return row.of_second_lever(column); };
+    return [column](const Row &row) { return row.second_value(column); };
   }
 
   /// Of columns_across(), of the first lever or the second.
@@ -79,10 +79,10 @@ TEST(SolidPair, WithoutContractionItIsThatOfThePlane)
   const auto rows = run_scene(plane);
   for (const Column column : { Column::P, Column::Q, Column::theta })
   {
-    EXPECT_LT(apart(rows, of_first(column), solid.rows, of_first(column)), 1e-6) << column_info(column).name;
-    EXPECT_LT(apart(rows, of_second(column), solid.rows, of_second(column)), 1e-6) << column_info(column).name;
+    EXPECT_LT(apart(rows, first_value(column), solid.rows, first_value(column)), 1e-6) << column_info(column).name;
+    EXPECT_LT(apart(rows, second_value(column), solid.rows, second_value(column)), 1e-6) << column_info(column).name;
   }
-  EXPECT_LT(apart(rows, of_first(Column::friction_work), solid.rows, of_first(Column::friction_work)), 1e-6);
+  EXPECT_LT(apart(rows, first_value(Column::friction_work), solid.rows, first_value(Column::friction_work)), 1e-6);
   const Value lateral = [](const Row &row) { return row.lateral_force(); };
   EXPECT_LT(apart(rows, lateral, solid.rows, lateral), 1e-5); // a difference of forces
   EXPECT_LT(solid.exactness.displacement, 1e-5);
@@ -96,7 +96,7 @@ TEST(SolidPair, ATiltedAxisPressesTheOtherSideOfTheSecondLever)
   const auto &rows = run.rows;
   EXPECT_GT(rows[15].across[centre_across], 1.);
   for (const Column column : { Column::P, Column::F, Column::theta, Column::largest_pressure })
-    EXPECT_LT(apart(rows, of_first(column), rows, of_second(column)), 1e-6) << column_info(column).name;
+    EXPECT_LT(apart(rows, first_value(column), rows, second_value(column)), 1e-6) << column_info(column).name;
   for (const std::size_t column : { centre_across, twisting_moment, turning_moment })
     EXPECT_LT(apart(rows, across(column), rows, across(column, 1), -1.), 1e-5) << columns_across()[column].name;
 }
@@ -129,12 +129,12 @@ TEST(SolidPair, LeversThatNothingJoinsAreAsAlone)
     for (const unsigned int lever : { 0u, 1u })
     {
       Scene alone                  = scene;
-      static_cast<Device &>(alone) = device_of_lever(scene, lever);
+      static_cast<Device &>(alone) = lever_device(scene, lever);
       alone.pair.type              = PairType::half;
       const SolidRun single(alone);
-      const auto of_pair = [&](const Column column) { return lever == 0 ? of_first(column) : of_second(column); };
+      const auto pair_value = [&](const Column column) { return lever == 0 ? first_value(column) : second_value(column); };
       for (const Column column : { Column::P, Column::Q, Column::theta, Column::largest_pressure })
-        EXPECT_LT(apart(single.rows, of_first(column), pair.rows, of_pair(column)), 2e-6) << column_info(column).name;
+        EXPECT_LT(apart(single.rows, first_value(column), pair.rows, pair_value(column)), 2e-6) << column_info(column).name;
       for (const std::size_t column : { twisting_moment, turning_moment })
         EXPECT_LT(apart(single.rows, across(column), pair.rows, across(column, lever)), 1e-5) << columns_across()[column].name;
     }
@@ -147,8 +147,8 @@ TEST(SolidPair, InTimeItIsThatOfThePlane)
   EXPECT_GT(largest(plane, Column::P), 0.5);
   for (const Column column : { Column::P, Column::Q, Column::theta })
   {
-    EXPECT_LT(apart(plane, of_first(column), solid, of_first(column)), 1e-5) << column_info(column).name;
-    EXPECT_LT(apart(plane, of_second(column), solid, of_second(column)), 1e-5) << column_info(column).name;
+    EXPECT_LT(apart(plane, first_value(column), solid, first_value(column)), 1e-5) << column_info(column).name;
+    EXPECT_LT(apart(plane, second_value(column), solid, second_value(column)), 1e-5) << column_info(column).name;
   }
 }
 
@@ -163,24 +163,24 @@ TEST(SolidPair, ItsModesAreThoseOfALeverAndOfTheSwingSlow)
   scene.stability.position = 22.;
   Scene alone              = scene;
   alone.pair.type          = PairType::half;
-  const auto modes_of      = [](const Scene &of)
+  const auto compute_modes = [](const Scene &slide_scene)
   {
     DynamicsMaker maker(false);
-    const auto dynamics = maker.make(of);
-    const auto slide    = dynamics.model().hold(held_drive(of), ContactFriction::sliding);
+    const auto dynamics = maker.make(slide_scene);
+    const auto slide    = dynamics.model().hold(held_drive(slide_scene), ContactFriction::sliding);
     EXPECT_TRUE(slide);
     return dynamics.model().vibrations(*slide, true, 40);
   };
-  const auto of_pair = modes_of(scene), of_lever = modes_of(alone);
+  const auto pair_modes = compute_modes(scene), lever_modes = compute_modes(alone);
   unsigned int mirroring = 0;
-  for (const auto &mode : of_pair)
+  for (const auto &mode : pair_modes)
   {
     EXPECT_NEAR(std::abs(mode.mirroring), 1., 1e-6);
     const auto is_same = [&](const Eigenmode &other)
     { return std::abs(other.mode.eigenvalue - mode.mode.eigenvalue) < 1e-6 * std::abs(mode.mode.eigenvalue); };
     if (mode.mirroring > 0.)
-      mirroring += std::any_of(of_lever.begin(), of_lever.end(), is_same) ? 1 : 0;
+      mirroring += std::any_of(lever_modes.begin(), lever_modes.end(), is_same) ? 1 : 0;
   }
-  EXPECT_EQ(of_pair.size(), 2 * of_lever.size());
-  EXPECT_EQ(mirroring, of_lever.size());
+  EXPECT_EQ(pair_modes.size(), 2 * lever_modes.size());
+  EXPECT_EQ(mirroring, lever_modes.size());
 }

@@ -87,14 +87,14 @@ namespace
 
   BothRuns run_both(const Scene &scene)
   {
-    DynamicsMaker of_plane(false), of_space(false);
-    const auto plane = of_plane.make(in_plane(scene));
-    const auto solid = with_modes_up_to(plane.lever->condensed.lever->stiffness.back(), scene, of_space);
+    DynamicsMaker plane_maker(false), space_maker(false);
+    const auto plane = plane_maker.make(in_plane(scene));
+    const auto solid = with_modes_up_to(plane.lever->condensed.lever->stiffness.back(), scene, space_maker);
     return { run_in_time(plane.model(), scene).rows, run_in_time(solid.model(), scene).rows };
   }
 
   /// Largest difference of the places' forces over the largest of one.
-  double difference_of_sensors(const BothRuns &runs)
+  double sensor_difference(const BothRuns &runs)
   {
     double difference = 0., largest = 0.;
     for (std::size_t k = 0; k < runs.plane.size(); ++k)
@@ -122,10 +122,10 @@ TEST(SolidPartsInTime, MassAndMomentOfInertiaAreThePlanes)
         scene.lever.inertia  = source;
         Mesh plane;
         make_mesh(scene, plane);
-        const ElasticBody<2> of_plane(plane, lever_properties(scene).body);
-        const InertialMatrices expected(of_plane, inertia_of(scene));
+        const ElasticBody<2> plane_body(plane, lever_properties(scene).body);
+        const InertialMatrices expected(plane_body, lever_inertia(scene));
         const SolidBody body(scene, plane);
-        const BodyMass<3> mass(body, inertia_of(scene));
+        const BodyMass<3> mass(body, lever_inertia(scene));
         EXPECT_EQ(body.is_half(), tilt == 0.);
         EXPECT_NEAR(mass.total_mass, expected.total_mass, 1e-10 * expected.total_mass);
         EXPECT_NEAR(mass.moment_of_inertia, expected.moment_of_inertia, 1e-10 * expected.moment_of_inertia);
@@ -140,7 +140,7 @@ TEST(SolidPartsInTime, PartsAloneMustNotHaveMoreThanTheMomentOfInertia)
   Mesh plane;
   make_mesh(scene, plane);
   const SolidBody body(scene, plane);
-  EXPECT_THROW(BodyMass<3>(body, inertia_of(scene)), InputError);
+  EXPECT_THROW(BodyMass<3>(body, lever_inertia(scene)), InputError);
 }
 
 // What the solver leaves of the lowest frequency grows with the square of the ratio to those of the mesh.
@@ -150,14 +150,14 @@ TEST(SolidPartsInTime, ModesOfThePlaneAreThoseOfTheHalfSlow)
   for (const Scene &scene : { on_leaf_with_tip(bare), on_sensors(bare), on_sensors(on_leaf_with_tip(bare)) })
   {
     DynamicsMaker maker(false);
-    const auto plane    = maker.make(in_plane(scene)).lever;
-    const auto solid    = maker.make(scene).solid;
-    const auto &of_half = solid->modes.stiffness;
+    const auto plane           = maker.make(in_plane(scene)).lever;
+    const auto solid           = maker.make(scene).solid;
+    const auto &half_stiffness = solid->modes.stiffness;
     for (std::size_t i = 0; i < 6; ++i)
     {
       const double expected = plane->condensed.lever->stiffness[i];
       const auto is_closer  = [&](const double a, const double b) { return std::abs(a - expected) < std::abs(b - expected); };
-      EXPECT_NEAR(*std::min_element(of_half.begin(), of_half.end(), is_closer), expected, 1e-6 * expected) << i;
+      EXPECT_NEAR(*std::min_element(half_stiffness.begin(), half_stiffness.end(), is_closer), expected, 1e-6 * expected) << i;
     }
   }
 }
@@ -217,7 +217,7 @@ TEST(SolidPartsInTime, SensorsFeelWhatThePlanesFeel)
   const auto runs = run_both(on_sensors(hardly_ringing()));
   for (const Column column : { Column::P, Column::Q, Column::theta })
     EXPECT_LT(difference(runs.plane, runs.solid, column), 1e-6) << column_info(column).name;
-  EXPECT_LT(difference_of_sensors(runs), 1e-6);
+  EXPECT_LT(sensor_difference(runs), 1e-6);
   for (const auto &row : runs.solid)
     for (const std::size_t place : { 0u, 1u })
       for (const std::size_t side : { 0u, 1u })
@@ -230,7 +230,7 @@ TEST(SolidPartsInTime, VibrationsOfASlideAreThoseOfThePlaneSlow)
   const Scene bare = in_space(AnalysisType::stability);
   for (const Scene &scene : { on_leaf_with_tip(bare), on_sensors(bare) })
   {
-    const auto of = [](const Scene &some)
+    const auto lowest = [](const Scene &some)
     {
       DynamicsMaker maker(false);
       const auto dynamics = maker.make(some);
@@ -238,7 +238,7 @@ TEST(SolidPartsInTime, VibrationsOfASlideAreThoseOfThePlaneSlow)
       EXPECT_TRUE(slide);
       return slide ? dynamics.model().eigenvalues(*slide, 40) : std::vector<std::complex<double>>();
     };
-    const auto plane = of(in_plane(scene)), solid = of(scene);
+    const auto plane = lowest(in_plane(scene)), solid = lowest(scene);
     unsigned int compared = 0;
     for (const auto &value : plane)
       if (value.imag() > 0. && ++compared <= 3)
@@ -264,7 +264,7 @@ namespace
     return scene;
   }
 
-  std::vector<Row> rows_of(const Scene &scene)
+  std::vector<Row> compute_rows(const Scene &scene)
   {
     DynamicsMaker maker(false);
     const auto dynamics = maker.make(scene);
@@ -275,7 +275,7 @@ namespace
 // Round-off meets the contact's stiffness.
 TEST(SolidPartsInTime, AMirroredTiltSwapsLeftAndRightSlow)
 {
-  const auto one = rows_of(at_corners(2e-4)), other = rows_of(at_corners(-2e-4));
+  const auto one = compute_rows(at_corners(2e-4)), other = compute_rows(at_corners(-2e-4));
   ASSERT_EQ(one.size(), other.size());
   double most = 0., off = 0.;
   for (std::size_t k = 0; k < one.size(); ++k)
@@ -293,10 +293,10 @@ TEST(SolidPartsInTime, AMirroredTiltSwapsLeftAndRightSlow)
 // Round-off meets the contact's stiffness.
 TEST(SolidPartsInTime, TheWholeBeforeATrueCylinderIsItsHalfSlow)
 {
-  DynamicsMaker of_half(false), of_whole(false);
+  DynamicsMaker half_maker(false), whole_maker(false);
   const Scene scene = at_corners(0.);
-  const auto one    = of_half.make(scene);
-  const auto other  = with_modes_up_to(one.solid->modes.stiffness.back(), tilted(scene, 1e-13), of_whole);
+  const auto one    = half_maker.make(scene);
+  const auto other  = with_modes_up_to(one.solid->modes.stiffness.back(), tilted(scene, 1e-13), whole_maker);
   const auto half = run_in_time(one.model(), scene).rows, whole = run_in_time(other.model(), scene).rows;
   ASSERT_EQ(half.size(), whole.size());
   double most = 0., off = 0.;

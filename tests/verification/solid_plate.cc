@@ -41,7 +41,7 @@ namespace
   }
 
   /// Largest difference of the places' forces over the largest of one.
-  double difference_of_sensors(const std::vector<Row> &a, const std::vector<Row> &b)
+  double sensor_difference(const std::vector<Row> &a, const std::vector<Row> &b)
   {
     EXPECT_EQ(a.size(), b.size());
     double difference = 0., largest = 0.;
@@ -66,7 +66,7 @@ TEST(SolidPlate, WithoutContractionOnPadsOfTheWholeWidthItIsThePlanes)
   const auto rows = run_scene(in_plane(scene));
   for (const Column column : { Column::P, Column::Q, Column::theta, Column::friction_work })
     EXPECT_LT(difference(rows, solid.rows, column), 1e-5) << column_info(column).name;
-  EXPECT_LT(difference_of_sensors(rows, solid.rows), 1e-5);
+  EXPECT_LT(sensor_difference(rows, solid.rows), 1e-5);
 }
 
 // Sensors at the corners let the plate bend between them, which P feels; how two places share it follows from balance alone.

@@ -154,16 +154,16 @@ TEST(SolidShaft, StoresTheWorkThatItTakes)
   scene.drive         = Drive(DriveProfile::triangle, 0., 20., 112., 0.5);
   scene.analysis.step = 0.25;
   const SolidRun run(scene);
-  const auto stored = [](const Row &row) { return row[Column::spring_energy] + row[Column::elastic_energy]; };
-  const Row &last   = run.rows.back();
-  double of_shaft   = 0.;
+  const auto stored   = [](const Row &row) { return row[Column::spring_energy] + row[Column::elastic_energy]; };
+  const Row &last     = run.rows.back();
+  double shaft_energy = 0.;
   for (const std::size_t column : { tilt_column, skew_column })
   {
     const double yielded = last.across[column] - (column == tilt_column ? scene.cylinder.tilt : scene.cylinder.skew);
-    of_shaft += 0.5 * *scene.cylinder.tilt_stiffness * yielded * yielded;
+    shaft_energy += 0.5 * *scene.cylinder.tilt_stiffness * yielded * yielded;
   }
   const double work = last[Column::drive_work];
   const double open = work - last[Column::friction_work] - stored(last) + stored(run.rows.front());
-  EXPECT_GT(of_shaft, 0.01 * work);
+  EXPECT_GT(shaft_energy, 0.01 * work);
   EXPECT_NEAR(open, 0., 1e-3 * work);
 }

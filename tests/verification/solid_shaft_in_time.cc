@@ -136,7 +136,7 @@ namespace
   }
 
   /// Frequency of the first mode most of which is of a kind [1/s].
-  double first_of(const std::vector<Eigenmode> &modes, double Eigenmode::AcrossShares::*const share)
+  double find_first(const std::vector<Eigenmode> &modes, double Eigenmode::AcrossShares::*const share)
   {
     const auto found = std::find_if(modes.begin(), modes.end(), [share](const auto &mode) { return mode.across.*share > 0.5; });
     EXPECT_NE(found, modes.end());
@@ -150,12 +150,12 @@ TEST(SolidShaftInTime, OfATrueAxisTwistingModesAloneKnowSlow)
 {
   using Shares     = Eigenmode::AcrossShares;
   const auto fixed = modes_on({}), aligning = modes_on(100.), stiff = modes_on(1e12);
-  const double planar = first_of(fixed, &Shares::plane), twisting = first_of(fixed, &Shares::twisting);
-  const double open = first_of(modes_on({}, false), &Shares::twisting);
-  EXPECT_NEAR(first_of(aligning, &Shares::plane), planar, 1e-7 * planar);
+  const double planar = find_first(fixed, &Shares::plane), twisting = find_first(fixed, &Shares::twisting);
+  const double open = find_first(modes_on({}, false), &Shares::twisting);
+  EXPECT_NEAR(find_first(aligning, &Shares::plane), planar, 1e-7 * planar);
   EXPECT_GT(twisting, 1.003 * open);
-  EXPECT_NEAR(first_of(aligning, &Shares::twisting), open, 3e-4 * open);
-  EXPECT_NEAR(first_of(stiff, &Shares::twisting), twisting, 1e-6 * twisting);
+  EXPECT_NEAR(find_first(aligning, &Shares::twisting), open, 3e-4 * open);
+  EXPECT_NEAR(find_first(stiff, &Shares::twisting), twisting, 1e-6 * twisting);
 }
 
 // Before a lever inclined by theta a skew presses where the axis comes forward, by sin(theta) of it, and there P sin(theta) and

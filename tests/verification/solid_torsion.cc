@@ -107,7 +107,7 @@ namespace
 
   /// Saint-Venant's shear stress on a section of a rectangle over shear modulus and rate of twist, along eta and zeta: Prandtl's
   /// function is d^2/4 - eta^2 less the series that makes it vanish at both ends of the width.
-  std::array<double, 2> shear_of_torsion(const double eta, const double zeta)
+  std::array<double, 2> torsion_shear(const double eta, const double zeta)
   {
     std::array<double, 2> result{ { 0., 2. * eta } };
     double sign = 1.;
@@ -143,7 +143,7 @@ TEST(SolidTorsion, ItsFieldsHaveSaintVenantsStress)
   const BodyFields fields(bar.body);
   const auto nodal     = fields.at(dealii::Vector<double>(bar.displacement.begin(), bar.displacement.end()));
   const double scale   = 70000. / 2.66 * bar.rate;
-  const double largest = scale * shear_of_torsion(0.5 * depth, 0.)[1];
+  const double largest = scale * torsion_shear(0.5 * depth, 0.)[1];
   unsigned int found   = 0;
   double off = 0., off_within = 0.;
   for (unsigned int i = 0; i < nodal.size(); ++i)
@@ -151,7 +151,7 @@ TEST(SolidTorsion, ItsFieldsHaveSaintVenantsStress)
     const auto &place = fields.nodes()[i].position;
     if (place[0] < 30. - 1e-9 || place[0] > 60. + 1e-9)
       continue;
-    const auto expected = shear_of_torsion(place[1] - 0.5 * depth, place[2]);
+    const auto expected = torsion_shear(place[1] - 0.5 * depth, place[2]);
     const auto &stress  = nodal[i].stress;
     const double here =
         std::max({ std::abs(stress[0][1] - scale * expected[0]), std::abs(stress[0][2] - scale * expected[1]),

@@ -22,7 +22,7 @@ namespace
     return scene;
   }
 
-  std::vector<Row> rows_of(const Scene &scene, const unsigned int steps, const double spectral_radius)
+  std::vector<Row> compute_rows(const Scene &scene, const unsigned int steps, const double spectral_radius)
   {
     const double step = scene.drive.duration() / steps;
     return run_in_time(with_spectral_radius(with_fixed_step(scene, step), spectral_radius)).rows;
@@ -46,8 +46,8 @@ namespace
   /// From halving steps of that number.
   Orders orders(const Scene &scene, const std::vector<Row> &reference, const unsigned int steps, const double spectral_radius)
   {
-    const auto coarse = rows_of(scene, steps, spectral_radius);
-    const auto fine   = rows_of(scene, 2 * steps, spectral_radius);
+    const auto coarse = compute_rows(scene, steps, spectral_radius);
+    const auto fine   = compute_rows(scene, 2 * steps, spectral_radius);
     const auto order  = [&](const Column column)
     { return std::log2(error(coarse, reference, column) / error(fine, reference, column)); };
     return { order(Column::P), order(Column::theta) };
@@ -65,7 +65,7 @@ TEST(TimeOrder, IsTwoWhateverTheSpectralRadius)
     {
       const bool rings     = model == ModelType::beam;
       const Scene scene    = smooth_scene(paper, model);
-      const auto reference = rows_of(scene, finest, 1.);
+      const auto reference = compute_rows(scene, finest, 1.);
       for (const double radius : { 1., 0.8, 0. })
       {
         const auto found = orders(scene, reference, 512, radius);

@@ -12,15 +12,15 @@ namespace sprag
   {
     constexpr double rings = 0.1; ///< of the largest ringing, from which a row rings
 
-    double ringing_of(const Row &row)
+    double row_ringing(const Row &row)
     {
       return row[Column::P] - row[Column::P_quasi_static];
     }
     /// The time of the last row between two times that rings.
-    double end_of_ringing(const std::vector<Row> &rows, const double begin, const double end)
+    double ringing_end(const std::vector<Row> &rows, const double begin, const double end)
     {
       const auto size = [&](const Row &row)
-      { return row[Column::time] > begin && row[Column::time] <= end ? std::abs(ringing_of(row)) : 0.; };
+      { return row[Column::time] > begin && row[Column::time] <= end ? std::abs(row_ringing(row)) : 0.; };
       const double least = rings * largest(rows, size);
       double result      = begin;
       for (const Row &row : rows)
@@ -30,8 +30,8 @@ namespace sprag
     }
   } // namespace
 
-  Slowing slowing_of(const std::vector<Row> &rows, const double begin, const double end, const double period,
-                     const std::function<double(double)> &by_step)
+  Slowing estimate_slowing(const std::vector<Row> &rows, const double begin, const double end, const double period,
+                           const std::function<double(double)> &by_step)
   {
     Slowing result;
     double delay = 0., weights = 0.;
@@ -39,7 +39,7 @@ namespace sprag
     for (std::size_t i = 1; i < rows.size(); ++i)
     {
       const double time = rows[i][Column::time], dt = time - rows[i - 1][Column::time];
-      const double now = ringing_of(rows[i]), before = ringing_of(rows[i - 1]);
+      const double now = row_ringing(rows[i]), before = row_ringing(rows[i - 1]);
       if (!(time > begin) || time > end || !(dt > 0.) || !std::isfinite(now) || !std::isfinite(before))
         continue;
       const double slowing = by_step(rows[i][Column::time_step]);
@@ -61,6 +61,6 @@ namespace sprag
 
   double change_by_frequency(const std::vector<Row> &rows, const double begin, const double end)
   {
-    return slowing_of(rows, begin, end_of_ringing(rows, begin, end), 0., [](double) { return 1.; }).P;
+    return estimate_slowing(rows, begin, ringing_end(rows, begin, end), 0., [](double) { return 1.; }).P;
   }
 } // namespace sprag

@@ -18,8 +18,8 @@ namespace sprag
 
   /// Looks at the rows between two times [s] in which P rings with a period [s]. `by_step` returns the relative slowing of that
   /// vibration in steps of a length [s].
-  Slowing slowing_of(const std::vector<Row> &rows, double begin, double end, double period,
-                     const std::function<double(double)> &by_step);
+  Slowing estimate_slowing(const std::vector<Row> &rows, double begin, double end, double period,
+                           const std::function<double(double)> &by_step);
 
   /// Returns the largest change of P [N] per relative change of the frequency with which it rings between two times [s], up to
   /// the last row in which P is off P_quasi_static by at least a tenth of its largest distance: a vibration that runs slower by a

@@ -37,7 +37,7 @@ namespace sprag
     }
 
     /// Error of forces and, if asked for, of the loop area, relative, where rows are `step` apart [mm].
-    double error_of(const Scene &scene, const double step, const bool wants_loop)
+    double estimate_error(const Scene &scene, const double step, const bool wants_loop)
     {
       const auto halves  = closed_form_rows(scene, 0.5 * step);
       const double lines = std::max(distance_from_lines(halves, Column::P), distance_from_lines(halves, Column::Q));
@@ -55,7 +55,7 @@ namespace sprag
     // The error goes with the square of the step, but for what is coarse.
     for (unsigned int i = 0; i < 8; ++i)
     {
-      const double found = error_of(scene, step, wants_loop);
+      const double found = estimate_error(scene, step, wants_loop);
       if (found <= error)
         return step;
       step *= std::max(0.25, 0.95 * std::sqrt(error / found));

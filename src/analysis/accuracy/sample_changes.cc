@@ -33,7 +33,7 @@ namespace sprag
     }
   } // namespace
 
-  double work_of_drive(const std::vector<Row> &samples)
+  double compute_drive_work(const std::vector<Row> &samples)
   {
     double result = 0.;
     for (std::size_t i = 1; i < samples.size(); ++i)
@@ -42,7 +42,7 @@ namespace sprag
     return result;
   }
 
-  double change_of_peak(const std::string &quantity, const std::vector<Row> &passage, const std::vector<Row> &other)
+  double peak_change(const std::string &quantity, const std::vector<Row> &passage, const std::vector<Row> &other)
   {
     if (passage.empty() || (quantity != "P" && quantity != "Q"))
       return 0.;
@@ -61,7 +61,7 @@ namespace sprag
   double relative_change(const std::string &quantity, const std::vector<Row> &samples, const std::vector<Row> &other)
   {
     if (quantity == "loop_area")
-      return change(work_of_drive(samples), work_of_drive(other));
+      return change(compute_drive_work(samples), compute_drive_work(other));
     if (quantity == "largest_pressure" || quantity == "largest_stress")
       return largest_change(samples, other, Column::largest_pressure, near_peak);
     static const std::map<std::string, Column> columns = { { "P", Column::P },

@@ -9,7 +9,7 @@
 namespace sprag
 {
   /// Returns the work of the drive over samples by the trapezoidal rule [N mm].
-  double work_of_drive(const std::vector<Row> &samples);
+  double compute_drive_work(const std::vector<Row> &samples);
 
   /// Returns by how much a quantity without inertia changes between two models' rows of the same samples: P, Q and contact_width
   /// by the largest change over the largest value of the first model, largest_pressure likewise where it is at least half of
@@ -19,7 +19,7 @@ namespace sprag
 
   /// Returns by how much the largest P or Q behind a reversal changes between two models' rows of the same passage through stick,
   /// from where friction has turned, over the largest value of the first model; 0 for other quantities and without rows.
-  double change_of_peak(const std::string &quantity, const std::vector<Row> &passage, const std::vector<Row> &other);
+  double peak_change(const std::string &quantity, const std::vector<Row> &passage, const std::vector<Row> &other);
 
   /// Returns by how much a row lies beside the line over x between two others, 0 where these have the same x.
   double distance_from_line(const Row &before, const Row &row, const Row &after, Column column);

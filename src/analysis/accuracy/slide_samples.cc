@@ -18,7 +18,7 @@ namespace sprag
     constexpr double all_slide         = 0.999; ///< share of mu P from which the whole contact is told to slide
     constexpr double pressed           = 0.02;  ///< of the largest P, from which a row counts
     constexpr unsigned int most_halves = 6;
-    constexpr Index most_of_passage    = 100; ///< rows
+    constexpr Index passage_limit      = 100; ///< rows
 
     bool slides(const Row &row, const double largest_force)
     {
@@ -34,7 +34,7 @@ namespace sprag
       const double turned_at = rows[begin > 0 ? begin - 1 : 0][Column::x];
       std::vector<Index> result;
       Index i = begin;
-      for (; i < rows.size() && direction_of(rows[i][Column::v]) == direction_of(rows[begin][Column::v]); ++i)
+      for (; i < rows.size() && drive_direction(rows[i][Column::v]) == drive_direction(rows[begin][Column::v]); ++i)
         if (slides(rows[i], largest_force) && std::abs(rows[i][Column::x] - turned_at) > rows[i][Column::contact_width])
           result.push_back(i);
       return { result, i };
@@ -59,7 +59,7 @@ namespace sprag
                                         [&](const Index a, const Index b) { return rows[a][column] < rows[b][column]; }));
     }
 
-    DrivePoint point_of(const Row &row)
+    DrivePoint to_drive_point(const Row &row)
     {
       return { row[Column::time], row[Column::x], row[Column::v] };
     }
@@ -106,14 +106,14 @@ namespace sprag
   std::vector<Row> passage_rows(const std::vector<Row> &rows)
   {
     Index turn = 1;
-    while (turn < rows.size() && direction_of(rows[turn][Column::v]) == direction_of(rows[0][Column::v]))
+    while (turn < rows.size() && drive_direction(rows[turn][Column::v]) == drive_direction(rows[0][Column::v]))
       ++turn;
     if (turn >= rows.size())
       return {};
     const auto has_turned = friction_has_turned(rows);
     const double x        = rows[turn - 1][Column::x];
     Index largest_P = turn, largest_Q = turn;
-    for (Index i = turn; i < rows.size() && direction_of(rows[i][Column::v]) == direction_of(rows[turn][Column::v]) &&
+    for (Index i = turn; i < rows.size() && drive_direction(rows[i][Column::v]) == drive_direction(rows[turn][Column::v]) &&
                          std::abs(rows[i][Column::x] - x) <= rows[i][Column::contact_width];
          ++i)
     {
@@ -123,7 +123,7 @@ namespace sprag
         largest_Q = i;
     }
     const Index end = std::max(largest_P, largest_Q) + 1;
-    if (!has_turned[end - 1] || end - turn > most_of_passage)
+    if (!has_turned[end - 1] || end - turn > passage_limit)
       return {};
     return { rows.begin() + static_cast<std::ptrdiff_t>(turn) - 1, rows.begin() + static_cast<std::ptrdiff_t>(end) };
   }
@@ -134,7 +134,7 @@ namespace sprag
     std::vector<Row> result;
     if (samples.empty())
       return result;
-    const DrivePoint first = point_of(samples.front());
+    const DrivePoint first = to_drive_point(samples.front());
     State state            = settled(model, { 0., 0., std::abs(first.v) }, settings);
     if (first.v < 0.)
     {
@@ -144,9 +144,9 @@ namespace sprag
     }
     for (const Row &sample : samples)
     {
-      const DrivePoint point = point_of(sample);
+      const DrivePoint point = to_drive_point(sample);
       // On the way through stick the slip is not that of the drive, and mu depends on its speed.
-      if (direction_of(point.v) != direction_of(state.drive.v))
+      if (drive_direction(point.v) != drive_direction(state.drive.v))
         state = slid_to(model, state, half_way(state.drive, point), settings).state;
       auto next = slid_to(model, state, point, settings);
       result.push_back(observed(model, next.state, next.found));
@@ -156,7 +156,7 @@ namespace sprag
     return result;
   }
 
-  std::vector<double> times_of(const std::vector<Row> &rows)
+  std::vector<double> sample_times(const std::vector<Row> &rows)
   {
     std::vector<double> result;
     for (const Row &row : rows)
@@ -173,7 +173,7 @@ namespace sprag
     return result;
   }
 
-  std::vector<Row> places_of(const Drive &drive)
+  std::vector<Row> drive_samples(const Drive &drive)
   {
     std::vector<double> ends = { 0. };
     for (const double time : drive.reversals())

@@ -26,13 +26,13 @@ namespace sprag
       const StepSink &look = [](const State &, const Row &, const Evaluation &) {});
 
   /// Returns the times of rows [s].
-  std::vector<double> times_of(const std::vector<Row> &rows);
+  std::vector<double> sample_times(const std::vector<Row> &rows);
 
   /// Returns the rows at one of some times, exactly.
   std::vector<Row> rows_at(const std::vector<double> &times, const std::vector<Row> &rows);
 
   /// Returns time, x and v of places in full sliding over the first two strokes of a drive, for probes before a run.
-  std::vector<Row> places_of(const Drive &drive);
+  std::vector<Row> drive_samples(const Drive &drive);
 
   /// Returns the same of the first reversal and of places behind it, up to a distance [mm], over which the contact turns: where P
   /// and Q of the way back are largest. Empty where the drive does not turn or ends before.

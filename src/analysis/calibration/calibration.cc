@@ -45,17 +45,17 @@ namespace sprag
     /// Added mass that gives the lever the target inertia: at the tip [t] or as inertia of the hub [t mm^2].
     double calibrated_mass(Scene scene, const double target)
     {
-      const bool at_tip      = scene.calibration.mass == AddedMass::tip;
-      double &added          = at_tip ? scene.lever.tip_mass : scene.lever.hub_inertia;
-      added                  = 0.;
-      const double without   = inertia_as_built(scene);
-      added                  = at_tip ? 1e-3 : 1.;
-      const double of_a_unit = at_tip ? (inertia_as_built(scene) - without) / added : 1.;
+      const bool at_tip     = scene.calibration.mass == AddedMass::tip;
+      double &added         = at_tip ? scene.lever.tip_mass : scene.lever.hub_inertia;
+      added                 = 0.;
+      const double without  = inertia_as_built(scene);
+      added                 = at_tip ? 1e-3 : 1.;
+      const double per_unit = at_tip ? (inertia_as_built(scene) - without) / added : 1.;
       if (target < without)
         throw InputError(scene.name + ".prm: Calibration/Moment of inertia = " + rounded_text(target) +
                          " t mm2 cannot be reached: the parts as built have " + rounded_text(without) +
                          " t mm2 without added mass");
-      return (target - without) / of_a_unit;
+      return (target - without) / per_unit;
     }
 
     /// Deflections per force times stiffness: E of a bar of the scene's section with the bending stiffness.
@@ -122,7 +122,7 @@ namespace sprag
     return result;
   }
 
-  double Disagreement::of_forces(const unsigned int which) const
+  double Disagreement::force_deviation(const unsigned int which) const
   {
     double largest    = 0.;
     double difference = 0.;

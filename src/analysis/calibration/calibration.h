@@ -55,7 +55,7 @@ namespace sprag
     std::array<std::vector<double>, 2> contact_frequencies; ///< the two lowest, in contact at Stability/Position [Hz]
 
     /// Returns the largest difference of the forces over the largest value: of P (which = 0) or Q (1).
-    double of_forces(unsigned int which) const;
+    double force_deviation(unsigned int which) const;
   };
 
   /// Compares both scenes. `meshed` is condensed, which is exact in statics and to its modes in vibration.

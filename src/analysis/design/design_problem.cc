@@ -23,7 +23,7 @@ namespace sprag
 {
   namespace
   {
-    double largest_of(const std::vector<double> &constraints)
+    double max_constraint(const std::vector<double> &constraints)
     {
       return *std::max_element(constraints.begin(), constraints.end());
     }
@@ -41,8 +41,8 @@ namespace sprag
     class Evaluator
     {
     public:
-      explicit Evaluator(const BoxProblem &of)
-          : problem(of)
+      explicit Evaluator(const BoxProblem &problem_)
+          : problem(problem_)
       {
       }
 
@@ -61,7 +61,7 @@ namespace sprag
           thrown = std::current_exception();
           throw;
         }
-        const Optimum here{ place, last.objective, largest_of(last.constraints) };
+        const Optimum here{ place, last.objective, max_constraint(last.constraints) };
         if (found.place.empty() || is_better(here, found))
           found = here;
         return last;
@@ -81,25 +81,25 @@ namespace sprag
       Optimum found{ {}, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity() };
     };
 
-    Evaluator &evaluator_of(void *data)
+    Evaluator &to_evaluator(void *data)
     {
       return *static_cast<Evaluator *>(data);
     }
 
     double objective(unsigned int, const double *x, double *, void *data)
     {
-      return evaluator_of(data).at(x).objective;
+      return to_evaluator(data).at(x).objective;
     }
 
     void constraints(unsigned int, double *result, unsigned int, const double *x, double *, void *data)
     {
-      const auto &values = evaluator_of(data).at(x).constraints;
+      const auto &values = to_evaluator(data).at(x).constraints;
       std::copy(values.begin(), values.end(), result);
     }
 
     double largest_constraint(unsigned int, const double *x, double *, void *data)
     {
-      return largest_of(evaluator_of(data).at(x).constraints);
+      return max_constraint(to_evaluator(data).at(x).constraints);
     }
 
     // Behind the place stands a bound on all constraints.
@@ -144,7 +144,7 @@ namespace sprag
     void approach_constraints(Evaluator &evaluator, std::vector<double> start, const unsigned int evaluations, const double step)
     {
       const std::size_t n = evaluator.problem.dimension;
-      const double most   = largest_of(evaluator.at(start.data()).constraints);
+      const double most   = max_constraint(evaluator.at(start.data()).constraints);
       auto search         = local_search(n + 1, evaluations, step);
       std::vector<double> low(n + 1, 0.), high(n + 1, 1.), x = start;
       low.back()  = -1.;
@@ -175,7 +175,7 @@ namespace sprag
                        const bool only_approaches)
     {
       Evaluator evaluator(problem);
-      if (largest_of(evaluator.at(start.data()).constraints) > 0.)
+      if (max_constraint(evaluator.at(start.data()).constraints) > 0.)
         for (const double step : { 0.1, 0.01, 1e-3 })
           if (evaluator.best().violation > 0.)
             approach_constraints(evaluator, evaluator.best().place, evaluations, step);
@@ -266,7 +266,7 @@ namespace sprag
       add_slopes(scene, slope(1), slope(-1), result);
     }
 
-    double largest_size_of(const std::vector<double> &forces)
+    double largest_magnitude(const std::vector<double> &forces)
     {
       double largest = 0.;
       for (const double force : forces)
@@ -275,7 +275,7 @@ namespace sprag
     }
 
     /// Integrates by Simpson's rule over an even number of intervals.
-    double integral_of(const std::vector<double> &values, const double length)
+    double integrate(const std::vector<double> &values, const double length)
     {
       double sum = values.front() + values.back();
       for (std::size_t i = 1; i + 1 < values.size(); ++i)
@@ -299,19 +299,19 @@ namespace sprag
         opening.push_back(out.Q - back.Q);
         largest_P = std::max({ largest_P, out.P, back.P });
       }
-      result[Q::force_ratio]          = ratio_of_ways(forward.back(), backward.back());
-      result[Q::nonlinearity]         = std::max(nonlinearity_of(places, forward), nonlinearity_of(places, backward));
-      result[Q::largest_force]        = std::max(largest_size_of(forward), largest_size_of(backward));
+      result[Q::force_ratio]          = direction_ratio(forward.back(), backward.back());
+      result[Q::nonlinearity]         = std::max(compute_nonlinearity(places, forward), compute_nonlinearity(places, backward));
+      result[Q::largest_force]        = std::max(largest_magnitude(forward), largest_magnitude(backward));
       result[Q::largest_normal_force] = largest_P;
       result[Q::largest_pressure]     = layer_pressure(scene, largest_P);
-      result[Q::loop_area]            = integral_of(opening, scene.drive.maximum() - scene.drive.minimum());
+      result[Q::loop_area]            = integrate(opening, scene.drive.maximum() - scene.drive.minimum());
     }
 
     /// Ends at infinity where the table cannot be followed.
-    double offset_of(const Scene &scene)
+    double compute_offset(const Scene &scene)
     {
       IsolationFindings found;
-      if (std::abs(scene.isolation.initial_displacement) >= damper_of(scene).reach)
+      if (std::abs(scene.isolation.initial_displacement) >= make_damper(scene).reach)
         return std::numeric_limits<double>::infinity();
       try
       {
@@ -367,7 +367,7 @@ namespace sprag
     return hardest;
   }
 
-  double nonlinearity_of(const std::vector<double> &x, const std::vector<double> &forces)
+  double compute_nonlinearity(const std::vector<double> &x, const std::vector<double> &forces)
   {
     double products = 0., squares = 0., farthest = 0.;
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -377,7 +377,7 @@ namespace sprag
     }
     for (std::size_t i = 0; i < x.size(); ++i)
       farthest = std::max(farthest, std::abs(forces[i] - products / squares * x[i]));
-    return farthest / largest_size_of(forces);
+    return farthest / largest_magnitude(forces);
   }
 
   void add_slopes(const Scene &scene, const double forward, const double backward, DesignQuantities &quantities)
@@ -386,11 +386,11 @@ namespace sprag
     quantities[Q::backward_slope]  = backward;
     quantities[Q::damping_slope]   = 0.5 * (forward - backward);
     quantities[Q::restoring_slope] = 0.5 * (forward + backward);
-    quantities[Q::slope_ratio]     = ratio_of_ways(forward, backward);
+    quantities[Q::slope_ratio]     = direction_ratio(forward, backward);
     quantities[Q::friction_ratio]  = scene.isolation.levers * quantities[Q::damping_slope] / scene.isolation.stiffness;
   }
 
-  double ratio_of_ways(const double forward, const double backward)
+  double direction_ratio(const double forward, const double backward)
   {
     return backward < 0. ? forward / -backward : std::numeric_limits<double>::infinity();
   }
@@ -414,13 +414,13 @@ namespace sprag
     if (asks(Q::transmissibility) || asks(Q::relative_amplitude))
       add_harmonic(scene, quantities);
     if (asks(Q::residual_offset))
-      quantities[Q::residual_offset] = offset_of(scene);
+      quantities[Q::residual_offset] = compute_offset(scene);
   }
 
   namespace
   {
     /// Scale of a violation: the size of the target, or for a target of 0 the tolerance. Growth rates have 100/s.
-    double scale_of(const Demand &demand)
+    double demand_scale(const Demand &demand)
     {
       if (demand.term.quantity == DesignQuantity::growth_rate)
         return 100.;
@@ -441,9 +441,9 @@ namespace sprag
       return std::isnan(violation) ? most_counted : std::clamp(violation, -most_counted, most_counted);
     }
 
-    double room_of(const Demand &demand, const double room)
+    double demand_margin(const Demand &demand, const double room)
     {
-      return demand.kind == DemandKind::equal ? std::min(room, 0.25 * demand.tolerance / scale_of(demand)) : room;
+      return demand.kind == DemandKind::equal ? std::min(room, 0.25 * demand.tolerance / demand_scale(demand)) : room;
     }
 
     std::vector<DesignQuantity> quantities_asked(const DesignSettings &design)
@@ -457,9 +457,9 @@ namespace sprag
     }
   } // namespace
 
-  double violation_of(const Demand &demand, const double value)
+  double demand_violation(const Demand &demand, const double value)
   {
-    const double scale = scale_of(demand);
+    const double scale = demand_scale(demand);
     if (demand.kind == DemandKind::at_most)
       return (value - demand.target) / scale;
     if (demand.kind == DemandKind::at_least)
@@ -467,13 +467,13 @@ namespace sprag
     return (std::abs(value - demand.target) - demand.tolerance) / scale;
   }
 
-  double value_of(const DesignTerm &term, const Proposal &proposal)
+  double term_value(const DesignTerm &term, const Proposal &proposal)
   {
     return term.quantity == DesignQuantity::parameter ? proposal.parameters.at(term.parameter)
                                                       : proposal.quantities[term.quantity];
   }
 
-  std::vector<std::string> overrides_of(const Scene &design, const Proposal &lever)
+  std::vector<std::string> design_overrides(const Scene &design, const Proposal &lever)
   {
     std::vector<std::string> result;
     for (std::size_t i = 0; i < lever.parameters.size(); ++i)
@@ -482,13 +482,13 @@ namespace sprag
   }
 
   DesignProblem::DesignProblem(const Scene &scene)
-      : given(scene)
+      : base(scene)
       , input(std::make_unique<SceneSettings>())
       , asked(quantities_asked(scene.design))
   {
-    input->scene        = given;
+    input->scene        = base;
     const auto declared = scene_parameters(*input);
-    for (const auto &parameter : given.design.free_parameters)
+    for (const auto &parameter : base.design.free_parameters)
       free.push_back(*find_parameter(declared, parameter.name));
   }
 
@@ -496,14 +496,14 @@ namespace sprag
   {
     return dear || std::any_of(asked.begin(), asked.end(),
                                [](const DesignQuantity quantity)
-                               { return is_of_table(quantity) && quantity != DesignQuantity::friction_ratio; });
+                               { return is_table_quantity(quantity) && quantity != DesignQuantity::friction_ratio; });
   }
 
   const Scene &DesignProblem::scene_at(const std::vector<double> &parameters) const
   {
     for (std::size_t i = 0; i < free.size(); ++i)
       free[i].store(number_text(parameters[i]));
-    if (std::any_of(given.design.free_parameters.begin(), given.design.free_parameters.end(),
+    if (std::any_of(base.design.free_parameters.begin(), base.design.free_parameters.end(),
                     [](const auto &parameter) { return parameter.name == "Friction/Factor"; }))
       input->scene.friction.factor = input->friction.factor;
     return input->scene;
@@ -512,12 +512,12 @@ namespace sprag
   Proposal DesignProblem::at(const std::vector<double> &place) const
   {
     Proposal result;
-    const auto &bounds = given.design.free_parameters;
+    const auto &bounds = base.design.free_parameters;
     for (std::size_t i = 0; i < bounds.size(); ++i)
       result.parameters.push_back(bounds[i].from + std::clamp(place[i], 0., 1.) * (bounds[i].to - bounds[i].from));
     const Scene &scene = scene_at(result.parameters);
     ++*count;
-    const bool is_judged_by_models = std::any_of(given.design.judged_by.begin(), given.design.judged_by.end(),
+    const bool is_judged_by_models = std::any_of(base.design.judged_by.begin(), base.design.judged_by.end(),
                                                  [](const DesignJudge judge) { return judge != DesignJudge::table; });
     result.rule                    = hardest_rule(scene, is_judged_by_models);
     if (result.rule.violation < 0.)
@@ -530,8 +530,8 @@ namespace sprag
         result.quantities[quantity] =
             or_else(factors[quantity], 1.) * result.quantities[quantity] + or_else(differences[quantity], 0.);
     }
-    for (const auto &demand : given.design.demanded)
-      result.violations.push_back(violation_of(demand, value_of(demand.term, result)));
+    for (const auto &demand : base.design.demanded)
+      result.violations.push_back(demand_violation(demand, term_value(demand.term, result)));
     return result;
   }
 
@@ -547,10 +547,10 @@ namespace sprag
     return (corrected - or_else(differences[quantity], 0.)) / or_else(factors[quantity], 1.);
   }
 
-  std::vector<double> DesignProblem::place_of(const std::vector<double> &parameters) const
+  std::vector<double> DesignProblem::search_point(const std::vector<double> &parameters) const
   {
     std::vector<double> place;
-    const auto &bounds = given.design.free_parameters;
+    const auto &bounds = base.design.free_parameters;
     for (std::size_t i = 0; i < bounds.size(); ++i)
       place.push_back((parameters[i] - bounds[i].from) / (bounds[i].to - bounds[i].from));
     return place;
@@ -561,8 +561,8 @@ namespace sprag
   {
     BoxProblem problem;
     std::vector<std::size_t> counting;
-    for (std::size_t i = 0; i < given.design.demanded.size(); ++i)
-      if (i != spared && (dear || given.design.demanded[i].term.quantity != DesignQuantity::growth_rate))
+    for (std::size_t i = 0; i < base.design.demanded.size(); ++i)
+      if (i != spared && (dear || base.design.demanded[i].term.quantity != DesignQuantity::growth_rate))
         counting.push_back(i);
     problem.dimension     = free.size();
     problem.n_constraints = 1 + counting.size() + (limit ? 1 : 0);
@@ -576,18 +576,18 @@ namespace sprag
       // possible ones.
       const auto take = [&](const Demand &demand)
       {
-        const double missed = violation_of(demand, value_of(demand.term, lever)) + room_of(demand, room);
+        const double missed = demand_violation(demand, term_value(demand.term, lever)) + demand_margin(demand, room);
         result.constraints.push_back(is_possible ? counted(missed) : counted(1. + lever.rule.violation));
       };
       for (const auto i : counting)
-        take(given.design.demanded[i]);
+        take(base.design.demanded[i]);
       if (limit)
         take(*limit);
       if (aim && is_possible)
-        result.objective = (aim->maximises ? -1. : 1.) * value_of(aim->term, lever);
+        result.objective = (aim->maximises ? -1. : 1.) * term_value(aim->term, lever);
       // A table that no lever holds is of no use, whatever else the lever is good for.
-      const bool is_finite = std::all_of(given.design.aims.begin(), given.design.aims.end(),
-                                         [&](const DesignAim &other) { return std::isfinite(value_of(other.term, lever)); });
+      const bool is_finite = std::all_of(base.design.aims.begin(), base.design.aims.end(),
+                                         [&](const DesignAim &other) { return std::isfinite(term_value(other.term, lever)); });
       if (!is_finite)
       {
         result.objective           = most_counted;

@@ -91,10 +91,10 @@ namespace sprag
   LeverRule hardest_rule(const Scene &scene, bool has_length);
 
   /// Returns the largest distance of forces from the best line through 0, over the largest force.
-  double nonlinearity_of(const std::vector<double> &x, const std::vector<double> &forces);
+  double compute_nonlinearity(const std::vector<double> &x, const std::vector<double> &forces);
 
   /// Returns the ratio of forces or slopes forward and back; infinite where the way back does not damp.
-  double ratio_of_ways(double forward, double backward);
+  double direction_ratio(double forward, double backward);
 
   /// Adds the quantities that follow from the representative slopes of one lever forward and back [N/mm].
   void add_slopes(const Scene &scene, double forward, double backward, DesignQuantities &quantities);
@@ -118,13 +118,13 @@ namespace sprag
 
   /// Returns by how much a quantity misses a demand, over the target or, where that is 0, the scale of the quantity; <= 0 where
   /// it is met.
-  double violation_of(const Demand &demand, double value);
+  double demand_violation(const Demand &demand, double value);
 
   /// Returns the value that a quantity or a free parameter has.
-  double value_of(const DesignTerm &term, const Proposal &proposal);
+  double term_value(const DesignTerm &term, const Proposal &proposal);
 
   /// Returns the lever's parameters as overrides of the scene of the design, "Section/Name=value".
-  std::vector<std::string> overrides_of(const Scene &design, const Proposal &lever);
+  std::vector<std::string> design_overrides(const Scene &design, const Proposal &lever);
 
   /// The levers of a scene between the bounds of its free parameters, by the closed form.
   class DesignProblem
@@ -153,7 +153,7 @@ namespace sprag
     Proposal at(const std::vector<double> &place) const;
 
     /// Returns the place of parameters, in the unit cube.
-    std::vector<double> place_of(const std::vector<double> &parameters) const;
+    std::vector<double> search_point(const std::vector<double> &parameters) const;
 
     /// Returns the scene with the lever's parameters, unchecked.
     const Scene &scene_at(const std::vector<double> &parameters) const;
@@ -163,7 +163,7 @@ namespace sprag
 
     const DesignSettings &settings() const
     {
-      return given.design;
+      return base.design;
     }
 
     /// Returns the search for what makes `aim` best, or without one for any lever, under those of the demands that are known:
@@ -178,7 +178,7 @@ namespace sprag
     }
 
   private:
-    const Scene given;
+    const Scene base;
     std::unique_ptr<SceneSettings> input; ///< whose scene the stores of the parameters write to
     std::vector<Parameter> free;
     std::vector<DesignQuantity> asked;

@@ -41,7 +41,7 @@ namespace sprag
 
     bool beats(const DesignAim &aim, const Proposal &a, const Proposal &b, const double share)
     {
-      const double first = value_of(aim.term, a), second = value_of(aim.term, b);
+      const double first = term_value(aim.term, a), second = term_value(aim.term, b);
       return (aim.maximises ? first - second : second - first) > share * std::abs(second);
     }
 
@@ -66,7 +66,7 @@ namespace sprag
   {
     auto few = search_settings(problem);
     if (near)
-      few.near = problem.place_of(near->parameters);
+      few.near = problem.search_point(near->parameters);
     return found_at(problem, best_in_box(problem.box(problem.settings().aims.front()), few));
   }
 
@@ -79,20 +79,20 @@ namespace sprag
       const auto without = least_violation(problem.box({}, i), search_settings(problem));
       if (without.violation > 0.)
         continue;
-      const double value = value_of(demands[i].term, problem.at(without.place));
+      const double value = term_value(demands[i].term, problem.at(without.place));
       const auto nearest = problem.at(best_in_box(problem.box(towards(demands[i], value), i), search_settings(problem)).place);
-      result.push_back({ i, value_of(demands[i].term, nearest), nearest });
+      result.push_back({ i, term_value(demands[i].term, nearest), nearest });
     }
     return result;
   }
 
-  std::vector<Proposal> front_of_aims(const DesignProblem &problem)
+  std::vector<Proposal> pareto_front(const DesignProblem &problem)
   {
     const auto &aims    = problem.settings().aims;
     const auto settings = search_settings(problem);
     const auto best     = [&](const DesignAim &aim, const std::optional<Demand> &limit)
     { return problem.at(best_in_box(problem.box(aim, {}, limit), settings).place); };
-    const auto value      = [](const DesignAim &aim, const Proposal &lever) { return value_of(aim.term, lever); };
+    const auto value      = [](const DesignAim &aim, const Proposal &lever) { return term_value(aim.term, lever); };
     const auto best_first = best(aims[0], {}), best_second = best(aims[1], {});
     const double from = value(aims[1], best_first), to = value(aims[1], best_second);
     std::vector<Proposal> all = { best_first };

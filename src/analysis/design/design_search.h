@@ -37,5 +37,5 @@ namespace sprag
 
   /// Finds levers between the best by either of two aims, equally apart in what the second aim has: each the best by the first
   /// aim among those at least as good by the second one. Levers that another beats in both are left out.
-  std::vector<Proposal> front_of_aims(const DesignProblem &problem);
+  std::vector<Proposal> pareto_front(const DesignProblem &problem);
 } // namespace sprag

@@ -35,10 +35,10 @@ namespace sprag
       double squares = 0.;
     };
 
-    double most_of_noise(const ChannelNoise &noise, const std::size_t rows)
+    double noise_limit(const ChannelNoise &noise, const std::size_t rows)
     {
-      const double of_group = std::max(1., static_cast<double>(rows) / noise.correlation);
-      const boost::math::fisher_f ratio(of_group, std::max(1., noise.effective_rows()));
+      const double group_size = std::max(1., static_cast<double>(rows) / noise.correlation);
+      const boost::math::fisher_f ratio(group_size, std::max(1., noise.effective_rows()));
       return boost::math::quantile(boost::math::complement(ratio, chance));
     }
 
@@ -80,7 +80,7 @@ namespace sprag
         for (const auto &group : groups)
         {
           const auto rows = group.travels.size();
-          if (group.squares / static_cast<double>(rows) <= most_of_noise(noise[place.first], rows))
+          if (group.squares / static_cast<double>(rows) <= noise_limit(noise[place.first], rows))
             continue;
           result.window  = std::max(result.window, group.travels.back());
           result.is_full = result.is_full || &group == &groups.back();
@@ -154,7 +154,7 @@ namespace sprag
     }
 
     /// The squares that residuals would have if only the noise of neighbouring values were left, by second differences.
-    double squares_of_noise(const std::vector<UsedValue> &used, const std::vector<double> &residuals, const std::size_t channels)
+    double noise_squares(const std::vector<UsedValue> &used, const std::vector<double> &residuals, const std::size_t channels)
     {
       double result = 0.;
       for (std::size_t channel = 0; channel < channels; ++channel)
@@ -190,7 +190,7 @@ namespace sprag
       std::vector<double> residuals;
       for (const auto &value : found.used)
         residuals.push_back(value.value / deviations[value.channel] - shown(own, value));
-      const double noise   = squares_of_noise(found.used, residuals, channels.size());
+      const double noise   = noise_squares(found.used, residuals, channels.size());
       residuals            = beside(basis, residuals);
       const double squares = product(residuals, residuals) - noise;
       std::vector<OneMoreUnknown> result;
@@ -219,17 +219,17 @@ namespace sprag
     class Identifier
     {
     public:
-      Identifier(const Scene &of_stroke, const MeasuredMotion &of_cylinder, const LeverUnknowns &of_fit)
-          : scene(of_stroke)
+      Identifier(const Scene &scene_, const MeasuredMotion &motion_, const LeverUnknowns &unknowns_)
+          : scene(scene_)
           , settings(scene.identification)
-          , unknowns(of_fit)
-          , fit(scene, of_cylinder, unknowns)
+          , unknowns(unknowns_)
+          , fit(scene, motion_, unknowns)
       {
         for (const auto &number : unknowns.numbers())
           scaled.push_back(number.start / number.scale);
         start = scaled;
         for (const auto &channel : settings.measured.channels)
-          deviations.push_back(deviation_of_neighbours(channel.values));
+          deviations.push_back(neighbour_deviation(channel.values));
       }
 
       Identification identify()
@@ -268,9 +268,9 @@ namespace sprag
           select();
           const auto weights = robust_weights();
           scaled             = least_squares([&](const auto &at) { return held_residuals(at, weights); }, scaled);
-          result.noise       = noise_of(result.used, residuals(), deviations, settings.loss, scaled.size());
+          result.noise       = estimate_noise(result.used, residuals(), deviations, settings.loss, scaled.size());
           for (std::size_t i = 0; i < deviations.size(); ++i)
-            deviations[i] = std::max(result.noise[i].deviation, 1e-12 * largest_of(i));
+            deviations[i] = std::max(result.noise[i].deviation, 1e-12 * channel_peak(i));
           result.converged = result.rounds > 0 && is_near(before, settled);
         }
       }
@@ -293,7 +293,7 @@ namespace sprag
         return true;
       }
 
-      double largest_of(const std::size_t channel) const
+      double channel_peak(const std::size_t channel) const
       {
         double largest = 0.;
         for (const double value : settings.measured.channels[channel].values)
@@ -302,7 +302,7 @@ namespace sprag
       }
 
       /// Standard deviation of the noise, estimated from second differences, which a smooth signal hardly has.
-      static double deviation_of_neighbours(const std::vector<double> &values)
+      static double neighbour_deviation(const std::vector<double> &values)
       {
         double squares = 0., count = 0., largest = 0.;
         for (std::size_t i = 1; i + 1 < values.size(); ++i)

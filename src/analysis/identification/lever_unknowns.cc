@@ -51,8 +51,8 @@ namespace sprag
         found.assign(stroke.last - stroke.first + 1, stroke.direction * scene.drive.peak_speed());
       speeds.push_back(found);
     }
-    for (const auto &of_stroke : speeds)
-      for (const double speed : of_stroke)
+    for (const auto &stroke_speeds : speeds)
+      for (const double speed : stroke_speeds)
         fastest = std::max(fastest, std::abs(speed));
   }
 
@@ -193,8 +193,8 @@ namespace sprag
     }
   } // namespace
 
-  LeverUnknowns::LeverUnknowns(const Scene &of_lever, const MeasuredMotion &motion)
-      : scene(of_lever)
+  LeverUnknowns::LeverUnknowns(const Scene &scene_, const MeasuredMotion &motion)
+      : scene(scene_)
       , peak_speed(motion.peak_speed())
   {
     const auto &geometry = scene.geometry;

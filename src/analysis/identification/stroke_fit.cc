@@ -70,9 +70,9 @@ namespace sprag
 
   namespace
   {
-    constexpr double least_speed   = 0.02; ///< over the peak; below that friction may be in stick
-    constexpr double end_of_stroke = 0.02; ///< of its length: there the drive slows down to turn
-    constexpr double impossible    = 1e6;  ///< standard deviations
+    constexpr double least_speed = 0.02; ///< over the peak; below that friction may be in stick
+    constexpr double stroke_end  = 0.02; ///< of its length: there the drive slows down to turn
+    constexpr double impossible  = 1e6;  ///< standard deviations
 
     /// Returns the second derivative of theta over x: theta_x = sin^2 th / ((R - e) cos th - h) [rad/mm^2].
     double curvature(const Geometry &geometry, const Kinematics &contact)
@@ -84,10 +84,10 @@ namespace sprag
     }
   } // namespace
 
-  StrokeFit::StrokeFit(const Scene &of_lever, const MeasuredMotion &of_cylinder, const LeverUnknowns &of_fit)
-      : scene(of_lever)
-      , motion(of_cylinder)
-      , unknowns(of_fit)
+  StrokeFit::StrokeFit(const Scene &scene_, const MeasuredMotion &motion_, const LeverUnknowns &unknowns_)
+      : scene(scene_)
+      , motion(motion_)
+      , unknowns(unknowns_)
       , inertia(identifies_by_model(scene) ? scene.lever.moment_of_inertia : 0.)
   {
   }
@@ -103,7 +103,7 @@ namespace sprag
       const bool slides =
           motion.covers(row, lag, stroke) && place.x > 0. && std::abs(place.v) > least_speed * motion.peak_speed();
       const double travel = motion.travel(row, lag, stroke);
-      if (!slides || travel <= window || travel > (1. - end_of_stroke) * motion.length(stroke))
+      if (!slides || travel <= window || travel > (1. - stroke_end) * motion.length(stroke))
         continue;
       for (std::size_t channel = 0; channel < measured.channels.size(); ++channel)
         if (const double value = measured.channels[channel].values[row]; !std::isnan(value))
@@ -152,14 +152,14 @@ namespace sprag
     try
     {
       const auto lever = unknowns.lever(in_units(scaled));
-      std::optional<Slide> of_row;
+      std::optional<Slide> row_slide;
       for (std::size_t i = 0; i < values.size(); ++i)
       {
         const auto &[row, channel, stroke, value] = values[i];
         if (i == 0 || row != values[i - 1].row)
-          of_row = slide(lever, correction, row, stroke);
-        if (of_row)
-          result[i] = (value - shown(lever, *of_row, channel)) / deviations[channel];
+          row_slide = slide(lever, correction, row, stroke);
+        if (row_slide)
+          result[i] = (value - shown(lever, *row_slide, channel)) / deviations[channel];
         if (!weights.empty())
           result[i] *= std::sqrt(weights[i]);
       }
@@ -175,10 +175,10 @@ namespace sprag
   {
     constexpr double huber             = 1.345; ///< standard deviations; 95 % as good as least squares for normal noise
     constexpr double unknown_from      = 0.5;   ///< half-width of an interval over the scale of what is unknown then
-    constexpr double deviation_of_lost = 1e6;   ///< scales of an unknown that the data do not feel at all
+    constexpr double lost_deviation    = 1e6;   ///< scales of an unknown that the data do not feel at all
     constexpr double slowest_decay     = 0.98;  ///< of the autocorrelation from row to row
     constexpr double weak_from         = 0.98;  ///< correlation of two unknowns
-    constexpr double part_of_largest   = 0.2;   ///< components of a direction that name their unknowns
+    constexpr double largest_part      = 0.2;   ///< components of a direction that name their unknowns
     constexpr double smallest_singular = 1e-10; ///< over the largest: what is below is round-off
 
     double autocorrelation(const std::vector<std::vector<double>> &strokes, const std::size_t distance)
@@ -194,7 +194,7 @@ namespace sprag
       return squares > 0. ? products / squares : 0.;
     }
 
-    double correlation_of(const std::vector<std::vector<double>> &strokes, const double rows)
+    double estimate_correlation(const std::vector<std::vector<double>> &strokes, const double rows)
     {
       std::size_t longest = 0;
       for (const auto &stroke : strokes)
@@ -223,7 +223,7 @@ namespace sprag
         largest = std::max(largest, component(i));
       std::vector<std::string> result;
       for (std::size_t i = 0; i < n; ++i)
-        if (component(i) >= part_of_largest * largest)
+        if (component(i) >= largest_part * largest)
           result.push_back(unknowns[i].name);
       return result;
     }
@@ -253,7 +253,7 @@ namespace sprag
       for (std::size_t a = 0; a < n; ++a)
       {
         const bool is_lost = singular.values[a] <= smallest_singular * singular.values[0];
-        inverse[a]         = is_lost ? deviation_of_lost : 1. / singular.values[a];
+        inverse[a]         = is_lost ? lost_deviation : 1. / singular.values[a];
         if (is_lost)
           middle[a * n + a] = 1.;
       }
@@ -300,9 +300,9 @@ namespace sprag
     return loss == IdentificationLoss::squares ? residual : std::clamp(residual, -huber, huber);
   }
 
-  std::vector<ChannelNoise> noise_of(const std::vector<UsedValue> &values, const std::vector<double> &residuals,
-                                     const std::vector<double> &deviations, const IdentificationLoss loss,
-                                     const std::size_t unknowns)
+  std::vector<ChannelNoise> estimate_noise(const std::vector<UsedValue> &values, const std::vector<double> &residuals,
+                                           const std::vector<double> &deviations, const IdentificationLoss loss,
+                                           const std::size_t unknowns)
   {
     std::vector<ChannelNoise> result(deviations.size());
     for (std::size_t channel = 0; channel < result.size(); ++channel)
@@ -328,7 +328,7 @@ namespace sprag
       noise.rows  = static_cast<double>(sizes.size());
       if (sizes.empty())
         continue;
-      noise.correlation = correlation_of(strokes, noise.rows);
+      noise.correlation = estimate_correlation(strokes, noise.rows);
       // The fit has taken its share of the independent ones.
       const double taken      = static_cast<double>(unknowns) * noise.correlation / static_cast<double>(values.size());
       const double free_share = 1. - std::min(taken, 0.9);

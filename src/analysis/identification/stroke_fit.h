@@ -101,8 +101,8 @@ namespace sprag
 
   /// Returns the noise of each channel. `residuals` are over `deviations`. The autocorrelation is summed within strokes up to the
   /// first that is less than 2/sqrt(rows); the mean is not taken off, so that what the lever cannot follow counts as correlated.
-  std::vector<ChannelNoise> noise_of(const std::vector<UsedValue> &values, const std::vector<double> &residuals,
-                                     const std::vector<double> &deviations, IdentificationLoss loss, std::size_t unknowns);
+  std::vector<ChannelNoise> estimate_noise(const std::vector<UsedValue> &values, const std::vector<double> &residuals,
+                                           const std::vector<double> &deviations, IdentificationLoss loss, std::size_t unknowns);
 
   /// Uncertainty of the unknowns. All entries refer to scaled unknowns.
   struct Knowledge

@@ -16,19 +16,19 @@ namespace sprag
   {
     constexpr unsigned int most_iterations = 25;
     constexpr unsigned int most_halvings   = 12; ///< of Time/Step
-    constexpr double steps_of_a_period     = 200.;
-    constexpr double most_of_first         = 20.; ///< the longest step over Time/Step
+    constexpr double steps_per_period      = 200.;
+    constexpr double first_step_limit      = 20.; ///< the longest step over Time/Step
     constexpr double error_aimed_at        = 0.4;
     constexpr double largest_growth        = 2.;   ///< of a step over the last
-    constexpr double share_of_way          = 0.1;  ///< to which the table's way is met, of the error that a step may have
+    constexpr double way_share             = 0.1;  ///< to which the table's way is met, of the error that a step may have
     constexpr double balanced              = 1e-8; ///< what may be left of the forces where there is no such error
 
     /// Behind its rest no lever follows the cylinder so far: there the place of the cylinder does not matter [mm].
-    constexpr double out_of_contact = -10.;
+    constexpr double separated = -10.;
 
     constexpr double same_place = 1e-7; ///< of the cylinder for a lever that touches nothing [mm]
 
-    double shortest_period_of(const double m, const double K, const BaseMotion &base)
+    double find_shortest_period(const double m, const double K, const BaseMotion &base)
     {
       return std::min(2. * M_PI * std::sqrt(m / K), base.shortest_period);
     }
@@ -39,7 +39,7 @@ namespace sprag
       return !motion.contact.empty() || !motion.surface_contact.empty();
     }
 
-    double sum_of(const StoredEnergy &energy)
+    double total_energy(const StoredEnergy &energy)
     {
       return energy.kinetic + energy.spring + energy.elastic + energy.support + energy.contact;
     }
@@ -55,41 +55,41 @@ namespace sprag
     }
   }
 
-  LeverTable::LeverTable(const Scene &of_table, DynamicModel &outward, DynamicModel &inward, const TransientSettings &given)
-      : scene(of_table)
+  LeverTable::LeverTable(const Scene &scene_, DynamicModel &outward, DynamicModel &inward, const TransientSettings &settings_)
+      : scene(scene_)
       , m(scene.isolation.mass)
       , K(scene.isolation.stiffness)
       , levers(scene.isolation.levers)
-      , settings(given)
-      , motion_of_base(base_motion(scene.isolation))
+      , settings(settings_)
+      , base_excitation(base_motion(scene.isolation))
       , largest_z(scene.drive.maximum())
-      , longest_step(
-            adapts() ? std::min(most_of_first * settings.time.step, shortest_period_of(m, K, motion_of_base) / steps_of_a_period)
-                     : settings.time.step)
-      , way_tolerance(share_of_way * settings.force_scale / settings.contact_stiffness * local_tolerance())
+      , longest_step(adapts() ? std::min(first_step_limit * settings.time.step,
+                                         find_shortest_period(m, K, base_excitation) / steps_per_period)
+                              : settings.time.step)
+      , way_tolerance(way_share * settings.force_scale / settings.contact_stiffness * local_tolerance())
       , sides{ { { outward, 1, {}, {}, {} }, { inward, -1, {}, {}, {} } } }
   {
     if (scene.analysis.model == ModelType::finite_element || scene.analysis.dimension == 3)
       course.grid.use_halves_alone();
-    course.wanted_step = settings.time.step;
-    course.tangent     = settings.contact_stiffness;
-    now.z              = scene.isolation.initial_displacement;
-    now.rate           = scene.isolation.initial_velocity;
+    course.requested_step = settings.time.step;
+    course.tangent        = settings.contact_stiffness;
+    now.z                 = scene.isolation.initial_displacement;
+    now.rate              = scene.isolation.initial_velocity;
     for (auto &side : sides)
     {
-      const auto at = drive_of(side, 0., now.z, now.rate);
+      const auto at = drive_point(side, 0., now.z, now.rate);
       side.motion   = side.model.initial_motion({ 0., std::max(0., at.x), 0., 0. });
       side.stored   = side.model.stored_energy(side.motion);
-      course.force += force_of(side, side.motion);
+      course.force += side_force(side, side.motion);
       side.motion.drive = at;
       side.forces.begin(side.motion.forces);
     }
-    course.force_of_step = course.force_of_step_before = course.force;
+    course.step_force = course.previous_step_force = course.force;
     begin();
   }
 
   /// The force at the end of a motion, the outcome of the model's last step [N].
-  double LeverTable::force_of(const Side &side, const Motion &motion) const
+  double LeverTable::side_force(const Side &side, const Motion &motion) const
   {
     if (!touches(motion))
       return 0.;
@@ -103,12 +103,12 @@ namespace sprag
 
   BasePoint LeverTable::base() const
   {
-    return motion_of_base.at(now.time, course.piece);
+    return base_excitation.at(now.time, course.piece);
   }
 
   std::size_t LeverTable::piece_before(const double time) const
   {
-    const auto &kinks = motion_of_base.kinks;
+    const auto &kinks = base_excitation.kinks;
     std::size_t found = course.piece;
     while (found < kinks.size() && kinks[found] < time)
       ++found;
@@ -117,27 +117,27 @@ namespace sprag
 
   BasePoint LeverTable::base_at(const double time) const
   {
-    return motion_of_base.at(time, piece_before(time));
+    return base_excitation.at(time, piece_before(time));
   }
 
-  DrivePoint LeverTable::drive_of(const Side &side, const double time, const double z, const double rate) const
+  DrivePoint LeverTable::drive_point(const Side &side, const double time, const double z, const double rate) const
   {
     const double x = side.sign * z;
-    return x < out_of_contact ? DrivePoint{ time, out_of_contact, 0., 0. } : DrivePoint{ time, x, side.sign * rate, 0. };
+    return x < separated ? DrivePoint{ time, separated, 0., 0. } : DrivePoint{ time, x, side.sign * rate, 0. };
   }
 
-  /// Steps both levers to the table's place z + way_of_table. A lever out of contact keeps its result of the trial before if
+  /// Steps both levers to the table's place z + table_way. A lever out of contact keeps its result of the trial before if
   /// both trials end at the same place.
-  std::optional<LeverTable::Trial> LeverTable::tried(const double h, const double way_of_table, std::optional<Trial> before)
+  std::optional<LeverTable::Trial> LeverTable::tried(const double h, const double table_way, std::optional<Trial> before)
   {
     auto weights        = generalised_alpha(settings.time.spectral_radius, h);
     weights.wants_error = adapts();
-    const double z = now.z + way_of_table, rate = 2. * (way_of_table - course.way_owed) / h - now.rate;
+    const double z = now.z + table_way, rate = 2. * (table_way - course.way_owed) / h - now.rate;
     Trial trial{ z, rate, 0., 0., {} };
     for (unsigned int i = 0; i < sides.size(); ++i)
     {
       auto &side    = sides[i];
-      const auto to = drive_of(side, now.time + h, z, rate);
+      const auto to = drive_point(side, now.time + h, z, rate);
       auto &outcome = trial.levers[i];
       if (before && is_free(side, before->levers[i]) && std::abs(before->z - z) < same_place)
       {
@@ -153,10 +153,10 @@ namespace sprag
       const double way = to.x - side.motion.drive.x;
       if (!outcome.motion)
         return {};
-      trial.force += way != 0. ? side.sign * levers * outcome.work.drive / way : force_of(side, *outcome.motion);
+      trial.force += way != 0. ? side.sign * levers * outcome.work.drive / way : side_force(side, *outcome.motion);
     }
     const double base_change = base_at(now.time + h).v - base().v;
-    trial.unbalanced         = m * (rate - now.rate + base_change) / h + 0.5 * K * (z + now.z) + trial.force;
+    trial.residual           = m * (rate - now.rate + base_change) / h + 0.5 * K * (z + now.z) + trial.force;
     return trial;
   }
 
@@ -168,7 +168,7 @@ namespace sprag
   /// The way on which the force goes on as in the last two steps.
   double LeverTable::predicted_way(const double h) const
   {
-    const double mean_force = course.force_of_step + extrapolation(h) * (course.force_of_step - course.force_of_step_before);
+    const double mean_force = course.step_force + extrapolation(h) * (course.step_force - course.previous_step_force);
     const double change     = base_at(now.time + h).v - base().v;
     return (m * (2. * (now.rate + course.way_owed / h) - change) / h - K * now.z - mean_force) / (2. * m / (h * h) + 0.5 * K);
   }
@@ -187,20 +187,20 @@ namespace sprag
       if (!trial)
         return {};
       const double scale = std::abs(K * trial->z) + std::abs(trial->force) + std::abs(m * base().a) + settings.force_scale;
-      if (std::abs(trial->unbalanced) <= std::max(balanced * scale, way_tolerance * inertia))
+      if (std::abs(trial->residual) <= std::max(balanced * scale, way_tolerance * inertia))
         return trial;
       if (i > 0 && way != last_way)
-        course.tangent = (trial->unbalanced - last) / (way - last_way) - inertia - 0.5 * K;
-      last     = trial->unbalanced;
+        course.tangent = (trial->residual - last) / (way - last_way) - inertia - 0.5 * K;
+      last     = trial->residual;
       last_way = way;
-      way -= trial->unbalanced / std::max(inertia + 0.5 * K + course.tangent, 0.5 * inertia);
+      way -= trial->residual / std::max(inertia + 0.5 * K + course.tangent, 0.5 * inertia);
     }
     return {};
   }
 
   /// Largest error of the levers in contact, over the tolerance of a step. Levers that swing free of the cylinder do not move
   /// the table.
-  double LeverTable::error_of(const Trial &trial) const
+  double LeverTable::trial_error(const Trial &trial) const
   {
     double largest = 0.;
     for (unsigned int i = 0; i < sides.size(); ++i)
@@ -211,10 +211,10 @@ namespace sprag
 
   TableEvent LeverTable::advance(const double until)
   {
-    const auto &kinks = motion_of_base.kinks;
+    const auto &kinks = base_excitation.kinks;
     while (course.piece < kinks.size() && kinks[course.piece] <= now.time)
       ++course.piece;
-    const auto &jumps = motion_of_base.jumps;
+    const auto &jumps = base_excitation.jumps;
     const auto jump   = std::upper_bound(jumps.begin(), jumps.end(), now.time);
     const double end  = jump != jumps.end() ? std::min(until, *jump) : until;
     // Instants that differ by round-off are one.
@@ -225,7 +225,7 @@ namespace sprag
     }
     if (course.grid.needs_span(end))
       course.grid.begin(now.time, end, longest_step);
-    course.grid.choose(course.wanted_step);
+    course.grid.choose(course.requested_step);
     return take_step();
   }
 
@@ -245,16 +245,16 @@ namespace sprag
       {
         failure = error.what();
       }
-      const double error = trial && adapts() ? error_of(*trial) : 0.;
-      const bool is_last = std::min(h, course.wanted_step) < shortest;
+      const double error = trial && adapts() ? trial_error(*trial) : 0.;
+      const bool is_last = std::min(h, course.requested_step) < shortest;
       if (trial && (error <= 1. || is_last))
       {
         const TableState before = now;
         accept(h, *trial);
-        now.time = course.grid.end_of_step();
+        now.time = course.grid.step_end();
         course.grid.advance();
         adapt(h, error);
-        return event_of(before);
+        return find_event(before);
       }
       if (is_last)
         throw AnalysisError("no step beyond t = " + rounded_text(now.time) + " s (z = " + mm(now.z) + "): " + failure +
@@ -265,19 +265,19 @@ namespace sprag
   void LeverTable::shorten()
   {
     course.grid.shorten();
-    course.wanted_step = course.grid.duration();
-    course.last_error  = 1.;
+    course.requested_step = course.grid.duration();
+    course.last_error     = 1.;
   }
 
   /// Errors go with the third power of the step; the larger of the last two counts, as they vary with the elements that pass. A
   /// step that was wanted longer than there was room for may be as long again.
   void LeverTable::adapt(const double h, const double error)
   {
-    const double longest = std::max(course.wanted_step, largest_growth * h);
+    const double longest = std::max(course.requested_step, largest_growth * h);
     if (adapts())
-      course.wanted_step = std::min(longest, h * std::cbrt(error_aimed_at / std::max({ error, course.last_error, 1e-9 })));
+      course.requested_step = std::min(longest, h * std::cbrt(error_aimed_at / std::max({ error, course.last_error, 1e-9 })));
     else
-      course.wanted_step = std::min(longest, settings.time.step);
+      course.requested_step = std::min(longest, settings.time.step);
     course.last_error = error;
   }
 
@@ -287,17 +287,17 @@ namespace sprag
     const double a_before = acceleration(), t = now.time;
     accept_levers(trial, h);
     // The way was met to within a tolerance: the rate follows from the forces, and what the way lacks the next step adds.
-    const double mean_force     = 0.5 * K * (trial.z + now.z) + trial.force;
-    const double rate           = now.rate - (base_at(t + h).v - base_before.v) - mean_force * h / m;
-    course.way_owed             = 0.5 * h * (rate - trial.rate);
-    course.force_of_step_before = course.force_of_step;
-    course.force_of_step        = trial.force;
-    course.step_before          = course.steps > 0 ? course.last_step : h;
-    course.last_step            = h;
-    course.piece                = piece_before(t + h);
-    now.z                       = trial.z;
-    now.rate                    = rate;
-    now.time                    = t + h;
+    const double mean_force    = 0.5 * K * (trial.z + now.z) + trial.force;
+    const double rate          = now.rate - (base_at(t + h).v - base_before.v) - mean_force * h / m;
+    course.way_owed            = 0.5 * h * (rate - trial.rate);
+    course.previous_step_force = course.step_force;
+    course.step_force          = trial.force;
+    course.step_before         = course.steps > 0 ? course.last_step : h;
+    course.last_step           = h;
+    course.piece               = piece_before(t + h);
+    now.z                      = trial.z;
+    now.rate                   = rate;
+    now.time                   = t + h;
     ++course.steps;
     const auto base_behind = base();
     now.base_work -= mean_force * h * 0.5 * (base_before.v + base_behind.v);
@@ -317,13 +317,13 @@ namespace sprag
       side.motion = std::move(*trial.levers[i].motion);
       side.forces.accept(side.motion.forces, h);
       side.stored = side.model.stored_energy(side.motion);
-      course.force += force_of(side, side.motion);
+      course.force += side_force(side, side.motion);
     }
   }
 
   void LeverTable::add_integrals(const double h, const Accelerations &before, const Accelerations &behind)
   {
-    const double w = 2. * M_PI * motion_of_base.frequency, from = w * (now.time - h), to = w * now.time;
+    const double w = 2. * M_PI * base_excitation.frequency, from = w * (now.time - h), to = w * now.time;
     const auto add = [h](double &sum, const double first, const double last) { sum += 0.5 * h * (first + last); };
     add(now.square, before.table * before.table, behind.table * behind.table);
     add(now.cosine, before.table * std::cos(from), behind.table * std::cos(to));
@@ -353,7 +353,7 @@ namespace sprag
            ", or a smaller motion of the base or of the beginning, or more damping";
   }
 
-  TableEvent LeverTable::event_of(const TableState &before) const
+  TableEvent LeverTable::find_event(const TableState &before) const
   {
     if (before.rate * now.rate < 0.)
       return TableEvent::turn;
@@ -362,7 +362,7 @@ namespace sprag
 
   double LeverTable::damper_energy() const
   {
-    return levers * (sum_of(sides[0].stored) + sum_of(sides[1].stored));
+    return levers * (total_energy(sides[0].stored) + total_energy(sides[1].stored));
   }
 
   double LeverTable::energy() const

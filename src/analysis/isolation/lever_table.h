@@ -68,7 +68,7 @@ namespace sprag
       return course.steps > 0 ? static_cast<double>(course.iterations) / static_cast<double>(course.steps) : 0.;
     }
 
-    unsigned long number_of_steps() const
+    unsigned long step_count() const
     {
       return course.steps;
     }
@@ -91,7 +91,7 @@ namespace sprag
     {
       double z, rate;
       double force; ///< mean of the step
-      double unbalanced;
+      double residual;
       std::array<StepOutcome, 2> levers;
     };
 
@@ -99,18 +99,18 @@ namespace sprag
     struct Course
     {
       StepGrid grid;
-      double wanted_step          = 0.;
-      double last_error           = 1.;
-      double last_step            = 0.; ///< durations [s]
-      double step_before          = 0.;
-      double force_of_step        = 0.; ///< means over them [N]
-      double force_of_step_before = 0.;
-      double way_owed             = 0.; ///< that the way until now lacks of what follows from the rates [mm]
-      double tangent              = 0.; ///< of the levers' force by z [N/mm]
-      double force                = 0.;
-      std::size_t piece           = 0; ///< of the motion of the base
-      unsigned long iterations    = 0;
-      unsigned long steps         = 0;
+      double requested_step      = 0.;
+      double last_error          = 1.;
+      double last_step           = 0.; ///< durations [s]
+      double step_before         = 0.;
+      double step_force          = 0.; ///< means over them [N]
+      double previous_step_force = 0.;
+      double way_owed            = 0.; ///< that the way until now lacks of what follows from the rates [mm]
+      double tangent             = 0.; ///< of the levers' force by z [N/mm]
+      double force               = 0.;
+      std::size_t piece          = 0; ///< of the motion of the base
+      unsigned long iterations   = 0;
+      unsigned long steps        = 0;
     };
 
     struct Accelerations
@@ -121,7 +121,7 @@ namespace sprag
     const Scene &scene;
     const double m, K, levers;
     const TransientSettings settings;
-    const BaseMotion motion_of_base;
+    const BaseMotion base_excitation;
     const double largest_z;
     const double longest_step;
     const double way_tolerance; ///< to which a step's way is met [mm]
@@ -142,15 +142,15 @@ namespace sprag
     /// Returns true if a lever is out of contact over a whole step.
     static bool is_free(const Side &side, const StepOutcome &outcome);
 
-    double force_of(const Side &side, const Motion &motion) const;
+    double side_force(const Side &side, const Motion &motion) const;
     std::size_t piece_before(double time) const;
     BasePoint base_at(double time) const;
-    DrivePoint drive_of(const Side &side, double time, double z, double rate) const;
+    DrivePoint drive_point(const Side &side, double time, double z, double rate) const;
     double extrapolation(double h) const;
     double predicted_way(double h) const;
-    std::optional<Trial> tried(double h, double way_of_table, std::optional<Trial> before);
+    std::optional<Trial> tried(double h, double table_way, std::optional<Trial> before);
     std::optional<Trial> solved(double h);
-    double error_of(const Trial &trial) const;
+    double trial_error(const Trial &trial) const;
     TableEvent take_step();
     void shorten();
     void adapt(double h, double error);
@@ -158,7 +158,7 @@ namespace sprag
     void accept_levers(Trial &trial, double h);
     void add_integrals(double h, const Accelerations &before, const Accelerations &behind);
     std::string beyond_the_way() const;
-    TableEvent event_of(const TableState &before) const;
+    TableEvent find_event(const TableState &before) const;
   };
 
   void visit(Archive &archive, LeverTable &table);

@@ -32,9 +32,9 @@ namespace sprag
     parts         = 1;
   }
 
-  void StepGrid::choose(const double wanted)
+  void StepGrid::choose(const double target)
   {
-    const double least   = length() / wanted * (1. - 1e-6);
+    const double least   = length() / target * (1. - 1e-6);
     unsigned long chosen = 1;
     while (static_cast<double>(chosen) < least || passed * chosen % parts != 0)
       chosen = next_parts(chosen);
@@ -52,7 +52,7 @@ namespace sprag
     return rounded(length() / static_cast<double>(parts));
   }
 
-  double StepGrid::end_of_step() const
+  double StepGrid::step_end() const
   {
     if (passed + 1 == parts && unit + 1 == units)
       return end;

@@ -29,8 +29,8 @@ namespace sprag
       return unit == units;
     }
 
-    /// Makes the present step as long as the grid lets it be from here, but not longer than `wanted` [s].
-    void choose(double wanted);
+    /// Makes the present step as long as the grid lets it be from here, but not longer than `target` [s].
+    void choose(double target);
 
     /// Makes the present step shorter, to about half or two thirds.
     void shorten();
@@ -39,7 +39,7 @@ namespace sprag
     double duration() const;
 
     /// Returns the end of the present step [s].
-    double end_of_step() const;
+    double step_end() const;
 
     /// Goes on to the next step.
     void advance();

@@ -158,10 +158,10 @@ namespace sprag
     constexpr double limit_accuracy = 1e-3; ///< of x [mm]
 
     /// So that the centre never exceeds the drive's speed.
-    double duration_of(const HeldSlide &from, const HeldSlide &to)
+    double path_duration(const HeldSlide &from, const HeldSlide &to)
     {
-      constexpr double peak_of_mean = 1.875; ///< of the speed, see moving_path()
-      return peak_of_mean * std::abs(to.drive.x - from.drive.x) / std::abs(from.drive.v);
+      constexpr double peak_over_mean = 1.875; ///< of the speed, see moving_path()
+      return peak_over_mean * std::abs(to.drive.x - from.drive.x) / std::abs(from.drive.v);
     }
   } // namespace
 
@@ -202,8 +202,8 @@ namespace sprag
   {
     const auto &begin  = *from.slide.slide;
     const auto &end    = *to.slide.slide;
-    const double until = run.drive().time + duration_of(begin, end);
-    const auto path    = moving_path(run.drive(), begin, end, duration_of(begin, end));
+    const double until = run.drive().time + path_duration(begin, end);
+    const auto path    = moving_path(run.drive(), begin, end, path_duration(begin, end));
     while (run.drive().time < until)
       run.step(path);
     return settled(to);
@@ -291,7 +291,7 @@ namespace sprag
   std::optional<Coexistence> Continuation::coexistence()
   {
     std::optional<Coexistence> longest;
-    const auto length = [](const Coexistence &of) { return std::abs(of.to - of.from); };
+    const auto length = [](const Coexistence &stretch) { return std::abs(stretch.to - stretch.from); };
     const auto end_at = [&](const std::size_t inside, const std::size_t outside)
     {
       const bool loses_stability =

@@ -16,7 +16,7 @@ namespace sprag
       return mode.mode.eigenvalue.imag() > smallest_growth * std::abs(mode.mode.eigenvalue);
     }
 
-    double period_of(const Eigenmode &mode)
+    double mode_period(const Eigenmode &mode)
     {
       const auto lambda = mode.mode.eigenvalue;
       return 2. * M_PI / (oscillates(mode) ? lambda.imag() : std::abs(lambda));
@@ -47,10 +47,10 @@ namespace sprag
       }
     };
 
-    std::vector<Sample> sizes_of(const std::vector<Sample> &signal, const bool oscillating)
+    std::vector<Sample> compute_amplitudes(const std::vector<Sample> &signal, const bool oscillating)
     {
       if (oscillating)
-        return envelope_of(signal);
+        return compute_envelope(signal);
       std::vector<Sample> result;
       for (const auto &sample : signal)
         if (sample.value != 0.)
@@ -60,7 +60,7 @@ namespace sprag
 
     void fit(const std::vector<Sample> &signal, const Eigenmode &mode, const double at_start, Growth &growth)
     {
-      growth.sizes     = sizes_of(signal, oscillates(mode));
+      growth.sizes     = compute_amplitudes(signal, oscillates(mode));
       growth.envelope  = fit_exponential(growth.sizes);
       growth.frequency = oscillates(mode) ? fit_frequency(crossings(signal)) : std::numeric_limits<double>::quiet_NaN();
       for (auto &size : growth.sizes)
@@ -77,16 +77,16 @@ namespace sprag
     for (const auto &mode : stability.modes)
     {
       const double round_off = smallest_growth * std::abs(mode.mode.eigenvalue);
-      const auto rate        = [](const Eigenmode &of) { return of.mode.eigenvalue.real(); };
+      const auto rate        = [](const Eigenmode &other) { return other.mode.eigenvalue.real(); };
       if (oscillates(mode) && (slowest == nullptr || rate(mode) > rate(*slowest) + round_off))
         slowest = &mode;
     }
     return slowest != nullptr ? *slowest : stability.worst_mode();
   }
 
-  double step_of(const Eigenmode &mode, const SpragSlipSettings &settings)
+  double choose_step(const Eigenmode &mode, const SpragSlipSettings &settings)
   {
-    return period_of(mode) / settings.steps_per_period;
+    return mode_period(mode) / settings.steps_per_period;
   }
 
   Growth measure_growth(DynamicModel &model, const SlideStability &stability, const SpragSlipSettings &settings, HeldRun &run,
@@ -97,7 +97,7 @@ namespace sprag
     const bool grows      = stability.kind != SlideKind::stable;
     const double at_start = grows ? settings.initial : settings.final;
     const double at_end   = grows ? settings.final : settings.initial;
-    const double period   = period_of(mode);
+    const double period   = mode_period(mode);
 
     Growth growth;
     growth.eigenvalue = mode.mode.eigenvalue;

@@ -47,7 +47,7 @@ namespace sprag
 
   /// Returns the duration of a step: the mode's period over Sprag slip/Steps per period [s]. Without oscillation 2 pi / |lambda|
   /// stands for the period.
-  double step_of(const Eigenmode &mode, const SpragSlipSettings &settings);
+  double choose_step(const Eigenmode &mode, const SpragSlipSettings &settings);
 
   /// Perturbs a slide along its watched mode and follows that from the initial amplitude to the final one, a stable slide from
   /// the final to the initial. The run goes on from there. Requires a slide that is not jammed; throws AnalysisError as

@@ -88,7 +88,7 @@ namespace sprag
       }
   }
 
-  std::vector<MapSite> MapGrid::wanted()
+  std::vector<MapSite> MapGrid::next_sites()
   {
     for (std::size_t level = 0; level + 1 < levels.size(); ++level)
       split_level(level);
@@ -174,7 +174,7 @@ namespace sprag
         }
   }
 
-  std::vector<MapSite> BoundarySearch::wanted() const
+  std::vector<MapSite> BoundarySearch::next_sites() const
   {
     std::set<MapSite> middles;
     if (left > 0)

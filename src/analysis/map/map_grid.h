@@ -30,7 +30,7 @@ namespace sprag
     MapGrid(unsigned int first_points, unsigned int second_points, unsigned int coarsest);
 
     /// Returns the grid points to be judged next, by increasing site; none once nothing is left to refine.
-    std::vector<MapSite> wanted();
+    std::vector<MapSite> next_sites();
 
     /// Takes over what is known of the grid's points.
     void learn(const KnownKinds &known);
@@ -110,7 +110,7 @@ namespace sprag
     BoundarySearch(const MapGrid &grid, unsigned int bisections);
 
     /// Returns the middles of the brackets, by increasing site; none after the last bisection.
-    std::vector<MapSite> wanted() const;
+    std::vector<MapSite> next_sites() const;
 
     /// Takes one bisection; all wanted sites must be known.
     void learn(const KnownKinds &known);

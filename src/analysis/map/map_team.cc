@@ -15,14 +15,14 @@ namespace sprag
     }
   } // namespace
 
-  std::string line_of(const MapSite &site, const MapCell &cell)
+  std::string to_line(const MapSite &site, const MapCell &cell)
   {
     std::vector<double> numbers = { site.first, site.second };
     numbers.insert(numbers.end(), cell.values.begin(), cell.values.end());
     return exact_text(numbers);
   }
 
-  std::pair<MapSite, MapCell> cell_of(const std::string &line)
+  std::pair<MapSite, MapCell> parse_cell(const std::string &line)
   {
     const auto numbers = exact_numbers(line);
     MapCell cell{};
@@ -30,17 +30,17 @@ namespace sprag
     return { { numbers.at(0), numbers.at(1) }, cell };
   }
 
-  MapTeam::MapTeam(const Scene &scene, const Journal *journal, std::function<void(std::size_t, std::size_t)> report)
+  MapFarm::MapFarm(const Scene &scene, const Journal *journal, std::function<void(std::size_t, std::size_t)> report)
       : own_judge(scene)
-      , team({ "map", unchanged_inputs(scene, "map"), std::move(report) }, journal)
+      , farm({ "map", unchanged_inputs(scene, "map"), std::move(report) }, journal)
       , kept(own_judge.mesh_parameter())
   {
-    for (const auto &line : team.taken_over())
+    for (const auto &line : farm.taken_over())
       learn(line);
     from_journal = known.size();
   }
 
-  void MapTeam::judge(const std::vector<MapSite> &sites)
+  void MapFarm::judge(const std::vector<MapSite> &sites)
   {
     std::vector<MapSite> missing;
     std::copy_if(sites.begin(), sites.end(), std::back_inserter(missing),
@@ -48,13 +48,13 @@ namespace sprag
     if (kept)
       std::stable_sort(missing.begin(), missing.end(),
                        [this](const MapSite &a, const MapSite &b) { return coordinate(a, *kept) < coordinate(b, *kept); });
-    team.carry_out(
-        groups_of(missing), [&](const std::size_t i) { return line_of(missing[i], own_judge.judge(missing[i])); },
+    farm.carry_out(
+        site_groups(missing), [&](const std::size_t i) { return to_line(missing[i], own_judge.judge(missing[i])); },
         [this](const std::string &line) { learn(line); });
   }
 
   /// Lines of cells that share a mesh, or single cells where all do.
-  std::vector<std::vector<std::size_t>> MapTeam::groups_of(const std::vector<MapSite> &sites) const
+  std::vector<std::vector<std::size_t>> MapFarm::site_groups(const std::vector<MapSite> &sites) const
   {
     std::vector<std::vector<std::size_t>> groups;
     for (std::size_t i = 0; i < sites.size(); ++i)
@@ -65,9 +65,9 @@ namespace sprag
     return groups;
   }
 
-  void MapTeam::learn(const std::string &line)
+  void MapFarm::learn(const std::string &line)
   {
-    const auto [site, cell] = cell_of(line);
+    const auto [site, cell] = parse_cell(line);
     known.insert({ site, cell });
     known_kinds.insert({ site, cell.kinds() });
   }

@@ -15,7 +15,7 @@ namespace sprag
     /// The scene as a beam moving at x with a constant mu; none where it has no equilibrium, or not a unique one.
     std::optional<HeldSlide> beam_slide(const Device &device, const JammingMargin &at, const double mu)
     {
-      const auto law         = law_of_face(device);
+      const auto law         = face_law(device);
       Device beam            = device;
       beam.contact.stiffness = law.stiffness;
       beam.contact.exponent  = law.exponent;

@@ -36,9 +36,9 @@ namespace sprag
 
   std::vector<Role> roles(const Scene &scene, const SlideStability &present, DynamicsMaker &maker)
   {
-    std::vector<Role> result = { without_inertia(present) };
-    const bool of_speed      = !std::holds_alternative<CoulombFriction>(held_scene(scene).friction.law);
-    if (present.slide && of_speed)
+    std::vector<Role> result    = { without_inertia(present) };
+    const bool depends_on_speed = !std::holds_alternative<CoulombFriction>(held_scene(scene).friction.law);
+    if (present.slide && depends_on_speed)
     {
       Scene constant           = held_scene(scene);
       constant.friction.law    = CoulombFriction{ present.slide->mu };

@@ -47,7 +47,7 @@ namespace sprag
           , value_tried(value_tried_)
       {
         result.range   = range;
-        result.spacing = spacing_of(range);
+        result.spacing = range_spacing(range);
       }
 
       void try_points(const std::vector<double> &hints)
@@ -80,8 +80,8 @@ namespace sprag
             climb(window, steps, [](const Tried &tried) { return -tried.slide->growth_rate; });
             continue;
           }
-          const auto modes_of     = [](const Tried &tried) { return std::max<std::size_t>(1, tried.slide->growth_rates.size()); };
-          const std::size_t modes = std::min({ modes_of(low), modes_of(middle), modes_of(high) });
+          const auto count_modes  = [](const Tried &tried) { return std::max<std::size_t>(1, tried.slide->growth_rates.size()); };
+          const std::size_t modes = std::min({ count_modes(low), count_modes(middle), count_modes(high) });
           for (std::size_t k = 0; k < modes; ++k)
             climb(window, steps,
                   [k](const Tried &tried)

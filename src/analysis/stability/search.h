@@ -61,7 +61,7 @@ namespace sprag
   constexpr unsigned int expected_values_between = 8;
 
   /// Returns the distance of the range's points; 0 of a single one.
-  inline double spacing_of(const ParameterRange &range)
+  inline double range_spacing(const ParameterRange &range)
   {
     return range.points == 1 ? 0. : std::abs(range.to - range.from) / (range.points - 1);
   }

@@ -19,7 +19,7 @@ namespace sprag
       return mode.mode.eigenvalue.imag() / (2. * M_PI);
     }
 
-    SlideKind kind_of(const HeldSlide &slide, const std::complex<double> worst)
+    SlideKind classify(const HeldSlide &slide, const std::complex<double> worst)
     {
       if (!(slide.uniqueness > 0.) || !(slide.forces.P > 0.))
         return SlideKind::jammed;
@@ -89,7 +89,7 @@ namespace sprag
     const auto first =
         std::find_if(result.modes.begin(), worst, [&](const Eigenmode &mode) { return are_tied(mode.mode, worst->mode); });
     result.worst = static_cast<std::size_t>(first - result.modes.begin());
-    result.kind  = kind_of(*result.slide, result.worst_mode().mode.eigenvalue);
+    result.kind  = classify(*result.slide, result.worst_mode().mode.eigenvalue);
     return result;
   }
 

@@ -56,13 +56,13 @@ namespace sprag
     /// A beam in place of a meshed bar, with the contact law of its layer.
     Scene beam_instead(const Scene &scene)
     {
-      const auto law = law_of_face(scene);
+      const auto law = face_law(scene);
       return prepared(variant(scene, { "Analysis/Model=beam", override_text("Contact/Stiffness", law.stiffness),
                                        override_text("Contact/Exponent", law.exponent) }));
     }
 
     /// Values in the middle of what a beam says is narrower than the spacing of the range's points.
-    std::vector<double> hints_of_beam(const Scene &scene, const ParameterRange &range)
+    std::vector<double> beam_hints(const Scene &scene, const ParameterRange &range)
     {
       if (!is_meshed(scene.analysis.model) || scene.analysis.dimension == 3 || !scene.mesh.file.empty())
         return {};
@@ -75,7 +75,7 @@ namespace sprag
       std::vector<double> hints;
       for (std::size_t i = 1; i < found.changes.size(); ++i)
         if (const double low = found.changes[i - 1].value, high = found.changes[i].value;
-            std::abs(high - low) < spacing_of(range))
+            std::abs(high - low) < range_spacing(range))
           hints.push_back(0.5 * (low + high));
       return hints;
     }
@@ -152,7 +152,7 @@ namespace sprag
   {
     const auto judge_at = [&](const double value)
     { return sweep(prepared(variant(scene, { override_text(range.name, value) })), maker).worst(); };
-    return search_kinds(range, { tolerance, is_reduced(scene.analysis.model) ? 14u : 5u }, judge_at, hints_of_beam(scene, range),
+    return search_kinds(range, { tolerance, is_reduced(scene.analysis.model) ? 14u : 5u }, judge_at, beam_hints(scene, range),
                         tried);
   }
 } // namespace sprag

@@ -97,7 +97,7 @@ namespace sprag
         cost.failure = error.what(); // an element turned inside out or a singular tangent: a shorter step may avoid it
         return {};
       }
-      cost.failure = model.objection(step.trial, *found);
+      cost.failure = model.check_validity(step.trial, *found);
       cost.remedy  = "Try a smaller friction coefficient, Geometry/Interface offset or Drive/Stroke.";
       if (!cost.failure.empty())
         return {};
@@ -126,7 +126,7 @@ namespace sprag
     /// A drive that goes back at once from where the cylinder was slid forward.
     bool begins_backward(const DrivePoint &point)
     {
-      return point.time == 0. && point.x > 0. && direction_of(point.v) < 0;
+      return point.time == 0. && point.x > 0. && drive_direction(point.v) < 0;
     }
 
     /// Part of the path after a reversal over which the contact goes from sliding one way to sliding the other [mm].
@@ -152,7 +152,7 @@ namespace sprag
     };
 
     /// A step of at most dx that also resolves how the speed changes, on which mu depends: the slip speed of a step is its mean.
-    DrivePoint end_of_step(const Drive &drive, const double time, double dx)
+    DrivePoint step_end(const Drive &drive, const double time, double dx)
     {
       const double v = drive.at(time, Drive::Side::after).v;
       auto point     = drive.step(time, dx);
@@ -170,13 +170,13 @@ namespace sprag
     {
       StepCost cost;
       const double time = from.state.drive.time;
-      auto next         = solve_step(model, from.state, end_of_step(drive, time, dx), settings, sticking, cost);
+      auto next         = solve_step(model, from.state, step_end(drive, time, dx), settings, sticking, cost);
       while (!next)
       {
         if (dx * cut < settings.minimum_step)
           give_up(from.row, dx, cost);
         dx *= cut;
-        next = solve_step(model, from.state, end_of_step(drive, time, dx), settings, sticking, cost);
+        next = solve_step(model, from.state, step_end(drive, time, dx), settings, sticking, cost);
       }
       auto &[state, found] = *next;
       Row row              = observed(model, state, found);

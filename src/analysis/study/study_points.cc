@@ -21,7 +21,7 @@ namespace sprag
     }
 
     /// Scene of a run: the study's scene read with these overrides, without fields.
-    Scene scene_of_run(const Scene &study, const std::vector<std::string> &settings)
+    Scene make_run_scene(const Scene &study, const std::vector<std::string> &settings)
     {
       auto overrides = joined({ "Analysis/Type=" + study.parameters->at("Study/Type") }, settings);
       overrides.push_back("Output/Fields=none");
@@ -29,7 +29,7 @@ namespace sprag
     }
   } // namespace
 
-  std::vector<StudyPoint> points_of(const StudySettings &study)
+  std::vector<StudyPoint> make_study_points(const StudySettings &study)
   {
     std::vector<StudyPoint> points;
     if (study.combine == Combination::list)
@@ -59,14 +59,14 @@ namespace sprag
     std::vector<std::string> settings;
     for (std::size_t i = 0; i < values.size(); ++i)
       settings.push_back(study.study.varied[i].name + "=" + values[i]);
-    return scene_of_run(study, settings);
+    return make_run_scene(study, settings);
   }
 
-  Scene scene_of_reference(const Scene &study)
+  Scene reference_scene(const Scene &study)
   {
     std::vector<std::string> settings;
     for (const auto &[name, values] : study.study.reference_values)
       settings.push_back(name + "=" + values.front());
-    return scene_of_run(study, settings);
+    return make_run_scene(study, settings);
   }
 } // namespace sprag

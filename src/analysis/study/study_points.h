@@ -14,7 +14,7 @@ namespace sprag
   using StudyPoint = std::vector<std::size_t>;
 
   /// Lists the runs of a study; of a grid those of the last parameter follow each other.
-  std::vector<StudyPoint> points_of(const StudySettings &study);
+  std::vector<StudyPoint> make_study_points(const StudySettings &study);
 
   /// Returns the values that the varied parameters have at a point, in their order.
   std::vector<std::string> values_at(const StudySettings &study, const StudyPoint &point);
@@ -23,5 +23,5 @@ namespace sprag
   Scene scene_at(const Scene &study, const StudyPoint &point);
 
   /// Returns the scene of the run that the others are compared with. Throws InputError where it is refused.
-  Scene scene_of_reference(const Scene &study);
+  Scene reference_scene(const Scene &study);
 } // namespace sprag

@@ -74,7 +74,7 @@ namespace sprag
       fields.text(entry.description);
     }
 
-    Entry entry_of(FieldReader &fields)
+    Entry read_entry(FieldReader &fields)
     {
       Entry entry;
       entry.name = fields.text();
@@ -93,7 +93,7 @@ namespace sprag
     return names.at(static_cast<std::size_t>(outcome));
   }
 
-  std::string line_of(const StudyRecord &record)
+  std::string to_line(const StudyRecord &record)
   {
     FieldWriter fields;
     fields.numbers({ static_cast<double>(record.run), static_cast<double>(record.outcome), record.cpu_time, record.cpu_spent,
@@ -111,7 +111,7 @@ namespace sprag
     return fields.line;
   }
 
-  StudyRecord record_of(const std::string &line)
+  StudyRecord parse_record(const std::string &line)
   {
     FieldReader fields{ line };
     StudyRecord record;
@@ -127,7 +127,7 @@ namespace sprag
     for (double i = 0.; i < numbers.at(7); ++i)
       record.warnings.push_back(fields.text());
     for (double i = 0.; i < numbers.at(8); ++i)
-      record.found.summary.push_back(entry_of(fields));
+      record.found.summary.push_back(read_entry(fields));
     const auto curve = fields.numbers();
     for (std::size_t i = 0; i + 3 < curve.size(); i += 4)
       record.found.curve.push_back({ curve[i], curve[i + 1], curve[i + 2], curve[i + 3] });

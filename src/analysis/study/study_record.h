@@ -34,8 +34,8 @@ namespace sprag
   };
 
   /// Writes a record as a line of a journal, numbers to the last bit.
-  std::string line_of(const StudyRecord &record);
+  std::string to_line(const StudyRecord &record);
 
   /// Reads such a line.
-  StudyRecord record_of(const std::string &line);
+  StudyRecord parse_record(const std::string &line);
 } // namespace sprag

@@ -12,7 +12,7 @@ namespace sprag
 {
   namespace
   {
-    double number_of(const std::string &value)
+    double to_number(const std::string &value)
     {
       const auto number = leading_number(value);
       return number && number->rest.empty() ? number->value : unknown;
@@ -27,7 +27,7 @@ namespace sprag
     }
 
     /// NaN where one of them is.
-    std::vector<double> largest_of(const std::vector<MeasuredErrors> &measured)
+    std::vector<double> largest_errors(const std::vector<MeasuredErrors> &measured)
     {
       std::vector<double> largest = measured.front().errors;
       for (const auto &[measure, errors, front, recommended] : measured)
@@ -43,7 +43,7 @@ namespace sprag
       for (std::size_t i = 0; i < run.size(); ++i)
       {
         const auto &values = study.varied[i].values;
-        const bool smaller = is_size(study.varied[i].name) && number_of(values[run[i]]) <= number_of(values[other[i]]);
+        const bool smaller = is_size(study.varied[i].name) && to_number(values[run[i]]) <= to_number(values[other[i]]);
         if (run[i] != other[i] && !smaller)
           return false;
       }
@@ -104,9 +104,9 @@ namespace sprag
         std::map<std::string, SizesAndErrors> by_others;
         for (std::size_t row = 0; row < rows.size(); ++row)
         {
-          auto &of_others = by_others[others_text(study, rows[row], parameter)];
-          of_others.sizes.push_back(number_of(study.varied[parameter].values[rows[row][parameter]]));
-          of_others.errors.push_back(measured.errors[row]);
+          auto &series = by_others[others_text(study, rows[row], parameter)];
+          series.sizes.push_back(to_number(study.varied[parameter].values[rows[row][parameter]]));
+          series.errors.push_back(measured.errors[row]);
         }
         for (const auto &[others, pairs] : by_others)
           if (const double order = observed_order(pairs.sizes, pairs.errors); !std::isnan(order))
@@ -120,14 +120,14 @@ namespace sprag
     return others_text(study, point, point.size());
   }
 
-  StudyTrade trade_of(const StudySettings &study, const std::vector<StudyPoint> &points, const StudyRecords &records)
+  StudyTrade compute_trade(const StudySettings &study, const std::vector<StudyPoint> &points, const StudyRecords &records)
   {
     StudyTrade trade;
     const auto reference = records.find(points.size());
     if (reference == records.end() || reference->second.outcome != RunOutcome::completed)
       return trade;
     const Comparable &expected = reference->second.found;
-    for (const auto &measure : measures_of(study.type, expected))
+    for (const auto &measure : make_measures(study.type, expected))
       trade.measured.push_back({ measure, {}, {}, {} });
     if (trade.measured.empty())
       return trade;
@@ -137,7 +137,7 @@ namespace sprag
       if (run < points.size())
       {
         const bool completed = record.outcome == RunOutcome::completed;
-        const auto errors    = completed ? errors_of(study.type, record.found, expected) : std::vector<double>();
+        const auto errors    = completed ? compute_errors(study.type, record.found, expected) : std::vector<double>();
         for (std::size_t i = 0; i < trade.measured.size(); ++i)
           trade.measured[i].errors.push_back(completed ? errors[i] : unknown);
         costs.push_back(completed ? (is_counted(records) ? record.work : record.cpu_time) : unknown);
@@ -147,7 +147,7 @@ namespace sprag
       if (is_size(study.varied[i].name))
         add_orders(study, rows, i, trade);
     if (trade.measured.size() > 1)
-      trade.measured.push_back({ { "all", "largest of the errors" }, largest_of(trade.measured), {}, {} });
+      trade.measured.push_back({ { "all", "largest of the errors" }, largest_errors(trade.measured), {}, {} });
     for (auto &measured : trade.measured)
       judge(study, rows, costs, measured);
     return trade;

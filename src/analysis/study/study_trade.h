@@ -46,7 +46,7 @@ namespace sprag
   };
 
   /// Compares the finished runs with the reference; nothing where there is none or it is not completed.
-  StudyTrade trade_of(const StudySettings &study, const std::vector<StudyPoint> &points, const StudyRecords &records);
+  StudyTrade compute_trade(const StudySettings &study, const std::vector<StudyPoint> &points, const StudyRecords &records);
 
   /// Returns "Mesh/Face size = 1, Mesh/Degree = 2".
   std::string settings_text(const StudySettings &study, const StudyPoint &point);

@@ -37,7 +37,7 @@ namespace sprag
     }
 
     /// With their ends; the last one may lack it.
-    std::vector<std::string> lines_of(const std::string &path)
+    std::vector<std::string> read_lines(const std::string &path)
     {
       std::ifstream input(path);
       std::vector<std::string> lines;
@@ -47,7 +47,7 @@ namespace sprag
     }
 
     /// None where the line is not as it was written.
-    std::optional<std::string> content_of(const std::string &header, const std::string &line)
+    std::optional<std::string> parse_content(const std::string &header, const std::string &line)
     {
       const std::size_t behind  = line.rfind(' ') + 1; // 0 without a blank
       const std::string content = line.substr(0, behind);
@@ -88,7 +88,7 @@ namespace sprag
 
   void Journal::read()
   {
-    const auto lines  = lines_of(path);
+    const auto lines  = read_lines(path);
     const bool usable = !lines.empty() && lines.front() == header;
     other_scene       = !lines.empty() && !usable;
     if (!usable)
@@ -98,7 +98,7 @@ namespace sprag
       return write(file, path, header);
     }
     for (std::size_t i = 1; i < lines.size(); ++i)
-      if (const auto content = content_of(header, lines[i]))
+      if (const auto content = parse_content(header, lines[i]))
         found.push_back(*content);
       else
         ++damaged;

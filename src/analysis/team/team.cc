@@ -24,7 +24,7 @@ namespace sprag
   } // namespace
 
   /// Numbers that all ranks count up without waiting for each other.
-  class Team::Counters
+  class TaskFarm::Counters
   {
   public:
     enum Name : MPI_Aint
@@ -78,11 +78,11 @@ namespace sprag
   };
 
   /// Lines of this rank, on their way into the journal.
-  class Team::Batch
+  class TaskFarm::Batch
   {
   public:
-    Batch(const Task &of, const std::pair<std::string, std::string> &journal)
-        : task(of)
+    Batch(const Task &task_, const std::pair<std::string, std::string> &journal)
+        : task(task_)
         , address(journal)
     {
     }
@@ -120,8 +120,8 @@ namespace sprag
     std::vector<std::string> fresh, written;
   };
 
-  Team::Team(Task of, const Journal *first_ranks_journal)
-      : task(std::move(of))
+  TaskFarm::TaskFarm(Task task_, const Journal *first_ranks_journal)
+      : task(std::move(task_))
       , reports(first_ranks_journal != nullptr)
   {
     if (first_ranks_journal != nullptr)
@@ -133,36 +133,37 @@ namespace sprag
     from_journal = broadcast(MPI_COMM_WORLD, from_journal);
   }
 
-  void Team::carry_out(const std::vector<std::vector<std::size_t>> &groups, const std::function<std::string(std::size_t)> &work,
-                       const std::function<void(const std::string &)> &learn)
+  void TaskFarm::carry_out(const std::vector<std::vector<std::size_t>> &groups,
+                           const std::function<std::string(std::size_t)> &work,
+                           const std::function<void(const std::string &)> &learn)
   {
-    std::size_t wanted = 0;
+    std::size_t total = 0;
     for (const auto &group : groups)
-      wanted += group.size();
+      total += group.size();
     Batch batch(task, journal);
     std::string failure;
     {
       Counters counters;
       try
       {
-        work_on(groups, work, wanted, counters, batch);
+        work_on(groups, work, total, counters, batch);
       }
       catch (const AnalysisError &error)
       {
         failure = error.what();
         counters.add(Counters::stop, 1);
       }
-      wait_for_others(wanted, counters);
+      wait_for_others(total, counters);
     }
     for (const auto &lines : gather(MPI_COMM_WORLD, batch.lines()))
       std::for_each(lines.begin(), lines.end(), learn);
-    for (const auto &told : gather(MPI_COMM_WORLD, failure))
-      if (!told.empty())
-        throw AnalysisError(told);
+    for (const auto &message : gather(MPI_COMM_WORLD, failure))
+      if (!message.empty())
+        throw AnalysisError(message);
   }
 
-  void Team::work_on(const std::vector<std::vector<std::size_t>> &groups, const std::function<std::string(std::size_t)> &work,
-                     const std::size_t wanted, Counters &counters, Batch &batch) const
+  void TaskFarm::work_on(const std::vector<std::vector<std::size_t>> &groups, const std::function<std::string(std::size_t)> &work,
+                         const std::size_t total, Counters &counters, Batch &batch) const
   {
     const auto stopped = [&] { return interrupted() || counters.value(Counters::stop) > 0; };
     for (std::size_t next = 0; !stopped() && (next = counters.add(Counters::group, 1)) < groups.size();)
@@ -175,7 +176,7 @@ namespace sprag
         batch.add(line);
         const auto done = counters.add(Counters::done, 1) + 1;
         if (reports)
-          task.report(done, wanted);
+          task.report(done, total);
       }
     batch.write();
     if (interrupted())
@@ -183,16 +184,16 @@ namespace sprag
   }
 
   /// Without the calls of MPI that keep a core busy.
-  void Team::wait_for_others(const std::size_t wanted, const Counters &counters) const
+  void TaskFarm::wait_for_others(const std::size_t total, const Counters &counters) const
   {
-    for (std::size_t done = 0; (done = counters.value(Counters::done)) < wanted && counters.value(Counters::stop) == 0;)
+    for (std::size_t done = 0; (done = counters.value(Counters::done)) < total && counters.value(Counters::stop) == 0;)
     {
       if (reports)
-        task.report(done, wanted);
+        task.report(done, total);
       std::this_thread::sleep_for(pause);
     }
     if (reports)
-      task.report(counters.value(Counters::done), wanted);
+      task.report(counters.value(Counters::done), total);
   }
 
   std::function<void()> unchanged_inputs(const Scene &scene, const std::string &name)

@@ -15,7 +15,7 @@ namespace sprag
 
   /// All ranks of MPI, doing the pieces of a long analysis together. The result of a piece is a line of text, which goes into the
   /// journal. Every rank calls what is here.
-  class Team
+  class TaskFarm
   {
   public:
     struct Task
@@ -26,7 +26,7 @@ namespace sprag
     };
 
     /// Rank 0 has the journal; it is null on the others.
-    Team(Task task, const Journal *journal);
+    TaskFarm(Task task, const Journal *journal);
 
     /// Lines that were in the journal.
     const std::vector<std::string> &taken_over() const
@@ -50,8 +50,8 @@ namespace sprag
     std::vector<std::string> from_journal;
 
     void work_on(const std::vector<std::vector<std::size_t>> &groups, const std::function<std::string(std::size_t)> &work,
-                 std::size_t wanted, Counters &counters, Batch &batch) const;
-    void wait_for_others(std::size_t wanted, const Counters &counters) const;
+                 std::size_t total, Counters &counters, Batch &batch) const;
+    void wait_for_others(std::size_t total, const Counters &counters) const;
   };
 
   /// Returns a check that the files which the scene's settings name are as they are now. It throws AnalysisError, which says of

@@ -36,7 +36,7 @@ namespace sprag
 
   } // namespace
 
-  std::vector<Sample> envelope_of(const std::vector<Sample> &signal)
+  std::vector<Sample> compute_envelope(const std::vector<Sample> &signal)
   {
     std::vector<Sample> result;
     std::size_t largest = 0;

@@ -14,7 +14,7 @@ namespace sprag
 
   /// Finds the extrema of a signal between its changes of sign, as sizes > 0: one a half period, at the vertex of the parabola
   /// through the largest sample and its neighbours. What stands before the first and behind the last change of sign is left out.
-  std::vector<Sample> envelope_of(const std::vector<Sample> &signal);
+  std::vector<Sample> compute_envelope(const std::vector<Sample> &signal);
 
   /// Finds the times of the changes of sign, between samples by a straight line [s].
   std::vector<double> crossings(const std::vector<Sample> &signal);

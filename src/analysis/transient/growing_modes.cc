@@ -21,7 +21,7 @@ namespace sprag
     constexpr unsigned int even_samples = 4;               ///< of a cycle
     constexpr double beyond_reversal    = 0.75;            ///< of its duration, from the turning point
 
-    double end_of_first_cycle(const Drive &drive)
+    double first_cycle_end(const Drive &drive)
     {
       return drive.reversals().size() > 1 ? drive.reversals()[1] : drive.duration();
     }
@@ -29,7 +29,7 @@ namespace sprag
     /// Evenly over the first cycle and on both sides of its reversal.
     std::vector<double> sample_times(const Drive &drive)
     {
-      const double end = end_of_first_cycle(drive);
+      const double end = first_cycle_end(drive);
       std::vector<double> times;
       for (unsigned int i = 0; i < even_samples; ++i)
         times.push_back((i + 0.5) / even_samples * end);
@@ -65,24 +65,24 @@ namespace sprag
     /// One step of generalised-alpha for q'' = -q, in (q, dt q', dt^2 q'').
     dealii::FullMatrix<double> amplification(const StepWeights &w, const double angle)
     {
-      const double square      = angle * angle;
-      const double share       = 1. / (1. - w.alpha_m + (1. - w.alpha_f) * w.beta * square);
-      const double of_end[]    = { -square * share, -(1. - w.alpha_f) * square * share,
-                                   -(w.alpha_m + (1. - w.alpha_f) * square * (0.5 - w.beta)) * share };
-      const double drift[2][3] = { { 1., 1., 0.5 - w.beta }, { 0., 1., 1. - w.gamma } };
-      const double weight[]    = { w.beta, w.gamma };
+      const double square             = angle * angle;
+      const double share              = 1. / (1. - w.alpha_m + (1. - w.alpha_f) * w.beta * square);
+      const double acceleration_row[] = { -square * share, -(1. - w.alpha_f) * square * share,
+                                          -(w.alpha_m + (1. - w.alpha_f) * square * (0.5 - w.beta)) * share };
+      const double drift[2][3]        = { { 1., 1., 0.5 - w.beta }, { 0., 1., 1. - w.gamma } };
+      const double weight[]           = { w.beta, w.gamma };
       dealii::FullMatrix<double> matrix(3, 3);
       for (unsigned int j = 0; j < 3; ++j)
       {
         for (unsigned int i = 0; i < 2; ++i)
-          matrix(i, j) = drift[i][j] + weight[i] * of_end[j];
-        matrix(2, j) = of_end[j];
+          matrix(i, j) = drift[i][j] + weight[i] * acceleration_row[j];
+        matrix(2, j) = acceleration_row[j];
       }
       return matrix;
     }
 
     /// The eigenvalue of such a step that turns, with the positive imaginary part: of its three roots two are the vibration's.
-    std::complex<double> root_of_step(const double spectral_radius, const double angle)
+    std::complex<double> step_root(const double spectral_radius, const double angle)
     {
       std::complex<double> result = 0.;
       for (const auto &root : eigenpairs(amplification(generalised_alpha(spectral_radius, 1.), angle)))
@@ -109,7 +109,7 @@ namespace sprag
 
   std::vector<GrowingMode> growing_modes(DynamicModel &model, const Drive &drive)
   {
-    const double stroke = end_of_first_cycle(drive) / (drive.reversals().empty() ? 1. : 2.);
+    const double stroke = first_cycle_end(drive) / (drive.reversals().empty() ? 1. : 2.);
     std::vector<GrowingMode> result;
     for (const double time : sample_times(drive))
     {
@@ -124,13 +124,13 @@ namespace sprag
 
   double algorithmic_damping(const double spectral_radius, const double angle)
   {
-    const double size = std::abs(root_of_step(spectral_radius, angle));
+    const double size = std::abs(step_root(spectral_radius, angle));
     return size > 0. ? std::max(0., -std::log(size) / angle) : std::numeric_limits<double>::infinity();
   }
 
   double algorithmic_slowing(const double spectral_radius, const double angle)
   {
-    return angle > 0. ? 1. - std::arg(root_of_step(spectral_radius, angle)) / angle : 0.;
+    return angle > 0. ? 1. - std::arg(step_root(spectral_radius, angle)) / angle : 0.;
   }
 
   double longest_step(const std::vector<GrowingMode> &modes, const double spectral_radius)

@@ -64,7 +64,7 @@ namespace sprag
           const auto before = drive.at(end, Drive::Side::before);
           const auto after  = drive.at(end, Drive::Side::after);
           samples.push_back(sample(before));
-          if (direction_of(after.v) != direction_of(before.v))
+          if (drive_direction(after.v) != drive_direction(before.v))
             samples.push_back(sample(after));
         }
       }
@@ -162,7 +162,7 @@ namespace sprag
         attempt.dt          = clock.duration();
         try
         {
-          const auto to       = drive.at(clock.end_of_step());
+          const auto to       = drive.at(clock.step_end());
           auto weights        = generalised_alpha(settings.time.spectral_radius, attempt.dt);
           weights.wants_error = settings.time.tolerance > 0.;
           forces.guess(attempt.dt, accepted.forces);
@@ -216,7 +216,7 @@ namespace sprag
     Row take_step(DynamicModel &model, const Drive &drive, const TransientSettings &settings, Course &course)
     {
       auto &[motion, forces, ledger, control, clock, quasi_static, report] = course;
-      quasi_static.extend(clock.end_of_step());
+      quasi_static.extend(clock.step_end());
       auto attempt    = advance(model, drive, motion, forces, settings, control, clock);
       const double dx = attempt.outcome.motion->drive.x - motion.drive.x;
       motion          = std::move(*attempt.outcome.motion);

@@ -28,7 +28,7 @@ namespace sprag
     }
 
     /// The number behind a name in a file of lines "name value", 0 if it is not there.
-    double entry_of(const fs::path &file, const std::string &name)
+    double read_entry(const fs::path &file, const std::string &name)
     {
       std::ifstream stream(file);
       for (std::string line; std::getline(stream, line);)
@@ -44,7 +44,7 @@ namespace sprag
 
     double free_on_machine(const std::string &root)
     {
-      const double kilobytes = entry_of(root + "/proc/meminfo", "MemAvailable:");
+      const double kilobytes = read_entry(root + "/proc/meminfo", "MemAvailable:");
       return kilobytes > 0. ? 1024. * kilobytes : unlimited;
     }
 
@@ -61,7 +61,7 @@ namespace sprag
       {
         const auto limit = number_in(group / files.limit), usage = number_in(group / files.usage);
         if (limit && usage)
-          left = std::min(left, *limit - *usage + entry_of(group / "memory.stat", files.cache));
+          left = std::min(left, *limit - *usage + read_entry(group / "memory.stat", files.cache));
         if (group == top || !group.has_relative_path())
           return left;
       }
@@ -89,7 +89,7 @@ namespace sprag
       return left;
     }
 
-    double left_of_address_space()
+    double remaining_address_space()
     {
       rlimit limit = {};
       if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
@@ -104,16 +104,16 @@ namespace sprag
     AvailableMemory least = { free_on_machine(root), "free on this machine" };
     if (const double bytes = left_by_groups(root); bytes < least.bytes)
       least = { bytes, "left by the memory limit of the control group" };
-    if (const double bytes = left_of_address_space(); bytes < least.bytes)
+    if (const double bytes = remaining_address_space(); bytes < least.bytes)
       least = { bytes, "left by the limit of the process (ulimit -v)" };
     return least;
   }
 
   double bytes_free_on_disk(const std::string &folder)
   {
-    struct statfs of_system = {};
-    if (::statfs(folder.c_str(), &of_system) != 0 || of_system.f_type == TMPFS_MAGIC)
+    struct statfs file_system = {};
+    if (::statfs(folder.c_str(), &file_system) != 0 || file_system.f_type == TMPFS_MAGIC)
       return 0.;
-    return static_cast<double>(of_system.f_bavail) * static_cast<double>(of_system.f_bsize);
+    return static_cast<double>(file_system.f_bavail) * static_cast<double>(file_system.f_bsize);
   }
 } // namespace sprag

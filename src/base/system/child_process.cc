@@ -65,7 +65,7 @@ namespace sprag
       }
     }
 
-    std::string failure_of(const int status)
+    std::string describe_failure(const int status)
     {
       if (WIFSIGNALED(status))
         return std::string("crashes (") + ::strsignal(WTERMSIG(status)) + ")";
@@ -97,7 +97,7 @@ namespace sprag
     }
     if (!all && interruptible && interrupted())
       throw AnalysisError(interruption);
-    answer.failure = all ? failure_of(status) : "does not come to an end";
+    answer.failure = all ? describe_failure(status) : "does not come to an end";
     return answer;
   }
 

@@ -144,7 +144,7 @@ namespace sprag
     }
 
     /// All rights to files that the kernel's version of Landlock can take: the version, 1 on, added one after another.
-    std::uint64_t rights_of(const long version)
+    std::uint64_t access_rights(const long version)
     {
       constexpr std::array<unsigned int, 3> number = { { 13, 14, 15 } };
       const auto last                              = static_cast<std::size_t>(version) - 1;
@@ -157,7 +157,7 @@ namespace sprag
       if (version < 1)
         return false;
       landlock_ruleset_attr all = {};
-      all.handled_access_fs     = rights_of(version);
+      all.handled_access_fs     = access_rights(version);
       const int rules           = static_cast<int>(::syscall(__NR_landlock_create_ruleset, &all, sizeof all, 0));
       if (rules < 0)
         return false;

@@ -22,7 +22,7 @@ namespace sprag
       throw AnalysisError("cannot write " + path + ": " + std::strerror(reason));
     }
 
-    std::size_t size_of(const OpenFile &file)
+    std::size_t file_size(const OpenFile &file)
     {
       return static_cast<std::size_t>(file.status().st_size);
     }
@@ -38,13 +38,13 @@ namespace sprag
 
   DiskReserve::~DiskReserve()
   {
-    if (reserved > size_of(file))
-      file.truncate(size_of(file));
+    if (reserved > file_size(file))
+      file.truncate(file_size(file));
   }
 
   void DiskReserve::cover(const std::size_t bytes)
   {
-    const std::size_t needed = size_of(file) + bytes + margin;
+    const std::size_t needed = file_size(file) + bytes + margin;
     if (needed <= reserved)
       return;
     reserve(needed + margin);

@@ -80,7 +80,7 @@ namespace sprag
     }
   }
 
-  std::string content_of_file(const std::string &file, const std::size_t largest)
+  std::string read_whole_file(const std::string &file, const std::size_t largest)
   {
     try
     {

@@ -16,5 +16,5 @@ namespace sprag
 
   /// Returns the content of a file, without a byte order mark (UTF-8) before it. Throws InputError where it cannot be read, or
   /// not to its end.
-  std::string content_of_file(const std::string &file, std::size_t largest);
+  std::string read_whole_file(const std::string &file, std::size_t largest);
 } // namespace sprag

@@ -18,7 +18,7 @@ namespace sprag
   inline constexpr double grace = 2.;
 
   /// The same time where processes of MPI have to end together: mpirun does not survive being hurried.
-  inline constexpr double grace_of_processes = 10.;
+  inline constexpr double process_grace = 10.;
 
   /// Splits the process: none is returned in a child, which goes on with the work, and its end in the parent, which looks after
   /// it. SIGINT, SIGTERM and SIGHUP are handed on as SIGUSR1; after `patience` [s], or a second one, follows `last_signal`, and

@@ -38,9 +38,9 @@ namespace sprag
     /// B += factor A C.
     void add_combinations(const double factor, const Columns &a, const FullMatrix<double> &c, const std::size_t n, Columns &b)
     {
-      const int rows = static_cast<int>(n), columns = static_cast<int>(c.n()), of_a = static_cast<int>(c.m());
+      const int rows = static_cast<int>(n), columns = static_cast<int>(c.n()), n_inner = static_cast<int>(c.m());
       const double once = 1.;
-      gemm("N", "T", &rows, &columns, &of_a, &factor, a.data(), &rows, &c(0, 0), &columns, &once, b.data(), &rows);
+      gemm("N", "T", &rows, &columns, &n_inner, &factor, a.data(), &rows, &c(0, 0), &columns, &once, b.data(), &rows);
     }
 
     /// Product of two vectors by pieces, whose sums have less round-off than one sum of all.
@@ -58,9 +58,9 @@ namespace sprag
     {
     public:
       /// With room for so many columns.
-      BlockSpace(const Pencil &of, const unsigned int most)
-          : pencil(of)
-          , n(of.size)
+      BlockSpace(const Pencil &pencil_, const unsigned int most)
+          : pencil(pencil_)
+          , n(pencil_.size)
       {
         basis.reserve(most * n);
         inertia.reserve(most * n);
@@ -154,9 +154,9 @@ namespace sprag
       Columns inertia;                                    ///< M times this
       std::vector<std::vector<double>> operator_in_space; ///< of each column, what it becomes by all, the next block's included
 
-      Columns last_block(const Columns &of) const
+      Columns last_block(const Columns &basis_columns) const
       {
-        return Columns(of.end() - static_cast<std::ptrdiff_t>(width * n), of.end());
+        return Columns(basis_columns.end() - static_cast<std::ptrdiff_t>(width * n), basis_columns.end());
       }
 
       /// The share of a column of the last block in what the operator makes of a vector of the others.
@@ -173,66 +173,66 @@ namespace sprag
       void add(Columns block)
       {
         const unsigned int before = dimension();
-        Columns of_block          = pencil.mass(block);
-        const auto first          = orthonormalise(block, of_block);
-        of_block                  = pencil.mass(block); // what cancelled in the columns did not do so alike in this
-        const auto second         = orthonormalise(block, of_block);
+        Columns inertia_block     = pencil.mass(block);
+        const auto first          = orthonormalise(block, inertia_block);
+        inertia_block             = pencil.mass(block); // what cancelled in the columns did not do so alike in this
+        const auto second         = orthonormalise(block, inertia_block);
         for (unsigned int j = 0; j < width && before > 0; ++j)
         {
-          auto &made_of = operator_in_space.emplace_back(before + width, 0.);
+          auto &coefficients = operator_in_space.emplace_back(before + width, 0.);
           for (unsigned int i = 0; i < before + width; ++i)
           {
-            made_of[i] = i < before ? first(i, j) : 0.;
+            coefficients[i] = i < before ? first(i, j) : 0.;
             for (unsigned int k = 0; k < width; ++k)
-              made_of[i] += second(i, k) * first(before + k, j);
+              coefficients[i] += second(i, k) * first(before + k, j);
           }
         }
         basis.insert(basis.end(), block.begin(), block.end());
-        inertia.insert(inertia.end(), of_block.begin(), of_block.end());
+        inertia.insert(inertia.end(), inertia_block.begin(), inertia_block.end());
       }
 
       /// Makes a block orthogonal to the basis and in itself. Returns how its columns, as they were, are made of the basis and of
       /// what they become.
-      FullMatrix<double> orthonormalise(Columns &block, Columns &of_block) const
+      FullMatrix<double> orthonormalise(Columns &block, Columns &inertia_block) const
       {
         const unsigned int before = dimension();
-        FullMatrix<double> made_of(before + width, width);
+        FullMatrix<double> coefficients(before + width, width);
         if (before > 0)
         {
-          const auto shares = products(basis, of_block, n);
+          const auto shares = products(basis, inertia_block, n);
           add_combinations(-1., basis, shares, n, block);
-          add_combinations(-1., inertia, shares, n, of_block);
-          made_of.fill(shares);
+          add_combinations(-1., inertia, shares, n, inertia_block);
+          coefficients.fill(shares);
         }
         for (unsigned int j = 0; j < width; ++j)
         {
-          double *const column = &block[j * n], *const of_column = &of_block[j * n];
+          double *const column = &block[j * n], *const inertia_column = &inertia_block[j * n];
           for (unsigned int i = 0; i < j; ++i)
           {
-            const double share = made_of(before + i, j) = product(&block[i * n], of_column, n);
+            const double share = coefficients(before + i, j) = product(&block[i * n], inertia_column, n);
             for (std::size_t k = 0; k < n; ++k)
             {
               column[k] -= share * block[i * n + k];
-              of_column[k] -= share * of_block[i * n + k];
+              inertia_column[k] -= share * inertia_block[i * n + k];
             }
           }
-          const double size = made_of(before + j, j) = std::sqrt(product(column, of_column, n));
+          const double size = coefficients(before + j, j) = std::sqrt(product(column, inertia_column, n));
           if (!(size > 0.))
             throw AnalysisError("the space in which vibration modes are sought does not grow");
           for (std::size_t k = 0; k < n; ++k)
           {
             column[k] /= size;
-            of_column[k] /= size;
+            inertia_column[k] /= size;
           }
         }
-        return made_of;
+        return coefficients;
       }
     };
 
-    std::vector<NormalMode> lowest_pairs(const Pencil &pencil, const unsigned int wanted)
+    std::vector<NormalMode> lowest_pairs(const Pencil &pencil, const unsigned int n_modes)
     {
       constexpr unsigned int most_restarts = 100;
-      const unsigned int most              = most_columns(wanted);
+      const unsigned int most              = most_columns(n_modes);
       BlockSpace space(pencil, most);
       for (unsigned int restarts = 0;;)
       {
@@ -241,10 +241,10 @@ namespace sprag
         const auto &values       = ritz.values;
         const unsigned int found = values.size();
         unsigned int first       = found; // of those that are wanted, which have the largest values
-        while (first > 0 && found - first < wanted &&
+        while (first > 0 && found - first < n_modes &&
                ritz.residuals[first - 1] < converged * values[first - 1] + round_off * values[found - 1])
           --first;
-        if (found - first == wanted)
+        if (found - first == n_modes)
         {
           std::vector<NormalMode> result;
           for (unsigned int i = found; i-- > first;)
@@ -254,22 +254,22 @@ namespace sprag
         if (space.dimension() < most)
           continue;
         if (++restarts > most_restarts)
-          throw AnalysisError("only " + std::to_string(found - first) + " of " + std::to_string(wanted) +
+          throw AnalysisError("only " + std::to_string(found - first) + " of " + std::to_string(n_modes) +
                               " vibration modes were found");
-        space.keep(ritz, kept_columns(wanted));
+        space.keep(ritz, kept_columns(n_modes));
       }
     }
 
     /// All pairs, of K^-1 M phi = phi/lambda with dense matrices.
     std::vector<NormalMode> all_pairs(const Pencil &pencil)
     {
-      const int n = static_cast<int>(pencil.size), kind = 2, size_of_work = 40 * n; // kind: A B x = lambda x
-      Columns unit(pencil.size * pencil.size, 0.), values(pencil.size), work(static_cast<std::size_t>(size_of_work));
+      const int n = static_cast<int>(pencil.size), kind = 2, work_size = 40 * n; // kind: A B x = lambda x
+      Columns unit(pencil.size * pencil.size, 0.), values(pencil.size), work(static_cast<std::size_t>(work_size));
       for (std::size_t i = 0; i < pencil.size; ++i)
         unit[i * (pencil.size + 1)] = 1.;
       auto vectors = pencil.inverse_stiffness(unit), mass = pencil.mass(std::move(unit));
       int info = 0;
-      sygv(&kind, "V", "U", &n, vectors.data(), &n, mass.data(), &n, values.data(), work.data(), &size_of_work, &info);
+      sygv(&kind, "V", "U", &n, vectors.data(), &n, mass.data(), &n, values.data(), work.data(), &work_size, &info);
       if (info != 0)
         throw AnalysisError("LAPACK does not find the vibration modes");
       std::vector<NormalMode> result;
@@ -329,10 +329,10 @@ namespace sprag
     };
   }
 
-  std::vector<NormalMode> normal_modes(const Pencil &pencil, const unsigned int wanted)
+  std::vector<NormalMode> normal_modes(const Pencil &pencil, const unsigned int n_modes)
   {
-    auto modes = most_columns(wanted) < pencil.size ? lowest_pairs(pencil, wanted) : all_pairs(pencil);
-    modes.resize(std::min<std::size_t>(wanted, modes.size()));
+    auto modes = most_columns(n_modes) < pencil.size ? lowest_pairs(pencil, n_modes) : all_pairs(pencil);
+    modes.resize(std::min<std::size_t>(n_modes, modes.size()));
     for (auto &mode : modes)
       orient(mode.vector);
     require_residuals(pencil, modes);

@@ -31,8 +31,8 @@ namespace sprag
   Pencil::Product column_by_column(std::size_t size,
                                    std::function<dealii::Vector<double>(const dealii::Vector<double> &)> product);
 
-  /// Returns the `wanted` pairs of the lowest eigenvalues, or all if there are not so many, increasing. The last number of a mode
-  /// is positive, or where that hardly moves, the first of the largest ones.
+  /// Returns the `n_modes` pairs of the lowest eigenvalues, or all if there are not so many, increasing. The last number of a
+  /// mode is positive, or where that hardly moves, the first of the largest ones.
   ///
   /// The Krylov space of K^-1 M grows by a block of four columns at a time (block Lanczos with full orthogonalisation, Golub &
   /// Van Loan, Matrix Computations, section 10.3.6): factors of a large K have to pass through memory for each solve, so that one
@@ -41,5 +41,5 @@ namespace sprag
   /// |K^-1 M phi - phi/lambda| is below 1e-13/lambda by what the space tells, or round-off. Of a pencil that is hardly larger
   /// than the space LAPACK finds all pairs. Throws AnalysisError where a hundred restarts do not find them or residuals are too
   /// large.
-  std::vector<NormalMode> normal_modes(const Pencil &pencil, unsigned int wanted);
+  std::vector<NormalMode> normal_modes(const Pencil &pencil, unsigned int n_modes);
 } // namespace sprag

@@ -15,7 +15,7 @@ namespace sprag
     constexpr int initialise = -1, terminate = -2, analyse = 1, decompose = 2, back_substitute = 3;
     constexpr int schur_complement = 19, sparse_columns = 20, inverse_entries = 30;
 
-    std::string reason_of(const int status)
+    std::string describe_status(const int status)
     {
       if (status == -13 || status == -9)
         return "): there is not enough memory";
@@ -66,7 +66,7 @@ namespace sprag
     const int status = mumps.infog[0];
     if (status < 0)
       throw AnalysisError(std::string("the direct solver failed in ") + what + " (MUMPS INFOG(1) = " + std::to_string(status) +
-                          ", INFOG(2) = " + std::to_string(mumps.infog[1]) + reason_of(status));
+                          ", INFOG(2) = " + std::to_string(mumps.infog[1]) + describe_status(status));
   }
 
   void Mumps::factorise(MatrixEntries entries)
@@ -161,13 +161,13 @@ namespace sprag
     call(back_substitute, "back-substitution");
   }
 
-  std::vector<double> Mumps::entries_of_inverse(const std::map<unsigned int, std::vector<unsigned int>> &wanted) const
+  std::vector<double> Mumps::compute_inverse_entries(const std::map<unsigned int, std::vector<unsigned int>> &positions) const
   {
     SparseColumns entries;
-    auto row = wanted.begin();
+    auto row = positions.begin();
     for (MUMPS_INT i = 0; i < mumps.n; ++i)
     {
-      if (row != wanted.end() && row->first == static_cast<unsigned int>(i))
+      if (row != positions.end() && row->first == static_cast<unsigned int>(i))
         for (const unsigned int column : (row++)->second)
           entries.add(column, 0.);
       entries.end_column();

@@ -38,11 +38,11 @@ namespace sprag
     }
 
     /// Adds an entry, by indices from 0.
-    void add(const unsigned int of_row, const unsigned int of_column, const double of_value)
+    void add(const unsigned int row_index, const unsigned int column_index, const double entry)
     {
-      row.push_back(static_cast<int>(of_row) + 1);
-      column.push_back(static_cast<int>(of_column) + 1);
-      value.push_back(of_value);
+      row.push_back(static_cast<int>(row_index) + 1);
+      column.push_back(static_cast<int>(column_index) + 1);
+      value.push_back(entry);
     }
   };
 
@@ -59,10 +59,10 @@ namespace sprag
     }
 
     /// Adds an entry to the column under way.
-    void add(const unsigned int of_row, const double of_value)
+    void add(const unsigned int row_index, const double entry)
     {
-      row.push_back(static_cast<int>(of_row) + 1);
-      value.push_back(of_value);
+      row.push_back(static_cast<int>(row_index) + 1);
+      value.push_back(entry);
     }
 
     void end_column()
@@ -107,9 +107,9 @@ namespace sprag
     /// Takes part in a solve of the first rank.
     void take_part() const;
 
-    /// Finds entries of the inverse of a symmetric matrix on a single rank, in the order asked for: `wanted` holds increasing
+    /// Finds entries of the inverse of a symmetric matrix on a single rank, in the order asked for: `positions` holds increasing
     /// columns by their row. Only the parts of the factors between rows and columns are visited.
-    std::vector<double> entries_of_inverse(const std::map<unsigned int, std::vector<unsigned int>> &wanted) const;
+    std::vector<double> compute_inverse_entries(const std::map<unsigned int, std::vector<unsigned int>> &positions) const;
 
   private:
     void set(int setting, int value) const;

@@ -32,7 +32,7 @@ namespace sprag
 
     /// Degrees of freedom of each node of a cell.
     template <int dim>
-    std::vector<std::array<unsigned int, dim>> dofs_of_nodes(const typename DoFHandler<dim>::active_cell_iterator &cell)
+    std::vector<std::array<unsigned int, dim>> node_dofs(const typename DoFHandler<dim>::active_cell_iterator &cell)
     {
       const auto &fe = cell->get_fe();
       std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
@@ -44,8 +44,8 @@ namespace sprag
       return result;
     }
 
-    /// Returns by what densities are scaled; `of_cells` and `added` are moments of inertia before that [t mm^2].
-    double scaling_of_densities(const LeverInertia &inertia, const double of_cells, const double added)
+    /// Returns by what densities are scaled; `cell_inertia` and `added` are moments of inertia before that [t mm^2].
+    double density_scaling(const LeverInertia &inertia, const double cell_inertia, const double added)
     {
       if (inertia.source != InertiaSource::scaled)
         return 1.;
@@ -53,7 +53,7 @@ namespace sprag
         throw InputError("tip mass, hub and leaf spring alone have a moment of inertia of " + rounded_text(added) +
                          " t mm^2 about the pivot: Lever/Moment of inertia = " + rounded_text(inertia.moment_of_inertia) +
                          " must be larger");
-      return (inertia.moment_of_inertia - added) / of_cells;
+      return (inertia.moment_of_inertia - added) / cell_inertia;
     }
   } // namespace
 
@@ -87,7 +87,7 @@ namespace sprag
 
   template <int dim>
   BodyMass<dim>::BodyMass(const ElasticBody<dim> &body, const LeverInertia &inertia)
-      : BodyMass(body, inertia, inertia.tip_mass > 0. ? faces_of_tip(body.dofs()) : CellFaces<dim>())
+      : BodyMass(body, inertia, inertia.tip_mass > 0. ? tip_faces(body.dofs()) : CellFaces<dim>())
   {
   }
 
@@ -97,15 +97,15 @@ namespace sprag
       , axes(turning_axes(body))
       , rotation(rotation_arms(body))
   {
-    const auto inertia_of_body = [&] { return rotation * (*this)(rotation); };
+    const auto body_inertia = [&] { return rotation * (*this)(rotation); };
     add_tip(body, inertia.tip_mass, tip);
-    const double added = inertia_of_body() + hub;
-    const auto of_tip  = all_cells.size();
+    const double added   = body_inertia() + hub;
+    const auto tip_begin = all_cells.size();
     add_cells(body, inertia);
-    const double of_cells = inertia_of_body() - (added - hub);
-    density_factor        = scaling_of_densities(inertia, of_cells, added);
-    moment_of_inertia     = density_factor * of_cells + added;
-    for (std::size_t i = of_tip; i < all_cells.size(); ++i)
+    const double cell_inertia = body_inertia() - (added - hub);
+    density_factor            = density_scaling(inertia, cell_inertia, added);
+    moment_of_inertia         = density_factor * cell_inertia + added;
+    for (std::size_t i = tip_begin; i < all_cells.size(); ++i)
       all_cells[i].density *= turns(all_cells[i]) ? density_factor : 1.;
     total_mass = sum_along(0, (*this)(translation(0))) + inertia.leaf.mass;
   }
@@ -128,7 +128,7 @@ namespace sprag
         values.reinit(cell);
         alike = &masses.emplace_back(unit_mass(values));
       }
-      all_cells.push_back({ alike, inertia.densities.at(material) * properties.width_of(material), dofs_of_nodes<dim>(cell) });
+      all_cells.push_back({ alike, inertia.densities.at(material) * properties.material_width(material), node_dofs<dim>(cell) });
     }
   }
 
@@ -141,7 +141,7 @@ namespace sprag
     for (const auto &[cell, f] : tip)
     {
       values.reinit(cell, f);
-      all_cells.push_back({ &masses.emplace_back(unit_mass(values)), tip_mass / area, dofs_of_nodes<dim>(cell) });
+      all_cells.push_back({ &masses.emplace_back(unit_mass(values)), tip_mass / area, node_dofs<dim>(cell) });
     }
   }
 
@@ -155,20 +155,20 @@ namespace sprag
   Vector<double> BodyMass<dim>::operator()(const Vector<double> &displacement) const
   {
     Vector<double> result(displacement.size());
-    std::vector<std::array<double, dim>> of_cell;
+    std::vector<std::array<double, dim>> cell_displacement;
     for (const auto &[mass, density, dofs] : all_cells)
     {
-      of_cell.resize(dofs.size());
+      cell_displacement.resize(dofs.size());
       for (unsigned int a = 0; a < dofs.size(); ++a)
         for (unsigned int d = 0; d < dim; ++d)
-          of_cell[a][d] = displacement[dofs[a][d]];
+          cell_displacement[a][d] = displacement[dofs[a][d]];
       for (unsigned int a = 0; a < dofs.size(); ++a)
       {
         std::array<double, dim> sum{};
         const double *const row = &(*mass)(a, 0);
         for (unsigned int b = 0; b < dofs.size(); ++b)
           for (unsigned int d = 0; d < dim; ++d)
-            sum[d] += row[b] * of_cell[b][d];
+            sum[d] += row[b] * cell_displacement[b][d];
         for (unsigned int d = 0; d < dim; ++d)
           result[dofs[a][d]] += density * sum[d];
       }
@@ -177,9 +177,9 @@ namespace sprag
   }
 
   template <int dim>
-  double BodyMass<dim>::sum_along(const unsigned int axis, const Vector<double> &of_dofs) const
+  double BodyMass<dim>::sum_along(const unsigned int axis, const Vector<double> &dof_values) const
   {
-    return translation(axis) * of_dofs;
+    return translation(axis) * dof_values;
   }
 
   template <int dim>

@@ -75,7 +75,7 @@ namespace sprag
     }
 
     /// Returns the sum of forces or impulses along an axis.
-    double sum_along(unsigned int axis, const dealii::Vector<double> &of_dofs) const;
+    double sum_along(unsigned int axis, const dealii::Vector<double> &dof_values) const;
 
     /// Returns a unit displacement of all that turns along an axis.
     dealii::Vector<double> translation(unsigned int axis) const;

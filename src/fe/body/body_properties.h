@@ -69,13 +69,13 @@ namespace sprag
     std::map<dealii::types::material_id, ElasticConstants> constants;
     std::vector<ConnectorSettings> connectors; ///< of a friction plate
 
-    PlaneState plane_of(const dealii::types::material_id id) const
+    PlaneState plane_state(const dealii::types::material_id id) const
     {
       const auto found = planes.find(id);
       return found == planes.end() ? plane : found->second;
     }
 
-    double width_of(const dealii::types::material_id id) const
+    double material_width(const dealii::types::material_id id) const
     {
       const auto found = widths.find(id);
       return found == widths.end() ? width : found->second;

@@ -12,7 +12,7 @@ namespace sprag
   namespace
   {
     template <int dim>
-    Point<dim> centre_of(const FEValues<dim> &values)
+    Point<dim> cell_centre(const FEValues<dim> &values)
     {
       Point<dim> sum;
       double volume = 0.;
@@ -39,7 +39,7 @@ namespace sprag
   void DilatationSpace<dim>::reinit(const FEValues<dim> &values, const unsigned int degree)
   {
     const auto &weights = values.get_JxW_values();
-    functions.assign(degree == 0 ? 1 : dim + 1, { centre_of(values), 0., {} });
+    functions.assign(degree == 0 ? 1 : dim + 1, { cell_centre(values), 0., {} });
     at_points.assign(functions.size(), std::vector<double>(weights.size()));
     for (unsigned int a = 0; a < functions.size(); ++a)
     {
@@ -100,7 +100,7 @@ namespace sprag
 
   bool is_nearly_incompressible(const BodyProperties &properties, const types::material_id id)
   {
-    return properties.plane_of(id) == PlaneState::strain && properties.material != MaterialModel::st_venant_kirchhoff &&
+    return properties.plane_state(id) == PlaneState::strain && properties.material != MaterialModel::st_venant_kirchhoff &&
            properties.constants.at(id).poisson_ratio > 0.4;
   }
 
@@ -122,8 +122,8 @@ namespace sprag
   {
     values->reinit(cell);
     const auto material = cell->material_id();
-    constants           = plane_constants(properties.constants.at(material), properties.plane_of(material));
-    width               = properties.width_of(material);
+    constants           = plane_constants(properties.constants.at(material), properties.plane_state(material));
+    width               = properties.material_width(material);
     const auto &fe      = values->get_fe();
     for (const unsigned int q : values->quadrature_point_indices())
     {
@@ -162,7 +162,7 @@ namespace sprag
   Stress<dim> CellElasticity<dim>::stress_at(const unsigned int q) const
   {
     if (!projects)
-      return stress_of<dim>(properties.material, constants, displacement_gradients[q]);
+      return compute_stress<dim>(properties.material, constants, displacement_gradients[q]);
     double theta = 0.;
     for (unsigned int a = 0; a < space.size(); ++a)
       theta += projected[a] * space.value(a, q);

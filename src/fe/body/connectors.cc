@@ -41,7 +41,7 @@ namespace sprag
     // Coordinate 2 i is xi or zeta.
 
     template <int dim, class Face>
-    PadRange<dim> outline_of(const Face &face)
+    PadRange<dim> face_outline(const Face &face)
     {
       PadRange<dim> result;
       for (unsigned int i = 0; i < dim - 1; ++i)
@@ -59,7 +59,7 @@ namespace sprag
     template <class Face>
     bool is_rectangle(const Face &face)
     {
-      const double area = outline_of<3>(face).measure();
+      const double area = face_outline<3>(face).measure();
       const auto a = face->vertex(1) - face->vertex(0), b = face->vertex(2) - face->vertex(0),
                  c         = face->vertex(3) - face->vertex(0);
       const double doubled = std::abs(c[0] * (a[2] - b[2]) - c[2] * (a[0] - b[0])); // of its area as seen along eta
@@ -71,37 +71,37 @@ namespace sprag
     Point<dim> place_on(const Face &face, const PadRange<dim> &outline, const PadRange<dim> &piece, const Point<dim - 1> &share)
     {
       Point<dim> result;
-      std::array<double, dim - 1> of_face;
+      std::array<double, dim - 1> at_face;
       for (unsigned int i = 0; i < dim - 1; ++i)
       {
         result[2 * i] = piece.begin[i] + share[i] * (piece.end[i] - piece.begin[i]);
-        of_face[i]    = (result[2 * i] - outline.begin[i]) / (outline.end[i] - outline.begin[i]);
+        at_face[i]    = (result[2 * i] - outline.begin[i]) / (outline.end[i] - outline.begin[i]);
       }
       for (const unsigned int v : face->vertex_indices())
       {
-        double of_vertex = 1.;
+        double vertex_weight = 1.;
         for (unsigned int i = 0; i < dim - 1; ++i)
-          of_vertex *= face->vertex(v)[2 * i] > 0.5 * (outline.begin[i] + outline.end[i]) ? of_face[i] : 1. - of_face[i];
-        result[1] += of_vertex * face->vertex(v)[1];
+          vertex_weight *= face->vertex(v)[2 * i] > 0.5 * (outline.begin[i] + outline.end[i]) ? at_face[i] : 1. - at_face[i];
+        result[1] += vertex_weight * face->vertex(v)[1];
       }
       return result;
     }
 
-    std::string text_of(const PadRange<2> &pad)
+    std::string to_text(const PadRange<2> &pad)
     {
       return "xi = " + mm(0.5 * (pad.begin[0] + pad.end[0])) + ", " + mm(pad.end[0] - pad.begin[0]) + " long,";
     }
 
-    std::string text_of(const PadRange<3> &pad)
+    std::string to_text(const PadRange<3> &pad)
     {
       return "xi = " + rounded_text(pad.begin[0]) + " to " + mm(pad.end[0]) + " and zeta = " + rounded_text(pad.begin[1]) +
              " to " + mm(pad.end[1]);
     }
 
-    DofWeights difference(const DofWeights &of_plate, const DofWeights &of_lever)
+    DofWeights difference(const DofWeights &plate_weights, const DofWeights &lever_weights)
     {
-      DofWeights result = of_plate;
-      for (const auto &[dof, weight] : of_lever)
+      DofWeights result = plate_weights;
+      for (const auto &[dof, weight] : lever_weights)
         result[dof] -= weight;
       return result;
     }
@@ -117,7 +117,7 @@ namespace sprag
 
     void add(const typename DoFHandler<dim>::active_cell_iterator &cell, const unsigned int f)
     {
-      const auto outline = outline_of<dim>(cell->face(f));
+      const auto outline = face_outline<dim>(cell->face(f));
       const auto piece   = outline.within(range);
       if (piece.measure() <= 1e-9 * outline.measure())
         return;
@@ -186,7 +186,7 @@ namespace sprag
         }
     // A pad that lacks a part would have a wrong mean.
     if (std::abs(collector.pad.measure - range.measure()) > 1e-6 * range.measure())
-      throw InputError((type == ConnectorType::sensor ? "the force sensor at " : "the linear guide at ") + text_of(range) +
+      throw InputError((type == ConnectorType::sensor ? "the force sensor at " : "the linear guide at ") + to_text(range) +
                        " does not lie wholly on the " + (dim == 2 ? "curve '" : "surface '") + name + "'");
     return std::move(collector.pad);
   }

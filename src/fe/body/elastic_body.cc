@@ -27,8 +27,8 @@ namespace sprag
   {
     dof_handler.distribute_dofs(fe);
     find_constraints(constrain);
-    face             = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::friction_face);
-    face_of_cylinder = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::cylinder_face);
+    face                   = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::friction_face);
+    cylinder_friction_face = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::cylinder_face);
     if constexpr (dim == 2)
       springs = find_connectors(*this, properties.connectors);
   }
@@ -163,7 +163,7 @@ namespace sprag
       values.reinit(cell);
       for (const unsigned int q : values.quadrature_point_indices())
       {
-        const double mass = density * values.JxW(q) * properties.width_of(cell->material_id());
+        const double mass = density * values.JxW(q) * properties.material_width(cell->material_id());
         result[0] += mass;
         result[1] += mass * (std::pow(values.quadrature_point(q)[0], 2) + std::pow(values.quadrature_point(q)[1], 2));
       }

@@ -50,7 +50,7 @@ namespace sprag
     /// Returns the face where an elastic cylinder can touch the friction face; empty without such a cylinder.
     const FrictionFace<dim> &cylinder_face() const
     {
-      return face_of_cylinder;
+      return cylinder_friction_face;
     }
 
     /// Returns the springs between friction plate and lever, which are part of stiffness and energy.
@@ -126,7 +126,7 @@ namespace sprag
     dealii::DoFHandler<dim> dof_handler;
     dealii::AffineConstraints<double> constraints;
     FrictionFace<dim> face;
-    FrictionFace<dim> face_of_cylinder;
+    FrictionFace<dim> cylinder_friction_face;
     std::vector<Connector> springs;
   };
 
@@ -144,7 +144,7 @@ namespace sprag
   using Response = std::function<std::vector<double>(std::vector<double> columns)>;
 
   /// Returns the answer by the factors of a body.
-  inline Response response_of(std::shared_ptr<const Mumps> factors)
+  inline Response make_response(std::shared_ptr<const Mumps> factors)
   {
     return [factors = std::move(factors)](std::vector<double> columns)
     {

@@ -39,7 +39,7 @@ namespace sprag
   }
 
   template <int dim>
-  CellFaces<dim> faces_of_tip(const DoFHandler<dim> &dofs)
+  CellFaces<dim> tip_faces(const DoFHandler<dim> &dofs)
   {
     auto result = end_face(dofs);
     if (result.empty())
@@ -57,8 +57,8 @@ namespace sprag
   }
 
   template CellFaces<2> end_face(const DoFHandler<2> &);
-  template CellFaces<2> faces_of_tip(const DoFHandler<2> &);
-  template CellFaces<3> faces_of_tip(const DoFHandler<3> &);
+  template CellFaces<2> tip_faces(const DoFHandler<2> &);
+  template CellFaces<3> tip_faces(const DoFHandler<3> &);
   template double total_measure<2>(const CellFaces<2> &);
   template double total_measure<3>(const CellFaces<3> &);
 } // namespace sprag

@@ -17,7 +17,7 @@ namespace sprag
 
   /// Finds those that carry a tip mass. Throws InputError where there are none.
   template <int dim>
-  CellFaces<dim> faces_of_tip(const dealii::DoFHandler<dim> &dofs);
+  CellFaces<dim> tip_faces(const dealii::DoFHandler<dim> &dofs);
 
   /// Returns the sum of the faces' measures [mm] or, in 3D, [mm^2].
   template <int dim>

@@ -30,9 +30,9 @@ namespace sprag
     {
       for (PetscInt row = 0; row < rows.n; ++row)
         for (PetscInt a = rows.begin[row]; a < rows.begin[row + 1]; ++a)
-          for (const auto &of_row : movers[row])
-            for (const auto &of_column : movers[rows.column[a]])
-              act(static_cast<std::size_t>(a), of_row, of_column);
+          for (const auto &row_mover : movers[row])
+            for (const auto &column_mover : movers[rows.column[a]])
+              act(static_cast<std::size_t>(a), row_mover, column_mover);
     }
   } // namespace
 
@@ -65,8 +65,8 @@ namespace sprag
                       [&](std::size_t, const auto &row, const auto &column) { pattern.add(row.coordinate, column.coordinate); });
     std::vector<DynamicSparsityPattern::size_type> places(n);
     SparsityTools::reorder_Cuthill_McKee(pattern, places);
-    for (auto &of_dof : movers)
-      for (auto &mover : of_dof)
+    for (auto &dof_movers : movers)
+      for (auto &mover : dof_movers)
         mover.coordinate = static_cast<unsigned int>(places[mover.coordinate]);
   }
 
@@ -124,9 +124,9 @@ namespace sprag
     for (unsigned int i = 0; i < most_iterations; ++i)
     {
       linearise(displacement);
-      Vector<double> unbalanced = loads;
-      unbalanced -= internal;
-      auto residual     = collect(unbalanced);
+      Vector<double> full_residual = loads;
+      full_residual -= internal;
+      auto residual     = collect(full_residual);
       const double size = internal.l2_norm() + loads.l2_norm();
       if (!std::isfinite(size))
         break;
@@ -161,13 +161,13 @@ namespace sprag
     return result;
   }
 
-  Vector<double> FiniteStatics::response(const Vector<double> &of_held, const Vector<double> &of_loads) const
+  Vector<double> FiniteStatics::response(const Vector<double> &prescribed, const Vector<double> &applied) const
   {
     Vector<double> result(body.n_dofs());
     for (unsigned int dof = 0; dof < movers.size(); ++dof)
       if (movers[dof].empty())
-        result[dof] = of_held[dof];
-    Vector<double> loads = of_loads;
+        result[dof] = prescribed[dof];
+    Vector<double> loads = applied;
     loads -= stiffness_product(result);
     auto coordinates = collect(loads);
     band.solve(coordinates);

@@ -33,9 +33,9 @@ namespace sprag
     /// freedom, about twice what Newton's method leaves unbalanced at its best.
     double round_off(const dealii::Vector<double> &displacement) const;
 
-    /// Returns how displacements change with those of held degrees of freedom (others in `of_held` count for nothing) and with
+    /// Returns how displacements change with those of held degrees of freedom (others in `prescribed` count for nothing) and with
     /// the loads.
-    dealii::Vector<double> response(const dealii::Vector<double> &of_held, const dealii::Vector<double> &of_loads) const;
+    dealii::Vector<double> response(const dealii::Vector<double> &prescribed, const dealii::Vector<double> &applied) const;
 
     /// Multiplies a displacement by the tangent stiffness.
     dealii::Vector<double> stiffness_product(const dealii::Vector<double> &displacement) const;

@@ -16,7 +16,7 @@ namespace sprag
   namespace
   {
     /// Two Gauss points in each part integrate a uniform pressure against quadratic shape functions exactly.
-    unsigned int number_of_parts(const double length, const double spacing)
+    unsigned int count_parts(const double length, const double spacing)
     {
       return static_cast<unsigned int>(std::clamp(std::ceil(length / (2. * spacing)), 4., 24.));
     }
@@ -26,7 +26,7 @@ namespace sprag
 
     /// Along the first axis.
     template <int dim, class Face>
-    double length_of(const Face &face)
+    double face_length(const Face &face)
     {
       if constexpr (dim == 2)
         return face->diameter();
@@ -50,7 +50,7 @@ namespace sprag
     }
 
     template <int dim>
-    Quadrature<dim - 1> quadrature_of(const unsigned int parts, const bool along)
+    Quadrature<dim - 1> make_quadrature(const unsigned int parts, const bool along)
     {
       const QIterated<1> dense(QGauss<1>(2), parts);
       if constexpr (dim == 2)
@@ -81,28 +81,29 @@ namespace sprag
       const AffineConstraints<double> &constraints;
       const BodyProperties &properties;
 
-      struct OfCell
+      struct CellPart
       {
         std::vector<FacePoint<dim>> points;
         FaceEdge<dim> edge;
         double length;
       };
-      std::vector<OfCell> cells                                                  = {};
+      std::vector<CellPart> cells                                                = {};
       std::map<std::pair<unsigned int, bool>, FEFaceValues<dim>> values_by_parts = {};
       std::map<unsigned int, unsigned int> index_by_dof                          = {};
       FrictionFace<dim> result                                                   = {};
 
       void add(const typename DoFHandler<dim>::active_cell_iterator &cell, const unsigned int f)
       {
-        const double length  = length_of<dim>(cell->face(f));
+        const double length  = face_length<dim>(cell->face(f));
         result.depth         = std::max(result.depth, cell->measure() / cell->face(f)->measure());
         result.young_modulus = std::max(result.young_modulus, properties.constants.at(cell->material_id()).young_modulus);
 
-        auto &values = values_for(number_of_parts(length, properties.point_spacing), goes_along<dim>(cell->face(f)));
+        auto &values = values_for(count_parts(length, properties.point_spacing), goes_along<dim>(cell->face(f)));
         values.reinit(cell, f);
         std::vector<FacePoint<dim>> points;
         for (const unsigned int q : values.quadrature_point_indices())
-          points.push_back({ values.quadrature_point(q), properties.width_of(cell->material_id()) * values.JxW(q), {}, {} });
+          points.push_back(
+              { values.quadrature_point(q), properties.material_width(cell->material_id()) * values.JxW(q), {}, {} });
         FaceEdge<dim> edge;
         add_nodes(cell, f, values, points, edge);
         const auto by_place = [](const auto &a, const auto &b) { return is_before(a.position, b.position); };
@@ -129,7 +130,7 @@ namespace sprag
       {
         const UpdateFlags flags =
             update_values | update_JxW_values | update_quadrature_points | (dim == 3 ? update_gradients : update_default);
-        const auto quadrature = quadrature_of<dim>(parts, along);
+        const auto quadrature = make_quadrature<dim>(parts, along);
         return values_by_parts.try_emplace({ parts, along }, mapping, fe, quadrature, flags).first->second;
       }
 

@@ -106,7 +106,7 @@ namespace sprag
   }
 
   template <int dim>
-  Stress<dim> stress_of(const MaterialModel model, const Lame &constants, const Tensor<2, dim> &displacement_gradient)
+  Stress<dim> compute_stress(const MaterialModel model, const Lame &constants, const Tensor<2, dim> &displacement_gradient)
   {
     if (model == MaterialModel::linear)
       return linear_elastic<dim>(constants, displacement_gradient);
@@ -157,7 +157,7 @@ namespace sprag
   template double neo_hookean_energy(const Lame &, const Tensor<2, 2> &);
   template Stress<2> st_venant_kirchhoff(const Lame &, const Tensor<2, 2> &);
   template double st_venant_kirchhoff_energy(const Lame &, const Tensor<2, 2> &);
-  template Stress<2> stress_of(MaterialModel, const Lame &, const Tensor<2, 2> &);
+  template Stress<2> compute_stress(MaterialModel, const Lame &, const Tensor<2, 2> &);
   template Dilatation<2> dilatation(MaterialModel, const Tensor<2, 2> &);
   template Stress<2> stress_at_pressure(MaterialModel, double, const Tensor<2, 2> &, double);
   template Stress<3> linear_elastic(const Lame &, const Tensor<2, 3> &);
@@ -165,7 +165,7 @@ namespace sprag
   template double neo_hookean_energy(const Lame &, const Tensor<2, 3> &);
   template Stress<3> st_venant_kirchhoff(const Lame &, const Tensor<2, 3> &);
   template double st_venant_kirchhoff_energy(const Lame &, const Tensor<2, 3> &);
-  template Stress<3> stress_of(MaterialModel, const Lame &, const Tensor<2, 3> &);
+  template Stress<3> compute_stress(MaterialModel, const Lame &, const Tensor<2, 3> &);
   template Dilatation<3> dilatation(MaterialModel, const Tensor<2, 3> &);
   template Stress<3> stress_at_pressure(MaterialModel, double, const Tensor<2, 3> &, double);
 } // namespace sprag

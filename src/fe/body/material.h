@@ -60,7 +60,7 @@ namespace sprag
 
   /// Returns the stress of one of these materials.
   template <int dim>
-  Stress<dim> stress_of(MaterialModel model, const Lame &constants, const dealii::Tensor<2, dim> &displacement_gradient);
+  Stress<dim> compute_stress(MaterialModel model, const Lame &constants, const dealii::Tensor<2, dim> &displacement_gradient);
 
   /// The dilatation theta with which the volumetric part of a material's energy is lambda/2 theta^2, and its derivative by F.
   template <int dim>

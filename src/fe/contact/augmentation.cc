@@ -38,29 +38,29 @@ namespace sprag
       const auto &nodes = face.edges[k].nodes;
       const auto first  = in_face<dim>(nodes.front().position);
       const auto last   = in_face<dim>(nodes.back().position);
-      Share of_cell;
+      Share cell_share;
       for (unsigned int c = 0; c < n_corners; ++c)
       {
         std::array<long, dim - 1> place;
         for (unsigned int d = 0; d < dim - 1; ++d)
           place[d] = along_face((c >> d) % 2 == 0 ? first[d] : last[d]);
-        of_cell.corners[c] = numbers.try_emplace(place, static_cast<unsigned int>(numbers.size())).first->second;
+        cell_share.corners[c] = numbers.try_emplace(place, static_cast<unsigned int>(numbers.size())).first->second;
       }
       areas.resize(numbers.size());
       for (unsigned int q = face.patches[k].begin; q < face.patches[k].end; ++q)
       {
         const auto place = in_face<dim>(face.points[q].position);
-        of_cell.values.fill(1.);
+        cell_share.values.fill(1.);
         for (unsigned int c = 0; c < n_corners; ++c)
         {
           for (unsigned int d = 0; d < dim - 1; ++d)
           {
             const double along = (place[d] - first[d]) / (last[d] - first[d]);
-            of_cell.values[c] *= (c >> d) % 2 == 0 ? 1. - along : along;
+            cell_share.values[c] *= (c >> d) % 2 == 0 ? 1. - along : along;
           }
-          areas[of_cell.corners[c]] += face.points[q].weight * of_cell.values[c];
+          areas[cell_share.corners[c]] += face.points[q].weight * cell_share.values[c];
         }
-        shares.push_back(of_cell);
+        shares.push_back(cell_share);
       }
     }
   }

@@ -10,7 +10,7 @@ namespace sprag
 
   namespace
   {
-    LeverPoint first_node_of(const FrictionFace<2> &face)
+    LeverPoint find_first_node(const FrictionFace<2> &face)
     {
       const auto position = face.edges.front().nodes.front().position;
       return { position[0], position[1] };
@@ -22,13 +22,13 @@ namespace sprag
       : face(face_)
       , properties(properties_)
       , pair(lever, cylinder)
-      , first_node(first_node_of(cylinder))
+      , first_node(find_first_node(cylinder))
   {
   }
 
-  void ElasticObstacle::enter(const StepPlaces &of_step)
+  void ElasticObstacle::enter(const StepPlaces &places_)
   {
-    places         = of_step;
+    places         = places_;
     end.at         = pair.configuration(places.end);
     end.first_slip = first_slip(places.end);
     if (places.moves())
@@ -47,7 +47,7 @@ namespace sprag
   {
     PairPlace place;
     return face.find_near({ at.at.centre.xi, at.at.centre.eta },
-                          [&](const unsigned int of) { return pair.reach(of, at, place); });
+                          [&](const unsigned int patch_index) { return pair.reach(patch_index, at, place); });
   }
 
   double ElasticObstacle::first_slip(const FaceConfiguration &at) const
@@ -57,13 +57,13 @@ namespace sprag
 
   void ElasticObstacle::enter_begin(const FaceConfiguration &at)
   {
-    if (is_same(at, of_begin.at.at, known_begin))
+    if (is_same(at, begin_side.at.at, known_begin))
       return;
-    of_begin.at                 = pair.configuration(at);
-    of_begin.first_slip         = first_slip(at);
-    known_begin                 = *at.displacement;
-    of_begin.at.at.displacement = &known_begin;
-    near_begin                  = near(of_begin.at);
+    begin_side.at                 = pair.configuration(at);
+    begin_side.first_slip         = first_slip(at);
+    known_begin                   = *at.displacement;
+    begin_side.at.at.displacement = &known_begin;
+    near_begin                    = near(begin_side.at);
     begin_facets.clear();
   }
 
@@ -73,29 +73,29 @@ namespace sprag
     between.sadd(1. - places.balance, places.balance, *places.end.displacement);
     const double theta = places.balanced(places.begin.theta, places.end.theta);
     const double x     = places.balanced(places.begin.x, places.end.x);
-    of_balance.at      = pair.configuration({ &between, theta, x, properties.centre(x, theta) });
+    balance_side.at    = pair.configuration({ &between, theta, x, properties.centre(x, theta) });
   }
 
-  const PatchFacets &ElasticObstacle::facets_at_begin(const unsigned int of_patch)
+  const PatchFacets &ElasticObstacle::facets_at_begin(const unsigned int patch_index)
   {
-    const auto [found, is_new] = begin_facets.try_emplace(of_patch);
+    const auto [found, is_new] = begin_facets.try_emplace(patch_index);
     if (is_new)
-      pair.find_facets(of_patch, of_begin.at, found->second);
+      pair.find_facets(patch_index, begin_side.at, found->second);
     return found->second;
   }
 
-  void ElasticObstacle::enter(const unsigned int of_face)
+  void ElasticObstacle::enter(const unsigned int patch_index)
   {
-    patch   = of_face;
+    patch   = patch_index;
     first   = face.patches[patch].begin;
     nodal   = FacePatches<2>::nodal(face.patches[patch], *places.end.displacement);
     touched = false;
-    pair.find_facets(patch, end.at, end.of);
+    pair.find_facets(patch, end.at, end.patch_facets);
   }
 
   const Facet &ElasticObstacle::facet_at_end(const unsigned int point) const
   {
-    return end.of.facets[point - first];
+    return end.patch_facets.facets[point - first];
   }
 
   bool ElasticObstacle::place(FacePointState<2> &state) const
@@ -113,21 +113,21 @@ namespace sprag
 
   /// Returns how far the cylinder's undeformed surface has run past a facet, from where its first node without load counts 0
   /// against the undeformed body. Beside the cylinder's face that of the undeformed body.
-  double ElasticObstacle::slip_coordinate(const Facet &facet, const FaceConfiguration &at, const double of_first,
+  double ElasticObstacle::slip_coordinate(const Facet &facet, const FaceConfiguration &at, const double slip_offset,
                                           const unsigned int point) const
   {
     if (facet.opposed)
-      return facet.arc + of_first;
-    const auto &of      = face.patches[face.patch_of_point(point)];
-    const auto position = FacePatches<2>::position(face.points[point], FacePatches<2>::nodal(of, *at.displacement));
+      return facet.arc + slip_offset;
+    const auto &patch_points = face.patches[face.point_patch(point)];
+    const auto position = FacePatches<2>::position(face.points[point], FacePatches<2>::nodal(patch_points, *at.displacement));
     return properties.obstacle(at.x, at.theta)({ position[0], position[1] }).slip;
   }
 
   double ElasticObstacle::slip_at_begin(const unsigned int point)
   {
-    const unsigned int of_patch = face.patch_of_point(point);
-    const auto &facets          = facets_at_begin(of_patch).facets;
-    return slip_coordinate(facets[point - face.patches[of_patch].begin], of_begin.at.at, of_begin.first_slip, point);
+    const unsigned int patch_index = face.point_patch(point);
+    const auto &facets             = facets_at_begin(patch_index).facets;
+    return slip_coordinate(facets[point - face.patches[patch_index].begin], begin_side.at.at, begin_side.first_slip, point);
   }
 
   double ElasticObstacle::slip_at_end(const unsigned int point) const
@@ -146,15 +146,15 @@ namespace sprag
   /// Returns the facets of the patch beside one; the slope is the difference of their slips.
   std::array<unsigned int, 2> ElasticObstacle::neighbours(const unsigned int point) const
   {
-    const auto &of = face.patches[patch];
-    return { { std::max(point, of.begin + 1) - 1, std::min(point + 1, of.end - 1) } };
+    const auto &patch_points = face.patches[patch];
+    return { { std::max(point, patch_points.begin + 1) - 1, std::min(point + 1, patch_points.end - 1) } };
   }
 
   /// Returns the distance of two facets along the undeformed face, which the facets of a patch share evenly [mm].
   double ElasticObstacle::distance(const unsigned int from, const unsigned int to) const
   {
-    const auto &of = face.patches[patch];
-    return of.length * (to - from) / (of.end - of.begin);
+    const auto &patch_points = face.patches[patch];
+    return patch_points.length * (to - from) / (patch_points.end - patch_points.begin);
   }
 
   /// Returns the slope of the slip along the face [1].
@@ -171,13 +171,13 @@ namespace sprag
       return;
     touched               = true;
     const auto is_opposed = [](const Facet &facet) { return facet.opposed; };
-    at_end_of_face        = !std::all_of(end.of.facets.begin(), end.of.facets.end(), is_opposed);
+    at_face_end           = !std::all_of(end.patch_facets.facets.begin(), end.patch_facets.facets.end(), is_opposed);
     if (places.balanced_at_end())
-      coordinates = pair.coordinates(patch, { &end.of });
+      coordinates = pair.coordinates(patch, { &end.patch_facets });
     else
     {
-      pair.find_facets(patch, of_balance.at, of_balance.of);
-      coordinates = pair.coordinates(patch, { &facets_at_begin(patch), &end.of, &of_balance.of });
+      pair.find_facets(patch, balance_side.at, balance_side.patch_facets);
+      coordinates = pair.coordinates(patch, { &facets_at_begin(patch), &end.patch_facets, &balance_side.patch_facets });
     }
     values.reinit(coordinates.size());
     for (auto *const matrix : { &tangent, &friction.by_displacement, &friction.by_velocity })
@@ -208,14 +208,14 @@ namespace sprag
     const double R    = properties.radius;
     const bool at_end = places.balanced_at_end();
     const auto &last  = facet_at_end(state.index);
-    const auto &side  = at_end ? end : of_balance;
-    const auto &force = side.of.facets[state.index - first];
+    const auto &side  = at_end ? end : balance_side;
+    const auto &force = side.patch_facets.facets[state.index - first];
     const auto *begin = places.moves() ? &facets_at_begin(patch).facets[state.index - first] : &last;
     if (!last.opposed || !force.opposed || (!at_end && !begin->opposed))
       return;
-    find_rows(end.of, last, end.at, coordinates, R, end_rows);
+    find_rows(end.patch_facets, last, end.at, coordinates, R, end_rows);
     if (!at_end)
-      find_rows(side.of, force, side.at, coordinates, R, balance_rows);
+      find_rows(side.patch_facets, force, side.at, coordinates, R, balance_rows);
     const auto &rows = at_end ? end_rows : balance_rows;
 
     // Gap and slip as the only coordinates.
@@ -230,7 +230,7 @@ namespace sprag
     auto over_step         = step_to(kinematics, 0.);
     if (!at_end)
     {
-      const auto bent        = bends(side.of, force, side.at, coordinates, R, movement);
+      const auto bent        = bends(side.patch_facets, force, side.at, coordinates, R, movement);
       over_step.gap_begin    = begin->gap;
       over_step.gap_bend     = bent.gap;
       over_step.slip_bend[0] = bent.slip;
@@ -244,7 +244,7 @@ namespace sprag
     const auto response     = step_response(over_step, memory, step.law);
 
     record(response, step, memory, stretch * (run + shift.slip), force.weight, stretch * step.surface_run, state, sums);
-    sums.beyond_face = sums.beyond_face || (at_end_of_face && response.pressure > 0.);
+    sums.beyond_face = sums.beyond_face || (at_face_end && response.pressure > 0.);
     state.end_force  = on_lever(response.pressure, -response.traction[0], end_rows);
     values.add(force.weight * response.force[0], rows.gap, force.weight * response.force[1], rows.slip);
     sums.force_on_obstacle +=
@@ -257,15 +257,15 @@ namespace sprag
 
   /// The change of slip varies with the place on the cylinder, its own turn and the stretch.
   void ElasticObstacle::add_tangent(const StepResponse<2> &response, const Facet &facet, const double stretch, const double run,
-                                    const double stretch_of_end)
+                                    const double end_stretch)
   {
     const bool at_end = places.balanced_at_end();
-    const auto &side  = at_end ? end : of_balance;
+    const auto &side  = at_end ? end : balance_side;
     const auto &rows  = at_end ? end_rows : balance_rows;
     auto &slip_change = end_rows.arc;
     slip_change[coordinates.theta()] -= properties.radius;
     slip_change *= stretch;
-    slip_change.add(stretch_of_end * run, end_rows.stretch);
+    slip_change.add(end_stretch * run, end_rows.stretch);
     for (const auto &[i, row] : { std::pair{ 0u, &rows.gap }, { 1u, &rows.slip } })
     {
       force_row.equ(response.tangent[i][0], end_rows.gap);
@@ -273,8 +273,8 @@ namespace sprag
       add_product(facet.weight, *row, force_row, tangent);
     }
     const double share = (at_end ? 1. : places.balance) * facet.weight;
-    add_curvature(side.of, facet, side.at, coordinates, properties.radius, share * response.force[0], share * response.force[1],
-                  tangent);
+    add_curvature(side.patch_facets, facet, side.at, coordinates, properties.radius, share * response.force[0],
+                  share * response.force[1], tangent);
   }
 
   /// Adds how the traction on a facet changes with the slip's shift, by the stretch and by the slip's slope. Turning moves both
@@ -287,8 +287,8 @@ namespace sprag
     const auto &right          = facet_at_end(after);
     if (before == after || !left.opposed || !right.opposed)
       return;
-    find_rows(end.of, left, end.at, coordinates, properties.radius, at_left);
-    find_rows(end.of, right, end.at, coordinates, properties.radius, at_right);
+    find_rows(end.patch_facets, left, end.at, coordinates, properties.radius, at_left);
+    find_rows(end.patch_facets, right, end.at, coordinates, properties.radius, at_right);
     at_right.arc -= at_left.arc;
     add_product(-facet.weight * shift.d_slope * facet.stretch * d_shift / distance(before, after), end_rows.slip, at_right.arc,
                 tangent);
@@ -299,7 +299,7 @@ namespace sprag
     touch();
     const double R    = properties.radius;
     const auto &facet = facet_at_end(state.index);
-    find_rows(end.of, facet, end.at, coordinates, R, end_rows);
+    find_rows(end.patch_facets, facet, end.at, coordinates, R, end_rows);
     state.slip_change[0] = facet.stretch * sliding.speed;
     if (sliding.rates != nullptr)
     {
@@ -308,23 +308,23 @@ namespace sprag
       rates[coordinates.x()]     = properties.ports.sprung ? -(*sliding.rates)[properties.ports.support()] : 0.;
       state.slip_change[0] += end_rows.slip * rates;
     }
-    sums.beyond_face        = sums.beyond_face || at_end_of_face;
-    const auto of           = sprag::slide(properties, law, sliding, facet.weight, state, sums);
+    sums.beyond_face        = sums.beyond_face || at_face_end;
+    const auto tangents     = sprag::slide(properties, law, sliding, facet.weight, state, sums);
     state.end_force         = on_lever(state.pressure, -state.traction[0], end_rows);
     const double normal     = facet.weight * state.pressure;
     const double tangential = -facet.weight * state.traction[0];
     values.add(normal, end_rows.gap, tangential, end_rows.slip);
-    add_product(facet.weight * of.normal, end_rows.gap, end_rows.gap, tangent);
-    force_row.equ(of.coupled, end_rows.gap);
-    force_row.add(of.stuck, end_rows.slip, of.by_speed * sliding.speed, end_rows.stretch);
+    add_product(facet.weight * tangents.normal, end_rows.gap, end_rows.gap, tangent);
+    force_row.equ(tangents.coupled, end_rows.gap);
+    force_row.add(tangents.stuck, end_rows.slip, tangents.by_speed * sliding.speed, end_rows.stretch);
     add_product(facet.weight, end_rows.slip, force_row, sums.in_parts ? friction.by_displacement : tangent);
     if (!sums.in_parts)
-      return add_curvature(end.of, facet, end.at, coordinates, R, normal, tangential, tangent);
-    add_curvature(end.of, facet, end.at, coordinates, R, normal, 0., tangent);
-    add_curvature(end.of, facet, end.at, coordinates, R, 0., tangential, friction.by_displacement);
-    add_product(facet.weight * of.by_speed, end_rows.slip, end_rows.slip, friction.by_velocity);
-    if (of.lag.time > 0.)
-      friction.delays.push_back(delay_of(of, sliding.speed, rows_on_ports(facet)));
+      return add_curvature(end.patch_facets, facet, end.at, coordinates, R, normal, tangential, tangent);
+    add_curvature(end.patch_facets, facet, end.at, coordinates, R, normal, 0., tangent);
+    add_curvature(end.patch_facets, facet, end.at, coordinates, R, 0., tangential, friction.by_displacement);
+    add_product(facet.weight * tangents.by_speed, end_rows.slip, end_rows.slip, friction.by_velocity);
+    if (tangents.lag.time > 0.)
+      friction.delays.push_back(friction_delay(tangents, sliding.speed, rows_on_ports(facet)));
   }
 
   Tensor<1, 4> ElasticObstacle::on_lever(const double normal, const double along_slip, const FacetRows &rows) const
@@ -359,15 +359,15 @@ namespace sprag
   {
     touch();
     const auto &facet = facet_at_end(state.index);
-    find_rows(end.of, facet, end.at, coordinates, properties.radius, end_rows);
+    find_rows(end.patch_facets, facet, end.at, coordinates, properties.radius, end_rows);
     return rows_on_ports(facet);
   }
 
   /// Returns the rows that were found last, over ports.
   FacePointRows ElasticObstacle::rows_on_ports(const Facet &facet) const
   {
-    const auto of_patch = ports();
-    return { facet.weight, ports_of(of_patch), row_on_ports(of_patch, end_rows.gap), row_on_ports(of_patch, end_rows.slip),
-             row_on_ports(of_patch, end_rows.stretch) };
+    const auto port_coordinates = ports();
+    return { facet.weight, collect_ports(port_coordinates), row_on_ports(port_coordinates, end_rows.gap),
+             row_on_ports(port_coordinates, end_rows.slip), row_on_ports(port_coordinates, end_rows.stretch) };
   }
 } // namespace sprag

@@ -33,7 +33,7 @@ namespace sprag
     struct Side
     {
       PairConfiguration at;
-      PatchFacets of;
+      PatchFacets patch_facets;
       double first_slip = 0.; ///< slip coordinate of the cylinder's first node without load [mm]
     };
 
@@ -41,16 +41,16 @@ namespace sprag
     FacePatches<2>::Indices near(const PairConfiguration &at) const;
     void enter_begin(const FaceConfiguration &at);
     void enter_balance();
-    const PatchFacets &facets_at_begin(unsigned int of_patch);
+    const PatchFacets &facets_at_begin(unsigned int patch_index);
     double slip_at_begin(unsigned int point);
     double slip_at_end(unsigned int point) const;
-    double slip_coordinate(const Facet &facet, const FaceConfiguration &at, double of_first, unsigned int point) const;
+    double slip_coordinate(const Facet &facet, const FaceConfiguration &at, double slip_offset, unsigned int point) const;
     std::array<unsigned int, 2> neighbours(unsigned int point) const;
     double distance(unsigned int from, unsigned int to) const;
     double slope(unsigned int point) const;
     void touch();
     const Facet &facet_at_end(unsigned int point) const;
-    void add_tangent(const StepResponse<2> &response, const Facet &facet, double stretch, double run, double stretch_of_end);
+    void add_tangent(const StepResponse<2> &response, const Facet &facet, double stretch, double run, double end_stretch);
     void add_shift(const Facet &facet, unsigned int point, const SlipShift &shift, double d_shift);
     dealii::Tensor<1, 4> on_lever(double normal, double along_slip, const FacetRows &rows) const;
     PortCoordinates ports() const;
@@ -65,11 +65,11 @@ namespace sprag
     Side end;
 
     // State at the balance, if the forces of a step are those between its ends.
-    Side of_balance;
+    Side balance_side;
     dealii::Vector<double> between; ///< displacements at the balance
 
     // State at the begin of the step, the same in all its iterations.
-    Side of_begin;
+    Side begin_side;
     dealii::Vector<double> known_begin;
     FacePatches<2>::Indices near_begin;
     std::map<unsigned int, PatchFacets> begin_facets; ///< by patches
@@ -78,8 +78,8 @@ namespace sprag
     unsigned int patch = 0;
     unsigned int first = 0;        ///< of its points
     FacePatches<2>::Nodal nodal{}; ///< its displacements at the end
-    bool touched        = false;
-    bool at_end_of_face = false;
+    bool touched     = false;
+    bool at_face_end = false;
     PairCoordinates coordinates;
     FacetRows end_rows, balance_rows, at_left, at_right;
     dealii::Vector<double> force_row; ///< derivative of a force

@@ -49,7 +49,7 @@ namespace sprag
       , face(body.friction_face())
       , view(body.friction_face(), face)
       , obstacle(make_obstacle(body, face, properties))
-      , place_of_port(properties.ports.size())
+      , port_places(properties.ports.size())
   {
   }
 
@@ -72,13 +72,13 @@ namespace sprag
 
   namespace
   {
-    StepContactLaw law_of_step(const FaceContactProperties &properties, const PortStep &step,
-                               const std::optional<StaticTerms> &statics)
+    StepContactLaw step_law(const FaceContactProperties &properties, const PortStep &step,
+                            const std::optional<StaticTerms> &statics)
     {
       StepContactLaw law;
       law.normal = { properties.penalties.normal, 1. };
-      law.slip   = slip_law(statics ? statics->friction : friction_of_step(properties.friction, step.to.v),
-                          properties.penalties.tangential);
+      law.slip =
+          slip_law(statics ? statics->friction : step_friction(properties.friction, step.to.v), properties.penalties.tangential);
       law.weights = step.weights;
       if (statics)
       {
@@ -90,8 +90,8 @@ namespace sprag
     }
   } // namespace
 
-  template <class OfPatch>
-  void FaceContact::visit_patches(const FacePatches<2>::Indices &patches, const OfPatch &of_patch) const
+  template <class PatchVisitor>
+  void FaceContact::visit_patches(const FacePatches<2>::Indices &patches, const PatchVisitor &visit_patch) const
   {
     std::visit(
         [&](auto &below)
@@ -99,7 +99,7 @@ namespace sprag
           for (const unsigned int patch : patches)
           {
             below.enter(patch);
-            of_patch(below, patch);
+            visit_patch(below, patch);
           }
         },
         obstacle);
@@ -108,18 +108,18 @@ namespace sprag
   void FaceContact::evaluate(const PortStep &step, FaceEvaluation<2> &found, const std::optional<StaticTerms> &statics) const
   {
     found.begin(step.end, step.to.x, step.weights.dt);
-    FaceStep of_contact{ law_of_step(properties, step, statics), step.memory, step.to.surface - step.from.surface };
+    FaceStep face_step{ step_law(properties, step, statics), step.memory, step.to.surface - step.from.surface };
     if (statics)
     {
-      of_contact.augmented   = statics->augmented;
-      of_contact.travel      = statics->travel;
-      of_contact.speed_ratio = statics->speed_ratio;
+      face_step.augmented   = statics->augmented;
+      face_step.travel      = statics->travel;
+      face_step.speed_ratio = statics->speed_ratio;
     }
     enter({ configuration(step.begin.position, step.from.x), configuration(step.end, step.to.x), step.weights.stiffness(),
             statics.has_value() });
-    visit_patches(near_step(step.memory, of_contact.law.balance, found),
-                  [&](auto &below, const unsigned int patch) { step_patch(below, patch, of_contact, found); });
-    sum_forces(found.sums.loaded, place_of_port, found.forces);
+    visit_patches(near_step(step.memory, face_step.law.balance, found),
+                  [&](auto &below, const unsigned int patch) { step_patch(below, patch, face_step, found); });
+    sum_forces(found.sums.loaded, port_places, found.forces);
     found.sums.work.drive -= found.sums.force_on_obstacle * (step.to.x - step.from.x);
   }
 
@@ -129,7 +129,7 @@ namespace sprag
   {
     auto patches = near();
     if (balance != ForceBalance::end)
-      patches = united(patches, patches_of(face, memory));
+      patches = united(patches, touched_patches(face, memory));
     return reach.clip(std::move(patches), found.within_reach);
   }
 
@@ -175,8 +175,8 @@ namespace sprag
   {
     slide(state, true, found);
     PortPerturbation result(found.forces.ports);
-    for (const auto &of_patch : found.sums.parts)
-      result.add(of_patch);
+    for (const auto &patch_sum : found.sums.parts)
+      result.add(patch_sum);
     found.forces.tangent = result.stiffness();
     return result;
   }
@@ -187,7 +187,7 @@ namespace sprag
     found.sums.in_parts = in_parts;
     const auto at       = configuration(sliding.ports, sliding.drive.x);
     enter({ at, at });
-    const auto law = friction_of_slide(properties.friction, sliding);
+    const auto law = slide_friction(properties.friction, sliding);
     visit_patches(reach.clip(near(), found.within_reach),
                   [&](auto &below, const unsigned int patch)
                   {
@@ -202,21 +202,21 @@ namespace sprag
                     }
                     below.leave(found.sums);
                   });
-    sum_forces(found.sums.loaded, place_of_port, found.forces);
+    sum_forces(found.sums.loaded, port_places, found.forces);
   }
 
-  const PortSelection &FaceContact::reachable_ports(const double x, const OfLevers &inclinations, const double travel)
+  const PortSelection &FaceContact::reachable_ports(const double x, const PerLever &inclinations, const double travel)
   {
-    const double of_radius    = properties.radius > 0. ? 0.05 * properties.radius : std::numeric_limits<double>::infinity();
-    const double of_contact   = reach.factor * of_radius + std::abs(travel);
-    const double aside        = 4. * properties.layer_thickness; // where the face is looked at besides
-    const double xi           = properties.centre(x, inclinations.front()).xi;
-    const auto patches_within = [&](const double distance)
+    const double radius_limit  = properties.radius > 0. ? 0.05 * properties.radius : std::numeric_limits<double>::infinity();
+    const double near_distance = reach.factor * radius_limit + std::abs(travel);
+    const double aside         = 4. * properties.layer_thickness; // where the face is looked at besides
+    const double xi            = properties.centre(x, inclinations.front()).xi;
+    const auto patches_within  = [&](const double distance)
     {
       constexpr double infinity = std::numeric_limits<double>::max();
       return face.patches_in({ { { xi - distance, -infinity }, { xi + distance, infinity } } });
     };
-    reach.set(face, patches_within(of_contact), patches_within(of_contact + aside),
+    reach.set(face, patches_within(near_distance), patches_within(near_distance + aside),
               2 * static_cast<unsigned int>(body.friction_face().nodes.size()), properties.ports.size());
     return reach.ports;
   }
@@ -233,14 +233,14 @@ namespace sprag
                     for (unsigned int q = face.patches[patch].begin; q < face.patches[patch].end; ++q)
                       below.place(add_point(patch, q, found));
                   });
-    sum_forces(found.sums.loaded, place_of_port, found.forces);
+    sum_forces(found.sums.loaded, port_places, found.forces);
     return {};
   }
 
   namespace
   {
     /// Returns the point in the middle of those under pressure, or the closest one if there are none.
-    const FacePointState<2> &middle_of_contact(const std::vector<FacePointState<2>> &points)
+    const FacePointState<2> &contact_middle(const std::vector<FacePointState<2>> &points)
     {
       const auto is_closed = [](const auto &point) { return point.pressure > 0.; };
       const auto first     = std::find_if(points.begin(), points.end(), is_closed);
@@ -251,18 +251,18 @@ namespace sprag
     }
   } // namespace
 
-  double FaceContact::gap_change(const FaceEvaluation<2> &found, const Vector<double> &change_of_ports, unsigned int) const
+  double FaceContact::gap_change(const FaceEvaluation<2> &found, const Vector<double> &port_change, unsigned int) const
   {
     const auto at = configuration(found.displacement, found.x);
     enter({ at, at });
-    const auto &point = middle_of_contact(found.points);
+    const auto &point = contact_middle(found.points);
     double change     = 0.;
     visit_patches({ point.patch },
                   [&](auto &below, unsigned int)
                   {
                     const auto rows = below.rows(point);
                     for (unsigned int i = 0; i < rows.ports.size(); ++i)
-                      change += rows.gap[i] * change_of_ports[rows.ports[i]];
+                      change += rows.gap[i] * port_change[rows.ports[i]];
                   });
     return change;
   }

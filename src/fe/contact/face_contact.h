@@ -52,7 +52,7 @@ namespace sprag
 
     /// Returns the ports near the cylinder at x from the pivot frame's origin and inclination theta, far beyond the contact's
     /// width and where it may have been `travel` before [mm]. Evaluations that follow look at those alone.
-    const PortSelection &reachable_ports(double x, const OfLevers &theta, double travel = 0.);
+    const PortSelection &reachable_ports(double x, const PerLever &theta, double travel = 0.);
 
     /// Doubles how far these ports reach, from their next call on. To be called where an evaluation was not within them.
     void widen_reach()
@@ -77,8 +77,7 @@ namespace sprag
 
     /// Returns by how much a small change of the ports changes the gap in the middle of the contact, or where it is smallest
     /// [mm].
-    double gap_change(const FaceEvaluation<2> &found, const dealii::Vector<double> &change_of_ports,
-                      unsigned int lever = 0) const;
+    double gap_change(const FaceEvaluation<2> &found, const dealii::Vector<double> &port_change, unsigned int lever = 0) const;
 
     /// Returns the mean slip of the points in contact, weighted with their pressure, from one configuration to another [mm].
     double mean_slip(const FaceEvaluation<2> &found, const dealii::Vector<double> &from, double from_x,
@@ -122,9 +121,9 @@ namespace sprag
     FacePatches<2>::Indices near_step(const std::vector<ContactMemory> &memory, ForceBalance balance,
                                       FaceEvaluation<2> &found) const;
 
-    /// Enters patches of the obstacle one after the other and calls `of_patch`(obstacle, patch).
-    template <class OfPatch>
-    void visit_patches(const FacePatches<2>::Indices &patches, const OfPatch &of_patch) const;
+    /// Enters patches of the obstacle one after the other and calls `visit_patch`(obstacle, patch).
+    template <class PatchVisitor>
+    void visit_patches(const FacePatches<2>::Indices &patches, const PatchVisitor &visit_patch) const;
 
     template <class ObstacleBelow>
     void step_patch(ObstacleBelow &below, unsigned int patch, const FaceStep &step, FaceEvaluation<2> &found) const;
@@ -140,7 +139,7 @@ namespace sprag
 
     // Workspace of evaluations; nothing of it is a result.
     mutable std::variant<RigidObstacle, ElasticObstacle> obstacle; ///< looks at one patch after the other
-    mutable std::vector<unsigned int> place_of_port;               ///< among those summed
+    mutable std::vector<unsigned int> port_places;                 ///< among those summed
 
     FaceReach<2> reach;
   };

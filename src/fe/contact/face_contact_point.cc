@@ -29,23 +29,23 @@ namespace sprag
                        const double stiffness, const std::vector<PointMemory<dim - 1>> &memory,
                        const std::function<double(unsigned int)> &slip_at_begin)
   {
-    const auto &line = face.lines[face.line_of_point[point]];
-    const auto xi_of = [&](const unsigned int q) { return face.points[q].position[0]; };
-    const double xi  = xi_of(point) - travel;
-    if (travel == 0. || line.size() < 2 || xi < xi_of(line.front()) || xi > xi_of(line.back()))
+    const auto &line = face.lines[face.point_lines[point]];
+    const auto xi_at = [&](const unsigned int q) { return face.points[q].position[0]; };
+    const double xi  = xi_at(point) - travel;
+    if (travel == 0. || line.size() < 2 || xi < xi_at(line.front()) || xi > xi_at(line.back()))
       return {};
     const auto after     = std::upper_bound(line.begin() + 1, line.end() - 1, xi,
-                                            [&](const double value, const unsigned int q) { return value < xi_of(q); });
+                                            [&](const double value, const unsigned int q) { return value < xi_at(q); });
     const unsigned int a = *(after - 1), b = *after;
-    const double share     = (xi - xi_of(a)) / (xi_of(b) - xi_of(a));
-    const auto between     = [share](const double first, const double last) { return (1. - share) * first + share * last; };
-    const auto traction_of = [&](const unsigned int q)
+    const double share        = (xi - xi_at(a)) / (xi_at(b) - xi_at(a));
+    const auto between        = [share](const double first, const double last) { return (1. - share) * first + share * last; };
+    const auto point_traction = [&](const unsigned int q)
     {
       const auto found = first_memory(memory, q);
       return found != memory.end() && found->point == q ? found->traction[0] : 0.;
     };
     const double slip      = slip_at_begin(point) - between(slip_at_begin(a), slip_at_begin(b)) - travel * slope;
-    const double unwinding = between(traction_of(a), traction_of(b)) - traction_of(point);
+    const double unwinding = between(point_traction(a), point_traction(b)) - point_traction(point);
     return { slip, unwinding / stiffness, -travel };
   }
 
@@ -73,22 +73,22 @@ namespace sprag
     sums.stored += weight * (0.5 * penalty.normal * state.gap * state.gap + elastic);
     sums.compression = std::max(sums.compression, -state.gap);
 
-    SlidingTangent of;
-    of.normal   = -penalty.normal;
-    of.coupled  = share.coefficient * penalty.normal;
-    of.stuck    = sliding.friction == ContactFriction::stuck ? -penalty.tangential : 0.;
-    of.by_speed = -share.derivative * state.pressure;
-    of.lag      = friction_lag(law, penalty.tangential, -of.by_speed, speed);
-    return of;
+    SlidingTangent sliding_tangent;
+    sliding_tangent.normal   = -penalty.normal;
+    sliding_tangent.coupled  = share.coefficient * penalty.normal;
+    sliding_tangent.stuck    = sliding.friction == ContactFriction::stuck ? -penalty.tangential : 0.;
+    sliding_tangent.by_speed = -share.derivative * state.pressure;
+    sliding_tangent.lag      = friction_lag(law, penalty.tangential, -sliding_tangent.by_speed, speed);
+    return sliding_tangent;
   }
 
-  FrictionDelay delay_of(const SlidingTangent &of, const double speed, const FacePointRows &rows)
+  FrictionDelay friction_delay(const SlidingTangent &sliding_tangent, const double speed, const FacePointRows &rows)
   {
-    FrictionDelay result{ of.lag.time, rows.slip, rows.gap, rows.slip };
+    FrictionDelay result{ sliding_tangent.lag.time, rows.slip, rows.gap, rows.slip };
     result.force *= -rows.weight;
-    result.stiffness_row *= -of.lag.pressure * of.coupled;
-    result.stiffness_row.add(-of.by_speed * speed, rows.stretch);
-    result.rate_row *= -of.by_speed;
+    result.stiffness_row *= -sliding_tangent.lag.pressure * sliding_tangent.coupled;
+    result.stiffness_row.add(-sliding_tangent.by_speed * speed, rows.stretch);
+    result.rate_row *= -sliding_tangent.by_speed;
     return result;
   }
 } // namespace sprag

@@ -21,16 +21,16 @@ namespace sprag
     /// Takes what tells the kinematics of a point of the lever against it, in the coordinates (displacement along xi, along eta,
     /// theta, x).
     template <class Kinematics>
-    PlacedObstacle(Kinematics kinematics_of_point)
-        : kinematics(std::move(kinematics_of_point))
+    PlacedObstacle(Kinematics point_kinematics)
+        : kinematics(std::move(point_kinematics))
     {
     }
 
     /// Takes what tells the gap alone as well, in less time, for the many points that touch nothing.
     template <class Kinematics, class Gap>
-    PlacedObstacle(Kinematics kinematics_of_point, Gap gap_of_point)
-        : kinematics(std::move(kinematics_of_point))
-        , gap_alone(std::move(gap_of_point))
+    PlacedObstacle(Kinematics point_kinematics, Gap point_gap)
+        : kinematics(std::move(point_kinematics))
+        , gap_alone(std::move(point_gap))
     {
     }
 
@@ -125,12 +125,12 @@ namespace sprag
 
   /// Returns the patches that hold points in contact.
   template <int dim>
-  std::vector<unsigned int> patches_of(const FacePatches<dim> &face, const std::vector<PointMemory<dim - 1>> &memory)
+  std::vector<unsigned int> touched_patches(const FacePatches<dim> &face, const std::vector<PointMemory<dim - 1>> &memory)
   {
     std::vector<unsigned int> result;
     for (const auto &entry : memory)
       if (result.empty() || entry.point >= face.patches[result.back()].end)
-        result.push_back(face.patch_of_point(entry.point));
+        result.push_back(face.point_patch(entry.point));
     return result;
   }
 
@@ -193,7 +193,7 @@ namespace sprag
   void add_patch(const PortCoordinates &coordinates, const Values &values, const Matrix &tangent,
                  const FrictionParts<Matrix> &friction, ContactSums &sums)
   {
-    PortForces forces{ ports_of(coordinates), row_on_ports(coordinates, values), matrix_on_ports(coordinates, tangent) };
+    PortForces forces{ collect_ports(coordinates), row_on_ports(coordinates, values), matrix_on_ports(coordinates, tangent) };
     if (sums.in_parts)
     {
       auto &parts         = sums.parts.emplace_back(forces.ports);
@@ -276,5 +276,5 @@ namespace sprag
                        double weight, FacePointState<2> &state, ContactSums &sums);
 
   /// Returns the delay of friction at a point with these rows.
-  FrictionDelay delay_of(const SlidingTangent &of, double speed, const FacePointRows &rows);
+  FrictionDelay friction_delay(const SlidingTangent &sliding_tangent, double speed, const FacePointRows &rows);
 } // namespace sprag

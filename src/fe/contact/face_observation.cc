@@ -10,18 +10,18 @@
 namespace sprag
 {
   template <int dim>
-  void FaceEvaluation<dim>::begin(const dealii::Vector<double> &ports, const double at_x, const double of_duration)
+  void FaceEvaluation<dim>::begin(const dealii::Vector<double> &ports, const double at_x, const double duration_)
   {
     displacement = ports;
     x            = at_x;
-    duration     = of_duration;
+    duration     = duration_;
     within_reach = true;
     sums         = {};
     points.clear();
   }
 
   template <int dim>
-  std::string FaceEvaluation<dim>::objection() const
+  std::string FaceEvaluation<dim>::check_validity() const
   {
     if (!sums.beyond_face)
       return {};
@@ -33,7 +33,7 @@ namespace sprag
   std::vector<PointMemory<dim - 1>> FaceEvaluation<dim>::memory() const
   {
     if (sums.beyond_face)
-      throw AnalysisError(dim == 3 ? objection()
+      throw AnalysisError(dim == 3 ? check_validity()
                                    : "the contact reaches the end of the part of the elastic cylinder's surface that is meshed "
                                      "to touch the lever, at x = " +
                                          rounded_text(x) +
@@ -54,19 +54,19 @@ namespace sprag
     /// Displacement along eta at xi, linear between the points [mm].
     double deflection(const FrictionFace<2> &face, const dealii::Vector<double> &displacement, const double xi)
     {
-      const auto &points   = face.points;
-      const auto is_before = [](const auto &point, const double value) { return point.position[0] < value; };
-      const auto after     = std::lower_bound(points.begin() + 1, points.end() - 1, xi, is_before);
-      const auto before    = after - 1;
-      const double share   = std::clamp((xi - before->position[0]) / (after->position[0] - before->position[0]), 0., 1.);
-      const auto of_point  = [&](const FacePoint<2> &point)
+      const auto &points     = face.points;
+      const auto is_before   = [](const auto &point, const double value) { return point.position[0] < value; };
+      const auto after       = std::lower_bound(points.begin() + 1, points.end() - 1, xi, is_before);
+      const auto before      = after - 1;
+      const double share     = std::clamp((xi - before->position[0]) / (after->position[0] - before->position[0]), 0., 1.);
+      const auto point_value = [&](const FacePoint<2> &point)
       {
         double result = 0.;
         for (const auto &[node, shape] : point.nodes)
           result += shape * displacement[2 * node + 1];
         return result;
       };
-      return (1. - share) * of_point(*before) + share * of_point(*after);
+      return (1. - share) * point_value(*before) + share * point_value(*after);
     }
 
     /// Friction at a point under pressure.
@@ -79,17 +79,17 @@ namespace sprag
     /// Returns the friction of every point; those without pressure take it from one beside them.
     std::vector<PointFriction> frictions(const std::vector<FacePointState<2>> &points)
     {
-      const auto is_closed   = [](const FacePointState<2> &point) { return point.pressure > 0.; };
-      const auto friction_of = [](const FacePointState<2> &point) {
+      const auto is_closed      = [](const FacePointState<2> &point) { return point.pressure > 0.; };
+      const auto point_friction = [](const FacePointState<2> &point) {
         return PointFriction{ point.traction[0] / point.pressure, point.mu };
       };
       const auto first = std::find_if(points.begin(), points.end(), is_closed);
-      auto friction    = first == points.end() ? PointFriction() : friction_of(*first);
+      auto friction    = first == points.end() ? PointFriction() : point_friction(*first);
       std::vector<PointFriction> result;
       for (const auto &point : points)
       {
         if (is_closed(point))
-          friction = friction_of(point);
+          friction = point_friction(point);
         result.push_back(friction);
       }
       return result;
@@ -135,7 +135,7 @@ namespace sprag
       : face(face_)
       , patches(patches_)
       , is_half(half)
-      , parts(parts_of(face))
+      , parts(face_parts(face))
   {
   }
 
@@ -147,7 +147,7 @@ namespace sprag
     FaceState result{ drive.time, drive.x, nothing, nothing, {}, {}, {} };
     if constexpr (dim == 2)
     {
-      const auto pressure = recover(samples_of(found, 0)).pressure;
+      const auto pressure = recover(pressure_samples(found, 0)).pressure;
       const auto traction = recovered_traction(face, found, pressure);
       for (std::size_t i = 0; i < found.points.size(); ++i)
       {
@@ -160,7 +160,7 @@ namespace sprag
       result.traction_across = nothing;
       for (const auto &point : found.points)
       {
-        const unsigned int part = parts.part_of_point[point.index];
+        const unsigned int part = parts.point_parts[point.index];
         const double share      = face.points[point.index].weight / parts.points.weight[part];
         result.pressure[part] += share * point.pressure;
         result.traction[part] += share * point.traction[0];
@@ -198,11 +198,11 @@ namespace sprag
       penetration = std::max(penetration, -point.gap);
       if (!(point.pressure > 0.))
         continue;
-      const auto &of_face = face.points[point.index];
-      const double area   = of_face.weight;
-      double free         = 0.; // share of a force here that nodes take which the hub does not hold
+      const auto &face_point = face.points[point.index];
+      const double area      = face_point.weight;
+      double free            = 0.; // share of a force here that nodes take which the hub does not hold
       dealii::Tensor<1, dim> moved;
-      for (const auto &[node, shape] : of_face.nodes)
+      for (const auto &[node, shape] : face_point.nodes)
       {
         free += shape;
         for (unsigned int d = 0; d < dim; ++d)
@@ -259,11 +259,11 @@ namespace sprag
   }
 
   template <int dim>
-  PressureSamples FaceView<dim>::samples_of(const FaceEvaluation<dim> &found, const unsigned int line) const
+  PressureSamples FaceView<dim>::pressure_samples(const FaceEvaluation<dim> &found, const unsigned int line) const
   {
     PressureSamples samples;
     for (const auto &point : found.points)
-      if (patches.line_of_point[point.index] == line)
+      if (patches.point_lines[point.index] == line)
       {
         samples.xi.push_back(point.position[0]);
         samples.weight.push_back(face.points[point.index].weight);
@@ -285,7 +285,7 @@ namespace sprag
     const auto largest     = std::max_element(found.points.begin(), found.points.end(), by_pressure);
     if (largest == found.points.end() || largest->pressure == 0.)
       return;
-    const auto samples               = samples_of(found, patches.line_of_point[largest->index]);
+    const auto samples               = pressure_samples(found, patches.point_lines[largest->index]);
     const auto recovered             = recover(samples);
     row[Column::contact_width]       = contact_width(samples, recovered);
     row[Column::largest_pressure]    = recovered.largest;

@@ -22,13 +22,13 @@ namespace sprag
     PortForces forces;
 
     /// Forgets what was found and begins another evaluation.
-    void begin(const dealii::Vector<double> &ports, double at_x, double of_duration);
+    void begin(const dealii::Vector<double> &ports, double at_x, double duration_);
 
-    /// Returns the memory of the points in contact, by increasing point. Throws AnalysisError where there is an objection().
+    /// Returns the memory of the points in contact, by increasing point. Throws AnalysisError where there is an check_validity().
     std::vector<PointMemory<dim - 1>> memory() const;
 
     /// Tells why the contact goes beyond what can touch; empty if it does not.
-    std::string objection() const;
+    std::string check_validity() const;
 
     /// Returns the works of the step.
     const StepWork &work() const
@@ -76,7 +76,7 @@ namespace sprag
 
   private:
     void observe_pressure(const FaceEvaluation<dim> &found, Row &row) const;
-    PressureSamples samples_of(const FaceEvaluation<dim> &found, unsigned int line) const;
+    PressureSamples pressure_samples(const FaceEvaluation<dim> &found, unsigned int line) const;
 
     const FrictionFace<dim> &face;
     const FacePatches<dim> &patches;

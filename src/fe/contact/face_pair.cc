@@ -78,7 +78,7 @@ namespace sprag
       result.positions[a]      = edge.nodes[a].position;
       result.nodes[a]          = index == FaceEdge<2>::held ? index : first_node + index;
     }
-    result.undeformed = curve_of(result.n_nodes, result.positions.data());
+    result.undeformed = edge_curve(result.n_nodes, result.positions.data());
     return result;
   }
 
@@ -92,7 +92,7 @@ namespace sprag
     return result;
   }
 
-  EdgeCurve FacePair::curve_of(const unsigned int n_nodes, const Vector2 *const nodes)
+  EdgeCurve FacePair::edge_curve(const unsigned int n_nodes, const Vector2 *const nodes)
   {
     const Vector2 to_next = nodes[1] - nodes[0];
     if (n_nodes == 2)
@@ -103,7 +103,7 @@ namespace sprag
 
   EdgeCurve FacePair::deformed_curve(const Edge &edge, const Vector<double> &displacements)
   {
-    return curve_of(edge.n_nodes, deformed(edge, displacements).data());
+    return edge_curve(edge.n_nodes, deformed(edge, displacements).data());
   }
 
   PairConfiguration FacePair::configuration(const FaceConfiguration &at) const
@@ -117,7 +117,7 @@ namespace sprag
       const auto nodes = deformed(chain[i], *at.displacement);
       for (unsigned int a = i == 0 ? 0 : 1; a <= degree; ++a)
         result.nodes.push_back(centre + nodes[a]);
-      const auto curve = curve_of(degree + 1, nodes.data());
+      const auto curve = edge_curve(degree + 1, nodes.data());
       for (const unsigned int end : { 0, 1 })
       {
         const auto slope = curve.slope(end);
@@ -157,7 +157,7 @@ namespace sprag
   {
     constexpr unsigned int most_iterations = 30;
     const unsigned int n                   = degree + 1;
-    const auto curve                       = curve_of(n, &at.nodes[place.edge * degree]);
+    const auto curve                       = edge_curve(n, &at.nodes[place.edge * degree]);
     const auto &bend                       = curve.second;
     Vector2 apart, slope;
     const auto set = [&]
@@ -223,11 +223,11 @@ namespace sprag
   void FacePair::add_segment(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, const Segment &segment,
                              PairPlace &place, PatchFacets &result) const
   {
-    const double length_of_segment = segment.to - segment.from;
+    const double segment_length = segment.to - segment.from;
     for (const double gauss : gauss_points)
     {
-      result.points.push_back(point_above(edge, curve, at, segment.from + gauss * length_of_segment, place));
-      result.points.back().weight *= 0.5 * length_of_segment;
+      result.points.push_back(point_above(edge, curve, at, segment.from + gauss * segment_length, place));
+      result.points.back().weight *= 0.5 * segment_length;
     }
   }
 
@@ -286,14 +286,14 @@ namespace sprag
     }
   }
 
-  void FacePair::average(const PatchFacets &of, Facet &facet)
+  void FacePair::average(const PatchFacets &patch_facets, Facet &facet)
   {
     if (!facet.opposed)
       return;
     double stretch = 0.;
     for (unsigned int p = facet.begin; p < facet.end; ++p)
     {
-      const auto &point = of.points[p];
+      const auto &point = patch_facets.points[p];
       facet.weight += point.weight;
       facet.gap += point.weight * point.gap;
       facet.arc += point.weight * point.arc;
@@ -331,8 +331,8 @@ namespace sprag
     result.nodes.assign(edge.nodes.begin(), edge.nodes.begin() + edge.n_nodes);
     auto first        = static_cast<unsigned int>(chain.size());
     unsigned int last = 0;
-    for (const auto *const of_patch : facets)
-      for (const auto &point : of_patch->points)
+    for (const auto *const patch_facets : facets)
+      for (const auto &point : patch_facets->points)
       {
         first = std::min(first, point.edge);
         last  = std::max(last, point.edge);

@@ -186,10 +186,10 @@ namespace sprag
 
     static Edge copy(const FaceEdge<2> &edge, unsigned int first_node);
     static Nodes deformed(const Edge &edge, const dealii::Vector<double> &displacements);
-    static EdgeCurve curve_of(unsigned int n_nodes, const Vector2 *nodes);
+    static EdgeCurve edge_curve(unsigned int n_nodes, const Vector2 *nodes);
     static EdgeCurve deformed_curve(const Edge &edge, const dealii::Vector<double> &displacements);
     void check_chain();
-    static void average(const PatchFacets &of, Facet &facet);
+    static void average(const PatchFacets &patch_facets, Facet &facet);
 
     /// Signed distance of a position along xi from a vertex of the chain.
     double beyond(const Vector2 &position, unsigned int vertex, const PairConfiguration &at) const;

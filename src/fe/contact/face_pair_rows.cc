@@ -124,11 +124,11 @@ namespace sprag
           Form row;
           for (unsigned int k = 0; k < n_forms; ++k)
             row[k] = columns[k][i];
-          Local of_row;
-          spread(p, row, of_row);
+          Local spread_row;
+          spread(p, row, spread_row);
           double *const target = &matrix(at[i], 0);
           for (unsigned int j = 0; j < n_local; ++j)
-            target[at[j]] += of_row[j];
+            target[at[j]] += spread_row[j];
         }
       }
 
@@ -142,10 +142,10 @@ namespace sprag
           moved[d] = by_theta[d] * change[at[theta_place]] + by_x[d] * change[at[theta_place + 1]];
           for (unsigned int a = 0; a < n_nodes; ++a)
           {
-            const double of_cylinder = change[at[2 * (n_nodes + a) + d]];
-            moved[d] += p.lever[a] * change[at[2 * a + d]] - p.cylinder.values[a] * of_cylinder;
-            slope_change[d] += p.cylinder.slopes[a] * of_cylinder;
-            bend_change[d] += p.cylinder.bends[a] * of_cylinder;
+            const double cylinder_change = change[at[2 * (n_nodes + a) + d]];
+            moved[d] += p.lever[a] * change[at[2 * a + d]] - p.cylinder.values[a] * cylinder_change;
+            slope_change[d] += p.cylinder.slopes[a] * cylinder_change;
+            bend_change[d] += p.cylinder.bends[a] * cylinder_change;
           }
         }
         return Form({ moved[0], moved[1], slope_change[0], slope_change[1], p.normal * bend_change });
@@ -217,7 +217,7 @@ namespace sprag
     };
 
     /// Slip over a cut by what its sides' places on the cylinder differ by.
-    double slip_of(const PairCut &cut)
+    double cut_slip(const PairCut &cut)
     {
       return 0.5 * (cut.left.stretch() + cut.right.stretch()) * (cut.left.arc - cut.right.arc);
     }
@@ -245,8 +245,8 @@ namespace sprag
     };
   } // namespace
 
-  void find_rows(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
-                 const double radius, FacetRows &rows)
+  void find_rows(const PatchFacets &patch_facets, const Facet &facet, const PairConfiguration &at,
+                 const PairCoordinates &coordinates, const double radius, FacetRows &rows)
   {
     for (auto *const row : { &rows.gap, &rows.arc, &rows.stretch, &rows.slip })
     {
@@ -256,7 +256,7 @@ namespace sprag
     const View view(at, coordinates);
     for (unsigned int q = facet.begin; q < facet.end; ++q)
     {
-      const auto &p      = of.points[q];
+      const auto &p      = patch_facets.points[q];
       const double share = p.weight / facet.weight;
       const Forms forms(p);
       view.add(p, forms.gap, share, rows.gap);
@@ -267,24 +267,24 @@ namespace sprag
     }
     for (unsigned int c = facet.first_cut; c < facet.last_cut; ++c)
     {
-      const auto &cut = of.cuts[c];
+      const auto &cut = patch_facets.cuts[c];
       Vector<double> movement(coordinates.size());
       view.add_movement(cut, cut.width / facet.weight, movement);
       rows.arc.add(cut.left.arc - cut.right.arc, movement);
       rows.stretch.add(cut.left.stretch() - cut.right.stretch(), movement);
-      rows.slip.add(slip_of(cut), movement);
+      rows.slip.add(cut_slip(cut), movement);
     }
   }
 
-  FacetBends bends(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
-                   const double radius, const Vector<double> &change)
+  FacetBends bends(const PatchFacets &patch_facets, const Facet &facet, const PairConfiguration &at,
+                   const PairCoordinates &coordinates, const double radius, const Vector<double> &change)
   {
     const View view(at, coordinates);
     const auto second = view.second(change);
     FacetBends result;
     for (unsigned int q = facet.begin; q < facet.end; ++q)
     {
-      const auto &p      = of.points[q];
+      const auto &p      = patch_facets.points[q];
       const double share = p.weight / facet.weight;
       const Forms forms(p);
       const Form seen = view.seen(p, change);
@@ -295,7 +295,7 @@ namespace sprag
     }
     for (unsigned int c = facet.first_cut; c < facet.last_cut; ++c)
     {
-      const auto &cut = of.cuts[c];
+      const auto &cut = patch_facets.cuts[c];
       const CutRows rows(view, cut, coordinates.size(), 1. / facet.weight);
       const double moved = rows.movement * change;
       const double turn  = radius * (cut.left.stretch() - cut.right.stretch()) * change[coordinates.theta()];
@@ -305,14 +305,15 @@ namespace sprag
     return result;
   }
 
-  void add_curvature(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
-                     const double radius, const double normal, const double tangential, FullMatrix<double> &matrix)
+  void add_curvature(const PatchFacets &patch_facets, const Facet &facet, const PairConfiguration &at,
+                     const PairCoordinates &coordinates, const double radius, const double normal, const double tangential,
+                     FullMatrix<double> &matrix)
   {
     const View view(at, coordinates);
     Vector<double> by_stretch(coordinates.size());
     for (unsigned int q = facet.begin; q < facet.end; ++q)
     {
-      const auto &p      = of.points[q];
+      const auto &p      = patch_facets.points[q];
       const double share = p.weight / facet.weight;
       const Forms forms(p);
       view.add(p, share * (normal * gap_curvature(p, forms) + tangential * slip_gradient(p, forms)), matrix);
@@ -323,7 +324,7 @@ namespace sprag
       matrix(coordinates.theta(), j) += by_stretch[j];
     for (unsigned int c = facet.first_cut; c < facet.last_cut; ++c)
     {
-      const auto &cut = of.cuts[c];
+      const auto &cut = patch_facets.cuts[c];
       CutRows rows(view, cut, coordinates.size(), 1. / facet.weight);
       for (unsigned int i = 0; i < coordinates.size(); ++i)
         for (unsigned int j = 0; j < coordinates.size(); ++j)

@@ -18,8 +18,8 @@ namespace sprag
   };
 
   /// `radius` R [mm]: how far the cylinder's surface runs in its axes as they turn by 1; 0 for a body that turns with them.
-  void find_rows(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
-                 double radius, FacetRows &rows);
+  void find_rows(const PatchFacets &patch_facets, const Facet &facet, const PairConfiguration &at,
+                 const PairCoordinates &coordinates, double radius, FacetRows &rows);
 
   /// change . d(rows.gap)/dq . change, and so for rows.slip.
   struct FacetBends
@@ -28,13 +28,14 @@ namespace sprag
     double slip = 0.;
   };
 
-  FacetBends bends(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
-                   double radius, const dealii::Vector<double> &change);
+  FacetBends bends(const PatchFacets &patch_facets, const Facet &facet, const PairConfiguration &at,
+                   const PairCoordinates &coordinates, double radius, const dealii::Vector<double> &change);
 
   /// Adds normal * d(rows.gap)/dq + tangential * d(rows.slip)/dq; the second is unsymmetric by the change of the stretch, and
   /// leaves out what kinks between the cylinder's edges times the gap are.
-  void add_curvature(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
-                     double radius, double normal, double tangential, dealii::FullMatrix<double> &matrix);
+  void add_curvature(const PatchFacets &patch_facets, const Facet &facet, const PairConfiguration &at,
+                     const PairCoordinates &coordinates, double radius, double normal, double tangential,
+                     dealii::FullMatrix<double> &matrix);
 
   /// Adds factor * row column^T; rows have few entries.
   void add_product(double factor, const dealii::Vector<double> &row, const dealii::Vector<double> &column,

@@ -12,23 +12,23 @@ namespace sprag
     constexpr unsigned int parts_along = 4;
   }
 
-  FaceParts parts_of(const FrictionFace<2> &face)
+  FaceParts face_parts(const FrictionFace<2> &face)
   {
     FaceParts result;
     for (const auto &point : face.points)
     {
-      result.part_of_point.push_back(static_cast<unsigned int>(result.part_of_point.size()));
+      result.point_parts.push_back(static_cast<unsigned int>(result.point_parts.size()));
       result.points.xi.push_back(point.position[0]);
       result.points.weight.push_back(point.weight);
     }
     return result;
   }
 
-  FaceParts parts_of(const FrictionFace<3> &face)
+  FaceParts face_parts(const FrictionFace<3> &face)
   {
     FaceParts result;
     auto &[xi, weight, zeta] = result.points;
-    result.part_of_point.resize(face.points.size());
+    result.point_parts.resize(face.points.size());
     for (const auto &patch : face.patches)
     {
       std::map<std::pair<unsigned int, long>, unsigned int> known; // by the quarter along xi and zeta
@@ -41,7 +41,7 @@ namespace sprag
             std::clamp(std::floor(parts_along * (point.position[0] - first) / span), 0., parts_along - 1.));
         const auto [found, is_new] =
             known.try_emplace({ quarter, std::lround(1e6 * point.position[2]) }, static_cast<unsigned int>(xi.size()));
-        const unsigned int part = result.part_of_point[q] = found->second;
+        const unsigned int part = result.point_parts[q] = found->second;
         if (is_new)
         {
           xi.push_back(0.);

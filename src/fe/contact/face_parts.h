@@ -12,10 +12,10 @@ namespace sprag
   /// at each zeta of its points.
   struct FaceParts
   {
-    FacePoints points;                       ///< their middles
-    std::vector<unsigned int> part_of_point; ///< of the face's points
+    FacePoints points;                     ///< their middles
+    std::vector<unsigned int> point_parts; ///< of the face's points
   };
 
-  FaceParts parts_of(const FrictionFace<2> &face);
-  FaceParts parts_of(const FrictionFace<3> &face);
+  FaceParts face_parts(const FrictionFace<2> &face);
+  FaceParts face_parts(const FrictionFace<3> &face);
 } // namespace sprag

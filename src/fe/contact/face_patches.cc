@@ -17,12 +17,12 @@ namespace sprag
     using Box = dealii::BoundingBox<dim>;
 
     explicit Tree(const FrictionFace<dim> &face)
-        : boxes(boxes_of(face))
+        : boxes(bounding_boxes(face))
         , tree(dealii::pack_rtree_of_indices(boxes))
     {
     }
 
-    static std::vector<Box> boxes_of(const FrictionFace<dim> &face)
+    static std::vector<Box> bounding_boxes(const FrictionFace<dim> &face)
     {
       std::vector<Box> result;
       for (const auto &edge : face.edges)
@@ -136,7 +136,7 @@ namespace sprag
     std::map<long, Indices> by_zeta;
     for (unsigned int q = 0; q < points.size(); ++q)
       by_zeta[dim == 3 ? std::lround(1e6 * points[q].position[dim - 1]) : 0].push_back(q);
-    line_of_point.resize(points.size());
+    point_lines.resize(points.size());
     for (auto &entry : by_zeta)
     {
       auto &line       = entry.second;
@@ -144,7 +144,7 @@ namespace sprag
       { return points[a].position[0] < points[b].position[0]; };
       std::sort(line.begin(), line.end(), by_xi);
       for (const unsigned int point : line)
-        line_of_point[point] = static_cast<unsigned int>(lines.size());
+        point_lines[point] = static_cast<unsigned int>(lines.size());
       lines.push_back(std::move(line));
     }
   }
@@ -157,7 +157,7 @@ namespace sprag
     if (!ports.empty() && shown == looked_at)
       return;
     looked_at = std::move(shown);
-    ports     = face.displacements_of(looked_at);
+    ports     = face.patch_displacements(looked_at);
     for (auto port = surface; port < size; ++port)
       ports.push_back(port);
   }
@@ -194,7 +194,7 @@ namespace sprag
   }
 
   template <int dim>
-  unsigned int FacePatches<dim>::patch_of_point(const unsigned int point) const
+  unsigned int FacePatches<dim>::point_patch(const unsigned int point) const
   {
     const auto ends_before = [](const Patch &patch, const unsigned int q) { return patch.end <= q; };
     const auto found       = std::lower_bound(patches.begin(), patches.end(), point, ends_before);
@@ -222,7 +222,7 @@ namespace sprag
   }
 
   template <int dim>
-  std::vector<unsigned int> FacePatches<dim>::displacements_of(const Indices &some) const
+  std::vector<unsigned int> FacePatches<dim>::patch_displacements(const Indices &some) const
   {
     std::vector<unsigned int> result;
     for (const unsigned int patch : some)

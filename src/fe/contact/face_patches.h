@@ -56,8 +56,8 @@ namespace sprag
 
     const std::vector<Patch> patches;
     const std::vector<Point> points;
-    std::vector<Indices> lines;              ///< points that have the same zeta, by increasing xi; in a plane all of them
-    std::vector<unsigned int> line_of_point; ///< index in `lines`
+    std::vector<Indices> lines;            ///< points that have the same zeta, by increasing xi; in a plane all of them
+    std::vector<unsigned int> point_lines; ///< index in `lines`
 
     /// The patch's part of the displacements of the face, dim entries a node.
     using Nodal = std::array<double, dim * max_nodes>;
@@ -74,10 +74,10 @@ namespace sprag
     Indices find_near(const dealii::Point<dim> &centre, const Distance &distance) const;
 
     /// Returns the indices of the displacements of the nodes of some patches, increasing.
-    std::vector<unsigned int> displacements_of(const Indices &some) const;
+    std::vector<unsigned int> patch_displacements(const Indices &some) const;
 
     /// Returns the index of the patch that holds a point, by its index.
-    unsigned int patch_of_point(unsigned int point) const;
+    unsigned int point_patch(unsigned int point) const;
 
     /// Visits where the next search begins.
     void visit_history(Archive &archive)

@@ -83,12 +83,12 @@ namespace sprag
     const double middle  = 0.5 * (fit.a + fit.b);
     std::array<PressureFit::Coefficients, PressureFit::largest_degree + 1> squares{};
     PressureFit::Coefficients load{}, force{}, moment{}, shapes;
-    double of_force = 0., of_moment = 0.;
+    double force_sum = 0., moment_sum = 0.;
     for (std::size_t i = 0; i < data.xi.size(); ++i)
     {
       const double area = data.weight[i], trust = data.trust[i], p = data.pressure[i], arm = data.xi[i] - middle;
-      of_force += area * p;
-      of_moment += area * p * arm;
+      force_sum += area * p;
+      moment_sum += area * p * arm;
       if (!set_shapes(fit, data.xi[i], shapes))
         continue;
       for (unsigned int j = 0; j < n; ++j)
@@ -110,8 +110,8 @@ namespace sprag
       matrix(j, n + 1) = matrix(n + 1, j) = moment[j];
       solution[j]                         = load[j];
     }
-    solution[n]     = of_force;
-    solution[n + 1] = of_moment;
+    solution[n]     = force_sum;
+    solution[n + 1] = moment_sum;
     fit.misfit      = std::numeric_limits<double>::infinity();
     try
     {
@@ -136,8 +136,8 @@ namespace sprag
     constexpr std::size_t enough_samples = 48;
     constexpr unsigned int least_degree  = 2;
     constexpr double trust_in_cell[]     = { 0.01, 0.1, 1. }; ///< from the edge inwards
-    constexpr double hold_of_edges       = 0.1;               ///< root of the misfit that a move by a cell costs
-    constexpr double gain_of_soft        = 0.5;               ///< of the misfit, for exponents of a thin layer or a soft penalty
+    constexpr double edge_hold           = 0.1;               ///< root of the misfit that a move by a cell costs
+    constexpr double soft_gain           = 0.5;               ///< of the misfit, for exponents of a thin layer or a soft penalty
 
     struct Range
     {
@@ -207,7 +207,7 @@ namespace sprag
       const auto cost = [&](const PressureFit &fit)
       {
         const double left = (fit.a - a) / cell, right = (fit.b - b) / cell;
-        return fit.misfit + hold_of_edges * hold_of_edges * data.size * (left * left + right * right);
+        return fit.misfit + edge_hold * edge_hold * data.size * (left * left + right * right);
       };
       for (const double share : { 0.2, 0.06, 0.02 })
         for (double PressureFit::*const edge : { &PressureFit::a, &PressureFit::b })
@@ -232,7 +232,7 @@ namespace sprag
       {
         fit.exponents = exponents;
         set_coefficients(data, fit);
-        if (fit.misfit < (exponents.left + exponents.right > 1.1 ? gain_of_soft : 1.) * best.misfit)
+        if (fit.misfit < (exponents.left + exponents.right > 1.1 ? soft_gain : 1.) * best.misfit)
           best = fit;
       }
       return best;

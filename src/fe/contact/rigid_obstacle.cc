@@ -12,7 +12,7 @@ namespace sprag
 
   namespace
   {
-    LeverPoint place_of(const dealii::Point<2> &position)
+    LeverPoint to_lever_point(const dealii::Point<2> &position)
     {
       return { position[0], position[1] };
     }
@@ -26,24 +26,24 @@ namespace sprag
   {
     for (std::size_t k = 0; k < lever.edges.size(); ++k)
     {
-      const auto &of      = face.patches[k];
-      const auto &nodes   = lever.edges[k].nodes;
-      const double origin = nodes.front().position[0];
-      const double length = nodes.back().position[0] - origin;
-      for (unsigned int q = of.begin; q < of.end; ++q)
+      const auto &patch_points = face.patches[k];
+      const auto &nodes        = lever.edges[k].nodes;
+      const double origin      = nodes.front().position[0];
+      const double length      = nodes.back().position[0] - origin;
+      for (unsigned int q = patch_points.begin; q < patch_points.end; ++q)
       {
         const auto shapes = edge_shapes(static_cast<unsigned int>(nodes.size()), (face.points[q].position[0] - origin) / length);
-        for (unsigned int a = 0; a < of.n_nodes; ++a)
+        for (unsigned int a = 0; a < patch_points.n_nodes; ++a)
           for (std::size_t node = 0; node < nodes.size(); ++node)
-            if (nodes[node].index == of.nodes[a])
+            if (nodes[node].index == patch_points.nodes[a])
               slopes[q][a] = shapes.slopes[node] / length;
       }
     }
   }
 
-  void RigidObstacle::enter(const StepPlaces &of_step)
+  void RigidObstacle::enter(const StepPlaces &places_)
   {
-    places = of_step;
+    places = places_;
     end    = properties.obstacle(places.end.x, places.end.theta);
     if (places.moves())
       enter_begin(places.begin);
@@ -54,13 +54,13 @@ namespace sprag
 
   void RigidObstacle::enter_begin(const FaceConfiguration &at)
   {
-    if (is_same(at, of_begin, known_begin))
+    if (is_same(at, begin_configuration, known_begin))
       return;
-    known_begin           = *at.displacement;
-    of_begin              = at;
-    of_begin.displacement = &known_begin;
-    begin                 = properties.obstacle(at.x, at.theta);
-    near_begin            = near(of_begin, begin);
+    known_begin                      = *at.displacement;
+    begin_configuration              = at;
+    begin_configuration.displacement = &known_begin;
+    begin                            = properties.obstacle(at.x, at.theta);
+    near_begin                       = near(begin_configuration, begin);
     begin_points.clear();
   }
 
@@ -73,48 +73,48 @@ namespace sprag
   /// The gap along a straight patch to a convex obstacle lies above its tangent at the first point; the margin covers bending.
   FacePatches<2>::Indices RigidObstacle::near(const FaceConfiguration &at, const PlacedObstacle &obstacle) const
   {
-    const auto reach = [&](const unsigned int of_face)
+    const auto reach = [&](const unsigned int patch_index)
     {
-      const auto &chosen = face.patches[of_face];
+      const auto &chosen = face.patches[patch_index];
       const auto nodal   = FacePatches<2>::nodal(chosen, *at.displacement);
       const auto first   = FacePatches<2>::position(face.points[chosen.begin], nodal);
       const auto along   = FacePatches<2>::position(face.points[chosen.end - 1], nodal) - first;
-      const auto contact = obstacle(place_of(first));
+      const auto contact = obstacle(to_lever_point(first));
       return contact.gap + std::min(0., contact.gap_row[0] * along[0] + contact.gap_row[1] * along[1]) - 0.02 * chosen.length;
     };
     return face.find_near({ at.centre.xi, at.centre.eta }, reach);
   }
 
-  void RigidObstacle::enter(const unsigned int of_face)
+  void RigidObstacle::enter(const unsigned int patch_index)
   {
-    patch          = of_face;
-    at_end         = FacePatches<2>::nodal(face.patches[patch], *places.end.displacement);
-    begin_of_patch = places.moves() ? &begin_of(patch) : nullptr;
-    touched        = false;
-    values         = {};
-    tangent        = {};
-    friction       = {};
+    patch              = patch_index;
+    at_end             = FacePatches<2>::nodal(face.patches[patch], *places.end.displacement);
+    patch_begin_points = places.moves() ? &points_at_begin(patch) : nullptr;
+    touched            = false;
+    values             = {};
+    tangent            = {};
+    friction           = {};
   }
 
   bool RigidObstacle::place(FacePointState<2> &state)
   {
     state.position = FacePatches<2>::position(face.points[state.index], at_end);
-    last_place     = place_of(state.position);
+    last_place     = to_lever_point(state.position);
     state.gap      = end.gap(last_place);
     return true;
   }
 
-  const std::vector<RigidObstacle::BeginPoint> &RigidObstacle::begin_of(const unsigned int of_patch)
+  const std::vector<RigidObstacle::BeginPoint> &RigidObstacle::points_at_begin(const unsigned int patch_index)
   {
-    const auto [found, is_new] = begin_points.try_emplace(of_patch);
+    const auto [found, is_new] = begin_points.try_emplace(patch_index);
     if (is_new)
     {
-      const auto &chosen = face.patches[of_patch];
+      const auto &chosen = face.patches[patch_index];
       const auto nodal   = FacePatches<2>::nodal(chosen, known_begin);
       for (unsigned int q = chosen.begin; q < chosen.end; ++q)
       {
         const auto position = FacePatches<2>::position(face.points[q], nodal);
-        const auto contact  = begin(place_of(position));
+        const auto contact  = begin(to_lever_point(position));
         found->second.push_back({ position, contact.gap, contact.slip });
       }
     }
@@ -123,12 +123,12 @@ namespace sprag
 
   const RigidObstacle::BeginPoint &RigidObstacle::at_begin(const unsigned int point) const
   {
-    return (*begin_of_patch)[point - face.patches[patch].begin];
+    return (*patch_begin_points)[point - face.patches[patch].begin];
   }
 
   double RigidObstacle::gap_at_begin(const unsigned int point) const
   {
-    return begin_of_patch ? at_begin(point).gap : end.gap(last_place);
+    return patch_begin_points ? at_begin(point).gap : end.gap(last_place);
   }
 
   StepKinematics<4> RigidObstacle::over_step(const FacePointState<2> &state, const double slip_change) const
@@ -140,14 +140,14 @@ namespace sprag
     const auto moved   = state.position - first.position;
     const auto between = first.position + places.balance * moved;
     result.gap_begin   = first.gap;
-    set_balance(balance(place_of(between)), places.balance,
+    set_balance(balance(to_lever_point(between)), places.balance,
                 Tensor<1, 4>({ moved[0], moved[1], places.end.theta - places.begin.theta, places.end.x - places.begin.x }),
                 result);
     return result;
   }
 
   /// Returns the derivative of a deformed point's position along the undeformed face.
-  Tensor<1, 4> RigidObstacle::direction_of_face(const unsigned int point) const
+  Tensor<1, 4> RigidObstacle::face_direction(const unsigned int point) const
   {
     Tensor<1, 4> result({ 1., 0., 0., 0. });
     for (unsigned int i = 0; i < at_end.size(); ++i)
@@ -159,23 +159,23 @@ namespace sprag
   {
     placed                   = end(last_place);
     const auto &point        = face.points[state.index];
-    const double slip_change = (begin_of_patch ? placed.slip - at_begin(state.index).slip : 0.) + step.surface_run;
-    auto kinematics_of_step  = over_step(state, slip_change);
+    const double slip_change = (patch_begin_points ? placed.slip - at_begin(state.index).slip : 0.) + step.surface_run;
+    auto step_kinematics     = over_step(state, slip_change);
     SlipShift shift;
     Tensor<1, 4> direction;
     if (step.travel != 0.)
     {
-      direction                        = direction_of_face(state.index);
-      shift                            = slip_shift(face, state.index, placed.slip_row * direction, step.travel,
-                                                    unwinding_stiffness(step.augmented, step.law.slip.stiffness), step.memory,
-                                                    [this](const unsigned int q)
-                                                    {
-                           const unsigned int of_patch = face.patch_of_point(q);
-                           return begin_of(of_patch)[q - face.patches[of_patch].begin].slip;
+      direction                     = face_direction(state.index);
+      shift                         = slip_shift(face, state.index, placed.slip_row * direction, step.travel,
+                                                 unwinding_stiffness(step.augmented, step.law.slip.stiffness), step.memory,
+                                                 [this](const unsigned int q)
+                                                 {
+                           const unsigned int patch_index = face.point_patch(q);
+                           return points_at_begin(patch_index)[q - face.patches[patch_index].begin].slip;
                          });
-      kinematics_of_step.slip_shift[0] = shift.total();
+      step_kinematics.slip_shift[0] = shift.total();
     }
-    auto response = step_response(kinematics_of_step, memory, step.law);
+    auto response = step_response(step_kinematics, memory, step.law);
     record(response, step, memory, slip_change + shift.slip, point.weight, step.surface_run, state, sums);
     state.end_force = response.pressure * placed.gap_row - response.traction[0] * placed.slip_row;
     sums.force_on_obstacle += point.weight * response.force[3];
@@ -214,19 +214,20 @@ namespace sprag
                placed.slip_row[2] * (*sliding.rates)[at.rotation()] -
                (at.sprung ? placed.slip_row[3] * (*sliding.rates)[at.support()] : 0.);
     }
-    const auto of   = sprag::slide(properties, law, sliding, point.weight, state, sums);
-    state.end_force = state.pressure * placed.gap_row - state.traction[0] * placed.slip_row;
+    const auto tangents = sprag::slide(properties, law, sliding, point.weight, state, sums);
+    state.end_force     = state.pressure * placed.gap_row - state.traction[0] * placed.slip_row;
     add_force(point, state.end_force);
-    const auto pressure    = of.normal * outer_product(placed.gap_row, placed.gap_row) + state.pressure * placed.gap_curvature;
-    const auto by_friction = outer_product(placed.slip_row, of.coupled * placed.gap_row + of.stuck * placed.slip_row) -
-                             state.traction[0] * placed.slip_curvature;
+    const auto pressure = tangents.normal * outer_product(placed.gap_row, placed.gap_row) + state.pressure * placed.gap_curvature;
+    const auto by_friction =
+        outer_product(placed.slip_row, tangents.coupled * placed.gap_row + tangents.stuck * placed.slip_row) -
+        state.traction[0] * placed.slip_curvature;
     if (!sums.in_parts)
       return add_tangent(point, pressure + by_friction, tangent);
     add_tangent(point, pressure, tangent);
     add_tangent(point, by_friction, friction.by_displacement);
-    add_tangent(point, of.by_speed * outer_product(placed.slip_row, placed.slip_row), friction.by_velocity);
-    if (of.lag.time > 0.)
-      friction.delays.push_back(delay_of(of, sliding.speed, rows(state)));
+    add_tangent(point, tangents.by_speed * outer_product(placed.slip_row, placed.slip_row), friction.by_velocity);
+    if (tangents.lag.time > 0.)
+      friction.delays.push_back(friction_delay(tangents, sliding.speed, rows(state)));
   }
 
   /// Returns a row over the point's coordinates as one over those of the patch.
@@ -246,13 +247,13 @@ namespace sprag
     values += point.weight * spread(point, force);
   }
 
-  void RigidObstacle::add_tangent(const FacePatches<2>::Point &point, const Tensor<2, 4> &of_point, LocalMatrix &sum) const
+  void RigidObstacle::add_tangent(const FacePatches<2>::Point &point, const Tensor<2, 4> &point_tangent, LocalMatrix &sum) const
   {
     const unsigned int n_nodes        = face.patches[patch].n_nodes;
     constexpr unsigned int rest[2][2] = { { 2, theta_index }, { 3, x_index } };
     for (const auto &[i, row] : rest)
       for (const auto &[j, column] : rest)
-        sum[row][column] += point.weight * of_point[i][j];
+        sum[row][column] += point.weight * point_tangent[i][j];
     for (unsigned int a = 0; a < n_nodes; ++a)
       for (unsigned int d = 0; d < 2; ++d)
       {
@@ -260,12 +261,12 @@ namespace sprag
         const double weight    = point.weight * point.shapes[a];
         for (const auto &[j, column] : rest)
         {
-          sum[row][column] += weight * of_point[d][j];
-          sum[column][row] += weight * of_point[j][d];
+          sum[row][column] += weight * point_tangent[d][j];
+          sum[column][row] += weight * point_tangent[j][d];
         }
         for (unsigned int b = 0; b < n_nodes; ++b)
           for (unsigned int e = 0; e < 2; ++e)
-            sum[row][2 * b + e] += weight * point.shapes[b] * of_point[d][e];
+            sum[row][2 * b + e] += weight * point.shapes[b] * point_tangent[d][e];
       }
   }
 
@@ -273,9 +274,9 @@ namespace sprag
   PortCoordinates RigidObstacle::ports() const
   {
     PortCoordinates result;
-    const auto &of = face.patches[patch];
-    for (unsigned int i = 0; i < 2 * of.n_nodes; ++i)
-      result.push_back({ i, 2 * of.nodes[i / 2] + i % 2, 1. });
+    const auto &patch_points = face.patches[patch];
+    for (unsigned int i = 0; i < 2 * patch_points.n_nodes; ++i)
+      result.push_back({ i, 2 * patch_points.nodes[i / 2] + i % 2, 1. });
     add_frame(properties.ports, theta_index, x_index, result);
     return result;
   }
@@ -288,18 +289,18 @@ namespace sprag
 
   FacePointRows RigidObstacle::rows(const FacePointState<2> &state) const
   {
-    const auto &point   = face.points[state.index];
-    const auto contact  = end(place_of(state.position));
-    const auto of_patch = ports();
-    return { point.weight, ports_of(of_patch), row_on_ports(of_patch, spread(point, contact.gap_row)),
-             row_on_ports(of_patch, spread(point, contact.slip_row)), row_on_ports(of_patch, Local()) };
+    const auto &point           = face.points[state.index];
+    const auto contact          = end(to_lever_point(state.position));
+    const auto port_coordinates = ports();
+    return { point.weight, collect_ports(port_coordinates), row_on_ports(port_coordinates, spread(point, contact.gap_row)),
+             row_on_ports(port_coordinates, spread(point, contact.slip_row)), row_on_ports(port_coordinates, Local()) };
   }
 
   double RigidObstacle::slip(const FacePointState<2> &state) const
   {
-    if (!begin_of_patch)
+    if (!patch_begin_points)
       return 0.;
     const auto position = FacePatches<2>::position(face.points[state.index], at_end);
-    return end(place_of(position)).slip - at_begin(state.index).slip;
+    return end(to_lever_point(position)).slip - at_begin(state.index).slip;
   }
 } // namespace sprag

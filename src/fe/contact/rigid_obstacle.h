@@ -65,16 +65,16 @@ namespace sprag
 
     FacePatches<2>::Indices near(const FaceConfiguration &at, const PlacedObstacle &obstacle) const;
     void enter_begin(const FaceConfiguration &at);
-    const std::vector<BeginPoint> &begin_of(unsigned int of_patch);
+    const std::vector<BeginPoint> &points_at_begin(unsigned int patch_index);
     const BeginPoint &at_begin(unsigned int point) const;
     StepKinematics<4> over_step(const FacePointState<2> &state, double slip_change) const;
     using Slopes = std::array<double, FacePatches<2>::max_nodes>;
 
-    dealii::Tensor<1, 4> direction_of_face(unsigned int point) const;
+    dealii::Tensor<1, 4> face_direction(unsigned int point) const;
     void add_slope(unsigned int point, double traction_by_slope);
     static Local spread(const FacePatches<2>::Point &point, const dealii::Tensor<1, 4> &row);
     void add_force(const FacePatches<2>::Point &point, const dealii::Tensor<1, 4> &force);
-    void add_tangent(const FacePatches<2>::Point &point, const dealii::Tensor<2, 4> &of_point, LocalMatrix &sum) const;
+    void add_tangent(const FacePatches<2>::Point &point, const dealii::Tensor<2, 4> &point_tangent, LocalMatrix &sum) const;
     PortCoordinates ports() const;
 
     const FacePatches<2> &face;
@@ -89,15 +89,15 @@ namespace sprag
     ContactKinematics<4> placed{}; ///< of it, once step() or slide() need it
 
     // State at the begin of the step, the same in all its iterations.
-    FaceConfiguration of_begin{};
+    FaceConfiguration begin_configuration{};
     PlacedObstacle begin;
     dealii::Vector<double> known_begin;
     FacePatches<2>::Indices near_begin;
     std::map<unsigned int, std::vector<BeginPoint>> begin_points; ///< by patches
 
     // State of the patch at hand.
-    const std::vector<BeginPoint> *begin_of_patch = nullptr; ///< none where beginning and end are one
-    bool touched                                  = false;
+    const std::vector<BeginPoint> *patch_begin_points = nullptr; ///< none where beginning and end are one
+    bool touched                                      = false;
     Local values;
     LocalMatrix tangent;
     FrictionParts<LocalMatrix> friction;

@@ -21,7 +21,7 @@ namespace sprag
 {
   namespace
   {
-    std::string path_of(const std::string &folder, const std::string &key)
+    std::string cache_path(const std::string &folder, const std::string &key)
     {
       return folder + "/basis-" + key + ".h5";
     }
@@ -42,7 +42,7 @@ namespace sprag
     /// Written here first, each process to its own.
     std::string temporary_path(const std::string &folder, const std::string &key)
     {
-      return path_of(folder, key) + "." + std::to_string(::getpid());
+      return cache_path(folder, key) + "." + std::to_string(::getpid());
     }
 
     /// Returns whether a file in the folder, and no link, has a name like ours.
@@ -176,10 +176,10 @@ namespace sprag
     }
   } // namespace
 
-  std::string cache_folder(const std::string &given)
+  std::string cache_folder(const std::string &configured)
   {
-    if (!given.empty())
-      return given;
+    if (!configured.empty())
+      return configured;
     if (const char *cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0')
       return std::string(cache) + "/sprag";
     if (const char *home = std::getenv("HOME"); home != nullptr && *home != '\0')
@@ -189,7 +189,7 @@ namespace sprag
 
   std::optional<StoredArrays> load_arrays(const std::string &folder, const std::string &key)
   {
-    const std::string path = path_of(folder, key);
+    const std::string path = cache_path(folder, key);
     std::error_code ignored;
     if (folder.empty() || !std::filesystem::is_regular_file(path, ignored))
       return {};
@@ -243,7 +243,7 @@ namespace sprag
         hdf5::write_dataset(file, name, values);
       hdf5::write_dataset(file, "checksum", checksum(key, arrays));
       file.close();
-      std::filesystem::rename(temporary, path_of(folder, key));
+      std::filesystem::rename(temporary, cache_path(folder, key));
       prune(folder, most_bytes);
     }
     catch (const std::exception &failure)

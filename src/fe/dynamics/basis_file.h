@@ -13,7 +13,7 @@ namespace sprag
   using StoredArrays = std::map<std::string, std::vector<double>>;
 
   /// Folder for stored bases: the given one or, if empty, `sprag` in the user's cache folder.
-  std::string cache_folder(const std::string &given);
+  std::string cache_folder(const std::string &configured);
 
   /// The arrays that were stored under `key`; none if there is no such file or it is damaged.
   std::optional<StoredArrays> load_arrays(const std::string &folder, const std::string &key);

@@ -43,7 +43,7 @@ namespace sprag
           key.add(value);
     }
 
-    std::string key_of(const ElasticBody<2> &body, const BasisSettings &settings)
+    std::string make_key(const ElasticBody<2> &body, const BasisSettings &settings)
     {
       Fingerprint key;
       key.add(format_version);
@@ -140,7 +140,7 @@ namespace sprag
       return true;
     }
 
-    StoredArrays arrays_of(const CondensedBasis &basis)
+    StoredArrays to_arrays(const CondensedBasis &basis)
     {
       return { { "stiffness", basis.stiffness },
                { "shapes", flat(basis.shapes) },
@@ -150,7 +150,7 @@ namespace sprag
                { "scalars", { basis.density_factor, basis.total_mass, basis.moment_of_inertia, basis.cpu_seconds } } };
     }
 
-    std::optional<CondensedBasis> basis_of(StoredArrays arrays, const unsigned int n_face, const unsigned int n_dofs)
+    std::optional<CondensedBasis> to_basis(StoredArrays arrays, const unsigned int n_face, const unsigned int n_dofs)
     {
       CondensedBasis basis;
       basis.stiffness     = arrays["stiffness"];
@@ -192,13 +192,13 @@ namespace sprag
     }
   } // namespace
 
-  Response response_of(const ElasticBody<2> &body)
+  Response make_response(const ElasticBody<2> &body)
   {
-    return response_of(body.factorised());
+    return make_response(body.factorised());
   }
 
   CondensedBasis basis_on(const PortLayout &ports, const LeverModes &modes, const std::vector<unsigned int> &surface,
-                          const FullMatrix<double> &of_surface, const SensorForces &sensors, const unsigned int first_of_surface,
+                          const FullMatrix<double> &face_matrix, const SensorForces &sensors, const unsigned int surface_begin,
                           const std::array<double, 2> &slope_compliances, const double spring_stiffness)
   {
     const auto m = static_cast<unsigned int>(modes.stiffness.size()), n = ports.rotation() + 1;
@@ -210,7 +210,7 @@ namespace sprag
     static_cast<MassSums &>(result) = modes;
 
     auto &shapes = result.shapes;
-    shapes.reinit(ports.of_a_lever(), m);
+    shapes.reinit(ports.ports_per_lever(), m);
     for (unsigned int j = 0; j < m; ++j)
     {
       for (unsigned int i = 0; i < ports.surface; ++i)
@@ -226,8 +226,8 @@ namespace sprag
     // The static compliance less that of the modes.
     auto &compliance = result.face_compliance;
     compliance.reinit(n, n);
-    compliance.fill(of_surface);
-    sensors.add_compliance(ports, first_of_surface, compliance);
+    compliance.fill(face_matrix);
+    sensors.add_compliance(ports, surface_begin, compliance);
     for (unsigned int i = 0; i < ports.slopes; ++i)
       compliance(ports.slope(i), ports.slope(i)) = slope_compliances[i];
     compliance(ports.rotation(), ports.rotation()) = 1. / spring_stiffness;
@@ -246,7 +246,7 @@ namespace sprag
   CondensedBasis make_basis(const ElasticBody<2> &body, const BasisSettings &settings)
   {
     const Timer timer;
-    const auto response = response_of(body);
+    const auto response = make_response(body);
     const auto surface  = surface_dofs(body);
     auto modes          = lever_modes(body, response, settings.inertia, settings.spring_stiffness, settings.modes);
     const SensorForces sensors(body, response);
@@ -261,20 +261,20 @@ namespace sprag
   CondensedBasis condensed_basis(const ElasticBody<2> &body, const BasisSettings &settings)
   {
     const std::string folder = cache_folder(settings.cache);
-    const std::string key    = key_of(body, settings);
+    const std::string key    = make_key(body, settings);
     remove_abandoned(folder);
     if (auto stored = load_arrays(folder, key))
     {
       const auto n_sensors = static_cast<unsigned int>(body.sensors().size());
       const auto n_face    = static_cast<unsigned int>(surface_dofs(body).size()) + n_sensors + 1;
-      if (auto basis = basis_of(std::move(*stored), n_face, body.n_dofs()))
+      if (auto basis = to_basis(std::move(*stored), n_face, body.n_dofs()))
       {
         basis->sensors = n_sensors;
         return *basis;
       }
     }
     CondensedBasis basis      = make_basis(body, settings);
-    const std::string trouble = store_arrays(folder, key, arrays_of(basis));
+    const std::string trouble = store_arrays(folder, key, to_arrays(basis));
     if (!trouble.empty())
       basis.message = "the condensed basis was not stored in '" + folder + "': " + trouble;
     return basis;

@@ -25,10 +25,10 @@ namespace sprag
   };
 
   /// Returns the basis of modes on the ports of a layout, without displacements. `surface`: degrees of freedom of its ports,
-  /// which begin at `first_of_surface` of the body's. `of_surface`: their static compliance with the hub held [mm/N].
+  /// which begin at `surface_begin` of the body's. `face_matrix`: their static compliance with the hub held [mm/N].
   CondensedBasis basis_on(const PortLayout &ports, const LeverModes &modes, const std::vector<unsigned int> &surface,
-                          const dealii::FullMatrix<double> &of_surface, const SensorForces &sensors,
-                          unsigned int first_of_surface, const std::array<double, 2> &slope_compliances, double spring_stiffness);
+                          const dealii::FullMatrix<double> &face_matrix, const SensorForces &sensors, unsigned int surface_begin,
+                          const std::array<double, 2> &slope_compliances, double spring_stiffness);
 
   struct BasisSettings
   {
@@ -60,5 +60,5 @@ namespace sprag
                                                 const Motion &motion);
 
   /// Returns the answer of a body in a plane by its factors.
-  Response response_of(const ElasticBody<2> &body);
+  Response make_response(const ElasticBody<2> &body);
 } // namespace sprag

@@ -16,13 +16,13 @@ namespace sprag
   {
     BasisSettings basis_settings(const Device &device)
     {
-      return { device.condensed.modes, device.spring.stiffness, inertia_of(device), device.condensed.cache, {} };
+      return { device.condensed.modes, device.spring.stiffness, lever_inertia(device), device.condensed.cache, {} };
     }
 
-    FaceContactProperties contact_of(const Device &device, const PortLayout &ports, const ContactPenalties &penalties,
-                                     const unsigned int lever)
+    FaceContactProperties make_contact(const Device &device, const PortLayout &ports, const ContactPenalties &penalties,
+                                       const unsigned int lever)
     {
-      const Device own = device_of_lever(device, lever);
+      const Device own = lever_device(device, lever);
       FaceContactProperties result;
       set_cylinder(own.geometry, result);
       result.ports            = ports;
@@ -50,7 +50,7 @@ namespace sprag
     {
       const PortLayout ports = structure->ports();
       const auto contact     = [&](const unsigned int lever)
-      { return std::make_unique<FaceContact>(body, contact_of(device, ports.of_one_lever(), facts.penalties, lever)); };
+      { return std::make_unique<FaceContact>(body, make_contact(device, ports.single_lever(), facts.penalties, lever)); };
       return assemble_lever(std::move(structure), lever_frame(device, ports, facts.total_mass), contact,
                             static_cast<unsigned int>(body.friction_face().points.size()));
     }
@@ -58,14 +58,14 @@ namespace sprag
 
   double mesh_inertia(const Device &device, const ElasticBody<2> &body)
   {
-    return BodyMass<2>(body, inertia_of(device)).moment_of_inertia;
+    return BodyMass<2>(body, lever_inertia(device)).moment_of_inertia;
   }
 
   FiniteElementBasis make_finite_element_basis(const Device &device, const ElasticBody<2> &body)
   {
-    const auto inertia = inertia_of(device);
+    const auto inertia = lever_inertia(device);
     FiniteElementBasis basis{ std::make_shared<InertialMatrices>(body, inertia),
-                              lever_modes(body, response_of(body), inertia, device.spring.stiffness, device.condensed.modes),
+                              lever_modes(body, make_response(body), inertia, device.spring.stiffness, device.condensed.modes),
                               {} };
     if (swings_otherwise(device))
       basis.swinging = std::make_shared<const FiniteElementBasis>(make_finite_element_basis(swinging_device(device), body));
@@ -74,9 +74,9 @@ namespace sprag
 
   CondensedBases make_condensed_basis(const Device &device, const std::string &key, const ElasticBody<2> &body, const bool store)
   {
-    const auto make = [&](const Device &of)
+    const auto make = [&](const Device &own_device)
     {
-      auto settings   = basis_settings(of);
+      auto settings   = basis_settings(own_device);
       settings.origin = key;
       return std::make_shared<const CondensedBasis>(store ? condensed_basis(body, settings) : make_basis(body, settings));
     };
@@ -90,19 +90,19 @@ namespace sprag
                                               const double relaxation)
   {
     const auto &matrices = *basis.matrices;
-    const auto constants = constants_of(device, relaxation, matrices.total_mass);
-    const auto structure = [&](const FiniteElementBasis &of)
-    { return std::make_unique<SparseStructure>(body, of.matrices, of.modes, constants); };
+    const auto constants = make_lever_dynamics(device, relaxation, matrices.total_mass);
+    const auto structure = [&](const FiniteElementBasis &element_basis)
+    { return std::make_unique<SparseStructure>(body, element_basis.matrices, element_basis.modes, constants); };
 
     MeshedDynamics result = facts(device, body, basis.modes.stiffness, matrices);
-    result.n_coordinates  = number_of_levers(device) * matrices.coordinates.size();
+    result.n_coordinates  = count_levers(device) * matrices.coordinates.size();
     const auto complete   = [&](auto lever)
     {
-      result.elastic_displacement = [of = lever.get()](const Motion &motion, const unsigned int index)
-      { return of->elastic_displacement(motion, index); };
+      result.elastic_displacement = [lever_structure = lever.get()](const Motion &motion, const unsigned int index)
+      { return lever_structure->elastic_displacement(motion, index); };
       result.model = assemble(device, body, std::move(lever), result);
     };
-    if (number_of_levers(device) == 1)
+    if (count_levers(device) == 1)
       complete(structure(basis));
     else
       complete(std::make_unique<MirroredStructure<SparseStructure>>(
@@ -115,10 +115,10 @@ namespace sprag
   {
     const auto &basis = bases.lever;
     const std::array<std::shared_ptr<const CondensedBasis>, 2> parts{ { basis, bases.swinging ? bases.swinging : basis } };
-    const auto constants = constants_of(device, relaxation, basis->total_mass);
+    const auto constants = make_lever_dynamics(device, relaxation, basis->total_mass);
 
     MeshedDynamics result    = facts(device, body, basis->stiffness, *basis);
-    result.n_coordinates     = number_of_levers(device) * static_cast<unsigned int>(basis->stiffness.size()) + constants.sprung;
+    result.n_coordinates     = count_levers(device) * static_cast<unsigned int>(basis->stiffness.size()) + constants.sprung;
     result.basis_from_cache  = basis->from_cache && parts[1]->from_cache;
     result.basis_cpu_seconds = basis->cpu_seconds + (bases.swinging ? bases.swinging->cpu_seconds : 0.);
     result.message           = basis->message;
@@ -128,11 +128,11 @@ namespace sprag
         [&body, parts, response = std::make_shared<Response>()](const unsigned int part, const Motion &motion)
     {
       if (!*response) // the first field
-        *response = response_of(body);
+        *response = make_response(body);
       return condensed_displacement(body, *parts[part], surface_dofs(body), *response, motion);
     };
     complete_condensed(
-        number_of_levers(device), !bases.swinging, structure, displacement,
+        count_levers(device), !bases.swinging, structure, displacement,
         [&](auto lever) { return assemble(device, body, std::move(lever), result); }, result);
     return result;
   }

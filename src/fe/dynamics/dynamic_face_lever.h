@@ -67,10 +67,10 @@ namespace sprag
       return;
     }
     auto pair                   = std::make_unique<MirroredStructure<ModalStructure>>(structure(0), structure(1), alike);
-    result.elastic_displacement = [of = pair.get(), displacement](const Motion &motion, const unsigned int lever)
+    result.elastic_displacement = [lever_structure = pair.get(), displacement](const Motion &motion, const unsigned int lever)
     {
-      return of->of_lever(motion, lever,
-                          [&](const unsigned int part, const Motion &of_part) { return displacement(part, of_part); });
+      return lever_structure->lever_vector(
+          motion, lever, [&](const unsigned int part, const Motion &part_motion) { return displacement(part, part_motion); });
     };
     result.model = assemble(std::move(pair));
   }

@@ -23,7 +23,7 @@ namespace sprag
   } // namespace
 
   EffectiveSystem::EffectiveSystem(const InertialMatrices &matrices_, const LeverPorts &ports_, const ModalDamping &damping_,
-                                   const InertialMatrices::Weights &weights_, const double weight_of_damping)
+                                   const InertialMatrices::Weights &weights_, const double damping_weight)
       : matrices(matrices_)
       , ports(ports_)
       , damping(damping_)
@@ -34,11 +34,11 @@ namespace sprag
     PETScWrappers::SparseMatrix matrix;
     matrices.sum(weights, matrix);
     factors.factorise(matrix);
-    if (weight_of_damping > 0. && !damping.directions.empty())
-      find_low_rank(weight_of_damping);
+    if (damping_weight > 0. && !damping.directions.empty())
+      find_low_rank(damping_weight);
   }
 
-  void EffectiveSystem::find_low_rank(const double weight_of_damping)
+  void EffectiveSystem::find_low_rank(const double damping_weight)
   {
     const auto n = static_cast<unsigned int>(damping.directions.size());
     low_rank.reinit(n, n);
@@ -48,7 +48,7 @@ namespace sprag
       factors.solve(damping.directions[j], damped.back());
       for (unsigned int i = 0; i < n; ++i)
         low_rank(i, j) = damping.directions[i] * damped[j];
-      low_rank(j, j) += 1. / (weight_of_damping * damping.factors[j]);
+      low_rank(j, j) += 1. / (damping_weight * damping.factors[j]);
     }
     invert(low_rank);
   }
@@ -120,8 +120,8 @@ namespace sprag
   void EffectiveSystem::visit_history(Archive &archive)
   {
     PortSelection known;
-    for (const auto &of_port : responses)
-      known.push_back(of_port.first);
+    for (const auto &known_response : responses)
+      known.push_back(known_response.first);
     archive(credit, known);
     if (!archive.reads())
       return;
@@ -136,13 +136,13 @@ namespace sprag
     Mumps condensing;
     PETScWrappers::SparseMatrix matrix;
     matrices.sum(weights, matrix);
-    FullMatrix<double> of_face = condensing.factorise_with_schur_complement(matrix, ports.face_coordinates());
-    invert(of_face);
-    ports.transform(of_face);
-    FullMatrix<double> result(layout.of_a_lever(), layout.of_a_lever());
-    for (unsigned int i = 0; i < of_face.m(); ++i)
-      for (unsigned int j = 0; j < of_face.m(); ++j)
-        result(ports.port_of_face(i), ports.port_of_face(j)) = 0.5 * (of_face(i, j) + of_face(j, i));
+    FullMatrix<double> face_compliance = condensing.factorise_with_schur_complement(matrix, ports.face_coordinates());
+    invert(face_compliance);
+    ports.transform(face_compliance);
+    FullMatrix<double> result(layout.ports_per_lever(), layout.ports_per_lever());
+    for (unsigned int i = 0; i < face_compliance.m(); ++i)
+      for (unsigned int j = 0; j < face_compliance.m(); ++j)
+        result(ports.face_port(i), ports.face_port(j)) = 0.5 * (face_compliance(i, j) + face_compliance(j, i));
     subtract_low_rank(result);
     for (unsigned int sensor = 0; sensor < layout.sensors; ++sensor)
       append(layout.sensor(sensor), result);
@@ -180,8 +180,8 @@ namespace sprag
   {
     const auto &layout = ports.layout();
     Vector<double> with_support(ports.n_coordinates());
-    const auto &of_lever = response(port);
-    std::copy(of_lever.begin(), of_lever.end(), with_support.begin());
+    const auto &lever_response = response(port);
+    std::copy(lever_response.begin(), lever_response.end(), with_support.begin());
     const auto displacements = ports.displacements(with_support);
     for (unsigned int i = 0; i < layout.support(); ++i)
       compliance(i, port) = compliance(port, i) = displacements[i];

@@ -22,9 +22,9 @@ namespace sprag
   class EffectiveSystem
   {
   public:
-    /// `weight_of_damping` 0: without the modal damping. Arguments must outlive the system.
+    /// `damping_weight` 0: without the modal damping. Arguments must outlive the system.
     EffectiveSystem(const InertialMatrices &matrices, const LeverPorts &ports, const ModalDamping &damping,
-                    const InertialMatrices::Weights &weights, double weight_of_damping);
+                    const InertialMatrices::Weights &weights, double damping_weight);
 
     /// Compliance of the lever's ports.
     dealii::FullMatrix<double> port_compliance() const;
@@ -42,7 +42,7 @@ namespace sprag
   private:
     dealii::Vector<double> response(const PortLoads &forces) const;
     const dealii::Vector<double> &response(unsigned int port) const;
-    void find_low_rank(double weight_of_damping);
+    void find_low_rank(double damping_weight);
     void subtract_low_rank(dealii::FullMatrix<double> &compliance) const;
 
     /// Row and column of a port that is not a coordinate.

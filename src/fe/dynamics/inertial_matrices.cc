@@ -45,13 +45,13 @@ namespace sprag
   std::vector<std::pair<unsigned int, double>> TotalCoordinates::row(const Connector &connector) const
   {
     std::vector<std::pair<unsigned int, double>> result;
-    double of_rotation = 0.;
+    double rotation_weight = 0.;
     for (const auto &[dof, weight] : connector.row)
     {
       result.emplace_back(movers[dof].coordinate, weight);
-      of_rotation -= weight * arms[dof];
+      rotation_weight -= weight * arms[dof];
     }
-    result.emplace_back(rotation(), of_rotation);
+    result.emplace_back(rotation(), rotation_weight);
     return result;
   }
   Vector<double> TotalCoordinates::rigid_rotation() const
@@ -62,11 +62,11 @@ namespace sprag
     result[rotation()] = 1.;
     return result;
   }
-  Vector<double> TotalCoordinates::collect(const Vector<double> &of_dofs) const
+  Vector<double> TotalCoordinates::collect(const Vector<double> &dof_values) const
   {
     Vector<double> result(size());
     for (unsigned int dof = 0; dof < movers.size(); ++dof)
-      result[movers[dof].coordinate] += movers[dof].share * of_dofs[dof];
+      result[movers[dof].coordinate] += movers[dof].share * dof_values[dof];
     return result;
   }
   void TotalCoordinates::scatter(const std::vector<types::global_dof_index> &dofs, const FullMatrix<double> &local,
@@ -105,18 +105,18 @@ namespace sprag
       : InertialMatrices(body, BodyMass<2>(body, inertia), inertia.leaf)
   {
   }
-  InertialMatrices::InertialMatrices(const ElasticBody<2> &body, const BodyMass<2> &of_body, const LeafBehaviour &leaf)
-      : MassSums(of_body)
+  InertialMatrices::InertialMatrices(const ElasticBody<2> &body, const BodyMass<2> &body_mass, const LeafBehaviour &leaf)
+      : MassSums(body_mass)
       , coordinates(body, static_cast<unsigned int>(leaf.modes.size()))
   {
     find_pattern(body);
     for (auto *const matrix : { &mass, &stiffness, &layer_stiffness })
       matrix->reinit(pattern);
     for (unsigned int axis = 0; axis < 2; ++axis)
-      momentum[axis] = coordinates.collect(of_body(of_body.translation(axis)));
-    assemble_mass(of_body);
+      momentum[axis] = coordinates.collect(body_mass(body_mass.translation(axis)));
+    assemble_mass(body_mass);
     assemble_stiffness(body);
-    attach(of_body.hub, leaf);
+    attach(body_mass.hub, leaf);
     for (auto *const matrix : { &mass, &stiffness, &layer_stiffness })
       matrix->compress(VectorOperation::add);
   }
@@ -162,17 +162,17 @@ namespace sprag
     result.add(coordinates.rotation(), coordinates.rotation(), weights.rotation);
     result.compress(VectorOperation::add);
   }
-  void InertialMatrices::assemble_mass(const BodyMass<2> &of_body)
+  void InertialMatrices::assemble_mass(const BodyMass<2> &body_mass)
   {
-    for (const auto &[unit, density, dofs] : of_body.cells())
+    for (const auto &[unit, density, dofs] : body_mass.cells())
     {
       FullMatrix<double> local = *unit;
       local *= density;
       for (unsigned int axis = 0; axis < 2; ++axis)
       {
         std::vector<types::global_dof_index> along;
-        for (const auto &of_node : dofs)
-          along.push_back(of_node[axis]);
+        for (const auto &node_dofs : dofs)
+          along.push_back(node_dofs[axis]);
         coordinates.scatter(along, local, mass);
       }
     }
@@ -183,7 +183,7 @@ namespace sprag
     CellElasticity<2> elasticity(body.cell_mapping(), fe, body.body_properties());
     const unsigned int n = fe.n_dofs_per_cell();
     const Vector<double> at_rest(n);
-    FullMatrix<double> of_cell(n, n);
+    FullMatrix<double> cell_matrix(n, n);
     Vector<double> forces(n);
     std::vector<types::global_dof_index> dofs(n);
     for (const auto &cell : body.dofs().active_cell_iterators())
@@ -191,11 +191,11 @@ namespace sprag
       if (cell->material_id() == material_id::hub)
         continue;
       elasticity.reinit(cell, at_rest);
-      elasticity.assemble(of_cell, forces);
+      elasticity.assemble(cell_matrix, forces);
       cell->get_dof_indices(dofs);
-      coordinates.scatter(dofs, of_cell, stiffness);
+      coordinates.scatter(dofs, cell_matrix, stiffness);
       if (cell->material_id() == material_id::layer)
-        coordinates.scatter(dofs, of_cell, layer_stiffness);
+        coordinates.scatter(dofs, cell_matrix, layer_stiffness);
     }
     for (const auto &connector : body.connectors())
     {
@@ -208,10 +208,10 @@ namespace sprag
   void InertialMatrices::attach(const double hub_inertia, const LeafBehaviour &leaf)
   {
     const unsigned int hub  = coordinates.rotation();
-    const auto add_momentum = [&](const unsigned int coordinate, const std::array<double, 2> &of_unit_rate)
+    const auto add_momentum = [&](const unsigned int coordinate, const std::array<double, 2> &unit_rates)
     {
       for (unsigned int axis = 0; axis < 2; ++axis)
-        momentum[axis][coordinate] += of_unit_rate[axis];
+        momentum[axis][coordinate] += unit_rates[axis];
     };
     mass.add(hub, hub, hub_inertia);
     add_momentum(hub, leaf.momentum);

@@ -46,7 +46,7 @@ namespace sprag
     dealii::Vector<double> rigid_rotation() const;
 
     /// Returns what forces on all degrees of freedom of the body are on the coordinates.
-    dealii::Vector<double> collect(const dealii::Vector<double> &of_dofs) const;
+    dealii::Vector<double> collect(const dealii::Vector<double> &dof_values) const;
 
     /// Adds a symmetric matrix of some degrees of freedom of the body to that of the coordinates.
     void scatter(const std::vector<dealii::types::global_dof_index> &dofs, const dealii::FullMatrix<double> &local,
@@ -92,9 +92,9 @@ namespace sprag
     void sum(const Weights &weights, dealii::PETScWrappers::SparseMatrix &result) const;
 
   private:
-    InertialMatrices(const ElasticBody<2> &body, const BodyMass<2> &of_body, const LeafBehaviour &leaf);
+    InertialMatrices(const ElasticBody<2> &body, const BodyMass<2> &body_mass, const LeafBehaviour &leaf);
     void find_pattern(const ElasticBody<2> &body);
-    void assemble_mass(const BodyMass<2> &of_body);
+    void assemble_mass(const BodyMass<2> &body_mass);
     void assemble_stiffness(const ElasticBody<2> &body);
     void attach(double hub_inertia, const LeafBehaviour &leaf);
 

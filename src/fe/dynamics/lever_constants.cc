@@ -6,7 +6,7 @@
 
 namespace sprag
 {
-  LeverInertia inertia_of(const Device &device)
+  LeverInertia lever_inertia(const Device &device)
   {
     const Lever &lever                                     = device.lever;
     std::map<dealii::types::material_id, double> densities = { { material_id::lever, lever.density },
@@ -18,7 +18,7 @@ namespace sprag
     return { densities, lever.tip_mass, lever.moment_of_inertia, lever.inertia, lever.hub_inertia, device.spring.behaviour };
   }
 
-  LeverDynamics constants_of(const Device &device, const double relaxation, const double lever_mass)
+  LeverDynamics make_lever_dynamics(const Device &device, const double relaxation, const double lever_mass)
   {
     LeverDynamics result;
     result.spring_stiffness  = device.spring.stiffness;

@@ -9,9 +9,9 @@ namespace sprag
   struct Device;
 
   /// The masses of a scene's meshed lever.
-  LeverInertia inertia_of(const Device &device);
+  LeverInertia lever_inertia(const Device &device);
 
   /// Spring, damping and support of a scene's meshed lever. `relaxation`: damping over stiffness of the friction layer [s];
   /// `lever_mass`: what moves with a sprung support [t].
-  LeverDynamics constants_of(const Device &device, double relaxation, double lever_mass);
+  LeverDynamics make_lever_dynamics(const Device &device, double relaxation, double lever_mass);
 } // namespace sprag

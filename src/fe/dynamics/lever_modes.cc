@@ -74,14 +74,14 @@ namespace sprag
         const auto impulses = impulse(q);
         for (std::size_t i = 0; i < free.size(); ++i)
           result[i] = impulses[free[i]];
-        double of_hub = mass.arms() * impulses + mass.hub * rotation(q);
+        double hub_inertia = mass.arms() * impulses + mass.hub * rotation(q);
         for (std::size_t i = 0; i < leaf.modes.size(); ++i)
         {
           const double vibration  = q[free.size() + i];
           result[free.size() + i] = vibration + leaf.modes[i].participation * rotation(q);
-          of_hub += leaf.modes[i].participation * vibration;
+          hub_inertia += leaf.modes[i].participation * vibration;
         }
-        result[free.size() + leaf.modes.size()] = of_hub;
+        result[free.size() + leaf.modes.size()] = hub_inertia;
       }
 
       /// M q of motions, one after another.
@@ -98,11 +98,11 @@ namespace sprag
       {
         const std::size_t n_dofs = body.n_dofs();
         std::vector<double> loads(columns.size() / size() * n_dofs, 0.);
-        const auto each = [&](const auto &of_dof)
+        const auto each = [&](const auto &visit)
         {
           for (std::size_t j = 0; j < columns.size() / size(); ++j)
             for (std::size_t i = 0; i < free.size(); ++i)
-              of_dof(loads[j * n_dofs + free[i]], columns[j * size() + i]);
+              visit(loads[j * n_dofs + free[i]], columns[j * size() + i]);
         };
         each([](double &load, const double force) { load = force; });
         loads = response(std::move(loads));
@@ -175,8 +175,8 @@ namespace sprag
         double sideways     = 0.;
         for (unsigned int dof = 0; dof < opposite.size(); ++dof)
           sideways += axes[dof] == 2 ? opposite[dof] * momentum[dof] : 0.;
-        const double of_opposite = opposite * momentum;
-        return { 1. - of_opposite, of_opposite - sideways, sideways };
+        const double opposite_share = opposite * momentum;
+        return { 1. - opposite_share, opposite_share - sideways, sideways };
       }
 
     private:
@@ -200,7 +200,7 @@ namespace sprag
     }
 
     template <int dim>
-    FullMatrix<double> stiffness_of_layer(const ElasticBody<dim> &body, const std::vector<Vector<double>> &modes)
+    FullMatrix<double> project_layer_stiffness(const ElasticBody<dim> &body, const std::vector<Vector<double>> &modes)
     {
       const auto m         = static_cast<unsigned int>(modes.size());
       const unsigned int n = body.dofs().get_fe().n_dofs_per_cell();
@@ -241,7 +241,7 @@ namespace sprag
       result.momentum.push_back(lever.momentum(mode.data(), lever.impulse(mode.data())));
     }
     add_shares(body, mass, result);
-    result.layer_stiffness          = stiffness_of_layer(body, result.displacements);
+    result.layer_stiffness          = project_layer_stiffness(body, result.displacements);
     static_cast<MassSums &>(result) = mass;
     return result;
   }

@@ -73,7 +73,7 @@ namespace sprag
     return result;
   }
 
-  unsigned int LeverPorts::port_of_face(const unsigned int i) const
+  unsigned int LeverPorts::face_port(const unsigned int i) const
   {
     return i < ports.surface ? i : ports.rotation();
   }

@@ -33,7 +33,7 @@ namespace sprag
     std::vector<unsigned int> face_coordinates() const;
 
     /// The port of the i-th of those coordinates.
-    unsigned int port_of_face(unsigned int i) const;
+    unsigned int face_port(unsigned int i) const;
 
     /// Turns the compliance of those coordinates into that of their ports.
     void transform(dealii::FullMatrix<double> &compliance) const;

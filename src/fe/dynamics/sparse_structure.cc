@@ -70,8 +70,8 @@ namespace sprag
     use_statics();
     const auto solve = [this](const Vector<double> &load, Vector<double> &q)
     {
-      const auto of_lever = statics->system->solve(Vector<double>(load.begin(), load.begin() + n_lever));
-      std::copy(of_lever.begin(), of_lever.end(), q.begin());
+      const auto lever_solution = statics->system->solve(Vector<double>(load.begin(), load.begin() + n_lever));
+      std::copy(lever_solution.begin(), lever_solution.end(), q.begin());
       if (constants.sprung)
         q[n_lever] = load[n_lever] / constants.support_stiffness;
     };
@@ -98,20 +98,20 @@ namespace sprag
   SparseStructure::Products SparseStructure::make_products(const Motion &motion) const
   {
     const auto &q = motion.coordinates;
-    Products of;
-    of.position = q.position;
-    of.velocity = q.velocity;
+    Products motion_products;
+    motion_products.position = q.position;
+    motion_products.velocity = q.velocity;
     for (unsigned int k = 0; k < 3; ++k)
     {
-      of.mass[k].reinit(n_lever, true);
-      of.modal[k].reinit(static_cast<unsigned int>(mode_momenta.size()));
+      motion_products.mass[k].reinit(n_lever, true);
+      motion_products.modal[k].reinit(static_cast<unsigned int>(mode_momenta.size()));
     }
     // A rigid rotation meets no stiffness, but round-off as large as its displacements.
-    of.elastic = Vector<double>(q.position.begin(), q.position.begin() + n_lever);
-    of.elastic.add(-q.position[n_lever - 1], rigid_rotation);
+    motion_products.elastic = Vector<double>(q.position.begin(), q.position.begin() + n_lever);
+    motion_products.elastic.add(-q.position[n_lever - 1], rigid_rotation);
     const std::array<const Vector<double> *, 3> motions = { { &q.position, &q.velocity, &q.acceleration } };
-    mass.multiply<3>(motions, { { &of.mass[0], &of.mass[1], &of.mass[2] } });
-    const std::array<const Vector<double> *, 3> strains = { { &of.elastic, &q.velocity, &q.acceleration } };
+    mass.multiply<3>(motions, { { &motion_products.mass[0], &motion_products.mass[1], &motion_products.mass[2] } });
+    const std::array<const Vector<double> *, 3> strains = { { &motion_products.elastic, &q.velocity, &q.acceleration } };
     const auto multiply = [&](const CompressedRows &matrix, const bool rates, std::array<Vector<double>, 3> &results)
     {
       for (unsigned int k = 0; k < (rates ? 3u : 1u); ++k)
@@ -121,12 +121,12 @@ namespace sprag
       else
         matrix.multiply<1>({ { strains[0] } }, { { &results[0] } });
     };
-    multiply(stiffness, constants.stiffness_damping > 0., of.stiffness);
-    multiply(layer, constants.relaxation > 0., of.layer);
+    multiply(stiffness, constants.stiffness_damping > 0., motion_products.stiffness);
+    multiply(layer, constants.relaxation > 0., motion_products.layer);
     for (unsigned int i = 0; i < mode_momenta.size(); ++i)
       for (unsigned int k = 0; k < 3; ++k)
-        of.modal[k][i] = product(mode_momenta[i], *motions[k]);
-    return of;
+        motion_products.modal[k][i] = product(mode_momenta[i], *motions[k]);
+    return motion_products;
   }
 
   const SparseStructure::Products &SparseStructure::products(const Motion &motion) const
@@ -147,11 +147,11 @@ namespace sprag
 
   void SparseStructure::add_work(const Motion &begin, const Motion &end, StepWork &work) const
   {
-    const auto &w        = current->weights;
-    const auto &q_0      = begin.coordinates;
-    const auto &q_1      = end.coordinates;
-    const Products &of_0 = products(begin);
-    const Products &of_1 = products(end);
+    const auto &w                  = current->weights;
+    const auto &q_0                = begin.coordinates;
+    const auto &q_1                = end.coordinates;
+    const Products &begin_products = products(begin);
+    const Products &end_products   = products(end);
 
     Vector<double> change = q_1.position;
     change -= q_0.position;
@@ -159,21 +159,21 @@ namespace sprag
     const auto power = [&](const Vector<double> &at_end, const Vector<double> &at_begin)
     { return w.stiffness() * product(at_end, change) + w.alpha_f * product(at_begin, change); };
     if (constants.mass_damping > 0.)
-      work.damping += constants.mass_damping * power(of_1.mass[1], of_0.mass[1]);
+      work.damping += constants.mass_damping * power(end_products.mass[1], begin_products.mass[1]);
     if (constants.stiffness_damping > 0.)
-      work.damping += constants.stiffness_damping * power(of_1.stiffness[1], of_0.stiffness[1]);
+      work.damping += constants.stiffness_damping * power(end_products.stiffness[1], begin_products.stiffness[1]);
     if (constants.relaxation > 0.)
-      work.damping += constants.relaxation * power(of_1.layer[1], of_0.layer[1]);
+      work.damping += constants.relaxation * power(end_products.layer[1], begin_products.layer[1]);
     for (unsigned int i = 0; i < damping.factors.size(); ++i)
     {
-      const double mean_rate = w.stiffness() * of_1.modal[1][i + 1] + w.alpha_f * of_0.modal[1][i + 1];
-      work.damping += damping.factors[i] * mean_rate * (of_1.modal[0][i + 1] - of_0.modal[0][i + 1]);
+      const double mean_rate = w.stiffness() * end_products.modal[1][i + 1] + w.alpha_f * begin_products.modal[1][i + 1];
+      work.damping += damping.factors[i] * mean_rate * (end_products.modal[0][i + 1] - begin_products.modal[0][i + 1]);
     }
     const double turn     = change[n_lever - 1];
-    Vector<double> strain = of_1.elastic;
-    strain -= of_0.elastic;
-    work.algorithmic += inertial_dissipation(q_0, q_1, of_0.mass[2], of_1.mass[2], w) +
-                        w.delay() * (product(of_1.stiffness[0], strain) - product(of_0.stiffness[0], strain) +
+    Vector<double> strain = end_products.elastic;
+    strain -= begin_products.elastic;
+    work.algorithmic += inertial_dissipation(q_0, q_1, begin_products.mass[2], end_products.mass[2], w) +
+                        w.delay() * (product(end_products.stiffness[0], strain) - product(begin_products.stiffness[0], strain) +
                                      constants.spring_stiffness * turn * turn);
     if (constants.sprung)
       add_support_work(q_0, q_1, w, work);
@@ -181,13 +181,13 @@ namespace sprag
 
   void SparseStructure::add_support_work(const Kinematic &q_0, const Kinematic &q_1, const StepWeights &w, StepWork &work) const
   {
-    const auto of_support = [this](const Kinematic &q)
+    const auto support_motion = [this](const Kinematic &q)
     {
       const auto entry = [&](const Vector<double> &values) { return Vector<double>(values.begin() + n_lever, values.end()); };
       return Kinematic{ entry(q.position), entry(q.velocity), entry(q.acceleration) };
     };
-    const auto u_0      = of_support(q_0);
-    const auto u_1      = of_support(q_1);
+    const auto u_0      = support_motion(q_0);
+    const auto u_1      = support_motion(q_1);
     const double change = u_1.position[0] - u_0.position[0];
     work.damping += constants.support_damping * change * (w.stiffness() * u_1.velocity[0] + w.alpha_f * u_0.velocity[0]);
     work.algorithmic += constants.support_mass * inertial_dissipation(u_0, u_1, u_0.acceleration, u_1.acceleration, w) +
@@ -196,13 +196,13 @@ namespace sprag
 
   StoredEnergy SparseStructure::stored_energy(const Motion &motion) const
   {
-    const auto &q  = motion.coordinates;
-    const auto &of = products(motion);
+    const auto &q               = motion.coordinates;
+    const auto &motion_products = products(motion);
     StoredEnergy energy;
-    energy.kinetic = 0.5 * product(of.mass[1], q.velocity);
+    energy.kinetic = 0.5 * product(motion_products.mass[1], q.velocity);
     energy.spring  = 0.5 * constants.spring_stiffness * q.position[n_lever - 1] * q.position[n_lever - 1];
-    energy.elastic = 0.5 * product(of.stiffness[0], of.elastic);
-    energy.layer   = 0.5 * product(of.layer[0], of.elastic);
+    energy.elastic = 0.5 * product(motion_products.stiffness[0], motion_products.elastic);
+    energy.layer   = 0.5 * product(motion_products.layer[0], motion_products.elastic);
     if (constants.sprung)
     {
       energy.kinetic += 0.5 * constants.support_mass * q.velocity[n_lever] * q.velocity[n_lever];
@@ -213,13 +213,13 @@ namespace sprag
 
   Vector<double> SparseStructure::port_error(const Motion &begin, const Motion &end) const
   {
-    const auto &w        = current->weights;
-    const double factor  = w.dt * w.dt * (w.beta - 1. / 6.);
-    const Products &of_0 = products(begin);
-    const Products &of_1 = products(end);
+    const auto &w                  = current->weights;
+    const double factor            = w.dt * w.dt * (w.beta - 1. / 6.);
+    const Products &begin_products = products(begin);
+    const Products &end_products   = products(end);
     Vector<double> result(ports().size());
     for (unsigned int i = 0; i < mode_ports.size(); ++i)
-      result.add(factor * (of_1.modal[2][i] - of_0.modal[2][i]), mode_ports[i]);
+      result.add(factor * (end_products.modal[2][i] - begin_products.modal[2][i]), mode_ports[i]);
     if (constants.sprung)
       result[ports().support()] = factor * (end.coordinates.acceleration[n_lever] - begin.coordinates.acceleration[n_lever]);
     return result;
@@ -323,10 +323,11 @@ namespace sprag
   {
     auto step     = std::make_unique<Step>();
     step->weights = w;
-    const InertialMatrices::Weights of_matrices{ w.mass() + w.damping() * constants.mass_damping,
-                                                 w.stiffness() + w.damping() * constants.stiffness_damping,
-                                                 w.damping() * constants.relaxation, w.stiffness() * constants.spring_stiffness };
-    step->system     = std::make_unique<EffectiveSystem>(*matrices, lever_ports, damping, of_matrices, w.damping());
+    const InertialMatrices::Weights matrix_weights{ w.mass() + w.damping() * constants.mass_damping,
+                                                    w.stiffness() + w.damping() * constants.stiffness_damping,
+                                                    w.damping() * constants.relaxation,
+                                                    w.stiffness() * constants.spring_stiffness };
+    step->system     = std::make_unique<EffectiveSystem>(*matrices, lever_ports, damping, matrix_weights, w.damping());
     step->compliance = port_compliance(*step->system, effective_support(w));
     return step;
   }
@@ -346,8 +347,8 @@ namespace sprag
     {
       steps.clear();
       current = nullptr;
-      for (const auto &of_step : weights)
-        steps.push_back(make_step(of_step));
+      for (const auto &step_weights : weights)
+        steps.push_back(make_step(step_weights));
     }
     for (const auto &step : steps)
       step->system->visit_history(archive);
@@ -384,7 +385,7 @@ namespace sprag
     return load / effective_support(w);
   }
 
-  void SparseStructure::add_responses(const Step &step, const PortForces &forces, const double of_support,
+  void SparseStructure::add_responses(const Step &step, const PortForces &forces, const double at_support,
                                       Vector<double> &position) const
   {
     // The support's port is the last.
@@ -394,7 +395,7 @@ namespace sprag
         { { forces.ports.begin(), forces.ports.begin() + n }, Vector<double>(forces.values.begin(), forces.values.begin() + n) },
         position);
     if (on_support)
-      position[n_lever] += of_support * forces.values[n];
+      position[n_lever] += at_support * forces.values[n];
   }
 
   Motion SparseStructure::deform(const PortForces &forces) const
@@ -410,9 +411,9 @@ namespace sprag
     Vector<double> product(load.size());
     for (unsigned int i = 0; i <= corrections; ++i)
     {
-      const auto of_lever = statics->system->solve(Vector<double>(left.begin(), left.begin() + n_lever));
+      const auto lever_solution = statics->system->solve(Vector<double>(left.begin(), left.begin() + n_lever));
       for (unsigned int j = 0; j < n_lever; ++j)
-        q[j] += of_lever[j];
+        q[j] += lever_solution[j];
       stiffness_product(q, product);
       left = load;
       left -= product;
@@ -447,23 +448,23 @@ namespace sprag
 
   /// Residual of the motion at the drifted position without force: the effective matrix times the way from there to the free
   /// one. That way is short, so that round-off does not grow with the lever's rotation.
-  Vector<double> SparseStructure::load_of_motion(const Kinematic &start, const Products &of, const StepWeights &w) const
+  Vector<double> SparseStructure::motion_load(const Kinematic &start, const Products &motion_products, const StepWeights &w) const
   {
     const Share rate = mean_drifted_rate(w);
-    Share of_mass;
+    Share mass_share;
     for (unsigned int k = 0; k < 3; ++k)
-      of_mass[k] = -constants.mass_damping * rate[k];
-    of_mass[2] -= w.alpha_m;
+      mass_share[k] = -constants.mass_damping * rate[k];
+    mass_share[2] -= w.alpha_m;
 
     Vector<double> load(n_lever);
-    add(of_mass, 1., of.mass, load);
-    add(rate, -constants.stiffness_damping, of.stiffness, load);
-    add(rate, -constants.relaxation, of.layer, load);
+    add(mass_share, 1., motion_products.mass, load);
+    add(rate, -constants.stiffness_damping, motion_products.stiffness, load);
+    add(rate, -constants.relaxation, motion_products.layer, load);
     for (unsigned int i = 0; i < damping.directions.size(); ++i)
     {
       double amount = 0.;
       for (unsigned int k = 0; k < 3; ++k)
-        amount -= rate[k] * of.modal[k][i + 1];
+        amount -= rate[k] * motion_products.modal[k][i + 1];
       load.add(damping.factors[i] * amount, damping.directions[i]);
     }
     add_spring_forces(start, w, load);
@@ -487,13 +488,13 @@ namespace sprag
 
   Vector<double> SparseStructure::free_ports(const Motion &accepted, const PortSelection &) const
   {
-    const auto &w       = current->weights;
-    const auto &start   = accepted.coordinates;
-    const auto of_lever = current->system->solve(load_of_motion(start, products(accepted), w));
-    const auto drifted  = unaccelerated(start, w);
-    free_motion         = drifted.position;
+    const auto &w             = current->weights;
+    const auto &start         = accepted.coordinates;
+    const auto lever_solution = current->system->solve(motion_load(start, products(accepted), w));
+    const auto drifted        = unaccelerated(start, w);
+    free_motion               = drifted.position;
     for (unsigned int i = 0; i < n_lever; ++i)
-      free_motion[i] += of_lever[i];
+      free_motion[i] += lever_solution[i];
     if (constants.sprung)
       free_motion[n_lever] = free_support(start, w);
     return lever_ports.displacements(free_motion);

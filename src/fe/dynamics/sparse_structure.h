@@ -108,7 +108,7 @@ namespace sprag
     PortCompliance port_compliance(const EffectiveSystem &system, double support_stiffness) const;
     double effective_support(const StepWeights &w) const;
     double free_support(const Kinematic &start, const StepWeights &w) const;
-    dealii::Vector<double> load_of_motion(const Kinematic &start, const Products &of, const StepWeights &w) const;
+    dealii::Vector<double> motion_load(const Kinematic &start, const Products &motion_products, const StepWeights &w) const;
 
     void add_spring_forces(const Kinematic &start, const StepWeights &w, dealii::Vector<double> &load) const;
 
@@ -119,8 +119,8 @@ namespace sprag
 
     void add_support_work(const Kinematic &q_0, const Kinematic &q_1, const StepWeights &w, StepWork &work) const;
 
-    /// Adds the lever's movement under forces on the ports, and the support's with compliance `of_support`.
-    void add_responses(const Step &step, const PortForces &forces, double of_support, dealii::Vector<double> &position) const;
+    /// Adds the lever's movement under forces on the ports, and the support's with compliance `at_support`.
+    void add_responses(const Step &step, const PortForces &forces, double at_support, dealii::Vector<double> &position) const;
 
     const std::shared_ptr<const InertialMatrices> matrices;
     const LeverDynamics constants;

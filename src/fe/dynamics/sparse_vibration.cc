@@ -200,9 +200,9 @@ namespace sprag
   {
     Vector<double> momentum(structure.size);
     mass_product(state.q, momentum);
-    const double of_displacements = momentum * state.q;
+    const double displacement_part = momentum * state.q;
     mass_product(state.rate, momentum);
-    return square * of_displacements + momentum * state.rate;
+    return square * displacement_part + momentum * state.rate;
   }
 
   void InverseProblem::mass_product(const Vector<double> &rate, Vector<double> &momentum) const

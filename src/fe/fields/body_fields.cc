@@ -37,20 +37,20 @@ namespace sprag
   FieldFace::FieldFace(const FrictionFace<3> &face)
       : per_cell(4)
   {
-    const auto parts      = parts_of(face);
-    const auto &of_points = parts.points;
-    const double height   = face.points.empty() ? 0. : face.points.front().position[1];
-    for (std::size_t i = 0; i < of_points.xi.size(); ++i)
-      positions.emplace_back(of_points.xi[i], height, of_points.zeta[i]);
+    const auto parts        = face_parts(face);
+    const auto &part_points = parts.points;
+    const double height     = face.points.empty() ? 0. : face.points.front().position[1];
+    for (std::size_t i = 0; i < part_points.xi.size(); ++i)
+      positions.emplace_back(part_points.xi[i], height, part_points.zeta[i]);
     std::vector<double> share;
     for (std::size_t q = 0; q < face.points.size(); ++q)
-      share.push_back(face.points[q].weight / of_points.weight[parts.part_of_point[q]]);
-    read(face, parts.part_of_point, share);
+      share.push_back(face.points[q].weight / part_points.weight[parts.point_parts[q]]);
+    read(face, parts.point_parts, share);
     join_lines();
   }
 
   template <int dim>
-  void FieldFace::read(const FrictionFace<dim> &face, const std::vector<unsigned int> &point_of, const std::vector<double> &share)
+  void FieldFace::read(const FrictionFace<dim> &face, const std::vector<unsigned int> &indices, const std::vector<double> &share)
   {
     for (const auto &node : face.nodes)
     {
@@ -61,9 +61,9 @@ namespace sprag
     std::vector<std::map<unsigned int, double>> sums(positions.size());
     for (std::size_t q = 0; q < face.points.size(); ++q)
       for (const auto &[node, shape] : face.points[q].nodes)
-        sums[point_of[q]][node] += share[q] * shape;
-    for (const auto &of_point : sums)
-      movers.emplace_back(of_point.begin(), of_point.end());
+        sums[indices[q]][node] += share[q] * shape;
+    for (const auto &dof_weights : sums)
+      movers.emplace_back(dof_weights.begin(), dof_weights.end());
   }
 
   /// Between lines of points with the same zeta, which all have the same xi.
@@ -111,7 +111,7 @@ namespace sprag
                         const SymmetricTensor<2, 2> &in_plane, const std::optional<double> &pressure)
     {
       const auto &constants = properties.constants.at(material);
-      const auto plane      = properties.plane_of(material);
+      const auto plane      = properties.plane_state(material);
       const Lame lame       = plane_constants(constants, plane);
       const bool linear     = properties.material == MaterialModel::linear;
       const double J        = linear ? 1. : determinant(F);
@@ -132,11 +132,11 @@ namespace sprag
     SymmetricTensor<2, 3> stress_at(const BodyProperties &properties, const types::material_id material,
                                     const Tensor<2, dim> &gradient, const std::optional<double> &pressure)
     {
-      const Lame lame   = plane_constants(properties.constants.at(material), properties.plane_of(material));
+      const Lame lame   = plane_constants(properties.constants.at(material), properties.plane_state(material));
       const bool linear = properties.material == MaterialModel::linear;
       const auto F      = Tensor<2, dim>(unit_symmetric_tensor<dim>()) + gradient;
       const auto at     = pressure ? stress_at_pressure<dim>(properties.material, lame.mu, gradient, *pressure)
-                                   : stress_of<dim>(properties.material, lame, gradient);
+                                   : compute_stress<dim>(properties.material, lame, gradient);
       const auto cauchy = symmetrize(linear ? at.piola : at.piola * transpose(F) / determinant(F));
       SymmetricTensor<2, 3> result;
       for (unsigned int i = 0; i < dim; ++i)
@@ -171,7 +171,7 @@ namespace sprag
 
     /// Places of the nodes in the unit element, along the first axis, then the second, then the third.
     template <int dim>
-    Quadrature<dim> places_of(const BodyProperties &properties)
+    Quadrature<dim> output_quadrature(const BodyProperties &properties)
     {
       return QIterated<dim>(QTrapezoid<1>(), properties.degree);
     }
@@ -189,7 +189,7 @@ namespace sprag
     }
 
     /// In the order of XDMF's quadrilaterals and hexahedra.
-    std::vector<unsigned int> corners_of_cells(const unsigned int p, const bool in_space)
+    std::vector<unsigned int> cell_corners(const unsigned int p, const bool in_space)
     {
       std::vector<unsigned int> result;
       const unsigned int row = p + 1, layer = row * row;
@@ -203,36 +203,36 @@ namespace sprag
 
     /// The stress of a body's elements, which the ranks take by turns, at their nodes.
     template <int dim>
-    void add_stress_of(const DoFHandler<dim> &dofs, const Mapping<dim> &mapping, const BodyProperties &properties,
-                       const Vector<double> &displacement, const std::vector<unsigned int> &nodes_of_elements,
-                       const MPI_Comm ranks, std::vector<SymmetricTensor<2, 3>> &sums)
+    void add_stresses(const DoFHandler<dim> &dofs, const Mapping<dim> &mapping, const BodyProperties &properties,
+                      const Vector<double> &displacement, const std::vector<unsigned int> &element_nodes, const MPI_Comm ranks,
+                      std::vector<SymmetricTensor<2, 3>> &sums)
     {
       const unsigned int own = Utilities::MPI::this_mpi_process(ranks), n_ranks = Utilities::MPI::n_mpi_processes(ranks);
-      const auto places = places_of<dim>(properties);
+      const auto places = output_quadrature<dim>(properties);
       const QGauss<1> points(std::max(2u, properties.degree));
       FEValues<dim> at_points(mapping, dofs.get_fe(), QGauss<dim>(points.size()), update_gradients);
       const auto to_nodes = extrapolation<dim>(points, places);
       CellElasticity<dim> elasticity(mapping, dofs.get_fe(), properties);
-      Vector<double> of_element(dofs.get_fe().n_dofs_per_cell());
+      Vector<double> element_displacement(dofs.get_fe().n_dofs_per_cell());
       const FEValuesExtractors::Vector vector(0);
       std::vector<Tensor<2, dim>> gradients_at_points(at_points.n_quadrature_points);
       FEValues<dim> at_places(mapping, dofs.get_fe(), places, update_quadrature_points);
       unsigned int element = 0;
       for (const auto &cell : dofs.active_cell_iterators())
       {
-        const unsigned int *const nodes = &nodes_of_elements[places.size() * element];
+        const unsigned int *const nodes = &element_nodes[places.size() * element];
         const auto material             = cell->material_id();
         if (element++ % n_ranks != own || material == material_id::hub)
           continue;
         at_points.reinit(cell);
         at_points[vector].get_function_gradients(displacement, gradients_at_points);
         const auto gradients    = product(to_nodes, gradients_at_points);
-        const Lame lame         = plane_constants(properties.constants.at(material), properties.plane_of(material));
+        const Lame lame         = plane_constants(properties.constants.at(material), properties.plane_state(material));
         const bool is_projected = is_nearly_incompressible(properties, material);
         if (is_projected)
         {
-          cell->get_dof_values(displacement, of_element);
-          elasticity.reinit(cell, of_element);
+          cell->get_dof_values(displacement, element_displacement);
+          elasticity.reinit(cell, element_displacement);
           at_places.reinit(cell);
         }
         for (unsigned int q = 0; q < places.size(); ++q)
@@ -256,7 +256,7 @@ namespace sprag
 
   BodyFields::BodyFields(const ElasticBody<2> &body)
       : in_space(false)
-      , of_face(body.friction_face())
+      , shown_face(body.friction_face())
   {
     read<2>(body);
   }
@@ -268,8 +268,8 @@ namespace sprag
 
   BodyFields::BodyFields(const SolidBody &body, const FrictionFace<3> &shown)
       : in_space(true)
-      , of_half(body.is_half())
-      , of_face(shown)
+      , half_model(body.is_half())
+      , shown_face(shown)
       , calls(&body.calls())
       , ranks(calls->ranks)
   {
@@ -280,47 +280,46 @@ namespace sprag
   void BodyFields::read(const AnyBody &body)
   {
     const auto &fe    = body.dofs().get_fe();
-    const auto places = places_of<dim>(body.body_properties());
+    const auto places = output_quadrature<dim>(body.body_properties());
     FEValues<dim> values(body.cell_mapping(), fe, places, update_quadrature_points);
     std::map<std::pair<types::material_id, bool>, std::vector<unsigned int>> numbers; // by the first degree of freedom
     const auto on_places = dofs_at<dim>(fe, places);
-    std::vector<types::global_dof_index> of_element(fe.n_dofs_per_cell());
+    std::vector<types::global_dof_index> element_dofs(fe.n_dofs_per_cell());
     for (const auto &cell : body.dofs().active_cell_iterators())
     {
       values.reinit(cell);
-      cell->get_dof_indices(of_element);
+      cell->get_dof_indices(element_dofs);
       const auto part   = cell->material_id();
       const bool at_hub = part == material_id::hub || touches_what_is_held(body, cell);
       auto &number      = numbers[{ part, at_hub }];
       number.resize(body.n_dofs(), none);
       for (unsigned int q = 0; q < places.size(); ++q)
       {
-        auto &node        = number[of_element[on_places[q][0]]];
+        auto &node        = number[element_dofs[on_places[q][0]]];
         const bool is_new = node == none;
         if (is_new)
           node = static_cast<unsigned int>(all_nodes.size());
-        nodes_of_elements.push_back(node);
+        element_nodes.push_back(node);
         if (!is_new)
           continue;
         Point<3> position;
-        std::array<unsigned int, 3> of_node{ { none, none, none } };
+        std::array<unsigned int, 3> node_dofs{ { none, none, none } };
         for (unsigned int d = 0; d < dim; ++d)
         {
-          position[d] = values.quadrature_point(q)[d];
-          of_node[d]  = static_cast<unsigned int>(of_element[on_places[q][d]]);
+          position[d]  = values.quadrature_point(q)[d];
+          node_dofs[d] = static_cast<unsigned int>(element_dofs[on_places[q][d]]);
         }
         all_nodes.push_back({ position, part, at_hub });
-        dofs.push_back(of_node);
+        dofs.push_back(node_dofs);
       }
     }
     n_places = places.size();
-    corners  = corners_of_cells(body.body_properties().degree, in_space);
+    corners  = cell_corners(body.body_properties().degree, in_space);
     sharing.assign(all_nodes.size(), 0);
-    for (const unsigned int node : nodes_of_elements)
+    for (const unsigned int node : element_nodes)
       ++sharing[node];
-    add_stress = [&body](const auto &displacement, const auto &elements, const auto ranks_at_work, auto &sums) {
-      add_stress_of<dim>(body.dofs(), body.cell_mapping(), body.body_properties(), displacement, elements, ranks_at_work, sums);
-    };
+    add_stress = [&body](const auto &displacement, const auto &elements, const auto ranks_at_work, auto &sums)
+    { add_stresses<dim>(body.dofs(), body.cell_mapping(), body.body_properties(), displacement, elements, ranks_at_work, sums); };
     n_displacements = body.n_dofs();
   }
 
@@ -338,7 +337,7 @@ namespace sprag
     if (calls != nullptr)
       (*calls)(SharedTask::recover_stress);
     const auto displacements = moved(displacement);
-    const auto sums          = sums_of_stress(displacement);
+    const auto sums          = stress_sums(displacement);
     std::vector<NodalField> result(all_nodes.size());
     for (std::size_t i = 0; i < result.size(); ++i)
       result[i] = { displacements[i], sums[i] / sharing[i] };
@@ -347,15 +346,15 @@ namespace sprag
 
   void BodyFields::take_part() const
   {
-    sums_of_stress(Vector<double>(n_displacements));
+    stress_sums(Vector<double>(n_displacements));
   }
 
   /// Sums the stresses of the elements that meet in a node, by the first rank's displacement, and returns them to it.
-  BodyFields::StressSums BodyFields::sums_of_stress(Vector<double> displacement) const
+  BodyFields::StressSums BodyFields::stress_sums(Vector<double> displacement) const
   {
     MPI_Bcast(displacement.begin(), static_cast<int>(displacement.size()), MPI_DOUBLE, 0, ranks);
     StressSums result(all_nodes.size());
-    add_stress(displacement, nodes_of_elements, ranks, result);
+    add_stress(displacement, element_nodes, ranks, result);
     const bool is_first   = Utilities::MPI::this_mpi_process(ranks) == 0;
     double *const numbers = &result.front().access_raw_entry(0);
     const auto n_numbers  = static_cast<int>(result.size() * StressSums::value_type::n_independent_components);

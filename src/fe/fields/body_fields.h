@@ -48,7 +48,7 @@ namespace sprag
 
   private:
     template <int dim>
-    void read(const FrictionFace<dim> &face, const std::vector<unsigned int> &point_of, const std::vector<double> &share);
+    void read(const FrictionFace<dim> &face, const std::vector<unsigned int> &indices, const std::vector<double> &share);
     void join_lines();
 
     unsigned int per_cell;
@@ -101,7 +101,7 @@ namespace sprag
     /// Returns the numbers of the nodes of each element, one element after another.
     const std::vector<unsigned int> &elements() const
     {
-      return nodes_of_elements;
+      return element_nodes;
     }
 
     unsigned int nodes_per_element() const
@@ -110,7 +110,7 @@ namespace sprag
     }
 
     /// Returns the cells of an element: for each of them the places of its corners among the element's nodes.
-    const std::vector<unsigned int> &cells_of_element() const
+    const std::vector<unsigned int> &element_cells() const
     {
       return corners;
     }
@@ -129,12 +129,12 @@ namespace sprag
     /// Returns true if the body is a half in space, whose other half is its mirror image.
     bool is_half() const
     {
-      return of_half;
+      return half_model;
     }
 
     const FieldFace &face() const
     {
-      return of_face;
+      return shown_face;
     }
 
     /// Finds displacement and stress at the nodes by the displacements of the body's degrees of freedom. Of a body in space the
@@ -152,18 +152,18 @@ namespace sprag
 
     template <int dim, class AnyBody>
     void read(const AnyBody &body);
-    StressSums sums_of_stress(dealii::Vector<double> displacement) const;
+    StressSums stress_sums(dealii::Vector<double> displacement) const;
 
     bool in_space;
-    bool of_half = false;
-    FieldFace of_face;
+    bool half_model = false;
+    FieldFace shown_face;
     const BodyCalls *calls       = nullptr; ///< of a body in space, of which each rank finds a part
     MPI_Comm ranks               = MPI_COMM_SELF;
     unsigned int n_displacements = 0; ///< of the body
     unsigned int n_places        = 0; ///< of nodes in an element
     std::vector<Node> all_nodes;
     std::vector<std::array<unsigned int, 3>> dofs; ///< of the nodes; in a plane the last has none
-    std::vector<unsigned int> nodes_of_elements;
+    std::vector<unsigned int> element_nodes;
     std::vector<unsigned int> corners;
     std::vector<unsigned int> sharing; ///< number of elements that meet in a node
 

@@ -15,13 +15,13 @@ namespace sprag
 
   namespace
   {
-    constexpr unsigned int rim_nodes    = 180;
-    constexpr unsigned int of_barrel    = 16;  ///< sections between its ends
-    constexpr unsigned int of_rounding  = 6;   ///< sections of each
-    constexpr double drawn_over_width   = 1.5; ///< length of a cylinder that ends beyond the lever
-    constexpr unsigned int section_size = rim_nodes + 1;
+    constexpr unsigned int rim_nodes         = 180;
+    constexpr unsigned int barrel_sections   = 16;  ///< sections between its ends
+    constexpr unsigned int rounding_sections = 6;   ///< sections of each
+    constexpr double drawn_over_width        = 1.5; ///< length of a cylinder that ends beyond the lever
+    constexpr unsigned int section_size      = rim_nodes + 1;
 
-    double angle_of(const unsigned int rim_node)
+    double rim_angle(const unsigned int rim_node)
     {
       return 2. * M_PI * rim_node / rim_nodes;
     }
@@ -33,15 +33,15 @@ namespace sprag
     }
 
     /// Places along the axis, from one end to the other, at which the profile is drawn.
-    std::vector<double> sections_of(const Device &device)
+    std::vector<double> cylinder_sections(const Device &device)
     {
       const auto &cylinder = device.cylinder;
       const double half    = 0.5 * (cylinder.length > 0. ? cylinder.length : drawn_over_width * device.lever.width);
       const double inner   = half - cylinder.edge_radius;
       std::vector<double> result;
-      for (unsigned int i = 0; cylinder.edge_radius > 0. && i < of_rounding; ++i)
-        result.push_back(-inner - cylinder.edge_radius * std::cos(0.5 * M_PI * i / of_rounding));
-      const unsigned int n = cylinder.crown_radius > 0. ? of_barrel : 1;
+      for (unsigned int i = 0; cylinder.edge_radius > 0. && i < rounding_sections; ++i)
+        result.push_back(-inner - cylinder.edge_radius * std::cos(0.5 * M_PI * i / rounding_sections));
+      const unsigned int n = cylinder.crown_radius > 0. ? barrel_sections : 1;
       for (unsigned int i = 0; i <= n; ++i)
         result.push_back(inner * (2. * i / n - 1.));
       for (std::size_t i = result.size() - n - 1; i > 0; --i)
@@ -59,7 +59,7 @@ namespace sprag
     const double radius = device.geometry.cylinder_radius;
     result.positions.emplace_back();
     for (unsigned int i = 0; i < rim_nodes; ++i)
-      result.positions.emplace_back(radius * std::cos(angle_of(i)), radius * std::sin(angle_of(i)), 0.);
+      result.positions.emplace_back(radius * std::cos(rim_angle(i)), radius * std::sin(rim_angle(i)), 0.);
     for (unsigned int i = 0; i < rim_nodes; i += 2)
       append_kite(0, i, result.cells);
     return result;
@@ -71,12 +71,12 @@ namespace sprag
   {
     DeviceBlock result{ DevicePart::rigid_cylinder, 0 };
     const RigidCylinder cylinder(device.geometry, device.cylinder);
-    const auto sections = sections_of(device);
+    const auto sections = cylinder_sections(device);
     for (const double along : sections)
     {
       result.positions.push_back(cylinder.on_axis(along));
       for (unsigned int i = 0; i < rim_nodes; ++i)
-        result.positions.push_back(cylinder.on_surface(along, angle_of(i)));
+        result.positions.push_back(cylinder.on_surface(along, rim_angle(i)));
     }
     for (unsigned int section = 0; section + 1 < sections.size(); ++section)
       for (unsigned int i = 0; i < rim_nodes; i += 2)
@@ -87,38 +87,38 @@ namespace sprag
 
   namespace
   {
-    double side_of(const unsigned int lever)
+    double lever_side(const unsigned int lever)
     {
       return lever == 0 ? 1. : -1.;
     }
 
     double cylinder_height(const Device &device)
     {
-      return number_of_levers(device) == 2 ? device.pair.cylinder_offset : 0.;
+      return count_levers(device) == 2 ? device.pair.cylinder_offset : 0.;
     }
 
     /// Returns true if an element of a body belongs to a block.
-    bool is_of_block(const Device &device, const BodyFields &fields, const unsigned int element, const DeviceBlock &block)
+    bool is_in_block(const Device &device, const BodyFields &fields, const unsigned int element, const DeviceBlock &block)
     {
       const unsigned int n    = fields.nodes_per_element();
       const auto *const nodes = &fields.elements()[n * element];
       const bool cylinder     = fields.nodes()[nodes[0]].part == material_id::cylinder;
-      if (block.part != DevicePart::cylinder || !cylinder || number_of_levers(device) == 1)
+      if (block.part != DevicePart::cylinder || !cylinder || count_levers(device) == 1)
         return cylinder == (block.part == DevicePart::cylinder);
       Tensor<1, 3> middle;
       for (unsigned int i = 0; i < n; ++i)
         middle += fields.nodes()[nodes[i]].position / n;
-      return cylinder_axes(device, rest_pose(device), block.lever).turned(middle)[1] * side_of(block.lever) > 0.;
+      return cylinder_axes(device, rest_pose(device), block.lever).turned(middle)[1] * lever_side(block.lever) > 0.;
     }
 
-    DeviceBlock block_of(const Device &device, const BodyFields &fields, DeviceBlock result)
+    DeviceBlock make_block(const Device &device, const BodyFields &fields, DeviceBlock result)
     {
       constexpr unsigned int unknown = numbers::invalid_unsigned_int;
       const unsigned int n           = fields.nodes_per_element();
       std::vector<unsigned int> number(fields.nodes().size(), unknown);
       for (unsigned int element = 0; element < fields.elements().size() / n; ++element)
       {
-        if (!is_of_block(device, fields, element, result))
+        if (!is_in_block(device, fields, element, result))
           continue;
         const auto *const nodes = &fields.elements()[n * element];
         for (unsigned int i = 0; i < n; ++i)
@@ -128,7 +128,7 @@ namespace sprag
             result.nodes.push_back(nodes[i]);
             result.positions.push_back(fields.nodes()[nodes[i]].position);
           }
-        for (const unsigned int corner : fields.cells_of_element())
+        for (const unsigned int corner : fields.element_cells())
           result.cells.push_back(number[nodes[corner]]);
       }
       return result;
@@ -150,47 +150,47 @@ namespace sprag
     return { 0., 0., { { theta, theta } } };
   }
 
-  DevicePose pose_of(const Row &row)
+  DevicePose to_pose(const Row &row)
   {
     const double moved  = row[Column::support_displacement];
     const double first  = row[Column::theta];
-    const double second = row.second_lever().empty() ? first : row.of_second_lever(Column::theta);
+    const double second = row.second_lever().empty() ? first : row.second_value(Column::theta);
     return { row[Column::x], std::isnan(moved) ? 0. : moved, { { first, second } } };
   }
 
   WorldAxes lever_axes(const Device &device, const DevicePose &pose, const unsigned int lever)
   {
     const Point<2> pivot(device.geometry.pivot_distance + pose.support, device.geometry.pivot_height);
-    return world_axes(pivot, pose.theta[lever], side_of(lever));
+    return world_axes(pivot, pose.theta[lever], lever_side(lever));
   }
 
   WorldAxes cylinder_axes(const Device &device, const DevicePose &pose, const unsigned int lever)
   {
-    return world_axes(Point<2>(pose.x, side_of(lever) * cylinder_height(device)), pose.theta[lever], side_of(lever));
+    return world_axes(Point<2>(pose.x, lever_side(lever) * cylinder_height(device)), pose.theta[lever], lever_side(lever));
   }
 
   std::vector<DeviceBlock> device_blocks(const Device &device, const BodyFields &body, const BodyFields *const leaf)
   {
     std::vector<DeviceBlock> result;
-    for (unsigned int lever = 0; lever < number_of_levers(device); ++lever)
+    for (unsigned int lever = 0; lever < count_levers(device); ++lever)
     {
-      result.push_back(block_of(device, body, { DevicePart::lever, lever }));
+      result.push_back(make_block(device, body, { DevicePart::lever, lever }));
       if (body.is_half())
       {
         result.push_back(result.back());
         result.back().is_mirrored = true;
       }
       if (device.cylinder.type != CylinderType::rigid)
-        result.push_back(block_of(device, body, { DevicePart::cylinder, lever }));
+        result.push_back(make_block(device, body, { DevicePart::cylinder, lever }));
       if (leaf != nullptr)
-        result.push_back(block_of(device, *leaf, { DevicePart::leaf, lever }));
+        result.push_back(make_block(device, *leaf, { DevicePart::leaf, lever }));
     }
     if (device.cylinder.type == CylinderType::rigid)
       result.push_back(body.is_in_space() ? rigid_tube(device) : rigid_disc(device));
     return result;
   }
 
-  WorldAxes axes_of(const Device &device, const DevicePose &pose, const DeviceBlock &block)
+  WorldAxes block_axes(const Device &device, const DevicePose &pose, const DeviceBlock &block)
   {
     if (block.part == DevicePart::rigid_cylinder)
     {
@@ -216,7 +216,7 @@ namespace sprag
       const auto first   = static_cast<unsigned int>(mesh.n_nodes());
       const bool rigid   = block.part == DevicePart::rigid_cylinder;
       const auto &fields = block.part == DevicePart::leaf ? *leaf : body;
-      const auto axes    = axes_of(device, pose, block);
+      const auto axes    = block_axes(device, pose, block);
       for (unsigned int i = 0; i < block.positions.size(); ++i)
       {
         const auto place = axes.place(block.positions[i]);

@@ -71,7 +71,7 @@ namespace sprag
   /// Returns the pose at rest: x = 0, no lever turned, the pivot frame where it is without force.
   DevicePose rest_pose(const Device &device);
 
-  DevicePose pose_of(const Row &row);
+  DevicePose to_pose(const Row &row);
 
   /// Returns the axes of a lever (0, of a pair also 1) on its pivot.
   WorldAxes lever_axes(const Device &device, const DevicePose &pose, unsigned int lever);
@@ -107,7 +107,7 @@ namespace sprag
   std::vector<DeviceBlock> device_blocks(const Device &device, const BodyFields &body, const BodyFields *leaf);
 
   /// Returns the axes of a block. A leaf spring's are those of the lever.
-  WorldAxes axes_of(const Device &device, const DevicePose &pose, const DeviceBlock &block);
+  WorldAxes block_axes(const Device &device, const DevicePose &pose, const DeviceBlock &block);
 
   /// Returns the mesh of the blocks in a pose, with `part` (material_id) and `lever` (1 or 2, 0 of a rigid cylinder).
   FieldMesh device_mesh(const Device &device, const DevicePose &pose, const std::vector<DeviceBlock> &blocks,

@@ -14,21 +14,21 @@ namespace sprag
 
   namespace
   {
-    constexpr const char *of_displacement = "from the position at rest, the hub's rotation included";
-    constexpr const char *of_elastic      = "elastic part of the displacement";
+    constexpr const char *displacement_meaning = "from the position at rest, the hub's rotation included";
+    constexpr const char *elastic_meaning      = "elastic part of the displacement";
 
-    const BodyFields *fields_of(const std::unique_ptr<LeafShapes> &leaf)
+    const BodyFields *get_leaf_fields(const std::unique_ptr<LeafShapes> &leaf)
     {
       return leaf ? &leaf->fields() : nullptr;
     }
 
     /// Closes a face between its mirror image, whose points begin at `first`, and itself, whose points come before those.
-    void join_halves(const std::vector<unsigned int> &line, const unsigned int first, const unsigned int of_half,
+    void join_halves(const std::vector<unsigned int> &line, const unsigned int first, const unsigned int n_half,
                      std::vector<unsigned int> &cells)
     {
       for (std::size_t i = 1; i < line.size(); ++i)
         cells.insert(cells.end(),
-                     { first + line[i - 1], first + line[i], first - of_half + line[i], first - of_half + line[i - 1] });
+                     { first + line[i - 1], first + line[i], first - n_half + line[i], first - n_half + line[i - 1] });
     }
   } // namespace
 
@@ -49,14 +49,14 @@ namespace sprag
     }
   };
 
-  FieldFrames::FieldFrames(const Device &of_scene, const BodyFields &of_body, const std::string &folder)
-      : device(of_scene)
-      , fields(of_body)
+  FieldFrames::FieldFrames(const Device &device_, const BodyFields &fields_, const std::string &folder)
+      : device(device_)
+      , fields(fields_)
       , rest(rest_pose(device))
       , leaf(device.spring.type == SpringType::leaf ? std::make_unique<LeafShapes>(device) : nullptr)
-      , blocks(device_blocks(device, fields, fields_of(leaf)))
+      , blocks(device_blocks(device, fields, get_leaf_fields(leaf)))
   {
-    auto mesh = device_mesh(device, rest, blocks, fields, fields_of(leaf));
+    auto mesh = device_mesh(device, rest, blocks, fields, get_leaf_fields(leaf));
     mesh.name = "fields";
     files     = std::make_unique<FieldFiles>(folder, "fields", std::vector<FieldMesh>{ std::move(mesh), face_mesh() },
                                          FrameStorage::files, writers_at_hand());
@@ -75,16 +75,16 @@ namespace sprag
         add_leaf(state, block, values);
       else
         add_meshed(state, block, values);
-    return { { "displacement", "mm", of_displacement, 3, std::move(values.displacement) },
-             { "elastic_displacement", "mm", of_elastic, 3, std::move(values.elastic) },
+    return { { "displacement", "mm", displacement_meaning, 3, std::move(values.displacement) },
+             { "elastic_displacement", "mm", elastic_meaning, 3, std::move(values.elastic) },
              { "stress", "MPa", "Cauchy stress along the axes of the world, by rows", 9, std::move(values.stress) },
              { "von_mises_stress", "MPa", "of each cell by itself; 0 where a part is rigid", 1, std::move(values.von_mises) } };
   }
 
   void FieldFrames::add_meshed(const DeviceState &state, const DeviceBlock &block, Bodies &values) const
   {
-    const auto before = axes_of(device, rest, block);
-    const auto now    = axes_of(device, state.pose, block);
+    const auto before = block_axes(device, rest, block);
+    const auto now    = block_axes(device, state.pose, block);
     const bool rigid  = block.part == DevicePart::rigid_cylinder;
     for (unsigned int i = 0; i < block.positions.size(); ++i)
     {
@@ -103,9 +103,9 @@ namespace sprag
     auto frame        = rest; // of the leaf at rest, as the pivot frame and the swing move it
     frame.support     = state.pose.support;
     frame.theta[block.lever] += theta[block.lever] - bent;
-    const auto before = axes_of(device, rest, block);
-    const auto at     = axes_of(device, frame, block);
-    const auto hub    = axes_of(device, state.pose, block);
+    const auto before = block_axes(device, rest, block);
+    const auto at     = block_axes(device, frame, block);
+    const auto hub    = block_axes(device, state.pose, block);
     const auto found  = leaf->displacement(bent - rest.theta[block.lever]);
     const auto nodal  = found ? leaf->fields().at(*found) : std::vector<NodalField>(leaf->fields().nodes().size());
     for (unsigned int i = 0; i < block.positions.size(); ++i)
@@ -137,10 +137,10 @@ namespace sprag
     mesh.nodes_per_cell = fields.face().points_per_cell();
     Field xi{ "xi", "mm", "lever coordinate from the pivot", 1, {} };
     Field zeta{ "zeta", "mm", "across the lever from the middle of its width", 1, {} };
-    Field of_lever{ "lever", "1", "whose face it is", 1, {} };
+    Field lever_field{ "lever", "1", "whose face it is", 1, {} };
     for (const auto &block : faces())
     {
-      const auto axes  = axes_of(device, rest, block);
+      const auto axes  = block_axes(device, rest, block);
       const auto first = static_cast<unsigned int>(mesh.n_nodes());
       for (const auto &point : block.positions)
       {
@@ -148,14 +148,14 @@ namespace sprag
         mesh.nodes.insert(mesh.nodes.end(), { place[0], place[1], place[2] });
         xi.values.push_back(static_cast<float>(point[0]));
         zeta.values.push_back(static_cast<float>(place[2]));
-        of_lever.values.push_back(static_cast<float>(block.lever + 1));
+        lever_field.values.push_back(static_cast<float>(block.lever + 1));
       }
       for (const unsigned int corner : block.cells)
         mesh.cells.push_back(first + corner);
       if (block.is_mirrored)
         join_halves(fields.face().first_line(), first, static_cast<unsigned int>(block.positions.size()), mesh.cells);
     }
-    mesh.fixed = { std::move(xi), std::move(of_lever) };
+    mesh.fixed = { std::move(xi), std::move(lever_field) };
     if (fields.is_in_space())
       mesh.fixed.push_back(std::move(zeta));
     return mesh;
@@ -163,15 +163,15 @@ namespace sprag
 
   std::vector<Field> FieldFrames::face_fields(const DeviceState &state) const
   {
-    Field moved{ "displacement", "mm", of_displacement, 3, {} };
-    Field elastic{ "elastic_displacement", "mm", of_elastic, 3, {} };
+    Field moved{ "displacement", "mm", displacement_meaning, 3, {} };
+    Field elastic{ "elastic_displacement", "mm", elastic_meaning, 3, {} };
     Field pressure{ "pressure", "MPa", "contact pressure", 1, {} };
     Field friction{ "friction_traction", "MPa", "friction on the lever along -d", 1, {} };
     Field traction{ "traction", "MPa", "pressure and friction on the lever as a vector", 3, {} };
     for (const auto &block : faces())
     {
-      const auto before   = axes_of(device, rest, block);
-      const auto now      = axes_of(device, state.pose, block);
+      const auto before   = block_axes(device, rest, block);
+      const auto now      = block_axes(device, state.pose, block);
       const auto &p       = block.lever == 0 ? state.face.pressure : state.face.pressure_2;
       const auto &t       = block.lever == 0 ? state.face.traction : state.face.traction_2;
       const auto &t_aside = block.lever == 0 ? state.face.traction_across : state.face.traction_across_2;

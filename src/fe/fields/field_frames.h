@@ -24,14 +24,14 @@ namespace sprag
   public:
     explicit LeafShapes(const Device &device)
         : leaf(device.spring.leaf, device.spring.leaf.plane)
-        , of_body(leaf.body())
+        , leaf_fields(leaf.body())
         , rest(leaf.rest())
     {
     }
 
     const BodyFields &fields() const
     {
-      return of_body;
+      return leaf_fields;
     }
 
     /// Finds the displacement of the body's degrees of freedom at a turn from rest [rad], the hub's rotation included; none where
@@ -53,7 +53,7 @@ namespace sprag
 
   private:
     LeafBody leaf;
-    const BodyFields of_body;
+    const BodyFields leaf_fields;
     const LeafBody::State rest;
   };
 

@@ -23,30 +23,30 @@ namespace sprag
       std::vector<Tensor<1, 3>> whole, elastic;
     };
 
-    double part_of(const std::complex<double> &value, const unsigned int part)
+    double complex_part(const std::complex<double> &value, const unsigned int part)
     {
       return part == 0 ? value.real() : value.imag();
     }
 
-    Shape shape_of(const Device &device, const BodyFields &body, const DevicePose &held, const std::vector<DeviceBlock> &blocks,
-                   const DeviceMode &mode, const unsigned int part)
+    Shape make_shape(const Device &device, const BodyFields &body, const DevicePose &held, const std::vector<DeviceBlock> &blocks,
+                     const DeviceMode &mode, const unsigned int part)
     {
       Shape result;
       for (const auto &block : blocks)
       {
-        const auto axes   = axes_of(device, held, block);
+        const auto axes   = block_axes(device, held, block);
         const bool meshed = block.part != DevicePart::rigid_cylinder;
         const bool turns  = block.part == DevicePart::lever;
         const auto nodal  = meshed ? body.moved(mode.levers.at(block.lever).elastic[part]) : std::vector<Tensor<1, 3>>();
         Tensor<1, 3> shift;
-        shift[0] = turns ? part_of(mode.support, part) : 0.;
+        shift[0] = turns ? complex_part(mode.support, part) : 0.;
         for (unsigned int i = 0; i < block.positions.size(); ++i)
         {
           const auto elastic = meshed ? axes.turned(nodal[block.nodes[i]]) : Tensor<1, 3>();
           // d(d)/d(theta) = n, d(n)/d(theta) = -d.
           const auto turned = block.positions[i][0] * axes.across - block.positions[i][1] * axes.along;
           result.elastic.push_back(elastic);
-          result.whole.push_back(elastic + shift + (turns ? part_of(mode.levers[block.lever].rotation, part) : 0.) * turned);
+          result.whole.push_back(elastic + shift + (turns ? complex_part(mode.levers[block.lever].rotation, part) : 0.) * turned);
         }
       }
       return result;
@@ -75,8 +75,8 @@ namespace sprag
                   const unsigned int number, const std::string &folder)
   {
     const auto blocks = device_blocks(device, body, nullptr);
-    const std::array<Shape, 2> parts{ { shape_of(device, body, held, blocks, mode, 0),
-                                        shape_of(device, body, held, blocks, mode, 1) } };
+    const std::array<Shape, 2> parts{ { make_shape(device, body, held, blocks, mode, 0),
+                                        make_shape(device, body, held, blocks, mode, 1) } };
     const double size  = largest(parts);
     const double scale = size > 0. ? largest_over_span * device.lever.length / size : 1.;
 

@@ -17,12 +17,12 @@ namespace sprag
     double frequency   = 0.; ///< Im lambda / 2 pi [Hz]
     double growth_rate = 0.; ///< Re lambda [1/s]
 
-    struct OfLever
+    struct LeverShape
     {
       std::array<dealii::Vector<double>, 2> elastic; ///< displacement of the body in the lever's axes, real and imaginary [mm]
       std::complex<double> rotation;                 ///< of the hub [rad]
     };
-    std::vector<OfLever> levers;
+    std::vector<LeverShape> levers;
     std::complex<double> support; ///< [mm]
   };
 

@@ -17,24 +17,24 @@ namespace sprag
     return lever ? 0 : 1;
   }
 
-  StressPeaks::StressPeaks(const BodyFields &of)
-      : fields(of)
+  StressPeaks::StressPeaks(const BodyFields &fields_)
+      : fields(fields_)
   {
     for (const auto &node : fields.nodes())
-      if (const auto of_node = stress_region(node))
-        there[*of_node] = true;
+      if (const auto node_region = stress_region(node))
+        there[*node_region] = true;
   }
 
   void StressPeaks::look_at(const std::vector<NodalField> &nodal, const double x, const int direction, const unsigned int lever)
   {
     for (unsigned int i = 0; i < nodal.size(); ++i)
     {
-      const auto &node   = fields.nodes()[i];
-      const auto of_node = stress_region(node);
-      if (!of_node)
+      const auto &node       = fields.nodes()[i];
+      const auto node_region = stress_region(node);
+      if (!node_region)
         continue;
       const double stress = von_mises(nodal[i]);
-      auto &peak          = peaks[*of_node];
+      auto &peak          = peaks[*node_region];
       if (!peak || stress > peak->stress)
         peak = { stress, x, direction, lever, node.position };
     }

@@ -44,7 +44,7 @@ namespace sprag
         throw InputError(mistakes);
     }
 
-    Point<2> centre_of_arc(const LeafSpring &leaf)
+    Point<2> arc_centre(const LeafSpring &leaf)
     {
       const double radius = (0.25 * leaf.length * leaf.length + leaf.sagitta * leaf.sagitta) / (2. * leaf.sagitta);
       return { -leaf.clamp_distance - 0.5 * leaf.length, leaf.sagitta - radius };
@@ -78,7 +78,7 @@ namespace sprag
     if (!is_bent(leaf))
       return;
     triangulation.set_all_manifold_ids(0);
-    triangulation.set_manifold(0, PolarManifold<2>(centre_of_arc(leaf)));
+    triangulation.set_manifold(0, PolarManifold<2>(arc_centre(leaf)));
   }
 
   namespace
@@ -87,7 +87,7 @@ namespace sprag
     constexpr double largest_step  = 0.02;
     constexpr double smallest_step = 1e-5;
 
-    BodyProperties properties_of(const LeafSpring &leaf, const PlaneState plane)
+    BodyProperties make_properties(const LeafSpring &leaf, const PlaneState plane)
     {
       BodyProperties properties;
       properties.degree    = 2;
@@ -195,7 +195,7 @@ namespace sprag
   }
 
   LeafBody::LeafBody(const LeafSpring &leaf, const PlaneState plane, const LeafElements &elements)
-      : elastic(meshed(leaf, elements, triangulation), properties_of(leaf, plane))
+      : elastic(meshed(leaf, elements, triangulation), make_properties(leaf, plane))
       , finite_statics(elastic, hold(leaf))
   {
   }
@@ -221,14 +221,14 @@ namespace sprag
   {
     const double sine = std::sin(turn);
     const double less = -2. * std::pow(std::sin(0.5 * turn), 2); // cosine - 1
-    Vector<double> rate(elastic.n_dofs()), rate_of_rate(elastic.n_dofs());
+    Vector<double> rate(elastic.n_dofs()), second_rate(elastic.n_dofs());
     const Vector<double> no_loads(elastic.n_dofs());
     for (const auto &[dof, component, X] : clamp)
     {
       const Point<2> turned(X[0] + less * X[0] - sine * X[1], X[1] + sine * X[0] + less * X[1]);
-      guess[dof]        = turned[component] - X[component];
-      rate[dof]         = component == 0 ? -turned[1] : turned[0];
-      rate_of_rate[dof] = -turned[component];
+      guess[dof]       = turned[component] - X[component];
+      rate[dof]        = component == 0 ? -turned[1] : turned[0];
+      second_rate[dof] = -turned[component];
     }
     State result;
     result.turn         = turn;
@@ -239,7 +239,7 @@ namespace sprag
     result.rate = finite_statics.response(rate, no_loads);
     // The work of what is left unbalanced on the rate makes the moment's error one of second order.
     result.moment    = result.rate * finite_statics.forces();
-    result.stiffness = finite_statics.stiffness_product(result.rate) * result.rate + finite_statics.forces() * rate_of_rate;
+    result.stiffness = finite_statics.stiffness_product(result.rate) * result.rate + finite_statics.forces() * second_rate;
     return result;
   }
 

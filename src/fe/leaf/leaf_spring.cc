@@ -20,7 +20,7 @@ namespace sprag
   {
     constexpr unsigned int n_modes = 8;
 
-    CellFaces<2> faces_of_joint(const ElasticBody<2> &body)
+    CellFaces<2> joint_faces(const ElasticBody<2> &body)
     {
       CellFaces<2> result;
       for (const auto &cell : body.dofs().active_cell_iterators())
@@ -37,7 +37,7 @@ namespace sprag
     const auto shape    = leaf.rest().rate;
     LeverInertia masses = { { { material_id::leaf, density } }, joint_mass };
     masses.source       = InertiaSource::as_built;
-    const BodyMass<2> mass(body, masses, faces_of_joint(body));
+    const BodyMass<2> mass(body, masses, joint_faces(body));
     const auto momentum = [&](const Vector<double> &weighed) -> std::array<double, 2> {
       return { { mass.sum_along(0, weighed), mass.sum_along(1, weighed) } };
     };
@@ -53,8 +53,8 @@ namespace sprag
     const Pencil pencil{ body.n_dofs(), column_by_column(body.n_dofs(), deformation), column_by_column(body.n_dofs(), inertia) };
     for (const auto &[omega_squared, mode] : normal_modes(pencil, n_modes))
     {
-      const auto of_mode = mass(Vector<double>(mode.begin(), mode.end()));
-      behaviour.modes.push_back({ omega_squared, of_mode * shape, momentum(of_mode) });
+      const auto mode_momenta = mass(Vector<double>(mode.begin(), mode.end()));
+      behaviour.modes.push_back({ omega_squared, mode_momenta * shape, momentum(mode_momenta) });
     }
   }
 
@@ -67,7 +67,7 @@ namespace sprag
 
     /// Over the leaf's length: the arm at which the forces that round-off leaves err in moments between samples. They balance
     /// cell by cell; leaves of 0.02 to 0.1 mm and 100 mm length have a sixth of that.
-    constexpr double arm_of_round_off = 0.01;
+    constexpr double round_off_arm = 0.01;
 
     /// Halvings of a step of the turn between samples.
     constexpr unsigned int most_halvings = 12;
@@ -104,7 +104,7 @@ namespace sprag
             states.push_back(std::move(state));
         for (const auto &state : states)
           allowed = std::max({ allowed, precision * std::abs(state.moment),
-                               arm_of_round_off * length * leaf.statics().round_off(state.displacement) });
+                               round_off_arm * length * leaf.statics().round_off(state.displacement) });
         add(states.front());
         for (std::size_t i = 1; i < states.size(); ++i)
           refine(states[i - 1], states[i], most_halvings);
@@ -121,7 +121,7 @@ namespace sprag
         all.push_back({ state.turn, state.moment, state.stiffness });
       }
 
-      State middle_of(const State &from, const State &to)
+      State midpoint(const State &from, const State &to)
       {
         const double turn = 0.5 * (from.turn + to.turn);
         try
@@ -138,7 +138,7 @@ namespace sprag
       /// trusted.
       void refine(const State &from, const State &to, const unsigned int halvings)
       {
-        const State middle = middle_of(from, to);
+        const State middle = midpoint(from, to);
         const bool fine    = std::abs(middle.moment - middle_moment(from, to)) <= 8. * allowed;
         if (!fine && halvings == 0)
           throw AnalysisError("the moment of the leaf spring jumps over its turn: it snaps through. Try a smaller 'Leaf "

@@ -36,16 +36,16 @@ namespace sprag
     void append(const Triangulation<2> &part, std::vector<Point<2>> &vertices, std::vector<CellData<2>> &cells,
                 SubCellData &boundary)
     {
-      const auto first                   = static_cast<unsigned int>(vertices.size());
-      auto [points, of_cells, of_border] = GridTools::get_coarse_mesh_description(part);
+      const auto first                        = static_cast<unsigned int>(vertices.size());
+      auto [points, cell_data, boundary_data] = GridTools::get_coarse_mesh_description(part);
       vertices.insert(vertices.end(), points.begin(), points.end());
-      for (auto &cell : of_cells)
+      for (auto &cell : cell_data)
       {
         for (auto &vertex : cell.vertices)
           vertex += first;
         cells.push_back(cell);
       }
-      for (auto &line : of_border.boundary_lines)
+      for (auto &line : boundary_data.boundary_lines)
       {
         for (auto &vertex : line.vertices)
           vertex += first;

@@ -38,8 +38,8 @@ namespace sprag
     constexpr std::size_t mesh_room = std::size_t(1) << 30;
 
     /// Share of the free memory and time [s] that a stranger's script may take: other programs keep theirs, and loops end.
-    constexpr double share_of_scripts    = 0.8;
-    constexpr double patience_of_scripts = 300.;
+    constexpr double script_share   = 0.8;
+    constexpr double script_timeout = 300.;
 
     /// Names a shorter time for tests [s].
     constexpr char patience_variable[] = "SPRAG_SCRIPT_SECONDS";
@@ -101,8 +101,8 @@ namespace sprag
         std::vector<std::vector<std::size_t>> elements, nodes;
         gmsh::model::getPhysicalGroupsForEntity(entity_dim, entity, groups);
         gmsh::model::mesh::getElements(types, elements, nodes, entity_dim, entity);
-        for (const auto &of_type : elements)
-          result += groups.empty() ? of_type.size() : 0;
+        for (const auto &type_elements : elements)
+          result += groups.empty() ? type_elements.size() : 0;
       }
       return result;
     }
@@ -115,7 +115,7 @@ namespace sprag
       Answer ids;
       std::set<std::string> parts, sides;
       std::vector<std::string> mistakes;
-      Claims of_parts, of_sides;
+      Claims part_claims, side_claims;
       gmsh::vectorpair tags;
       gmsh::model::getPhysicalGroups(tags);
       for (const auto &[group_dim, tag] : tags)
@@ -125,12 +125,12 @@ namespace sprag
         if (group_dim == dim && groups.parts.count(name) != 0)
         {
           ids.materials[tag] = groups.parts.at(name);
-          of_parts.add(dim, tag, name);
+          part_claims.add(dim, tag, name);
         }
         else if (group_dim == dim - 1 && groups.sides.count(name) != 0)
         {
           ids.boundaries[tag] = groups.sides.at(name);
-          of_sides.add(dim - 1, tag, name);
+          side_claims.add(dim - 1, tag, name);
         }
         else if (group_dim == dim)
           mistakes.push_back(file + ": unknown physical " + part + " '" + name + "': " + part + "s are " + groups.part_names);
@@ -141,7 +141,7 @@ namespace sprag
         else if (group_dim == dim - 1)
           sides.insert(name);
       }
-      for (const auto &shared : { of_parts.shared, of_sides.shared })
+      for (const auto &shared : { part_claims.shared, side_claims.shared })
         for (const auto &[one, other] : shared)
           mistakes.push_back(file + ": the physical groups '" + one + "' and '" + other +
                              "' have elements in common; each belongs to one of them");
@@ -236,10 +236,10 @@ namespace sprag
       std::set<std::size_t> used;
       std::string elements, nodes;
       std::size_t n_elements = 0;
-      for (int of_entities = 1; of_entities <= dim; ++of_entities)
+      for (int entities_dim = 1; entities_dim <= dim; ++entities_dim)
       {
         gmsh::vectorpair entities;
-        gmsh::model::getEntities(entities, of_entities);
+        gmsh::model::getEntities(entities, entities_dim);
         for (const auto &[entity_dim, entity] : entities)
         {
           std::vector<int> groups, types;
@@ -286,14 +286,14 @@ namespace sprag
     }
 
     /// The folder of a file, which a script may include others from.
-    std::string folder_of(const std::string &file)
+    std::string parent_folder(const std::string &file)
     {
       return std::filesystem::absolute(file).parent_path().lexically_normal().string();
     }
 
     bool is_own(const std::string &file)
     {
-      return folder_of(file) == folder_of(mesh_script("lever.geo"));
+      return parent_folder(file) == parent_folder(mesh_script("lever.geo"));
     }
 
     /// A stranger's file has no rights but to be read.
@@ -303,7 +303,7 @@ namespace sprag
         return;
       std::vector<std::string> readable = { file };
       if (is_script(file))
-        readable.insert(readable.end(), { folder_of(file), folder_of(mesh_script("lever.geo")) });
+        readable.insert(readable.end(), { parent_folder(file), parent_folder(mesh_script("lever.geo")) });
       if (!confine(readable) && is_script(file) && !is_own(file))
         throw InputError(file + ": is a script, which could start programs or read other files, as this system lacks Landlock or "
                                 "seccomp to keep it from that: give a .msh, or --trust-scripts if you know what it does");
@@ -459,12 +459,12 @@ namespace sprag
 
     double script_patience()
     {
-      const char *const given = std::getenv(patience_variable);
-      return given == nullptr ? patience_of_scripts : std::atof(given);
+      const char *const environment_value = std::getenv(patience_variable);
+      return environment_value == nullptr ? script_timeout : std::atof(environment_value);
     }
 
     /// Runs a process of its own that opens the file and calls `work` with the model, and returns its answer.
-    Answer answer_of_gmsh(const std::string &file, const MeshConstants &constants, const std::function<Answer()> &work)
+    Answer call_gmsh(const std::string &file, const MeshConstants &constants, const std::function<Answer()> &work)
     {
       if (const auto reason = reason_unreadable(file, largest_mesh); !reason.empty())
         throw InputError(file + ": " + reason);
@@ -477,7 +477,7 @@ namespace sprag
         if (is_mesh)
           limit_growth(mesh_room + 200 * bytes);
         else if (!is_own(file) && std::isfinite(available))
-          limit_growth(static_cast<std::size_t>(share_of_scripts * available));
+          limit_growth(static_cast<std::size_t>(script_share * available));
         Answer answer;
         try
         {
@@ -537,7 +537,7 @@ namespace sprag
         read(file, answer.mesh, trial);
       return answer;
     };
-    const auto answer = answer_of_gmsh(file, constants, mesh_it);
+    const auto answer = call_gmsh(file, constants, mesh_it);
     read(file, answer.mesh, triangulation);
     rename_ids(answer, triangulation);
   }
@@ -547,6 +547,6 @@ namespace sprag
 
   bool has_volumes(const std::string &file)
   {
-    return !answer_of_gmsh(file, {}, [] { return Answer{ {}, {}, {}, open_model_has_volumes() ? "volumes" : "" }; }).mesh.empty();
+    return !call_gmsh(file, {}, [] { return Answer{ {}, {}, {}, open_model_has_volumes() ? "volumes" : "" }; }).mesh.empty();
   }
 } // namespace sprag

@@ -77,7 +77,7 @@ namespace sprag
     }
 
     /// Ends of the sides on the friction face, from the pivot on.
-    std::vector<std::array<Point<2>, 2>> sides_of_friction_face(const Triangulation<2> &triangulation)
+    std::vector<std::array<Point<2>, 2>> friction_face_sides(const Triangulation<2> &triangulation)
     {
       std::vector<std::array<Point<2>, 2>> sides;
       for (const auto &cell : triangulation.active_cell_iterators())
@@ -106,9 +106,9 @@ namespace sprag
     }
 
     /// The face must lie where the scene's geometry has it, or the cylinder would miss it.
-    std::vector<std::string> mistakes_of_face(const Device &device, const Triangulation<2> &triangulation)
+    std::vector<std::string> face_mistakes(const Device &device, const Triangulation<2> &triangulation)
     {
-      const auto sides     = sides_of_friction_face(triangulation);
+      const auto sides     = friction_face_sides(triangulation);
       const auto &geometry = device.geometry;
       const auto &file     = device.mesh.file;
       const double e       = geometry.interface_offset;
@@ -164,7 +164,7 @@ namespace sprag
       read_gmsh(mesh_script("lever.geo"), bar_constants(device), groups, triangulation);
     else
       read_gmsh(mesh_script("frame.geo"), frame_constants(device), groups, triangulation);
-    append(mistakes, mistakes_of_face(device, triangulation));
+    append(mistakes, face_mistakes(device, triangulation));
     if (!mistakes.empty())
       throw InputError(mistakes);
     if (device.cylinder.type != CylinderType::rigid)

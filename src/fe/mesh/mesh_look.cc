@@ -30,7 +30,7 @@ namespace sprag
     using Side = typename Triangulation<dim>::face_iterator;
 
     template <int dim>
-    std::string text_of(const Point<dim> &place)
+    std::string to_text(const Point<dim> &place)
     {
       std::string result = "(" + rounded_text(place[0]);
       for (unsigned int d = 1; d < dim; ++d)
@@ -38,7 +38,7 @@ namespace sprag
       return result + ") mm";
     }
 
-    std::string name_of(const MeshGroups &groups, const types::material_id id)
+    std::string group_name(const MeshGroups &groups, const types::material_id id)
     {
       for (const auto &[name, material] : groups.parts)
         if (material == id)
@@ -55,7 +55,7 @@ namespace sprag
     };
 
     template <int dim>
-    std::vector<Skin<dim>> skin_of(const Triangulation<dim> &triangulation)
+    std::vector<Skin<dim>> find_skin(const Triangulation<dim> &triangulation)
     {
       std::vector<Skin<dim>> result;
       for (const auto &cell : triangulation.active_cell_iterators())
@@ -80,7 +80,7 @@ namespace sprag
     };
 
     template <int dim>
-    std::vector<Corner<dim>> corners_of(const std::vector<Skin<dim>> &skin)
+    std::vector<Corner<dim>> skin_corners(const std::vector<Skin<dim>> &skin)
     {
       std::map<unsigned int, Corner<dim>> all;
       for (const auto &[side, cell] : skin)
@@ -112,8 +112,8 @@ namespace sprag
         for (unsigned int line = 0; line < GeometryInfo<dim>::lines_per_cell; ++line)
           shortest = std::min(shortest, cell->line(line)->diameter());
       const double near  = nearness * shortest;
-      const auto skin    = skin_of(triangulation);
-      const auto corners = corners_of(skin);
+      const auto skin    = find_skin(triangulation);
+      const auto corners = skin_corners(skin);
       std::map<unsigned int, std::string> loose; // by node
       for (const auto &[side, cell] : skin)
       {
@@ -124,8 +124,8 @@ namespace sprag
         for (; corner != corners.end() && corner->place[0] <= upper[0]; ++corner)
           if (box.point_inside(corner->place) && !has_corner<dim>(side, corner->index) &&
               GridTools::project_to_object(side, corner->place).distance(corner->place) < near)
-            loose.insert({ corner->index, text_of(corner->place) + ", where " + name_of(groups, corner->material) + " touches " +
-                                              name_of(groups, cell->material_id()) });
+            loose.insert({ corner->index, to_text(corner->place) + ", where " + group_name(groups, corner->material) +
+                                              " touches " + group_name(groups, cell->material_id()) });
       }
       if (!loose.empty())
         mistakes.push_back(std::to_string(loose.size()) +
@@ -144,7 +144,7 @@ namespace sprag
     };
 
     template <int dim>
-    std::vector<Part<dim>> parts_of(const Triangulation<dim> &triangulation)
+    std::vector<Part<dim>> find_parts(const Triangulation<dim> &triangulation)
     {
       std::vector<bool> seen(triangulation.n_active_cells(), false);
       std::vector<Part<dim>> result;
@@ -181,18 +181,18 @@ namespace sprag
     void look_for_floating_parts(const Triangulation<dim> &triangulation, const MeshGroups &groups,
                                  std::vector<std::string> &mistakes)
     {
-      for (const auto &part : parts_of(triangulation))
+      for (const auto &part : find_parts(triangulation))
       {
         const bool on_sensors = part.materials.count(material_id::plate) != 0;
-        const bool of_lever   = part.materials.count(material_id::lever) != 0;
+        const bool is_lever   = part.materials.count(material_id::lever) != 0;
         std::set<std::string> names;
         for (const auto id : part.materials)
-          names.insert(name_of(groups, id));
+          names.insert(group_name(groups, id));
         const std::string it =
-            "the part of " + boost::algorithm::join(names, ", ") + " with an element at " + text_of(part.first->center());
+            "the part of " + boost::algorithm::join(names, ", ") + " with an element at " + to_text(part.first->center());
         if (!part.is_held && !on_sensors)
           mistakes.push_back(it + " floats: no sides of elements join it to 'hub' or to what that holds");
-        else if (!of_lever && !on_sensors)
+        else if (!is_lever && !on_sensors)
           mistakes.push_back(it + " shares no side of an element with 'lever', only with 'hub'");
       }
     }
@@ -200,10 +200,10 @@ namespace sprag
     template <int dim>
     void look_for_reversed_face(const Triangulation<dim> &triangulation, std::vector<std::string> &mistakes)
     {
-      for (const auto &[side, cell] : skin_of(triangulation))
+      for (const auto &[side, cell] : find_skin(triangulation))
         if (side->boundary_id() == boundary_id::friction_face && !(cell->center()[1] > side->center()[1]))
         {
-          mistakes.push_back("at " + text_of(side->center()) +
+          mistakes.push_back("at " + to_text(side->center()) +
                              " the body lies on the cylinder's side of 'friction face', which comes from below; y runs from the "
                              "face into the lever");
           return;
@@ -225,7 +225,7 @@ namespace sprag
   double longest_face_side(const Triangulation<dim> &triangulation, const double first, const double last)
   {
     double longest = 0.;
-    for (const auto &[side, cell] : skin_of(triangulation))
+    for (const auto &[side, cell] : find_skin(triangulation))
       if (side->boundary_id() == boundary_id::friction_face)
         if (const auto [lower, upper] = side->bounding_box().get_boundary_points(); upper[0] > first && lower[0] < last)
           longest = std::max(longest, upper[0] - lower[0]);

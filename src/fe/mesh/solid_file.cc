@@ -24,7 +24,7 @@ namespace sprag
     using Messages  = std::vector<std::string>;
     using SolidSide = Triangulation<3>::active_face_iterator;
 
-    std::vector<SolidSide> sides_of_face(const Triangulation<3> &triangulation)
+    std::vector<SolidSide> face_sides(const Triangulation<3> &triangulation)
     {
       std::vector<SolidSide> result;
       for (const auto &cell : triangulation.active_cell_iterators())
@@ -123,7 +123,7 @@ namespace sprag
 
     void check_face(const Device &device, const Triangulation<3> &triangulation, Messages mistakes)
     {
-      const auto sides = sides_of_face(triangulation);
+      const auto sides = face_sides(triangulation);
       if (sides.empty())
         mistakes.push_back("no side of 'lever', 'plate' or 'layer' lies on the surface 'friction face'");
       else

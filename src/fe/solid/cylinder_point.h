@@ -37,7 +37,7 @@ namespace sprag
     const N from_middle = select(is_left, N(-along), along);
     const N into        = 1. / radius * (from_middle - (cylinder.half_length - radius));
     const auto inside   = value(into) > 0.;
-    const N last        = N{} + RigidCylinder::Shape::last_of_rounding;
+    const N last        = N{} + RigidCylinder::Shape::rounding_end;
     const N share       = select(inside, select(value(into) < value(last), into, last), N{});
     const N root        = square_root(N(1. - share * share));
     const N slope       = share / root;
@@ -92,8 +92,8 @@ namespace sprag
   /// The force on the lever, in the axes of the world, of a pressure and of tractions round and along the cylinder. They do the
   /// virtual work of gap and slips.
   template <class N, class A, class T>
-  SPRAG_PART Triple<N> force_of(const RigidCylinder::Shape &cylinder, const SeenPoint<N> &at, const Triple<A> &axis,
-                                const N &pressure, const T &traction)
+  SPRAG_PART Triple<N> point_force(const RigidCylinder::Shape &cylinder, const SeenPoint<N> &at, const Triple<A> &axis,
+                                   const N &pressure, const T &traction)
   {
     return pressure * at.normal - (cylinder.radius * traction[0] / at.radius) * at.round -
            (traction[1] - pressure * at.profile_slope) * axis;
@@ -104,8 +104,9 @@ namespace sprag
   SPRAG_PART Several<N, 7> generalised(const CylinderPose<N, A> &pose, const Triple<N> &point, const Triple<N> &from_centre,
                                        const Triple<N> &force)
   {
-    const auto of_lever = in_lever(pose, force);
-    Several<N, 7> result{ { of_lever.x, of_lever.y, of_lever.z, of_lever.y * point.x - of_lever.x * point.y, -force.x } };
+    const auto lever_force = in_lever(pose, force);
+    Several<N, 7> result{ { lever_force.x, lever_force.y, lever_force.z, lever_force.y * point.x - lever_force.x * point.y,
+                            -force.x } };
     for (int i = 0; i < 2; ++i)
       result[5 + i] = dot(force, pose.axes.axis) * dot(pose.turned[i].axis, from_centre) +
                       dot(force, pose.axes.right) * dot(pose.turned[i].right, from_centre) +
@@ -118,8 +119,8 @@ namespace sprag
   template <int n, int slopes>
   auto varied_pose(const RigidCylinder &cylinder, const RigidCylinder::Pose &pose, const double rate = 1.)
   {
-    using N       = Dual<double, n>;
-    const auto of = [&](const auto &tilt, const auto &skew, const auto &number)
+    using N                = Dual<double, n>;
+    const auto make_varied = [&](const auto &tilt, const auto &skew, const auto &number)
     {
       const auto turned = cylinder_pose(0., 0., tilt, skew);
       return CylinderPose<N, decltype(number(tilt))>{ variable<N>(pose.x, 4, rate),
@@ -130,19 +131,19 @@ namespace sprag
     };
     const double tilt = cylinder.slopes()[0] + pose.turned[0], skew = cylinder.slopes()[1] + pose.turned[1];
     if constexpr (slopes == 0)
-      return of(tilt, skew, [](const double a) { return a; });
+      return make_varied(tilt, skew, [](const double a) { return a; });
     else
     {
       using Slope = Dual<double, 2>;
-      return of(variable<Slope>(tilt, 0, rate), variable<Slope>(skew, 1, rate),
-                [](const Slope &a)
-                {
-                  N result;
-                  result.v    = a.v;
-                  result.d[5] = a.d[0];
-                  result.d[6] = a.d[1];
-                  return result;
-                });
+      return make_varied(variable<Slope>(tilt, 0, rate), variable<Slope>(skew, 1, rate),
+                         [](const Slope &a)
+                         {
+                           N result;
+                           result.v    = a.v;
+                           result.d[5] = a.d[0];
+                           result.d[6] = a.d[1];
+                           return result;
+                         });
     }
   }
 

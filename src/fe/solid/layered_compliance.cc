@@ -169,7 +169,7 @@ namespace sprag
     }
 
     /// The corners of the cells near a place, seen from there.
-    std::set<std::vector<long>> surroundings_of(const double xi, const double distance, const std::vector<SkinCell> &cells)
+    std::set<std::vector<long>> find_surroundings(const double xi, const double distance, const std::vector<SkinCell> &cells)
     {
       std::set<std::vector<long>> result;
       for (const auto &cell : cells)
@@ -190,33 +190,33 @@ namespace sprag
       : body(body_)
       , dofs(surface_dofs(body))
   {
-    find_tiles(surroundings_over_depth * body.skin());
+    find_blocks(surroundings_over_depth * body.skin());
     if (body.has_skin())
       find_basis(begin, end, spacing_over_depth * body.skin());
   }
 
-  void LayeredCompliance::find_tiles(const double surroundings)
+  void LayeredCompliance::find_blocks(const double surroundings)
   {
     const auto &nodes = body.friction_face().nodes;
     for (unsigned int i = 0; i < nodes.size(); ++i)
     {
       const double xi = nodes[i].position[0];
-      if (tiles.empty() || rounded(tiles.back().xi) != rounded(xi))
-        tiles.push_back({ xi, 3 * i, 3 * i, static_cast<unsigned int>(tiles.size()) });
-      tiles.back().end = 3 * (i + 1);
+      if (blocks.empty() || rounded(blocks.back().xi) != rounded(xi))
+        blocks.push_back({ xi, 3 * i, 3 * i, static_cast<unsigned int>(blocks.size()) });
+      blocks.back().end = 3 * (i + 1);
     }
 
     if (!body.has_skin())
       return;
     const auto cells = skin_cells(body);
     std::map<std::set<std::vector<long>>, std::vector<unsigned int>> alike;
-    for (unsigned int t = 0; t < tiles.size(); ++t)
-      alike[surroundings_of(tiles[t].xi, surroundings, cells)].push_back(t);
+    for (unsigned int t = 0; t < blocks.size(); ++t)
+      alike[find_surroundings(blocks[t].xi, surroundings, cells)].push_back(t);
     for (const auto &[around, some] : alike)
       for (const unsigned int t : some)
       {
-        tiles[t].like    = some[some.size() / 2];
-        tiles[t].n_alike = static_cast<unsigned int>(some.size());
+        blocks[t].like    = some[some.size() / 2];
+        blocks[t].n_alike = static_cast<unsigned int>(some.size());
       }
   }
 
@@ -227,7 +227,7 @@ namespace sprag
     const auto loads        = bond_loads(body, { begin - beyond * depth, end + beyond * depth, spacing, depth });
     const int n             = loads.size();
     const auto n_ports      = static_cast<unsigned int>(dofs.size());
-    FullMatrix<double> of_face(n_ports, n);
+    FullMatrix<double> face_response(n_ports, n);
     LAPACKFullMatrix<double> products(n);
     for (int first = 0; first < n; first += chunk)
     {
@@ -244,7 +244,7 @@ namespace sprag
       {
         const double *const response = &responses[static_cast<std::size_t>(j - first) * body.n_dofs()];
         for (unsigned int port = 0; port < n_ports; ++port)
-          of_face(port, j) = response[dofs[port]];
+          face_response(port, j) = response[dofs[port]];
         for (int i = 0; i < n; ++i)
           for (int k = loads.begin[i]; k < loads.begin[i + 1]; ++k)
             products(i, j) += loads.value[k - 1] * response[loads.row[k - 1] - 1];
@@ -260,7 +260,7 @@ namespace sprag
         lower(i, j) = products(i, j);
     for (unsigned int port = 0; port < n_ports; ++port)
       for (int j = 0; j < n; ++j)
-        transposed(j, port) = of_face(port, j);
+        transposed(j, port) = face_response(port, j);
     lower.set_property(LAPACKSupport::lower_triangular);
     lower.solve(transposed);
     basis.reinit(n_ports, n);
@@ -269,35 +269,35 @@ namespace sprag
         basis(port, j) = transposed(j, port);
   }
 
-  unsigned int LayeredCompliance::tile_of(const unsigned int port) const
+  unsigned int LayeredCompliance::port_block(const unsigned int port) const
   {
-    const auto after = std::upper_bound(tiles.begin(), tiles.end(), port,
-                                        [](const unsigned int value, const Tile &tile) { return value < tile.begin; });
-    return static_cast<unsigned int>(after - tiles.begin()) - 1;
+    const auto after = std::upper_bound(blocks.begin(), blocks.end(), port,
+                                        [](const unsigned int value, const Block &range) { return value < range.begin; });
+    return static_cast<unsigned int>(after - blocks.begin()) - 1;
   }
 
-  PortSelection LayeredCompliance::whole_tiles(const PortSelection &ports) const
+  PortSelection LayeredCompliance::whole_blocks(const PortSelection &ports) const
   {
     PortSelection result;
     for (const unsigned int port : ports)
       if (result.empty() || port > result.back())
-        for (unsigned int i = tiles[tile_of(port)].begin; i < tiles[tile_of(port)].end; ++i)
+        for (unsigned int i = blocks[port_block(port)].begin; i < blocks[port_block(port)].end; ++i)
           result.push_back(i);
     return result;
   }
 
-  LayeredCompliance::NearColumns LayeredCompliance::find_near_columns(const unsigned int tile) const
+  LayeredCompliance::NearColumns LayeredCompliance::find_near_columns(const unsigned int block_index) const
   {
     SparseColumns loads;
-    for (unsigned int port = tiles[tile].begin; port < tiles[tile].end; ++port)
+    for (unsigned int port = blocks[block_index].begin; port < blocks[block_index].end; ++port)
     {
       if (const int number = body.number_near(dofs[port]); number >= 0)
         loads.add(static_cast<unsigned int>(number), 1.);
       loads.end_column();
     }
-    const int n          = loads.size();
-    const auto responses = body.respond_near(loads);
-    const auto of_tile   = [&](const Tile &other)
+    const int n            = loads.size();
+    const auto responses   = body.respond_near(loads);
+    const auto near_matrix = [&](const Block &other)
     {
       FullMatrix<double> result(other.end - other.begin, n);
       for (unsigned int i = 0; i < result.m(); ++i)
@@ -306,55 +306,55 @@ namespace sprag
             result(i, j) = responses[j * static_cast<std::size_t>(body.n_near()) + number];
       return result;
     };
-    NearColumns result{ 0, { of_tile(tiles[tile]) } };
-    const double least  = body.has_skin() ? negligible * result.of_tiles.front().linfty_norm() : 0.;
+    NearColumns result{ 0, { near_matrix(blocks[block_index]) } };
+    const double least  = body.has_skin() ? negligible * result.block_matrices.front().linfty_norm() : 0.;
     const auto add_side = [&](const int step, const auto &add)
     {
-      for (int other = static_cast<int>(tile) + step; other >= 0 && other < static_cast<int>(tiles.size()); other += step)
+      for (int other = static_cast<int>(block_index) + step; other >= 0 && other < static_cast<int>(blocks.size()); other += step)
       {
-        auto matrix = of_tile(tiles[other]);
+        auto matrix = near_matrix(blocks[other]);
         if (body.has_skin() && matrix.linfty_norm() < least)
           break;
         add(std::move(matrix));
       }
     };
-    add_side(1, [&](auto matrix) { result.of_tiles.push_back(std::move(matrix)); });
+    add_side(1, [&](auto matrix) { result.block_matrices.push_back(std::move(matrix)); });
     std::vector<FullMatrix<double>> before;
     add_side(-1, [&](auto matrix) { before.push_back(std::move(matrix)); });
     result.first = -static_cast<int>(before.size());
-    result.of_tiles.insert(result.of_tiles.begin(), std::make_move_iterator(before.rbegin()),
-                           std::make_move_iterator(before.rend()));
+    result.block_matrices.insert(result.block_matrices.begin(), std::make_move_iterator(before.rbegin()),
+                                 std::make_move_iterator(before.rend()));
     return result;
   }
 
-  const LayeredCompliance::NearColumns &LayeredCompliance::near_columns(const unsigned int tile)
+  const LayeredCompliance::NearColumns &LayeredCompliance::near_columns(const unsigned int block_index)
   {
-    const auto found = known.find(tile);
-    return found != known.end() ? found->second : known.emplace(tile, find_near_columns(tile)).first->second;
+    const auto found = known.find(block_index);
+    return found != known.end() ? found->second : known.emplace(block_index, find_near_columns(block_index)).first->second;
   }
 
   /// Returns true if the columns of the like tile serve for a column's tile: the row then lies in the same place about both.
-  bool LayeredCompliance::is_like(const unsigned int row_tile, const unsigned int column_tile) const
+  bool LayeredCompliance::is_like(const unsigned int row_block, const unsigned int column_block) const
   {
-    const unsigned int like = tiles[column_tile].like;
-    const int other         = static_cast<int>(like) + static_cast<int>(row_tile) - static_cast<int>(column_tile);
-    return other >= 0 && other < static_cast<int>(tiles.size()) &&
-           rounded(tiles[other].xi - tiles[like].xi) == rounded(tiles[row_tile].xi - tiles[column_tile].xi);
+    const unsigned int like = blocks[column_block].like;
+    const int other         = static_cast<int>(like) + static_cast<int>(row_block) - static_cast<int>(column_block);
+    return other >= 0 && other < static_cast<int>(blocks.size()) &&
+           rounded(blocks[other].xi - blocks[like].xi) == rounded(blocks[row_block].xi - blocks[column_block].xi);
   }
 
   /// The tile whose columns stand for those of another at a row.
-  unsigned int LayeredCompliance::stand_in(const unsigned int row_tile, const unsigned int column_tile) const
+  unsigned int LayeredCompliance::stand_in(const unsigned int row_block, const unsigned int column_block) const
   {
-    return is_like(row_tile, column_tile) ? tiles[column_tile].like : column_tile;
+    return is_like(row_block, column_block) ? blocks[column_block].like : column_block;
   }
 
   /// Displacements of a tile by forces on another; none where they are negligible.
-  const FullMatrix<double> *LayeredCompliance::near_block(const unsigned int row_tile, const unsigned int column_tile)
+  const FullMatrix<double> *LayeredCompliance::near_block(const unsigned int row_block, const unsigned int column_block)
   {
-    const auto &columns    = near_columns(stand_in(row_tile, column_tile));
-    const int number       = static_cast<int>(row_tile) - static_cast<int>(column_tile) - columns.first;
-    const bool is_far_away = number < 0 || number >= static_cast<int>(columns.of_tiles.size());
-    return is_far_away ? nullptr : &columns.of_tiles[number];
+    const auto &columns    = near_columns(stand_in(row_block, column_block));
+    const int number       = static_cast<int>(row_block) - static_cast<int>(column_block) - columns.first;
+    const bool is_far_away = number < 0 || number >= static_cast<int>(columns.block_matrices.size());
+    return is_far_away ? nullptr : &columns.block_matrices[number];
   }
 
   /// Displacement of a port by forces on each, of the skin alone.
@@ -374,10 +374,10 @@ namespace sprag
     return found->second;
   }
 
-  FullMatrix<double> LayeredCompliance::block(const unsigned int row_tile, const unsigned int column_tile)
+  FullMatrix<double> LayeredCompliance::block(const unsigned int row_block, const unsigned int column_block)
   {
-    const auto &rows    = tiles[row_tile];
-    const auto &columns = tiles[column_tile];
+    const auto &rows    = blocks[row_block];
+    const auto &columns = blocks[column_block];
     const int n_rows = static_cast<int>(rows.end - rows.begin), n_columns = static_cast<int>(columns.end - columns.begin),
               n = static_cast<int>(basis.n());
     FullMatrix<double> result(rows.end - rows.begin, columns.end - columns.begin);
@@ -389,8 +389,9 @@ namespace sprag
     }
     // It is symmetric: where columns of another tile do not serve, those for the row may. Of two that must be solved for, the
     // kind that is rarer is met again.
-    const bool by_column = is_like(row_tile, column_tile) || (!is_like(column_tile, row_tile) && columns.n_alike <= rows.n_alike);
-    const auto *const near = by_column ? near_block(row_tile, column_tile) : near_block(column_tile, row_tile);
+    const bool by_column =
+        is_like(row_block, column_block) || (!is_like(column_block, row_block) && columns.n_alike <= rows.n_alike);
+    const auto *const near = by_column ? near_block(row_block, column_block) : near_block(column_block, row_block);
     if (near != nullptr && by_column)
       result.add(1., *near);
     else if (near != nullptr)
@@ -398,37 +399,37 @@ namespace sprag
     return result;
   }
 
-  std::vector<unsigned int> LayeredCompliance::tiles_of(const PortSelection &whole_tiles) const
+  std::vector<unsigned int> LayeredCompliance::block_numbers(const PortSelection &whole_blocks) const
   {
     std::vector<unsigned int> result;
-    for (unsigned int place = 0; place < whole_tiles.size(); place += tiles[result.back()].end - tiles[result.back()].begin)
-      result.push_back(tile_of(whole_tiles[place]));
+    for (unsigned int place = 0; place < whole_blocks.size(); place += blocks[result.back()].end - blocks[result.back()].begin)
+      result.push_back(port_block(whole_blocks[place]));
     return result;
   }
 
-  std::shared_ptr<const FullMatrix<double>> LayeredCompliance::among(const PortSelection &whole_tiles)
+  std::shared_ptr<const FullMatrix<double>> LayeredCompliance::among(const PortSelection &whole_blocks)
   {
-    const auto n = static_cast<unsigned int>(whole_tiles.size());
+    const auto n = static_cast<unsigned int>(whole_blocks.size());
     if (spare_matrix.use_count() != 1)
       spare_matrix = std::make_shared<FullMatrix<double>>();
     auto &result = *spare_matrix;
     result.TableBase<2, double>::reinit({ n, n }, true); // all of it is set below
     // Most of it was found last time, in one piece.
     const auto first =
-        std::find_if(whole_tiles.begin(), whole_tiles.end(),
+        std::find_if(whole_blocks.begin(), whole_blocks.end(),
                      [&](const unsigned int port) { return std::binary_search(last_ports.begin(), last_ports.end(), port); });
-    const auto begin  = static_cast<unsigned int>(first - whole_tiles.begin());
-    const auto before = begin < n ? place_of(*first, last_ports) : 0;
+    const auto begin  = static_cast<unsigned int>(first - whole_blocks.begin());
+    const auto before = begin < n ? find_index(*first, last_ports) : 0;
     unsigned int end  = begin;
-    while (end < n && before + end - begin < last_ports.size() && last_ports[before + end - begin] == whole_tiles[end])
+    while (end < n && before + end - begin < last_ports.size() && last_ports[before + end - begin] == whole_blocks[end])
       ++end;
     for (unsigned int row = begin; row < end; ++row)
       std::copy_n(&(*last_matrix)(before + row - begin, before), end - begin, &result(row, begin));
 
-    const auto all      = tiles_of(whole_tiles);
+    const auto all      = block_numbers(whole_blocks);
     const auto is_known = [&](const unsigned int place) { return begin <= place && place < end; };
-    for (unsigned int i = 0, row = 0; i < all.size(); row += tiles[all[i]].end - tiles[all[i]].begin, ++i)
-      for (unsigned int j = 0, column = 0; j <= i; column += tiles[all[j]].end - tiles[all[j]].begin, ++j)
+    for (unsigned int i = 0, row = 0; i < all.size(); row += blocks[all[i]].end - blocks[all[i]].begin, ++i)
+      for (unsigned int j = 0, column = 0; j <= i; column += blocks[all[j]].end - blocks[all[j]].begin, ++j)
         if (!is_known(row) || !is_known(column))
         {
           const auto fresh = block(all[i], all[j]);
@@ -436,7 +437,7 @@ namespace sprag
             for (unsigned int b = 0; b < fresh.n() && column + b <= row + a; ++b)
               result(row + a, column + b) = result(column + b, row + a) = fresh(a, b);
         }
-    last_ports = whole_tiles;
+    last_ports = whole_blocks;
     std::swap(last_matrix, spare_matrix);
     return last_matrix;
   }
@@ -459,15 +460,15 @@ namespace sprag
   /// Displacement of a port by the loads near it. If the columns of other tiles do not serve, a row costs less than all columns.
   double LayeredCompliance::near_displacement(const unsigned int port, const PortLoads &forces)
   {
-    const unsigned int to = tile_of(port);
+    const unsigned int to = port_block(port);
     double result         = 0.;
     for (unsigned int a = 0; a < forces.ports.size(); ++a)
     {
-      const unsigned int by = forces.ports[a], from = tile_of(by);
+      const unsigned int by = forces.ports[a], from = port_block(by);
       if (!is_like(to, from))
         result += near_row(port)[by] * forces.values[a];
       else if (const auto *const block = near_block(to, from))
-        result += (*block)(port - tiles[to].begin, by - tiles[from].begin) * forces.values[a];
+        result += (*block)(port - blocks[to].begin, by - blocks[from].begin) * forces.values[a];
     }
     return result;
   }

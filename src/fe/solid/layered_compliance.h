@@ -28,10 +28,10 @@ namespace sprag
 
     /// The columns of nodes that hold the given ports, as increasing ports. A port is a number among the face's displacements,
     /// sorted by the columns, see surface_dofs().
-    PortSelection whole_tiles(const PortSelection &ports) const;
+    PortSelection whole_blocks(const PortSelection &ports) const;
 
     /// The compliance between some ports, which make up whole columns.
-    std::shared_ptr<const dealii::FullMatrix<double>> among(const PortSelection &whole_tiles);
+    std::shared_ptr<const dealii::FullMatrix<double>> among(const PortSelection &whole_blocks);
 
     /// Displacements of some ports by forces on others, those of the skin left out where they are further away than it reaches
     /// [mm].
@@ -44,7 +44,7 @@ namespace sprag
 
   private:
     /// Nodes of the face with the same xi.
-    struct Tile
+    struct Block
     {
       double xi;
       unsigned int begin;       ///< its first port
@@ -57,25 +57,25 @@ namespace sprag
     struct NearColumns
     {
       int first; ///< over the number of the tile itself
-      std::vector<dealii::FullMatrix<double>> of_tiles;
+      std::vector<dealii::FullMatrix<double>> block_matrices;
     };
 
-    void find_tiles(double surroundings);
+    void find_blocks(double surroundings);
     void find_basis(double begin, double end, double spacing);
-    bool is_like(unsigned int row_tile, unsigned int column_tile) const;
-    unsigned int stand_in(unsigned int row_tile, unsigned int column_tile) const;
+    bool is_like(unsigned int row_block, unsigned int column_block) const;
+    unsigned int stand_in(unsigned int row_block, unsigned int column_block) const;
     const std::vector<double> &near_row(unsigned int port);
     double near_displacement(unsigned int port, const PortLoads &forces);
-    const dealii::FullMatrix<double> *near_block(unsigned int row_tile, unsigned int column_tile);
-    dealii::FullMatrix<double> block(unsigned int row_tile, unsigned int column_tile);
-    const NearColumns &near_columns(unsigned int tile);
-    NearColumns find_near_columns(unsigned int tile) const;
-    unsigned int tile_of(unsigned int port) const;
-    std::vector<unsigned int> tiles_of(const PortSelection &whole_tiles) const;
+    const dealii::FullMatrix<double> *near_block(unsigned int row_block, unsigned int column_block);
+    dealii::FullMatrix<double> block(unsigned int row_block, unsigned int column_block);
+    const NearColumns &near_columns(unsigned int block_index);
+    NearColumns find_near_columns(unsigned int block_index) const;
+    unsigned int port_block(unsigned int port) const;
+    std::vector<unsigned int> block_numbers(const PortSelection &whole_blocks) const;
 
     const SolidBody &body;
     const std::vector<unsigned int> dofs; ///< of the ports
-    std::vector<Tile> tiles;
+    std::vector<Block> blocks;
     std::map<unsigned int, NearColumns> known; ///< by the tile
     std::map<unsigned int, std::vector<double>> known_rows;
     dealii::FullMatrix<double> basis; ///< Z, a row a port

@@ -56,11 +56,11 @@ namespace sprag
     Triple<A> axis, right, upward;
 
     /// The same with a function of each number.
-    template <class Of>
-    SPRAG_PART auto each(const Of &of) const
+    template <class Map>
+    SPRAG_PART auto each(const Map &map) const
     {
-      const auto of_axis = [&](const Triple<A> &a) { return Triple<decltype(of(a.x))>{ of(a.x), of(a.y), of(a.z) }; };
-      return CylinderAxes<decltype(of(axis.x))>{ of_axis(axis), of_axis(right), of_axis(upward) };
+      const auto map_triple = [&](const Triple<A> &a) { return Triple<decltype(map(a.x))>{ map(a.x), map(a.y), map(a.z) }; };
+      return CylinderAxes<decltype(map(axis.x))>{ map_triple(axis), map_triple(right), map_triple(upward) };
     }
   };
 
@@ -99,13 +99,13 @@ namespace sprag
   template <class N, class A>
   SPRAG_PART auto in_lanes(const CylinderPose<N, A> &pose)
   {
-    const auto of = [](const A &a) { return in_lanes(a); };
-    return CylinderPose<decltype(in_lanes(pose.x)), decltype(of(pose.axes.axis.x))>{ in_lanes(pose.x),
-                                                                                     in_lanes(pose.cosine),
-                                                                                     in_lanes(pose.sine),
-                                                                                     pose.axes.each(of),
-                                                                                     { pose.turned[0].each(of),
-                                                                                       pose.turned[1].each(of) } };
+    const auto widen = [](const A &a) { return in_lanes(a); };
+    return CylinderPose<decltype(in_lanes(pose.x)), decltype(widen(pose.axes.axis.x))>{ in_lanes(pose.x),
+                                                                                        in_lanes(pose.cosine),
+                                                                                        in_lanes(pose.sine),
+                                                                                        pose.axes.each(widen),
+                                                                                        { pose.turned[0].each(widen),
+                                                                                          pose.turned[1].each(widen) } };
   }
 
   /// The damper's cylinder as a rigid body of finite length: its axis may lie out of true, by slopes towards the lever (tilt) and
@@ -137,7 +137,7 @@ namespace sprag
       double crown;                        ///< curvature of the barrel [1/mm]
 
       /// Share of the rounding's depth beyond which the end is a wall.
-      static constexpr double last_of_rounding = 0.999;
+      static constexpr double rounding_end = 0.999;
 
       /// Bound of the slope of barrel and rounding within some distance from the middle [mm].
       double largest_slope(double distance) const;
@@ -145,7 +145,7 @@ namespace sprag
 
     const Shape &shape() const
     {
-      return of;
+      return outline;
     }
 
     /// Returns the slopes of the axis in the scene.
@@ -180,7 +180,7 @@ namespace sprag
     dealii::Point<3> on_surface(double along, double angle) const;
 
   private:
-    const Shape of;
+    const Shape outline;
     const AxisSlopes at_rest;
     const bool is_free;
     const CylinderAxes<double> axes_at_rest;

@@ -70,16 +70,16 @@ namespace sprag
     /// Adds the stiffness of a connector to that of its body.
     void add(const Connector &connector, MatrixEntries &stiffness)
     {
-      for (const auto &[row, of_row] : connector.row)
-        for (const auto &[column, of_column] : connector.row)
+      for (const auto &[row, row_weight] : connector.row)
+        for (const auto &[column, column_weight] : connector.row)
           if (row <= column)
-            stiffness.add(row, column, connector.stiffness * of_row * of_column);
+            stiffness.add(row, column, connector.stiffness * row_weight * column_weight);
     }
   } // namespace
 
-  BodyFactors::BodyFactors(const ElasticBody<3> &of_body, const std::vector<int> &numbers, const SharedTask solve,
+  BodyFactors::BodyFactors(const ElasticBody<3> &body_, const std::vector<int> &numbers, const SharedTask solve,
                            const BodyCalls &calls)
-      : body(of_body)
+      : body(body_)
       , number_in_part(numbers)
       , task(solve)
       , call_others(calls)
@@ -155,7 +155,7 @@ namespace sprag
       return std::any_of(faces.begin(), faces.end(), [&](const auto &face) { return face->at_boundary() && is_back(face); });
     }
 
-    SolidProperties properties_of(const Device &device, const std::string &folder)
+    SolidProperties make_properties(const Device &device, const std::string &folder)
     {
       return { solid_properties(device), device.geometry.interface_offset, device.layer.thickness, skin_depth(device), folder };
     }
@@ -168,23 +168,24 @@ namespace sprag
     }
 
     /// Stiffness and areas of a half stand for the whole.
-    BodyProperties of_whole(BodyProperties properties, const bool is_half)
+    BodyProperties to_whole(BodyProperties properties, const bool is_half)
     {
       properties.width = is_half ? 2. : 1.;
       return properties;
     }
   } // namespace
 
-  SharedSolid::SharedSolid(const BodyCalls &calls, SolidProperties of_first, const Device *const device, const Mesh *const plane)
+  SharedSolid::SharedSolid(const BodyCalls &calls, SolidProperties first_data, const Device *const device,
+                           const Mesh *const plane)
       : call_others(calls)
-      , given(shared(calls, std::move(of_first)))
+      , solid(shared(calls, std::move(first_data)))
       , mesh(calls.ranks, SolidMesh::none, false, SolidMesh::Settings::partition_zorder)
       , half(device != nullptr ? make_solid_mesh(*device, *plane, mesh) : receive_solid_mesh(mesh))
   {
   }
 
   SolidBody::SolidBody(const Device &device, const Mesh &plane, const std::string &folder)
-      : SolidBody(BodyCalls(), properties_of(device, folder), &device, &plane)
+      : SolidBody(BodyCalls(), make_properties(device, folder), &device, &plane)
   {
     use_connectors(find_connectors(*this, device, half));
     call_others(SharedTask::factorise);
@@ -196,12 +197,12 @@ namespace sprag
   {
   }
 
-  SolidBody::SolidBody(const BodyCalls &calls, SolidProperties of_first, const Device *const device, const Mesh *const plane)
-      : SharedSolid(calls, std::move(of_first), device, plane)
-      , ElasticBody<3>(mesh, of_whole(given.body, half))
-      , depth_of_skin(given.skin)
+  SolidBody::SolidBody(const BodyCalls &calls, SolidProperties first_data, const Device *const device, const Mesh *const plane)
+      : SharedSolid(calls, std::move(first_data), device, plane)
+      , ElasticBody<3>(mesh, to_whole(solid.body, half))
+      , skin_thickness(solid.skin)
       , factors(*this, all, SharedTask::solve_whole, call_others)
-      , factors_of_skin(*this, number_in_skin, SharedTask::solve_near, call_others)
+      , skin_factors(*this, number_in_skin, SharedTask::solve_near, call_others)
   {
     find_ends();
     find_skin();
@@ -210,9 +211,9 @@ namespace sprag
   /// Factors of the whole come first: nothing else takes memory then.
   void SolidBody::factorise()
   {
-    factors.factorise(connectors(), given.folder);
+    factors.factorise(connectors(), solid.folder);
     if (has_skin())
-      factors_of_skin.factorise({}, {});
+      skin_factors.factorise({}, {});
   }
 
   /// Mesh and factors are given back by all ranks together.
@@ -239,9 +240,9 @@ namespace sprag
     constexpr double least = 1e-3;
     while (!number_skin())
     {
-      if (depth_of_skin < given.layer + least)
+      if (skin_thickness < solid.layer + least)
         return number_in_skin.clear();
-      depth_of_skin = given.layer + 0.5 * (depth_of_skin - given.layer);
+      skin_thickness = solid.layer + 0.5 * (skin_thickness - solid.layer);
     }
   }
 
@@ -274,8 +275,8 @@ namespace sprag
   bool SolidBody::is_skin(const DoFHandler<3>::active_cell_iterator &cell) const
   {
     const auto centre = cell->center();
-    return cell->material_id() != material_id::hub && centre[1] > given.interface_offset &&
-           centre[1] < given.interface_offset + depth_of_skin && centre[0] > face_begin && centre[0] < face_end;
+    return cell->material_id() != material_id::hub && centre[1] > solid.interface_offset &&
+           centre[1] < solid.interface_offset + skin_thickness && centre[0] > face_begin && centre[0] < face_end;
   }
 
   int SolidBody::number_near(const unsigned int dof) const
@@ -287,7 +288,7 @@ namespace sprag
 
   unsigned int SolidBody::n_near() const
   {
-    return has_skin() ? factors_of_skin.size() : n_dofs();
+    return has_skin() ? skin_factors.size() : n_dofs();
   }
 
   void SolidBody::respond(std::vector<double> &loads) const
@@ -302,7 +303,7 @@ namespace sprag
 
   std::vector<double> SolidBody::respond_near(const SparseColumns &loads) const
   {
-    return has_skin() ? factors_of_skin.solve(loads) : respond(loads);
+    return has_skin() ? skin_factors.solve(loads) : respond(loads);
   }
 
   void SolidBody::release_factors()
@@ -314,7 +315,7 @@ namespace sprag
   void SolidBody::release()
   {
     factors.release();
-    factors_of_skin.release();
+    skin_factors.release();
   }
 
   void SolidBody::take_part(const SharedTask task)
@@ -324,7 +325,7 @@ namespace sprag
     case SharedTask::solve_whole:
       return factors.take_part();
     case SharedTask::solve_near:
-      return factors_of_skin.take_part();
+      return skin_factors.take_part();
     case SharedTask::factorise:
       return factorise();
     default:

@@ -82,10 +82,10 @@ namespace sprag
   struct SharedSolid
   {
     /// The first rank builds from the scene's plane mesh, see make_solid_mesh(), the others without a scene help.
-    SharedSolid(const BodyCalls &calls, SolidProperties of_first, const Device *device, const Mesh *plane);
+    SharedSolid(const BodyCalls &calls, SolidProperties first_data, const Device *device, const Mesh *plane);
 
     const BodyCalls call_others;
-    const SolidProperties given;
+    const SolidProperties solid;
     SolidMesh mesh;
     bool half; ///< whether it is a half, which is the same on both sides of the middle
   };
@@ -116,7 +116,7 @@ namespace sprag
     /// resultant, or less where there is too little behind it.
     double skin() const
     {
-      return depth_of_skin;
+      return skin_thickness;
     }
 
     /// Returns whether a cell is of the skin: the friction layer and a strip of what is behind it.
@@ -157,24 +157,24 @@ namespace sprag
     }
 
   private:
-    SolidBody(const BodyCalls &calls, SolidProperties of_first, const Device *device, const Mesh *plane);
+    SolidBody(const BodyCalls &calls, SolidProperties first_data, const Device *device, const Mesh *plane);
     void factorise();
     void release();
     void find_ends();
     void find_skin();
     bool number_skin();
 
-    double depth_of_skin;   ///< [mm]
+    double skin_thickness;  ///< [mm]
     double face_begin = 0.; ///< along xi [mm]
     double face_end   = 0.;
     std::vector<int> number_in_skin;
     const std::vector<int> all; ///< no numbers
     BodyFactors factors;
-    BodyFactors factors_of_skin;
+    BodyFactors skin_factors;
   };
 
   /// Returns the answer by the factors of a body, which must outlive it.
-  inline Response response_of(const SolidBody &body)
+  inline Response make_response(const SolidBody &body)
   {
     return [&body](std::vector<double> columns)
     {

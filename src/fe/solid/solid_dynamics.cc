@@ -25,7 +25,7 @@ namespace sprag
 
   namespace
   {
-    std::vector<const FaceNode<3> *> nodes_of_edge(const FrictionFace<3> &face)
+    std::vector<const FaceNode<3> *> edge_nodes(const FrictionFace<3> &face)
     {
       const auto is_farther = [](const auto &a, const auto &b) { return a.position[2] < b.position[2]; };
       const double edge     = std::max_element(face.nodes.begin(), face.nodes.end(), is_farther)->position[2];
@@ -57,7 +57,7 @@ namespace sprag
     void follow_edge(const FrictionFace<3> &face, const std::vector<const LeverModes *> &structures, const Eigenmode &mode,
                      ModeShape &shape)
     {
-      const auto nodes = nodes_of_edge(face);
+      const auto nodes = edge_nodes(face);
       shape.xi.clear();
       for (const auto *node : nodes)
         shape.xi.push_back(node->position[0]);
@@ -94,7 +94,7 @@ namespace sprag
 
     /// Returns the part whose patches reach into `begin` ... `end` along xi [mm]. The face's nodes increase along xi. Throws
     /// AnalysisError where there is no such patch.
-    FaceWindow window_of(const FrictionFace<3> &face, const double begin, const double end)
+    FaceWindow make_window(const FrictionFace<3> &face, const double begin, const double end)
     {
       std::vector<std::size_t> chosen;
       auto first = static_cast<unsigned int>(face.nodes.size()), last = 0u;
@@ -136,7 +136,7 @@ namespace sprag
       return result;
     }
 
-    PortSelection ports_of(const FaceWindow &window)
+    PortSelection window_ports(const FaceWindow &window)
     {
       PortSelection result(3 * window.face.nodes.size());
       for (unsigned int i = 0; i < result.size(); ++i)
@@ -145,17 +145,17 @@ namespace sprag
     }
 
     /// Layout of the ports of the window, the sensors, the cylinder's axis, the hub and its momentum.
-    PortLayout layout_of(const FaceWindow &window, const SolidInTime &lever, const Device &device)
+    PortLayout make_layout(const FaceWindow &window, const SolidInTime &lever, const Device &device)
     {
       PortLayout result{ static_cast<unsigned int>(3 * window.face.nodes.size()), true, lever.sensors->number() };
       result.slopes = lever.body->is_half() || !device.cylinder.has_free_axis() ? 0 : 2;
       return result;
     }
 
-    std::unique_ptr<SurfaceContact> contact_of(const Device &device, const SolidInTime &lever, const FrictionFace<3> &face,
-                                               const PortLayout &ports, const unsigned int index)
+    std::unique_ptr<SurfaceContact> make_contact(const Device &device, const SolidInTime &lever, const FrictionFace<3> &face,
+                                                 const PortLayout &ports, const unsigned int index)
     {
-      const Device own = device_of_lever(device, index);
+      const Device own = lever_device(device, index);
       return std::make_unique<SurfaceContact>(
           face, SurfaceContactProperties{ RigidCylinder(own.geometry, own.cylinder),
                                           [geometry = own.geometry](const double x, const double theta)
@@ -165,7 +165,7 @@ namespace sprag
                                           own.friction, device.layer.thickness });
     }
 
-    LeverFrame frame_of(const Device &device, const SolidInTime &lever, const PortLayout &ports)
+    LeverFrame make_frame(const Device &device, const SolidInTime &lever, const PortLayout &ports)
     {
       LeverFrame result       = lever_frame(device, ports, lever.modes.total_mass);
       result.sensor_stiffness = lever.sensors->stiffness();
@@ -178,13 +178,13 @@ namespace sprag
     {
       MeshedDynamics result;
       static_cast<MassSums &>(result) = lever.modes;
-      result.n_coordinates            = number_of_levers(device) * n_modes + (device.support.type == SupportType::sprung ? 1 : 0);
+      result.n_coordinates            = count_levers(device) * n_modes + (device.support.type == SupportType::sprung ? 1 : 0);
       result.penalties                = penalties_in_time(device, lever.body->friction_face());
       return result;
     }
   } // namespace
 
-  std::vector<const LeverModes *> modes_of_structures(const SolidInTime &lever, const unsigned int levers)
+  std::vector<const LeverModes *> structure_modes(const SolidInTime &lever, const unsigned int levers)
   {
     if (levers == 1)
       return { &lever.modes };
@@ -199,9 +199,12 @@ namespace sprag
     constexpr double spacing_over_depth = 0.5; // ringing adds up what the compliance leaves out
     const auto [first, last]            = swept_contact(device);
     result.compliance = std::make_unique<LayeredCompliance>(*result.body, first - room, last + room, spacing_over_depth);
-    result.sensors    = std::make_unique<const SensorForces>(*result.body, response_of(*result.body));
-    const auto modes  = [&](const Device &of)
-    { return lever_modes(*result.body, response_of(*result.body), inertia_of(of), of.spring.stiffness, of.condensed.modes); };
+    result.sensors    = std::make_unique<const SensorForces>(*result.body, make_response(*result.body));
+    const auto modes  = [&](const Device &single)
+    {
+      return lever_modes(*result.body, make_response(*result.body), lever_inertia(single), single.spring.stiffness,
+                         single.condensed.modes);
+    };
     result.modes = modes(device);
     if (swings_otherwise(device))
       result.swinging = modes(swinging_device(device));
@@ -211,25 +214,26 @@ namespace sprag
   MeshedDynamics make_solid_dynamics(const Device &device, const SolidInTime &lever, const std::array<double, 2> &reach,
                                      const double relaxation, const unsigned int n_modes)
   {
-    const auto window     = std::make_shared<const FaceWindow>(window_of(lever.body->friction_face(), reach[0], reach[1]));
+    const auto window     = std::make_shared<const FaceWindow>(make_window(lever.body->friction_face(), reach[0], reach[1]));
     const auto &face      = window->face;
-    const auto levers     = number_of_levers(device);
-    const auto structures = modes_of_structures(lever, levers);
+    const auto levers     = count_levers(device);
+    const auto structures = structure_modes(lever, levers);
     const auto structure  = [&](const unsigned int part)
     {
-      const auto basis = basis_on(layout_of(*window, lever, device), *structures[part], face_dofs(face),
-                                  *lever.compliance->among(ports_of(*window)), *lever.sensors, 3 * window->first_node,
+      const auto basis = basis_on(make_layout(*window, lever, device), *structures[part], face_dofs(face),
+                                  *lever.compliance->among(window_ports(*window)), *lever.sensors, 3 * window->first_node,
                                   slope_compliances(device.cylinder), device.spring.stiffness);
       return std::make_unique<ModalStructure>(
-          modal_data(truncated(basis, n_modes), constants_of(device, relaxation, basis.total_mass)));
+          modal_data(truncated(basis, n_modes), make_lever_dynamics(device, relaxation, basis.total_mass)));
     };
     const auto displacement = [&lever, structures, dofs = face_dofs(face)](const unsigned int part, const Motion &motion)
-    { return condensed_displacement(*lever.body, *structures[part], dofs, response_of(*lever.body), motion); };
+    { return condensed_displacement(*lever.body, *structures[part], dofs, make_response(*lever.body), motion); };
     const auto assemble = [&](auto all)
     {
       const PortLayout ports = all->ports();
-      const auto contact = [&](const unsigned int index) { return contact_of(device, lever, face, ports.of_one_lever(), index); };
-      return assemble_lever(std::move(all), frame_of(device, lever, ports), contact,
+      const auto contact     = [&](const unsigned int index)
+      { return make_contact(device, lever, face, ports.single_lever(), index); };
+      return assemble_lever(std::move(all), make_frame(device, lever, ports), contact,
                             static_cast<unsigned int>(face.points.size()));
     };
     MeshedDynamics result = facts(device, lever, n_modes);
@@ -242,6 +246,6 @@ namespace sprag
 
   FrictionFace<3> reached_face(const std::array<double, 2> &reach, const SolidBody &body)
   {
-    return window_of(body.friction_face(), reach[0], reach[1]).face;
+    return make_window(body.friction_face(), reach[0], reach[1]).face;
   }
 } // namespace sprag

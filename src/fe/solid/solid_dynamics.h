@@ -27,7 +27,7 @@ namespace sprag
 
   /// Returns the modes of each structure that such levers make: of a pair those of the motions in which the levers mirror each
   /// other, and of those in which the second does the opposite.
-  std::vector<const LeverModes *> modes_of_structures(const SolidInTime &lever, unsigned int levers);
+  std::vector<const LeverModes *> structure_modes(const SolidInTime &lever, unsigned int levers);
 
   /// Makes body, compliance and the scene's number of modes from the plane mesh. Throws AnalysisError if a factorisation fails.
   SolidInTime make_solid_in_time(const Device &device, const Mesh &plane);

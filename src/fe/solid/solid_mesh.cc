@@ -31,7 +31,7 @@ namespace sprag
     using Description = std::tuple<std::vector<Point<3>>, std::vector<CellData<3>>, std::vector<CellData<2>>>;
 
     /// Corners of the side of a plane cell, in increasing order.
-    std::pair<unsigned int, unsigned int> corners_of(const unsigned int a, const unsigned int b)
+    std::pair<unsigned int, unsigned int> sorted_corners(const unsigned int a, const unsigned int b)
     {
       return std::minmax(a, b);
     }
@@ -83,23 +83,23 @@ namespace sprag
             }
       }
 
-      std::map<std::pair<unsigned int, unsigned int>, types::material_id> materials_of_sides() const
+      std::map<std::pair<unsigned int, unsigned int>, types::material_id> side_materials() const
       {
         std::map<std::pair<unsigned int, unsigned int>, types::material_id> result;
         for (const auto &cell : cells)
           for (const auto &[a, b] : { std::pair(0, 1), std::pair(0, 2), std::pair(1, 3), std::pair(2, 3) })
-            result[corners_of(cell.vertices[a], cell.vertices[b])] = cell.material_id;
+            result[sorted_corners(cell.vertices[a], cell.vertices[b])] = cell.material_id;
         return result;
       }
 
       void add_sides(Description &result) const
       {
-        const auto materials = materials_of_sides();
+        const auto materials = side_materials();
         for (const auto &line : lines)
           for (unsigned int layer = 0; layer < n_layers(); ++layer)
           {
             const auto [a, b] = std::pair(line.vertices[0], line.vertices[1]);
-            if (line.boundary_id != 0 && is_there(materials.at(corners_of(a, b)), layer))
+            if (line.boundary_id != 0 && is_there(materials.at(sorted_corners(a, b)), layer))
               add_side({ { vertex(a, layer), vertex(b, layer), vertex(a, layer + 1), vertex(b, layer + 1) } }, line.boundary_id,
                        result);
           }
@@ -128,7 +128,7 @@ namespace sprag
       const bool has_web                     = std::any_of(cells.begin(), cells.end(), is_web);
       const double web                       = device.frame.web;
       const auto planes                      = planes_across(device);
-      return Extrusion{ has_web ? with_sides_of(web, planes) : planes, web, vertices, cells, boundary.boundary_lines }();
+      return Extrusion{ has_web ? with_web_sides(web, planes) : planes, web, vertices, cells, boundary.boundary_lines }();
     }
 
     Description read(const Device &device)
@@ -168,9 +168,9 @@ namespace sprag
     }
 
     /// Makes the mesh of the first rank's description on all ranks. Returns whether it is a half.
-    bool create(Handed of_first, SolidMesh &mesh)
+    bool create(Handed first_data, SolidMesh &mesh)
     {
-      auto handed = broadcast(mesh.get_communicator(), std::move(of_first));
+      auto handed = broadcast(mesh.get_communicator(), std::move(first_data));
       if (!handed.mistakes.empty())
         throw InputError(handed.mistakes);
       auto &[vertices, cells, sides] = handed.description;

@@ -20,17 +20,17 @@ namespace sprag
     }
 
     /// Adds a cell's part of the upper triangle on those of its displacements that have numbers.
-    void add(const FullMatrix<double> &of_cell, const std::vector<int> &numbers, MatrixEntries &entries)
+    void add(const FullMatrix<double> &cell_matrix, const std::vector<int> &numbers, MatrixEntries &entries)
     {
       for (unsigned int i = 0; i < numbers.size(); ++i)
         for (unsigned int j = 0; j <= i && numbers[i] >= 0; ++j)
-          if (numbers[j] >= 0 && of_cell(i, j) != 0.)
-            entries.add(std::min(numbers[i], numbers[j]), std::max(numbers[i], numbers[j]), of_cell(i, j));
+          if (numbers[j] >= 0 && cell_matrix(i, j) != 0.)
+            entries.add(std::min(numbers[i], numbers[j]), std::max(numbers[i], numbers[j]), cell_matrix(i, j));
     }
 
     /// Returns the numbers of a cell's displacements, -1 also where they are held.
-    std::vector<int> numbers_of(const DoFHandler<3>::active_cell_iterator &cell, const ElasticBody<3> &body,
-                                const std::vector<int> &number_in_part)
+    std::vector<int> cell_numbers(const DoFHandler<3>::active_cell_iterator &cell, const ElasticBody<3> &body,
+                                  const std::vector<int> &number_in_part)
     {
       std::vector<types::global_dof_index> indices(cell->get_fe().n_dofs_per_cell());
       cell->get_dof_indices(indices);
@@ -48,7 +48,7 @@ namespace sprag
     for (const auto &cell : body.dofs().active_cell_iterators())
       if (cell->is_locally_owned() && cell->material_id() != material_id::hub)
       {
-        auto numbers = numbers_of(cell, body, number_in_part);
+        auto numbers = cell_numbers(cell, body, number_in_part);
         if (std::any_of(numbers.begin(), numbers.end(), [](const int number) { return number >= 0; }))
           cells.emplace_back(cell, std::move(numbers));
       }

@@ -14,22 +14,22 @@ namespace sprag
       , surface(surface_dofs(body))
       , stiffness(body)
       , elasticity(body.cell_mapping(), body.dofs().get_fe(), body.body_properties())
-      , of_cell(body.dofs().get_fe().n_dofs_per_cell())
+      , cell_displacement(body.dofs().get_fe().n_dofs_per_cell())
   {
     for (const auto &cell : body.dofs().active_cell_iterators())
       if (cell->material_id() != material_id::hub)
       {
-        std::vector<types::global_dof_index> dofs(of_cell.size());
+        std::vector<types::global_dof_index> dofs(cell_displacement.size());
         cell->get_dof_indices(dofs);
         cells.push_back({ cell, std::move(dofs), &stiffness(cell) });
       }
   }
 
-  const Vector<double> &FiniteStrain::of(const Cell &cell, const Vector<double> &displacement)
+  const Vector<double> &FiniteStrain::cell_values(const Cell &cell, const Vector<double> &displacement)
   {
     for (unsigned int i = 0; i < cell.dofs.size(); ++i)
-      of_cell[i] = displacement[cell.dofs[i]];
-    return of_cell;
+      cell_displacement[i] = displacement[cell.dofs[i]];
+    return cell_displacement;
   }
 
   void FiniteStrain::add(const PortLoads &on_face, std::vector<double> &loads) const
@@ -39,16 +39,16 @@ namespace sprag
         loads[dof] += on_face.values[i];
   }
 
-  Vector<double> FiniteStrain::unbalance(const Vector<double> &displacement, const PortLoads &on_face)
+  Vector<double> FiniteStrain::strain_residual(const Vector<double> &displacement, const PortLoads &on_face)
   {
     std::vector<double> loads(body.n_dofs(), 0.);
-    Vector<double> internal(of_cell.size()), of_stiffness(of_cell.size());
+    Vector<double> internal(cell_displacement.size()), stiffness_forces(cell_displacement.size());
     for (const auto &cell : cells)
     {
-      elasticity.reinit(cell.cell, of(cell, displacement));
+      elasticity.reinit(cell.cell, cell_values(cell, displacement));
       elasticity.find_forces(internal);
-      cell.stiffness->vmult(of_stiffness, of_cell);
-      internal -= of_stiffness;
+      cell.stiffness->vmult(stiffness_forces, cell_displacement);
+      internal -= stiffness_forces;
       for (unsigned int i = 0; i < cell.dofs.size(); ++i)
         if (!body.is_held(cell.dofs[i]))
           loads[cell.dofs[i]] += internal[i];
@@ -62,13 +62,13 @@ namespace sprag
     return result;
   }
 
-  Vector<double> FiniteStrain::correction(const Vector<double> &unbalance, const PortLoads &change) const
+  Vector<double> FiniteStrain::correction(const Vector<double> &strain_residual, const PortLoads &change) const
   {
     std::vector<double> loads(body.n_dofs(), 0.);
     add(change, loads);
     body.respond(loads);
     Vector<double> result(loads.begin(), loads.end());
-    return result += unbalance;
+    return result += strain_residual;
   }
 
   namespace
@@ -89,32 +89,32 @@ namespace sprag
   SolidStructure::SolidStructure(const SolidBody &body_, const double begin, const double end, const PortLayout &ports_,
                                  const PortSprings &springs_)
       : PortWindow(ports_, springs_,
-                   { { ports_.surface, [this](const PortSelection &some) { return compliance.whole_tiles(some); },
-                       [this](const PortSelection &tiles) { return compliance.among(tiles); } } })
+                   { { ports_.surface, [this](const PortSelection &some) { return compliance.whole_blocks(some); },
+                       [this](const PortSelection &blocks) { return compliance.among(blocks); } } })
       , body(body_)
       , surface(surface_dofs(body))
       , compliance(body, begin, end)
       , node_lines(lines_along(body.friction_face()))
-      , sensors(body, response_of(body))
+      , sensors(body, make_response(body))
   {
     if (body.body_properties().material != MaterialModel::linear)
       finite.emplace(body);
   }
 
   /// Index among the coordinates, at finite strain, of the first displacement of a lever's body.
-  unsigned int SolidStructure::first_of_body(const unsigned int lever) const
+  unsigned int SolidStructure::first_body_coordinate(const unsigned int lever) const
   {
     return PortWindow::n_coordinates() + lever * body.n_dofs();
   }
 
   unsigned int SolidStructure::n_coordinates() const
   {
-    return finite ? first_of_body(ports.levers) : PortWindow::n_coordinates();
+    return finite ? first_body_coordinate(ports.levers) : PortWindow::n_coordinates();
   }
 
-  Vector<double> SolidStructure::of_body(const Vector<double> &coordinates, const unsigned int lever) const
+  Vector<double> SolidStructure::lever_displacement(const Vector<double> &coordinates, const unsigned int lever) const
   {
-    const auto first = coordinates.begin() + first_of_body(lever);
+    const auto first = coordinates.begin() + first_body_coordinate(lever);
     return Vector<double>(first, first + body.n_dofs());
   }
 
@@ -124,26 +124,26 @@ namespace sprag
       return PortWindow::set_faces(forces, near, coordinates);
     for (unsigned int i = 0; i < ports.levers; ++i)
       for (unsigned int port = 0; port < ports.surface; ++port)
-        coordinates[ports.first(i) + port] = coordinates[first_of_body(i) + surface[port]];
+        coordinates[ports.first(i) + port] = coordinates[first_body_coordinate(i) + surface[port]];
   }
 
   Residual SolidStructure::residual(const Vector<double> &coordinates, const PortForces &forces, const PortSelection &near)
   {
     if (!finite)
       return PortWindow::residual(coordinates, forces, near);
-    Vector<double> of_faces(ports.size()), of_strains(n_coordinates());
+    Vector<double> face_displacements(ports.size()), strain_parts(n_coordinates());
     for (unsigned int i = 0; i < ports.levers; ++i)
     {
-      const auto displacement = of_body(coordinates, i);
-      const auto of_strain    = finite->unbalance(displacement, on_surface({ forces.ports, forces.values }, i));
-      std::copy(of_strain.begin(), of_strain.end(), of_strains.begin() + first_of_body(i));
+      const auto displacement = lever_displacement(coordinates, i);
+      const auto strain_part  = finite->strain_residual(displacement, on_surface({ forces.ports, forces.values }, i));
+      std::copy(strain_part.begin(), strain_part.end(), strain_parts.begin() + first_body_coordinate(i));
       for (unsigned int port = 0; port < ports.surface; ++port)
-        of_faces[ports.first(i) + port] = displacement[surface[port]] + of_strain[surface[port]];
+        face_displacements[ports.first(i) + port] = displacement[surface[port]] + strain_part[surface[port]];
     }
-    auto result = PortWindow::residual(coordinates, forces, near, &of_faces);
-    result.norm = std::hypot(result.norm, of_strains.l2_norm());
-    std::copy(result.values.begin(), result.values.end(), of_strains.begin());
-    result.values = std::move(of_strains);
+    auto result = PortWindow::residual(coordinates, forces, near, &face_displacements);
+    result.norm = std::hypot(result.norm, strain_parts.l2_norm());
+    std::copy(result.values.begin(), result.values.end(), strain_parts.begin());
+    result.values = std::move(strain_parts);
     return result;
   }
 
@@ -159,8 +159,8 @@ namespace sprag
     result.grow_or_shrink(n_coordinates());
     for (unsigned int i = 0; i < ports.levers; ++i)
     {
-      const auto of_strain = finite->correction(of_body(residual.values, i), on_surface(change, i));
-      std::copy(of_strain.begin(), of_strain.end(), result.begin() + first_of_body(i));
+      const auto strain_part = finite->correction(lever_displacement(residual.values, i), on_surface(change, i));
+      std::copy(strain_part.begin(), strain_part.end(), result.begin() + first_body_coordinate(i));
     }
     return result;
   }
@@ -168,8 +168,8 @@ namespace sprag
   void SolidStructure::tell_sensors(const unsigned int lever, const Vector<double> &coordinates, const PortLoads &forces,
                                     Row &row) const
   {
-    tell_sides(finite ? body.sensor_forces(of_body(coordinates, lever)) : sensors(on_surface(forces, lever)), body.is_half(),
-               row);
+    tell_sides(finite ? body.sensor_forces(lever_displacement(coordinates, lever)) : sensors(on_surface(forces, lever)),
+               body.is_half(), row);
   }
 
   const std::vector<unsigned int> &SolidStructure::line_at(const double zeta) const
@@ -184,7 +184,7 @@ namespace sprag
   PortLoads SolidStructure::interpolation(const std::vector<unsigned int> &line, const double xi) const
   {
     const auto &nodes    = body.friction_face().nodes;
-    const auto xi_of     = [&](const std::size_t i) { return nodes[line[i]].position[0]; };
+    const auto xi_at     = [&](const std::size_t i) { return nodes[line[i]].position[0]; };
     const auto is_before = [&](const unsigned int node, const double value) { return nodes[node].position[0] < value; };
     const auto after     = std::lower_bound(line.begin(), line.end(), xi, is_before) - line.begin();
     const auto first     = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - 1, 0, line.size() - 3));
@@ -194,7 +194,7 @@ namespace sprag
       double share = 1.;
       for (std::size_t j = first; j < first + 3; ++j)
         if (j != i)
-          share *= (xi - xi_of(j)) / (xi_of(i) - xi_of(j));
+          share *= (xi - xi_at(j)) / (xi_at(i) - xi_at(j));
       result.ports.push_back(3 * line[i] + 1);
       result.values[static_cast<unsigned int>(i - first)] = share;
     }
@@ -213,7 +213,7 @@ namespace sprag
         return compliance.displacements(some, acting);
       Vector<double> result(static_cast<unsigned int>(some.size()));
       for (unsigned int i = 0; i < result.size(); ++i)
-        result[i] = coordinates[first_of_body(lever) + surface[some[i]]];
+        result[i] = coordinates[first_body_coordinate(lever) + surface[some[i]]];
       return result;
     };
     const auto &line   = line_at(row.across[4]);
@@ -233,14 +233,14 @@ namespace sprag
     if (finite)
     {
       for (unsigned int i = 0; i < ports.levers; ++i)
-        result.push_back(of_body(coordinates, i));
+        result.push_back(lever_displacement(coordinates, i));
       return result;
     }
     std::vector<PortLoads> loads;
     for (unsigned int i = 0; i < ports.levers; ++i)
       loads.push_back(on_surface(forces, i));
-    const auto of_levers = responses(loads);
-    for (auto column = of_levers.begin(); column != of_levers.end(); column += body.n_dofs())
+    const auto lever_responses = responses(loads);
+    for (auto column = lever_responses.begin(); column != lever_responses.end(); column += body.n_dofs())
       result.emplace_back(column, column + body.n_dofs());
     return result;
   }
@@ -278,7 +278,7 @@ namespace sprag
     std::vector<PortLoads> loads;
     for (const auto &sample : samples)
       loads.push_back(sample.first);
-    const auto of_whole = responses(loads);
+    const auto whole_responses = responses(loads);
 
     Exactness result{};
     for (std::size_t k = 0; k < samples.size(); ++k)
@@ -287,7 +287,7 @@ namespace sprag
       double difference = 0., largest = 0., missed = 0., work = 0.;
       for (unsigned int i = 0; i < acting.ports.size(); ++i)
       {
-        const double exact = of_whole[k * body.n_dofs() + surface[acting.ports[i]]];
+        const double exact = whole_responses[k * body.n_dofs() + surface[acting.ports[i]]];
         difference         = std::max(difference, std::abs(exact - displacements[i]));
         largest            = std::max(largest, std::abs(exact));
         missed += (exact - displacements[i]) * acting.values[i];

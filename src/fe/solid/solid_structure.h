@@ -24,10 +24,10 @@ namespace sprag
 
     /// Returns by how much a displacement falls short of what its own strain and the forces make of it,
     /// K^-1 (f + K u - R(u)) - u. Throws AnalysisError where an element turned inside out.
-    dealii::Vector<double> unbalance(const dealii::Vector<double> &displacement, const PortLoads &on_face);
+    dealii::Vector<double> strain_residual(const dealii::Vector<double> &displacement, const PortLoads &on_face);
 
     /// Returns the correction by an unbalance and a change of the forces that goes with it.
-    dealii::Vector<double> correction(const dealii::Vector<double> &unbalance, const PortLoads &change) const;
+    dealii::Vector<double> correction(const dealii::Vector<double> &strain_residual, const PortLoads &change) const;
 
   private:
     struct Cell
@@ -37,7 +37,7 @@ namespace sprag
       const dealii::FullMatrix<double> *stiffness; ///< without load
     };
 
-    const dealii::Vector<double> &of(const Cell &cell, const dealii::Vector<double> &displacement);
+    const dealii::Vector<double> &cell_values(const Cell &cell, const dealii::Vector<double> &displacement);
     void add(const PortLoads &on_face, std::vector<double> &loads) const;
 
     const SolidBody &body;
@@ -45,7 +45,7 @@ namespace sprag
     CellStiffness<3> stiffness;
     CellElasticity<3> elasticity;
     std::vector<Cell> cells;
-    dealii::Vector<double> of_cell;
+    dealii::Vector<double> cell_displacement;
   };
 
   /// Forces on the ports of the face of a lever, and the displacements of these ports.
@@ -106,8 +106,8 @@ namespace sprag
     Exactness exactness(const std::vector<FaceSample> &samples) const;
 
   private:
-    unsigned int first_of_body(unsigned int lever) const;
-    dealii::Vector<double> of_body(const dealii::Vector<double> &coordinates, unsigned int lever) const;
+    unsigned int first_body_coordinate(unsigned int lever) const;
+    dealii::Vector<double> lever_displacement(const dealii::Vector<double> &coordinates, unsigned int lever) const;
     std::vector<double> responses(const std::vector<PortLoads> &on_faces) const;
     const std::vector<unsigned int> &line_at(double zeta) const;
     PortLoads interpolation(const std::vector<unsigned int> &line, double xi) const;

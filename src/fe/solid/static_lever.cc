@@ -29,7 +29,7 @@ namespace sprag
   {
     constexpr double least_ratio = 1e-6;
     const double duration        = end.time - begin.time;
-    StaticTerms result{ friction_of_step(friction, end.v), duration, mode };
+    StaticTerms result{ step_friction(friction, end.v), duration, mode };
     // A step holds no mass against a mu that falls with the speed of single points: it takes that of a rigid lever.
     if (falls_with_speed(result.friction))
     {
@@ -61,12 +61,12 @@ namespace sprag
 
     // The following functions differ between plane and space.
 
-    ElasticBody<2> body_of(const Triangulation<2> &triangulation, const LeverProperties &properties)
+    ElasticBody<2> make_body(const Triangulation<2> &triangulation, const LeverProperties &properties)
     {
       return ElasticBody<2>(triangulation, properties.body);
     }
 
-    const SolidBody &body_of(const SolidBody &body, const LeverProperties &)
+    const SolidBody &make_body(const SolidBody &body, const LeverProperties &)
     {
       return body;
     }
@@ -82,7 +82,7 @@ namespace sprag
     }
 
     template <class Body>
-    PortLayout ports_of(const Body &body, const std::vector<LeverProperties> &levers)
+    PortLayout make_layout(const Body &body, const std::vector<LeverProperties> &levers)
     {
       PortLayout result{ static_cast<unsigned int>(surface_dofs(body).size()), levers.front().support_stiffness.has_value() };
       result.levers      = static_cast<unsigned int>(levers.size());
@@ -91,7 +91,7 @@ namespace sprag
       return result;
     }
 
-    FaceContact contact_of(const ElasticBody<2> &body, const LeverProperties &properties, const PortLayout &ports)
+    FaceContact make_contact(const ElasticBody<2> &body, const LeverProperties &properties, const PortLayout &ports)
     {
       return { body,
                { properties.obstacle, properties.centre, properties.radius, ports, properties.spring.rest,
@@ -100,7 +100,7 @@ namespace sprag
                  properties.friction, properties.layer_thickness } };
     }
 
-    SurfaceContact contact_of(const SolidBody &body, const LeverProperties &properties, const PortLayout &ports)
+    SurfaceContact make_contact(const SolidBody &body, const LeverProperties &properties, const PortLayout &ports)
     {
       return { body.friction_face(),
                { RigidCylinder(*properties.geometry, properties.cylinder), properties.centre, properties.radius, ports,
@@ -110,8 +110,8 @@ namespace sprag
                  body.is_half() } };
     }
 
-    LeverParts<2>::Structure structure_of(const ElasticBody<2> &body, const LeverProperties &properties, const PortLayout &ports,
-                                          const PortSprings &springs, const std::array<double, 2> &)
+    LeverParts<2>::Structure make_structure(const ElasticBody<2> &body, const LeverProperties &properties,
+                                            const PortLayout &ports, const PortSprings &springs, const std::array<double, 2> &)
     {
       using Structure = LeverParts<2>::Structure;
       if (properties.solution == Solution::automatic && properties.body.material == MaterialModel::linear)
@@ -119,14 +119,14 @@ namespace sprag
       return Structure(std::in_place_type<FullStiffness>, body, ports, springs);
     }
 
-    LeverParts<3>::Structure structure_of(const SolidBody &body, const LeverProperties &properties, const PortLayout &ports,
-                                          const PortSprings &springs, const std::array<double, 2> &swept)
+    LeverParts<3>::Structure make_structure(const SolidBody &body, const LeverProperties &properties, const PortLayout &ports,
+                                            const PortSprings &springs, const std::array<double, 2> &swept)
     {
       const double room = 0.1 * properties.radius;
       return LeverParts<3>::Structure(std::in_place_type<SolidStructure>, body, swept[0] - room, swept[1] + room, ports, springs);
     }
 
-    PortSprings springs_of(const LeverProperties &properties)
+    PortSprings make_springs(const LeverProperties &properties)
     {
       return { properties.spring.law.linear_stiffness(), properties.support_stiffness.value_or(0.), properties.spring.arm,
                slope_compliances(properties.cylinder), 0.5 * properties.body.width };
@@ -134,12 +134,12 @@ namespace sprag
 
     // Memories of the contact of a plane and of a surface.
 
-    std::vector<ContactMemory> &memory_of(State &state, const FaceContact &)
+    std::vector<ContactMemory> &contact_history(State &state, const FaceContact &)
     {
       return state.contact;
     }
 
-    std::vector<SurfaceMemory> &memory_of(State &state, const SurfaceContact &)
+    std::vector<SurfaceMemory> &contact_history(State &state, const SurfaceContact &)
     {
       return state.surface_contact;
     }
@@ -158,13 +158,13 @@ namespace sprag
   template <int dim>
   StaticLever<dim>::Lever::Lever(const typename Parts::Body &body, const PortLayout &ports, LeverProperties lever)
       : properties(std::move(lever))
-      , contact(contact_of(body, properties, ports))
+      , contact(make_contact(body, properties, ports))
   {
   }
 
   template <int dim>
   StaticLever<dim>::StaticLever(const typename Parts::Source &source, const Device &device)
-      : StaticLever(source, properties_of_levers(device), swings(device),
+      : StaticLever(source, all_lever_properties(device), swings(device),
                     dim == 3 ? swept_contact(device) : std::array<double, 2>{})
   {
   }
@@ -178,16 +178,16 @@ namespace sprag
   template <int dim>
   StaticLever<dim>::StaticLever(const typename Parts::Source &source, std::vector<LeverProperties> properties, const bool swings,
                                 const std::array<double, 2> &swept)
-      : own_body(body_of(source, properties.front()))
-      , ports(ports_of(own_body, properties))
-      , springs(springs_of(properties.front()))
-      , own_structure(structure_of(own_body, properties.front(), ports, springs, swept))
+      : own_body(make_body(source, properties.front()))
+      , ports(make_layout(own_body, properties))
+      , springs(make_springs(properties.front()))
+      , own_structure(make_structure(own_body, properties.front(), ports, springs, swept))
       , multipliers(own_body.friction_face())
       , excess(ports, properties.front().spring.law, swings, 0.)
       , joint_is_free(swings)
   {
-    for (auto &of_lever : properties)
-      levers.emplace_back(own_body, ports.of_one_lever(), std::move(of_lever));
+    for (auto &lever_data : properties)
+      levers.emplace_back(own_body, ports.single_lever(), std::move(lever_data));
   }
 
   template <int dim>
@@ -262,10 +262,10 @@ namespace sprag
       auto &[properties, contact] = levers[i];
       const double rest = properties.spring.rest, theta = rest + end[ports.rotation(i)];
       const double travel = properties.centre(x, theta).xi - properties.centre(begin_x, rest + step.ports[ports.rotation(i)]).xi;
-      PortSelection of_lever;
+      PortSelection lever_ports;
       for (const unsigned int port : contact.reachable_ports(x, { { theta } }, travel))
-        of_lever.push_back(joined_port(ports, i, port));
-      result = united(result, of_lever);
+        lever_ports.push_back(joined_port(ports, i, port));
+      result = united(result, lever_ports);
     }
     return result;
   }
@@ -294,7 +294,7 @@ namespace sprag
     static const std::vector<ContactMemory> none;
     auto &trial    = step.trial;
     const auto end = port_displacements(trial.coordinates);
-    std::vector<const PortForces *> of_levers;
+    std::vector<const PortForces *> lever_forces;
     bool within_reach = true;
     found.levers.resize(ports.levers);
     for (unsigned int i = 0; i < ports.levers; ++i)
@@ -302,19 +302,19 @@ namespace sprag
       auto &[properties, lever] = levers[i];
       auto &[memory, contact]   = found.levers[i];
 
-      memory          = memory_of_lever(i, n_face_points(), memory_of(trial, lever));
+      memory          = lever_memory(i, n_face_points(), contact_history(trial, lever));
       auto terms      = static_terms(properties.friction, properties.geometry, step.start, trial.drive, mode);
       terms.augmented = augments();
-      const Kinematic begin{ ports_of_lever(ports, i, step.ports), {}, {} };
-      const auto own_end = ports_of_lever(ports, i, end);
+      const Kinematic begin{ extract_lever_ports(ports, i, step.ports), {}, {} };
+      const auto own_end = extract_lever_ports(ports, i, end);
       const StepWeights weights{ trial.drive.time - step.start.time, 0., 0., 0., 0. };
       const Vector<double> no_rates;
       lever.evaluate(with_memory({ step.start, none, trial.drive, begin, own_end, no_rates, weights }, memory), contact, terms);
-      of_levers.push_back(&contact.forces);
+      lever_forces.push_back(&contact.forces);
       within_reach = within_reach && contact.within_reach;
     }
     if (within_reach)
-      return join_forces(ports, of_levers, found.forces);
+      return join_forces(ports, lever_forces, found.forces);
     for (auto &lever : levers)
       lever.contact.widen_reach();
     look_at(step);
@@ -322,15 +322,15 @@ namespace sprag
   }
 
   template <int dim>
-  const typename StaticLever<dim>::Balance &StaticLever<dim>::balance_of(const Evaluation &evaluation)
+  const typename StaticLever<dim>::Balance &StaticLever<dim>::get_balance(const Evaluation &evaluation)
   {
-    return std::any_cast<const Balance &>(evaluation.of_model);
+    return std::any_cast<const Balance &>(evaluation.model_data);
   }
 
   template <int dim>
   Vector<double> StaticLever<dim>::correction(const Evaluation &evaluation)
   {
-    const auto &[found, forces, near, residual] = balance_of(evaluation);
+    const auto &[found, forces, near, residual] = get_balance(evaluation);
     return std::visit([&, &f = forces, &n = near, &r = residual](auto &s) { return s.correction(r, f, n); }, own_structure);
   }
 
@@ -341,9 +341,9 @@ namespace sprag
   }
 
   template <int dim>
-  OfLevers StaticLever<dim>::turns(const State &state) const
+  PerLever StaticLever<dim>::turns(const State &state) const
   {
-    OfLevers result{};
+    PerLever result{};
     for (unsigned int i = 0; i < ports.levers; ++i)
       result[i] = state.coordinates[rotation(i)];
     return result;
@@ -351,9 +351,9 @@ namespace sprag
 
   /// u along x by the displacements of the ports [mm].
   template <int dim>
-  double StaticLever<dim>::support_displacement(const Vector<double> &of_ports) const
+  double StaticLever<dim>::support_displacement(const Vector<double> &port_values) const
   {
-    return ports.sprung ? of_ports[ports.support()] : 0.;
+    return ports.sprung ? port_values[ports.support()] : 0.;
   }
 
   template <int dim>
@@ -385,34 +385,34 @@ namespace sprag
     if (!augments())
       return evaluation.overlap;
     double result = 0.;
-    for (const auto &[memory, contact] : balance_of(evaluation).levers)
+    for (const auto &[memory, contact] : get_balance(evaluation).levers)
       result = std::max(result, multipliers.largest_change(contact.points, memory) / penalties().normal);
     return result;
   }
 
   template <int dim>
-  std::string StaticLever<dim>::objection(const State &state, const Evaluation &evaluation) const
+  std::string StaticLever<dim>::check_validity(const State &state, const Evaluation &evaluation) const
   {
     for (unsigned int i = 0; i < ports.levers; ++i)
-      if (const auto found = objection(i, state.drive, balance_of(evaluation).levers[i].contact); !found.empty())
+      if (const auto found = check_validity(i, state.drive, get_balance(evaluation).levers[i].contact); !found.empty())
         return (i == 0 ? "" : "of the pair's second lever, ") + found;
     return {};
   }
 
   template <int dim>
-  std::string StaticLever<dim>::objection(const unsigned int lever, const DrivePoint &drive,
-                                          const typename Parts::Evaluation &found) const
+  std::string StaticLever<dim>::check_validity(const unsigned int lever, const DrivePoint &drive,
+                                               const typename Parts::Evaluation &found) const
   {
     const auto &[properties, contact] = levers[lever];
     Row row;
     contact.observe_resultants(found, row);
-    if (const auto locks = locking_objection(row, properties.interface_offset, drive); !locks.empty())
+    if (const auto locks = check_locking(row, properties.interface_offset, drive); !locks.empty())
       return locks;
-    if (const auto beyond = found.objection(); !beyond.empty())
+    if (const auto beyond = found.check_validity(); !beyond.empty())
       return beyond;
     // A linear material knows no limit of its own.
     const double pressure = found.overlap() * penalties().normal;
-    if (const auto beyond = pressure_objection(pressure, own_body.friction_face().young_modulus);
+    if (const auto beyond = check_pressure(pressure, own_body.friction_face().young_modulus);
         properties.body.material == MaterialModel::linear && !beyond.empty())
       return beyond;
     if constexpr (dim == 3)
@@ -433,28 +433,28 @@ namespace sprag
   template <int dim>
   typename StaticLever<dim>::Memory StaticLever<dim>::augmented(const Evaluation &evaluation) const
   {
-    const auto &found = balance_of(evaluation).levers;
+    const auto &found = get_balance(evaluation).levers;
     return joined([&](const std::size_t lever) { return multipliers.augmented(found[lever].contact.points); });
   }
 
   template <int dim>
   void StaticLever<dim>::augment(const Evaluation &evaluation, State &trial) const
   {
-    memory_of(trial, levers.front().contact) = augmented(evaluation);
+    contact_history(trial, levers.front().contact) = augmented(evaluation);
   }
 
   template <int dim>
   void StaticLever<dim>::remember(const Evaluation &evaluation, State &state) const
   {
-    const auto &found = balance_of(evaluation).levers;
-    memory_of(state, levers.front().contact) =
+    const auto &found = get_balance(evaluation).levers;
+    contact_history(state, levers.front().contact) =
         augments() ? augmented(evaluation) : joined([&](const std::size_t lever) { return found[lever].contact.memory(); });
   }
 
   template <int dim>
   void StaticLever<dim>::observe(const State &state, const Evaluation &evaluation, Row &row) const
   {
-    const auto &found = balance_of(evaluation).levers;
+    const auto &found = get_balance(evaluation).levers;
     observe(0, state, found[0].contact, row);
     if (ports.levers == 2)
     {
@@ -527,9 +527,9 @@ namespace sprag
   template <int dim>
   FaceState StaticLever<dim>::face_state(const State &state, const Evaluation &evaluation) const
   {
-    const auto of_lever = [&](const std::size_t lever)
-    { return levers[lever].contact.face_state(balance_of(evaluation).levers[lever].contact, state.drive); };
-    return ports.levers == 1 ? of_lever(0) : joined_faces(of_lever(0), of_lever(1));
+    const auto lever_faces = [&](const std::size_t lever)
+    { return levers[lever].contact.face_state(get_balance(evaluation).levers[lever].contact, state.drive); };
+    return ports.levers == 1 ? lever_faces(0) : joined_faces(lever_faces(0), lever_faces(1));
   }
 
   template <int dim>

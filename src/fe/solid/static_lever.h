@@ -74,7 +74,7 @@ namespace sprag
     double movement(const dealii::Vector<double> &correction) const override;
     double length_scale() const override;
     double penetration(const Evaluation &evaluation) const override;
-    std::string objection(const State &state, const Evaluation &evaluation) const override;
+    std::string check_validity(const State &state, const Evaluation &evaluation) const override;
     void augment(const Evaluation &evaluation, State &trial) const override;
     void remember(const Evaluation &evaluation, State &state) const override;
     void observe(const State &state, const Evaluation &evaluation, Row &row) const override;
@@ -134,7 +134,7 @@ namespace sprag
 
     StaticLever(const typename Parts::Source &source, std::vector<LeverProperties> properties, bool swings,
                 const std::array<double, 2> &swept);
-    static const Balance &balance_of(const Evaluation &evaluation);
+    static const Balance &get_balance(const Evaluation &evaluation);
     dealii::Vector<double> port_displacements(const dealii::Vector<double> &coordinates) const;
     bool looks_at_some() const;
     void look_at(Step &step);
@@ -142,10 +142,10 @@ namespace sprag
     void evaluate_contacts(Step &step, FrictionMode mode, Balance &found);
     Memory joined(const std::function<Memory(std::size_t)> &memory) const;
     Memory augmented(const Evaluation &evaluation) const;
-    OfLevers turns(const State &state) const;
+    PerLever turns(const State &state) const;
     double support_displacement(const dealii::Vector<double> &ports) const;
     double cylinder_energy(unsigned int lever, const State &state) const;
-    std::string objection(unsigned int lever, const DrivePoint &drive, const typename Parts::Evaluation &found) const;
+    std::string check_validity(unsigned int lever, const DrivePoint &drive, const typename Parts::Evaluation &found) const;
     void observe(unsigned int lever, const State &state, const typename Parts::Evaluation &found, Row &row) const;
     bool augments() const;
     unsigned int n_face_points() const;

@@ -81,22 +81,22 @@ namespace sprag
 
   void StepInLanes::make_blocks(const unsigned int patch)
   {
-    const auto &of_patch = patches.patches[patch];
+    const auto &range = patches.patches[patch];
     double farthest = 0., most_shapes = 0.;
-    for (unsigned int q = of_patch.begin; q < of_patch.end; ++q)
+    for (unsigned int q = range.begin; q < range.end; ++q)
     {
-      farthest        = std::max(farthest, patches.points[q].position.norm());
-      double of_point = 0.;
+      farthest         = std::max(farthest, patches.points[q].position.norm());
+      double shape_sum = 0.;
       for (const double shape : patches.points[q].shapes)
-        of_point += std::abs(shape);
-      most_shapes = std::max(most_shapes, of_point);
+        shape_sum += std::abs(shape);
+      most_shapes = std::max(most_shapes, shape_sum);
     }
     blocks[patch].travel = PatchTravel(farthest, most_shapes);
-    for (unsigned int first = of_patch.begin; first < of_patch.end; first += n_lanes)
+    for (unsigned int first = range.begin; first < range.end; first += n_lanes)
     {
       auto &block = blocks[patch].all.emplace_back();
       block       = Block();
-      block.first = first, block.n = std::min(n_lanes, of_patch.end - first), block.clear_until = -1.;
+      block.first = first, block.n = std::min(n_lanes, range.end - first), block.clear_until = -1.;
       for (unsigned int i = 0; i < n_lanes; ++i)
       {
         const unsigned int q = first + std::min(i, block.n - 1);
@@ -134,32 +134,32 @@ namespace sprag
 
   void StepInLanes::set(const Constants &constants)
   {
-    of             = constants;
-    of.slip.pieces = rising_pieces(of.slip.friction);
+    data             = constants;
+    data.slip.pieces = rising_pieces(data.slip.friction);
   }
 
   void StepInLanes::place(const unsigned int patch, const Patches::Nodal &nodal, const std::vector<SlipShift> &shifts)
   {
-    auto &of_patch = blocks[patch];
-    if (of_patch.all.empty())
+    auto &group = blocks[patch];
+    if (group.all.empty())
       make_blocks(patch);
     placed.push_back(patch);
-    of_patch.first = n_placed;
-    n_placed += static_cast<unsigned int>(of_patch.all.size());
+    group.first = n_placed;
+    n_placed += static_cast<unsigned int>(group.all.size());
     if (n_placed > begins.size())
       begins.resize(n_placed);
-    of_patch.begin            = nodal;
-    const bool begins_as_ends = of.kind == Kind::slide || of.kind == Kind::touch;
+    group.begin               = nodal;
+    const bool begins_as_ends = data.kind == Kind::slide || data.kind == Kind::touch;
     if (!begins_as_ends)
-      of_patch.travel.go_to(nodal, of.begin, cylinder.shape());
-    for (unsigned int b = 0; b < of_patch.all.size(); ++b)
+      group.travel.go_to(nodal, data.begin, cylinder.shape());
+    for (unsigned int b = 0; b < group.all.size(); ++b)
     {
-      auto &begin     = begins[of_patch.first + b];
+      auto &begin     = begins[group.first + b];
       begin           = Begin();
       begin.is_placed = begins_as_ends;
-      if (!shifts.empty() || (!begins_as_ends && !passes_over(of_patch, b)))
-        place_block(of_patch.all[b], nodal, begin);
-      for (unsigned int i = 0; i < of_patch.all[b].n && !shifts.empty(); ++i)
+      if (!shifts.empty() || (!begins_as_ends && !passes_over(group, b)))
+        place_block(group.all[b], nodal, begin);
+      for (unsigned int i = 0; i < group.all[b].n && !shifts.empty(); ++i)
       {
         const auto &shift      = shifts[n_lanes * b + i];
         begin.shift[i]         = shift.slip;
@@ -175,31 +175,31 @@ namespace sprag
   {
     begin           = Begin();
     begin.place     = at_points(block.shapes, block.position, nodal);
-    const auto at   = seen(cylinder.shape(), in_lanes(of.begin), begin.place);
+    const auto at   = seen(cylinder.shape(), in_lanes(data.begin), begin.place);
     begin.gap       = at.gap;
-    begin.right     = dot(at.from_centre, of.begin.axes.right);
-    begin.upward    = dot(at.from_centre, of.begin.axes.upward);
+    begin.right     = dot(at.from_centre, data.begin.axes.right);
+    begin.upward    = dot(at.from_centre, data.begin.axes.upward);
     begin.along     = at.along;
     begin.is_placed = true;
     begin.touches   = any(begin.gap < 0.);
   }
 
-  SPRAG_PART bool StepInLanes::passes_over(const Blocks &of_patch, const unsigned int b) const
+  SPRAG_PART bool StepInLanes::passes_over(const Blocks &group, const unsigned int b) const
   {
-    return of_patch.travel.length() < of_patch.all[b].clear_until && !begins[of_patch.first + b].touches;
+    return group.travel.length() < group.all[b].clear_until && !begins[group.first + b].touches;
   }
 
   void StepInLanes::recall(const unsigned int patch)
   {
-    auto &of_patch           = blocks[patch];
+    auto &group              = blocks[patch];
     const unsigned int first = patches.patches[patch].begin;
     for (auto entry = first_memory(remembered, first); entry != remembered.end() && entry->point < patches.patches[patch].end;
          ++entry)
     {
       const unsigned int q = entry->point - first, b = q / n_lanes, i = q % n_lanes;
-      auto &begin = begins[of_patch.first + b];
+      auto &begin = begins[group.first + b];
       if (!begin.is_placed)
-        place_block(of_patch.all[b], of_patch.begin, begin);
+        place_block(group.all[b], group.begin, begin);
       begin.touches         = true;
       begin.known[i]        = -1;
       begin.memory.step[i]  = entry->step;
@@ -215,16 +215,16 @@ namespace sprag
 
   SPRAG_PART Several<Batch, 2> StepInLanes::slip_rates(const Block &block) const
   {
-    const auto &slide = of.slide;
+    const auto &slide = data.slide;
     Several<Batch, 2> result{ { all_lanes(slide.speed), Lanes{} } };
     if (slide.rates == nullptr)
       return result;
-    const unsigned int patch = patches.patch_of_point(block.first);
+    const unsigned int patch = patches.point_patch(block.first);
     const auto place         = at_points(block.shapes, block.position, blocks[patch].travel.displacement());
     const auto rate          = at_points(block.shapes, {}, Patches::nodal(patches.patches[patch], *slide.rates));
     for (unsigned int i = 0; i < n_lanes; ++i)
     {
-      const auto changes = cylinder.changes(of.end, dealii::Point<3>(place.x[i], place.y[i], place.z[i]),
+      const auto changes = cylinder.changes(data.end, dealii::Point<3>(place.x[i], place.y[i], place.z[i]),
                                             dealii::Tensor<1, 3>({ rate.x[i], rate.y[i], rate.z[i] }), slide.x_rate,
                                             slide.theta_rate, slide.slope_rates);
       result[0][i] += changes[1];
@@ -238,8 +238,8 @@ namespace sprag
   {
     auto &friction        = end.friction;
     friction.slip_speed   = slip_rates(block);
-    const bool rubs       = of.slide.friction == ContactFriction::sliding;
-    const bool is_elastic = of.slip.friction.regularisation_speed == 0.;
+    const bool rubs       = data.slide.friction == ContactFriction::sliding;
+    const bool is_elastic = data.slip.friction.regularisation_speed == 0.;
     if (rubs)
     {
       const SizeAndDirection<Batch, 2> w(friction.slip_speed);
@@ -247,11 +247,11 @@ namespace sprag
       for_each_lane(~LaneMask{},
                     [&](const unsigned int i)
                     {
-                      const auto found = sliding_friction(of.slip.friction, w.size[i]);
+                      const auto found = sliding_friction(data.slip.friction, w.size[i]);
                       coefficient[i] = found.coefficient, slope[i] = found.derivative;
                       friction.mu[i] = found.mu;
                     });
-      const Lanes sign  = w.is_nothing ? all_lanes(std::copysign(1., of.slide.speed)) : all_lanes(1.);
+      const Lanes sign  = w.is_nothing ? all_lanes(std::copysign(1., data.slide.speed)) : all_lanes(1.);
       friction.slipping = ~LaneMask{};
       if (part == Part::friction_rate)
       {
@@ -266,11 +266,11 @@ namespace sprag
         for (unsigned int s = 0; s < 2; ++s)
           friction.traction[s] = Lanes(coefficient * sign * w.direction[s]) * end.pressure;
     }
-    else if (of.slide.friction == ContactFriction::stuck)
+    else if (data.slide.friction == ContactFriction::stuck)
       for (unsigned int s = 0; s < 2; ++s)
-        friction.traction[s] = of.slip.stiffness * end.slip[s];
+        friction.traction[s] = data.slip.stiffness * end.slip[s];
     for (unsigned int s = 0; s < 2 && is_elastic; ++s)
-      friction.energy += 0.5 / of.slip.stiffness * value(friction.traction[s]) * value(friction.traction[s]);
+      friction.energy += 0.5 / data.slip.stiffness * value(friction.traction[s]) * value(friction.traction[s]);
   }
 
   /// Sets pressure and friction of points that are seen at the end of the step.
@@ -280,7 +280,7 @@ namespace sprag
   {
     end.shift    = Lanes{};
     end.friction = {};
-    if (!in_time && of.kind == Kind::slide)
+    if (!in_time && data.kind == Kind::slide)
     {
       const Lanes right  = value(N(dot(end.seen.from_centre, pose.axes.right)));
       const Lanes upward = value(N(dot(end.seen.from_centre, pose.axes.upward)));
@@ -288,23 +288,23 @@ namespace sprag
                                end.seen.along - value(end.seen.along) } };
     }
     else
-      end.slip = { { slip_round(cylinder.shape(), begin.right, begin.upward, end.seen.from_centre, pose.axes) + of.surface_run,
+      end.slip = { { slip_round(cylinder.shape(), begin.right, begin.upward, end.seen.from_centre, pose.axes) + data.surface_run,
                      end.seen.along - begin.along } };
     if constexpr (in_time)
     {
-      const double delay = of.weights.delay();
-      end.pressure       = spring_force(of.normal, end.seen.gap);
-      end.friction       = end_friction(of.slip, begin.memory, end.slip, end.pressure, of.weights.dt);
+      const double delay = data.weights.delay();
+      end.pressure       = spring_force(data.normal, end.seen.gap);
+      end.friction       = end_friction(data.slip, begin.memory, end.slip, end.pressure, data.weights.dt);
       end.mean_pressure =
-          mean_spring_force(of.normal, begin.gap, end.seen.gap) + delay * (end.pressure - spring_force(of.normal, begin.gap));
+          mean_spring_force(data.normal, begin.gap, end.seen.gap) + delay * (end.pressure - spring_force(data.normal, begin.gap));
       for (unsigned int s = 0; s < 2; ++s)
         end.mean_traction[s] = (0.5 + delay) * end.friction.traction[s] + (0.5 - delay) * begin.memory.traction[s];
       return;
     }
-    const N pressure  = begin.multiplier - of.normal.stiffness * end.seen.gap;
+    const N pressure  = begin.multiplier - data.normal.stiffness * end.seen.gap;
     end.pressure      = select(value(pressure) > 0., pressure, N{});
     end.mean_pressure = end.pressure;
-    if (of.kind == Kind::slide)
+    if (data.kind == Kind::slide)
       slide_on(block, part, end);
     else
     {
@@ -315,11 +315,11 @@ namespace sprag
         slope.d[std::size(slope.d) - 1] = all_lanes(1.);
       const N shift    = begin.by_slope * slope + begin.shift;
       end.shift        = value(shift);
-      const auto trial = stick_traction(of.slip, begin.memory.traction, end.slip);
-      if (of.sticks)
+      const auto trial = stick_traction(data.slip, begin.memory.traction, end.slip);
+      if (data.sticks)
         end.friction.traction = trial;
       else
-        end.friction = return_to_cone(of.slip, trial, end.pressure, all_lanes(of.weights.dt),
+        end.friction = return_to_cone(data.slip, trial, end.pressure, all_lanes(data.weights.dt),
                                       Several<N, 2>{ { shift + begin.elastic_shift, N{} } }, end.slip);
     }
     end.mean_traction = end.friction.traction;
@@ -331,17 +331,17 @@ namespace sprag
 
   void StepInLanes::evaluate(const Block &block, const Begin &begin, const Patches::Nodal &nodal, End<Batch> &end) const
   {
-    const auto pose = in_lanes(of.end);
+    const auto pose = in_lanes(data.end);
     end.place       = at_points(block.shapes, block.position, nodal);
     end.seen        = seen(cylinder.shape(), pose, end.place);
     const Lanes gap = end.seen.gap;
-    if (of.kind == Kind::in_time)
+    if (data.kind == Kind::in_time)
       end.takes_part = (gap < 0.) | (begin.gap < 0.) | begin.known;
     else
-      end.takes_part = of.kind == Kind::touch ? LaneMask{} : begin.multiplier - of.normal.stiffness * gap > 0.;
+      end.takes_part = data.kind == Kind::touch ? LaneMask{} : begin.multiplier - data.normal.stiffness * gap > 0.;
     if (!any(end.takes_part))
       return;
-    if (of.kind == Kind::in_time)
+    if (data.kind == Kind::in_time)
       respond<true>(block, begin, pose, nodal, Part::all, end);
     else
       respond<false>(block, begin, pose, nodal, Part::all, end);
@@ -350,42 +350,42 @@ namespace sprag
   bool StepInLanes::press(const unsigned int patch, const Patches::Nodal &to, Forces &forces, double &compression)
   {
     constexpr double round_off = 1e-9; // of gaps and travels [mm]
-    const bool in_time         = of.kind == Kind::in_time;
-    const auto balance         = in_lanes(of.balance);
-    auto &of_patch             = blocks[patch];
+    const bool in_time         = data.kind == Kind::in_time;
+    const auto balance         = in_lanes(data.balance);
+    auto &group                = blocks[patch];
     bool takes_part            = false;
     SomeLanes<n_coordinates> sums{};
-    of_patch.travel.go_to(to, of.end, cylinder.shape());
+    group.travel.go_to(to, data.end, cylinder.shape());
     End<Batch> end;
-    for (unsigned int b = 0; b < of_patch.all.size(); ++b)
+    for (unsigned int b = 0; b < group.all.size(); ++b)
     {
-      auto &block      = of_patch.all[b];
-      auto &begin      = begins[of_patch.first + b];
-      block.is_clear   = passes_over(of_patch, b);
+      auto &block      = group.all[b];
+      auto &begin      = begins[group.first + b];
+      block.is_clear   = passes_over(group, b);
       block.takes_part = LaneMask{};
       if (block.is_clear)
         continue;
       if (!begin.is_placed)
-        place_block(block, of_patch.begin, begin);
+        place_block(block, group.begin, begin);
       evaluate(block, begin, to, end);
       const Lanes gap   = end.seen.gap;
-      block.clear_until = of_patch.travel.length() - largest(-gap) - round_off;
+      block.clear_until = group.travel.length() - largest(-gap) - round_off;
       block.takes_part  = end.takes_part;
       if (!any(block.takes_part))
         continue;
       takes_part       = true;
-      const Lanes most = in_time ? -smaller(gap, begin.gap) : end.pressure / of.normal.stiffness;
+      const Lanes most = in_time ? -smaller(gap, begin.gap) : end.pressure / data.normal.stiffness;
       compression      = std::max(compression, largest(most));
 
-      const auto at       = in_time ? begin.place + of.share * (end.place - begin.place) : end.place;
+      const auto at       = in_time ? begin.place + data.share * (end.place - begin.place) : end.place;
       const auto balanced = in_time ? seen(cylinder.shape(), balance, at) : end.seen;
-      const auto force    = force_of(cylinder.shape(), balanced, balance.axes.axis, end.mean_pressure, end.mean_traction);
+      const auto force    = point_force(cylinder.shape(), balanced, balance.axes.axis, end.mean_pressure, end.mean_traction);
       const Lanes weight  = block.takes_part ? block.weight : Lanes{};
       const auto along    = generalised(balance, at, balanced.from_centre, weight * force);
       for (unsigned int d = 0; d < 3; ++d)
         for (unsigned int a = 0; a < n_nodes; ++a)
           sums[n_nodes * d + a] += along[d] * block.shapes[a];
-      for (unsigned int k = 0; k < 2 + of.slopes; ++k)
+      for (unsigned int k = 0; k < 2 + data.slopes; ++k)
         sums[n_displacements + k] += along[3 + k];
     }
     for (unsigned int i = 0; takes_part && i < n_coordinates; ++i)
@@ -434,22 +434,22 @@ namespace sprag
 
   /// Variables are a point's displacement, theta, x and the slopes and, at the end of a step, the slip's slope along the face.
   template <int slopes, bool in_time>
-  SPRAG_PART void StepInLanes::find_tangents_of(const Patches::Indices &some, const Part part,
-                                                const std::function<void(unsigned int, const Tangent &)> &take) const
+  SPRAG_PART void StepInLanes::find_patch_tangents(const Patches::Indices &some, const Part part,
+                                                   const std::function<void(unsigned int, const Tangent &)> &take) const
   {
     constexpr int n          = 5 + slopes + (in_time ? 0 : 1);
     using N                  = Dual<Batch, n>;
-    const auto pose          = in_lanes(varied_pose<n, slopes>(cylinder, of.end));
-    const auto pose_balanced = in_lanes(varied_pose<n, slopes>(cylinder, of.balance, of.share));
+    const auto pose          = in_lanes(varied_pose<n, slopes>(cylinder, data.end));
+    const auto pose_balanced = in_lanes(varied_pose<n, slopes>(cylinder, data.balance, data.share));
     for (unsigned int i = 0; i < some.size(); ++i)
     {
-      const auto &of_patch = blocks[some[i]];
-      const auto &nodal    = of_patch.travel.displacement();
+      const auto &group = blocks[some[i]];
+      const auto &nodal = group.travel.displacement();
       TangentSums<slopes> sums{};
-      for (unsigned int b = 0; b < of_patch.all.size(); ++b)
+      for (unsigned int b = 0; b < group.all.size(); ++b)
       {
-        const auto &block = of_patch.all[b];
-        const auto &begin = begins[of_patch.first + b];
+        const auto &block = group.all[b];
+        const auto &begin = begins[group.first + b];
         if (!any(block.takes_part))
           continue;
         End<N> end;
@@ -459,16 +459,16 @@ namespace sprag
         Triple<N> at = end.place;
         if constexpr (in_time)
         {
-          at       = begin.place + of.share * (end.place - begin.place);
+          at       = begin.place + data.share * (end.place - begin.place);
           end.seen = seen(cylinder.shape(), pose_balanced, at);
         }
-        const auto force = force_of(cylinder.shape(), end.seen, pose_balanced.axes.axis, end.mean_pressure, end.mean_traction);
+        const auto force = point_force(cylinder.shape(), end.seen, pose_balanced.axes.axis, end.mean_pressure, end.mean_traction);
         auto along       = generalised(pose_balanced, at, end.seen.from_centre, force);
         if (part == Part::friction_rate)
           for (int k = 0; k < 5 + slopes; ++k)
             along[k] = -end.slip[0].d[k] * end.mean_traction[0] - end.slip[1].d[k] * end.mean_traction[1];
         const Triple<Batch> round{ value(end.seen.round.x), value(end.seen.round.y), value(end.seen.round.z) };
-        sums.add(block, along, Lanes(cylinder.shape().radius / value(end.seen.radius)) * in_lever(in_lanes(of.end), round));
+        sums.add(block, along, Lanes(cylinder.shape().radius / value(end.seen.radius)) * in_lever(in_lanes(data.end), round));
       }
       Tangent result{};
       for (unsigned int k = 0; k < sums.n; ++k)
@@ -481,11 +481,11 @@ namespace sprag
   void StepInLanes::find_tangents(const Patches::Indices &some, const Part part,
                                   const std::function<void(unsigned int, const Tangent &)> &take) const
   {
-    const bool in_time = of.kind == Kind::in_time;
-    if (of.slopes == 0)
-      in_time ? find_tangents_of<0, true>(some, part, take) : find_tangents_of<0, false>(some, part, take);
+    const bool in_time = data.kind == Kind::in_time;
+    if (data.slopes == 0)
+      in_time ? find_patch_tangents<0, true>(some, part, take) : find_patch_tangents<0, false>(some, part, take);
     else
-      in_time ? find_tangents_of<2, true>(some, part, take) : find_tangents_of<2, false>(some, part, take);
+      in_time ? find_patch_tangents<2, true>(some, part, take) : find_patch_tangents<2, false>(some, part, take);
   }
 
   void StepInLanes::add_sums(const unsigned int patch, Sums &sums) const
@@ -499,11 +499,11 @@ namespace sprag
       return number;
     };
     const auto slope = [&](const unsigned int i)
-    { return moving(Number{} + (cylinder.slopes()[i] + of.balance.turned[i]), of.end.turned[i] - of.begin.turned[i]); };
+    { return moving(Number{} + (cylinder.slopes()[i] + data.balance.turned[i]), data.end.turned[i] - data.begin.turned[i]); };
     const auto pose =
-        in_lanes(cylinder_pose(moving(Number{} + of.balance.x, of.end.x - of.begin.x),
-                               moving(Number{} + of.balance.theta, of.end.theta - of.begin.theta), slope(0), slope(1)));
-    const double delay = of.weights.delay();
+        in_lanes(cylinder_pose(moving(Number{} + data.balance.x, data.end.x - data.begin.x),
+                               moving(Number{} + data.balance.theta, data.end.theta - data.begin.theta), slope(0), slope(1)));
+    const double delay = data.weights.delay();
     End<Batch> end;
     for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
     {
@@ -515,11 +515,11 @@ namespace sprag
       const auto &friction = end.friction;
       const Lanes weight   = block.takes_part ? block.weight : Lanes{};
       sums.pressure        = std::max(sums.pressure, largest(block.takes_part ? end.pressure : Lanes{}));
-      sums.stored += sum(weight * (0.5 / of.normal.stiffness * end.pressure * end.pressure + friction.energy));
-      if (of.kind != Kind::in_time)
+      sums.stored += sum(weight * (0.5 / data.normal.stiffness * end.pressure * end.pressure + friction.energy));
+      if (data.kind != Kind::in_time)
         continue;
       const auto moved = end.place - begin.place;
-      const auto at    = begin.place + of.share * moved;
+      const auto at    = begin.place + data.share * moved;
       const auto place = seen(cylinder.shape(), pose,
                               Triple<N>{ moving(N{} + at.x, moved.x), moving(N{} + at.y, moved.y), moving(N{} + at.z, moved.z) });
       const N right = dot(place.from_centre, pose.axes.right), upward = dot(place.from_centre, pose.axes.upward);
@@ -527,21 +527,21 @@ namespace sprag
       const auto &t = friction.traction, &t_begin = begin.memory.traction;
       const Lanes work = (t[0] - t_begin[0]) * end.slip[0] + (t[1] - t_begin[1]) * end.slip[1] +
                          end.mean_traction[0] * slip.d[0].d[0] + end.mean_traction[1] * place.along.d[0].d[0] -
-                         (end.pressure - spring_force(of.normal, begin.gap)) * (end.seen.gap - begin.gap) -
+                         (end.pressure - spring_force(data.normal, begin.gap)) * (end.seen.gap - begin.gap) -
                          end.mean_pressure * place.gap.d[0].d[0];
-      const auto balanced = seen(cylinder.shape(), in_lanes(of.balance), at);
+      const auto balanced = seen(cylinder.shape(), in_lanes(data.balance), at);
       const auto force =
-          force_of(cylinder.shape(), balanced, in_lanes(of.balance).axes.axis, end.mean_pressure, end.mean_traction);
+          point_force(cylinder.shape(), balanced, in_lanes(data.balance).axes.axis, end.mean_pressure, end.mean_traction);
       sums.friction += sum(weight * friction.dissipated);
       sums.algorithmic += delay * sum(weight * work);
-      sums.drive += sum(weight * (of.surface_run * end.mean_traction[0] + of.advance * force.x));
+      sums.drive += sum(weight * (data.surface_run * end.mean_traction[0] + data.advance * force.x));
       sums.creep = std::max(sums.creep, largest(block.takes_part ? friction.creep : Lanes{}));
     }
   }
 
   void StepInLanes::add_points(const unsigned int patch, const bool all, std::vector<FacePointState<3>> &points) const
   {
-    const auto pose = in_lanes(of.end);
+    const auto pose = in_lanes(data.end);
     const Begin nowhere{};
     End<Batch> end{};
     for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
@@ -551,7 +551,7 @@ namespace sprag
         continue;
       const auto &begin = block.is_clear ? nowhere : begins[blocks[patch].first + b];
       evaluate(block, begin, blocks[patch].travel.displacement(), end);
-      const auto force = force_of(cylinder.shape(), end.seen, pose.axes.axis, end.pressure, end.friction.traction);
+      const auto force = point_force(cylinder.shape(), end.seen, pose.axes.axis, end.pressure, end.friction.traction);
       const auto along = generalised(pose, end.place, end.seen.from_centre, force);
       for (unsigned int i = 0; i < block.n; ++i)
       {
@@ -570,7 +570,7 @@ namespace sprag
     state.index          = block.first + i;
     state.position       = dealii::Point<3>(end.place.x[i], end.place.y[i], end.place.z[i]);
     state.gap            = end.seen.gap[i];
-    state.trial_pressure = begin.multiplier[i] - of.normal.stiffness * state.gap;
+    state.trial_pressure = begin.multiplier[i] - data.normal.stiffness * state.gap;
     if (!block.takes_part[i])
       return;
     const auto &friction = end.friction;
@@ -582,19 +582,19 @@ namespace sprag
     {
       state.traction[d]          = friction.traction[d][i];
       state.memory.slip_speed[d] = friction.slip_speed[d][i];
-      state.slip_change[d]       = of.kind == Kind::slide ? friction.slip_speed[d][i] : end.slip[d][i];
-      if (of.augmented)
+      state.slip_change[d]       = data.kind == Kind::slide ? friction.slip_speed[d][i] : end.slip[d][i];
+      if (data.augmented)
         remembered_traction[d] = begin.memory.traction[d][i];
     }
     state.memory.traction = state.traction;
     state.memory.speed    = friction.speed[i];
     state.memory.point    = state.index;
-    state.memory.step     = of.kind == Kind::in_time ? of.weights.dt : 0.;
-    state.elastic_slip    = (state.traction - remembered_traction).norm() / of.slip.stiffness;
-    if (of.kind == Kind::at_end)
+    state.memory.step     = data.kind == Kind::in_time ? data.weights.dt : 0.;
+    state.elastic_slip    = (state.traction - remembered_traction).norm() / data.slip.stiffness;
+    if (data.kind == Kind::at_end)
     {
       state.slip_change[0] += end.shift[i];
-      state.slip_change *= of.speed_ratio;
+      state.slip_change *= data.speed_ratio;
     }
   }
 } // namespace sprag

@@ -140,7 +140,7 @@ namespace sprag
     void make_blocks(unsigned int patch);
     void place_block(const Block &block, const Patches::Nodal &nodal, Begin &begin) const;
     void recall(unsigned int patch);
-    bool passes_over(const Blocks &of_patch, unsigned int b) const;
+    bool passes_over(const Blocks &group, unsigned int b) const;
     template <bool in_time, class N, class Pose>
     void respond(const Block &block, const Begin &begin, const Pose &pose, const Patches::Nodal &nodal, Part part,
                  End<N> &end) const;
@@ -149,8 +149,8 @@ namespace sprag
     Several<Batch, 2> slip_rates(const Block &block) const;
     void evaluate(const Block &block, const Begin &begin, const Patches::Nodal &nodal, End<Batch> &end) const;
     template <int slopes, bool in_time>
-    void find_tangents_of(const Patches::Indices &patches, Part part,
-                          const std::function<void(unsigned int, const Tangent &)> &take) const;
+    void find_patch_tangents(const Patches::Indices &patches, Part part,
+                             const std::function<void(unsigned int, const Tangent &)> &take) const;
     void set_point(const Block &block, const Begin &begin, const End<Batch> &end, unsigned int lane,
                    FacePointState<3> &state) const;
 
@@ -162,6 +162,6 @@ namespace sprag
     unsigned int n_placed = 0; ///< blocks of these
     std::vector<Begin> begins; ///< of them, and room for more
     Memory remembered;
-    Constants of;
+    Constants data;
   };
 } // namespace sprag

@@ -30,8 +30,8 @@ namespace sprag
     {
       std::set<unsigned int> lines;
       for (unsigned int q = patch.begin; q < patch.end; ++q)
-        lines.insert(patches.line_of_point[q]);
-      lines_of_patch.emplace_back(lines.begin(), lines.end());
+        lines.insert(patches.point_lines[q]);
+      patch_lines.emplace_back(lines.begin(), lines.end());
     }
   }
 
@@ -45,7 +45,7 @@ namespace sprag
                                       [&](const auto &node) { return node.position[0] <= first || node.position[0] >= last; }));
   }
 
-  RigidCylinder::Pose SurfaceContact::pose_of(const SurfacePlace &place) const
+  RigidCylinder::Pose SurfaceContact::to_pose(const SurfacePlace &place) const
   {
     const double u = properties.ports.sprung ? place.ports[properties.ports.support()] : 0.;
     return properties.cylinder.pose(place.x - u, properties.rest_inclination + place.ports[properties.ports.rotation()],
@@ -124,25 +124,25 @@ namespace sprag
   {
     begin_ports = begin.ports;
     begin_x     = begin.x;
-    begin_pose  = pose_of(begin);
+    begin_pose  = to_pose(begin);
     begin_slips.resize(patches.patches.size());
-    for (auto &of_patch : begin_slips)
-      of_patch.clear();
+    for (auto &patch_slips : begin_slips)
+      patch_slips.clear();
     in_lanes.begin({});
   }
 
   double SurfaceContact::slip_at_begin(const unsigned int point) const
   {
-    const unsigned int patch = patches.patch_of_point(point);
-    const auto &of           = patches.patches[patch];
+    const unsigned int patch = patches.point_patch(point);
+    const auto &patch_points = patches.patches[patch];
     auto &known              = begin_slips[patch];
     if (known.empty())
     {
-      const auto nodal = Patches::nodal(of, begin_ports);
-      for (unsigned int q = of.begin; q < of.end; ++q)
+      const auto nodal = Patches::nodal(patch_points, begin_ports);
+      for (unsigned int q = patch_points.begin; q < patch_points.end; ++q)
         known.push_back(properties.cylinder.slip(begin_pose, Patches::position(patches.points[q], nodal)));
     }
-    return known[point - of.begin];
+    return known[point - patch_points.begin];
   }
 
   /// The gap is convex: over a patch it lies above its tangent at the first node. The margin covers bending.
@@ -208,9 +208,9 @@ namespace sprag
     looked_at = reach.clip(near(end, step.end), found.within_reach);
     for (const unsigned int patch : looked_at)
       if (!in_lanes.is_placed(patch))
-        in_lanes.place(patch, Patches::nodal(patches.patches[patch], begin_ports), shifts_of(patch, memory, terms));
+        in_lanes.place(patch, Patches::nodal(patches.patches[patch], begin_ports), slip_shifts(patch, memory, terms));
     press_patches(end.ports, found);
-    set_forces(Wanted::with_tangent, found.forces);
+    set_forces(Request::with_tangent, found.forces);
   }
 
   /// Constants of a step that is balanced where it ends.
@@ -218,15 +218,15 @@ namespace sprag
   {
     StepInLanes::Constants result;
     result.kind  = kind;
-    result.begin = result.balance = result.end = pose_of(end);
+    result.begin = result.balance = result.end = to_pose(end);
     result.normal                              = { properties.penalties.normal, 1. };
     result.slip                                = slip_law(friction, properties.penalties.tangential);
     result.slopes                              = properties.ports.slopes;
     return result;
   }
 
-  std::vector<SlipShift> SurfaceContact::shifts_of(const unsigned int patch, const std::vector<SurfaceMemory> &memory,
-                                                   const StaticTerms &terms) const
+  std::vector<SlipShift> SurfaceContact::slip_shifts(const unsigned int patch, const std::vector<SurfaceMemory> &memory,
+                                                     const StaticTerms &terms) const
   {
     const double stiffness = unwinding_stiffness(terms.augmented, properties.penalties.tangential);
     std::vector<SlipShift> result;
@@ -236,12 +236,12 @@ namespace sprag
     return result;
   }
 
-  PortCoordinates SurfaceContact::coordinates_of(const unsigned int patch) const
+  PortCoordinates SurfaceContact::patch_coordinates(const unsigned int patch) const
   {
     PortCoordinates result;
-    const auto &of = patches.patches[patch];
-    for (unsigned int i = 0; i < 3 * of.n_nodes; ++i)
-      result.push_back({ Patches::max_nodes * (i % 3) + i / 3, 3 * of.nodes[i / 3] + i % 3, 1. });
+    const auto &patch_points = patches.patches[patch];
+    for (unsigned int i = 0; i < 3 * patch_points.n_nodes; ++i)
+      result.push_back({ Patches::max_nodes * (i % 3) + i / 3, 3 * patch_points.nodes[i / 3] + i % 3, 1. });
     constexpr unsigned int n_displacements = StepInLanes::n_displacements;
     add_frame(properties.ports, n_displacements, n_displacements + 1, result);
     for (unsigned int i = 0; i < properties.ports.slopes; ++i)
@@ -249,7 +249,7 @@ namespace sprag
     return result;
   }
 
-  const PortSelection &SurfaceContact::reachable_ports(const double x, const OfLevers &theta, const double travel)
+  const PortSelection &SurfaceContact::reachable_ports(const double x, const PerLever &theta, const double travel)
   {
     constexpr double over_radius = 0.05;
     constexpr double infinity    = std::numeric_limits<double>::max();
@@ -265,43 +265,43 @@ namespace sprag
     return reach.ports;
   }
 
-  StepInLanes::Constants SurfaceContact::constants_of(const PortStep &of) const
+  StepInLanes::Constants SurfaceContact::step_constants(const PortStep &port_step) const
   {
-    auto result       = constants(Kind::in_time, { of.end, of.to.x }, friction_of_step(properties.friction, of.to.v));
-    result.weights    = of.weights;
+    auto result = constants(Kind::in_time, { port_step.end, port_step.to.x }, step_friction(properties.friction, port_step.to.v));
+    result.weights    = port_step.weights;
     result.begin      = begin_pose;
-    result.share      = of.weights.stiffness();
+    result.share      = port_step.weights.stiffness();
     const auto &begin = result.begin, &end = result.end;
     const auto balanced = [share = result.share](const double a, const double b) { return (1. - share) * a + share * b; };
     result.balance =
         properties.cylinder.pose(balanced(begin.x, end.x), balanced(begin.theta, end.theta),
                                  { { balanced(begin.turned[0], end.turned[0]), balanced(begin.turned[1], end.turned[1]) } });
-    result.surface_run = of.to.surface - of.from.surface;
-    result.advance     = of.to.x - of.from.x;
+    result.surface_run = port_step.to.surface - port_step.from.surface;
+    result.advance     = port_step.to.x - port_step.from.x;
     return result;
   }
 
-  void SurfaceContact::evaluate(const PortStep &of, FaceEvaluation<3> &found)
+  void SurfaceContact::evaluate(const PortStep &port_step, FaceEvaluation<3> &found)
   {
-    const auto &memory  = of.surface_memory != nullptr ? *of.surface_memory : no_memory;
-    const bool is_first = begin_ports.size() != of.begin.position.size();
-    if (is_first || begin_x != of.from.x || begin_ports != of.begin.position || !in_lanes.begins_with(memory))
+    const auto &memory  = port_step.surface_memory != nullptr ? *port_step.surface_memory : no_memory;
+    const bool is_first = begin_ports.size() != port_step.begin.position.size();
+    if (is_first || begin_x != port_step.from.x || begin_ports != port_step.begin.position || !in_lanes.begins_with(memory))
     {
-      begin_step({ of.begin.position, of.from.x });
+      begin_step({ port_step.begin.position, port_step.from.x });
       in_lanes.begin(memory);
-      looked_at_first = united(near({ begin_ports, begin_x }, begin_pose), patches_of(patches, memory));
+      looked_at_first = united(near({ begin_ports, begin_x }, begin_pose), touched_patches(patches, memory));
     }
-    const auto step = constants_of(of);
+    const auto step = step_constants(port_step);
     in_lanes.set(step);
 
-    found.displacement     = of.end;
-    found.x                = of.to.x;
-    found.duration         = of.weights.dt;
+    found.displacement     = port_step.end;
+    found.x                = port_step.to.x;
+    found.duration         = port_step.weights.dt;
     found.sums.compression = 0.;
-    looked_at              = reach.clip(united(near({ of.end, of.to.x }, step.end), looked_at_first), found.within_reach);
-    place_patches(of.begin.position);
-    press_patches(of.end, found);
-    set_forces(of.wanted, found.forces);
+    looked_at = reach.clip(united(near({ port_step.end, port_step.to.x }, step.end), looked_at_first), found.within_reach);
+    place_patches(port_step.begin.position);
+    press_patches(port_step.end, found);
+    set_forces(port_step.request, found.forces);
   }
 
   void SurfaceContact::place_patches(const Vector<double> &begin)
@@ -339,21 +339,21 @@ namespace sprag
     summed = { std::move(touched), {}, {} };
     for (const unsigned int patch : summed.patches)
     {
-      summed.coordinates.push_back(coordinates_of(patch));
-      const auto ports = ports_of(summed.coordinates.back());
+      summed.coordinates.push_back(patch_coordinates(patch));
+      const auto ports = collect_ports(summed.coordinates.back());
       summed.ports.insert(summed.ports.end(), ports.begin(), ports.end());
     }
     std::sort(summed.ports.begin(), summed.ports.end());
     summed.ports.erase(std::unique(summed.ports.begin(), summed.ports.end()), summed.ports.end());
     for (auto &coordinates : summed.coordinates)
       for (auto &coordinate : coordinates)
-        coordinate.port = place_of(coordinate.port, summed.ports);
+        coordinate.port = find_index(coordinate.port, summed.ports);
   }
 
   /// From the patches that were pressed last.
-  void SurfaceContact::set_forces(const Wanted wanted, PortForces &forces) const
+  void SurfaceContact::set_forces(const Request request, PortForces &forces) const
   {
-    forces.has_tangent = wanted != Wanted::forces;
+    forces.has_tangent = request != Request::forces;
     forces.tangent.reinit(0, 0);
     forces.ports = summed.ports;
     forces.values.reinit(static_cast<unsigned int>(summed.ports.size()));
@@ -369,11 +369,11 @@ namespace sprag
     const auto n = static_cast<unsigned int>(summed.ports.size());
     dealii::FullMatrix<double> result(n, n);
     in_lanes.find_tangents(summed.patches, part,
-                           [&](const unsigned int i, const StepInLanes::Tangent &of_patch)
+                           [&](const unsigned int i, const StepInLanes::Tangent &patch_tangent)
                            {
                              for (const auto &row : summed.coordinates[i])
                                for (const auto &column : summed.coordinates[i])
-                                 result(row.port, column.port) += row.sign * column.sign * of_patch[row.index][column.index];
+                                 result(row.port, column.port) += row.sign * column.sign * patch_tangent[row.index][column.index];
                            });
     return result;
   }
@@ -381,15 +381,15 @@ namespace sprag
   void SurfaceContact::evaluate_sliding(const SlidingState &sliding, FaceEvaluation<3> &found)
   {
     press_slide(sliding, found);
-    set_forces(sliding.wanted, found.forces);
-    if (sliding.wanted == Wanted::with_tangent)
+    set_forces(sliding.request, found.forces);
+    if (sliding.request == Request::with_tangent)
       complete(found);
   }
 
   PortPerturbation SurfaceContact::linearise(const SlidingState &sliding, FaceEvaluation<3> &found)
   {
     press_slide(sliding, found);
-    set_forces(Wanted::forces, found.forces);
+    set_forces(Request::forces, found.forces);
     complete(found);
     add_points(found);
     PortPerturbation result(found.forces.ports);
@@ -403,7 +403,7 @@ namespace sprag
   {
     const SurfacePlace place{ sliding.ports, sliding.drive.x };
     found.begin(sliding.ports, sliding.drive.x, 1.); // slips are those of a second
-    auto step           = constants(Kind::slide, place, friction_of_slide(properties.friction, sliding));
+    auto step           = constants(Kind::slide, place, slide_friction(properties.friction, sliding));
     step.slide.speed    = sliding.speed;
     step.slide.friction = sliding.friction;
     if (sliding.rates != nullptr)
@@ -438,16 +438,16 @@ namespace sprag
     press_patches(place.ports, found);
   }
 
-  double SurfaceContact::gap_change(const FaceEvaluation<3> &found, const Vector<double> &change_of_ports, unsigned int) const
+  double SurfaceContact::gap_change(const FaceEvaluation<3> &found, const Vector<double> &port_change, unsigned int) const
   {
     const auto &point =
         *std::min_element(found.points.begin(), found.points.end(), [](const auto &a, const auto &b) { return a.gap < b.gap; });
-    const auto &of   = patches.points[point.index];
-    const auto &at   = properties.ports;
-    const auto nodal = Patches::nodal(patches.patches[point.patch], change_of_ports);
+    const auto &patch_points = patches.points[point.index];
+    const auto &at           = properties.ports;
+    const auto nodal         = Patches::nodal(patches.patches[point.patch], port_change);
     return properties.cylinder.changes(
-        pose_of({ found.displacement, found.x }), point.position, Patches::position(of, nodal) - of.position,
-        at.sprung ? -change_of_ports[at.support()] : 0., change_of_ports[at.rotation()], turned_by(change_of_ports))[0];
+        to_pose({ found.displacement, found.x }), point.position, Patches::position(patch_points, nodal) - patch_points.position,
+        at.sprung ? -port_change[at.support()] : 0., port_change[at.rotation()], turned_by(port_change))[0];
   }
 
   double SurfaceContact::mean_slip(const FaceEvaluation<3> &found, const Vector<double> &from, const double from_x,
@@ -468,7 +468,7 @@ namespace sprag
   double SurfaceContact::slip_at(const FacePointState<3> &point, const SurfacePlace &place) const
   {
     const auto nodal = Patches::nodal(patches.patches[point.patch], place.ports);
-    return properties.cylinder.slip(pose_of(place), Patches::position(patches.points[point.index], nodal));
+    return properties.cylinder.slip(to_pose(place), Patches::position(patches.points[point.index], nodal));
   }
 
   void SurfaceContact::add_points(FaceEvaluation<3> &found) const
@@ -480,7 +480,7 @@ namespace sprag
 
   bool SurfaceContact::share_line(const unsigned int patch, const unsigned int other) const
   {
-    const auto &a = lines_of_patch[patch], &b = lines_of_patch[other];
+    const auto &a = patch_lines[patch], &b = patch_lines[other];
     return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
   }
 

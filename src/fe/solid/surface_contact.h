@@ -80,8 +80,7 @@ namespace sprag
     std::vector<SurfaceMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive, FaceEvaluation<3> &found);
 
     /// Returns by how much a small change of the ports changes the gap where that is smallest [mm].
-    double gap_change(const FaceEvaluation<3> &found, const dealii::Vector<double> &change_of_ports,
-                      unsigned int lever = 0) const;
+    double gap_change(const FaceEvaluation<3> &found, const dealii::Vector<double> &port_change, unsigned int lever = 0) const;
 
     /// Returns the mean slip round the cylinder of the points in contact, weighted with their pressure, from one configuration to
     /// another [mm].
@@ -90,7 +89,7 @@ namespace sprag
 
     /// Returns the ports near the cylinder at the beginning and at the end of a step in which the contact travels along xi [mm];
     /// those that it passes between take no part.
-    const PortSelection &reachable_ports(double x, const OfLevers &theta, double travel = 0.);
+    const PortSelection &reachable_ports(double x, const PerLever &theta, double travel = 0.);
 
     /// Doubles how far these ports reach, from their next call on.
     void widen_reach()
@@ -153,34 +152,34 @@ namespace sprag
     void find_ends();
     bool share_line(unsigned int patch, unsigned int other) const;
     void add_points_in_contact(const std::optional<unsigned int> &peak, FaceEvaluation<3> &found) const;
-    RigidCylinder::Pose pose_of(const SurfacePlace &place) const;
+    RigidCylinder::Pose to_pose(const SurfacePlace &place) const;
     AxisSlopes turned_by(const dealii::Vector<double> &ports) const;
     Patches::Indices near(const SurfacePlace &place, const RigidCylinder::Pose &pose) const;
     StepInLanes::Constants constants(Kind kind, const SurfacePlace &end, const FrictionLaw &friction) const;
-    std::vector<SlipShift> shifts_of(unsigned int patch, const std::vector<SurfaceMemory> &memory,
-                                     const StaticTerms &terms) const;
+    std::vector<SlipShift> slip_shifts(unsigned int patch, const std::vector<SurfaceMemory> &memory,
+                                       const StaticTerms &terms) const;
     void press_slide(const SlidingState &sliding, FaceEvaluation<3> &found);
     void press(const StepInLanes::Constants &step, const SurfacePlace &place, Patches::Indices patches_near,
                FaceEvaluation<3> &found);
     void place_patches(const dealii::Vector<double> &begin);
     void press_patches(const dealii::Vector<double> &end, FaceEvaluation<3> &found);
-    StepInLanes::Constants constants_of(const PortStep &step) const;
+    StepInLanes::Constants step_constants(const PortStep &step) const;
     double slip_at(const FacePointState<3> &point, const SurfacePlace &place) const;
     std::vector<unsigned int> nodes_at(double zeta) const;
     double indentation(const FaceEvaluation<3> &found, const Row &row) const;
     void find_summed(Patches::Indices touched);
-    void set_forces(Wanted wanted, PortForces &forces) const;
+    void set_forces(Request request, PortForces &forces) const;
     dealii::FullMatrix<double> tangent(StepInLanes::Part part) const;
     bool reaches_end(const FaceEvaluation<3> &found) const;
     double slip_at_begin(unsigned int point) const;
-    PortCoordinates coordinates_of(unsigned int patch) const;
+    PortCoordinates patch_coordinates(unsigned int patch) const;
 
     const FrictionFace<3> &face;
     SurfaceContactProperties properties;
     Patches patches;
     const FaceView<3> view;
-    std::vector<std::vector<unsigned int>> lines_of_patch; ///< increasing
-    std::vector<bool> is_at_end;                           ///< whether a patch is at an end of the face along xi
+    std::vector<std::vector<unsigned int>> patch_lines; ///< increasing
+    std::vector<bool> is_at_end;                        ///< whether a patch is at an end of the face along xi
 
     dealii::Vector<double> begin_ports;
     double begin_x = 0.;

@@ -64,11 +64,11 @@ namespace sprag
     return { std::min(lever.normal, cylinder.normal), std::min(lever.tangential, cylinder.tangential) };
   }
 
-  template <class Of>
-  ContactPenalties penalties_in_time(const Device &device, const Of &of)
+  template <class Source>
+  ContactPenalties penalties_in_time(const Device &device, const Source &source)
   {
     const double factor = device.mesh.degree == 1 ? in_time_linear : in_time;
-    return contact_penalties(of, device.contact, device.layer.thickness, factor);
+    return contact_penalties(source, device.contact, device.layer.thickness, factor);
   }
 
   template ContactPenalties penalties_in_time(const Device &, const ElasticBody<2> &);

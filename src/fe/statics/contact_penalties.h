@@ -13,7 +13,7 @@ namespace sprag
 
   /// Automatic normal penalty over E/depth of the friction layer or, without one, of the first cells, of hard contact, to which
   /// laws of the reduced models are fitted.
-  constexpr double penalty_of_indentation = 1200.;
+  constexpr double indentation_penalty = 1200.;
 
   /// The settings' penalties, or `over_layer` E/depth, or without it what suits mesh and layer of a run without inertia or of the
   /// augmented Lagrangian. `longest` is the length of the longest cells where the contact passes, of a graded mesh [mm]; 0: they
@@ -27,6 +27,6 @@ namespace sprag
                                      const std::optional<double> &over_layer, double longest = 0.);
 
   /// The same in time, of a face in space or a body in a plane.
-  template <class Of>
-  ContactPenalties penalties_in_time(const Device &device, const Of &of);
+  template <class Source>
+  ContactPenalties penalties_in_time(const Device &device, const Source &source);
 } // namespace sprag

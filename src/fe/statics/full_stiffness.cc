@@ -19,9 +19,9 @@ namespace sprag
       , springs(springs_)
       , surface(surface_dofs(body))
   {
-    body.reinit(of_body);
+    body.reinit(body_stiffness);
     pattern.reinit(n_coordinates(), n_coordinates());
-    const MatrixRows rows(of_body);
+    const MatrixRows rows(body_stiffness);
     for (unsigned int lever = 0; lever < ports.levers; ++lever)
       for (PetscInt i = 0; i < rows.n; ++i)
         for (PetscInt k = rows.begin[i]; k < rows.begin[i + 1]; ++k)
@@ -34,7 +34,7 @@ namespace sprag
 
   void FullStiffness::find_places(const unsigned int lever)
   {
-    const MatrixRows rows(of_body), all(*free_matrix());
+    const MatrixRows rows(body_stiffness), all(*free_matrix());
     const auto first = static_cast<PetscInt>(first_coordinate(lever));
     for (PetscInt i = 0; i < rows.n; ++i)
     {
@@ -60,7 +60,7 @@ namespace sprag
     const auto friction_ports = 2 * static_cast<unsigned int>(body.friction_face().nodes.size());
     for (unsigned int lever = 0; lever < ports.levers; ++lever)
     {
-      for (unsigned int i = 0; i < ports.of_a_lever(); ++i)
+      for (unsigned int i = 0; i < ports.ports_per_lever(); ++i)
       {
         couple(ports.first(lever) + i, ports.rotation(lever));
         if (ports.sprung)
@@ -88,7 +88,7 @@ namespace sprag
   {
     if (port == ports.support())
       return first_coordinate(ports.levers);
-    const unsigned int lever = ports.lever_of(port);
+    const unsigned int lever = ports.port_lever(port);
     return first_coordinate(lever) + (ports.is_surface(port) ? surface[port - ports.first(lever)] : body.n_dofs());
   }
 
@@ -159,12 +159,12 @@ namespace sprag
   {
     const unsigned int first = first_coordinate(lever);
     Vector<double> internal(body.n_dofs());
-    of_body = 0.;
-    body.assemble(body_displacement(lever, coordinates), of_body, internal);
+    body_stiffness = 0.;
+    body.assemble(body_displacement(lever, coordinates), body_stiffness, internal);
     for (unsigned int dof = 0; dof < body.n_dofs(); ++dof)
       forces[first + dof] -= internal[dof];
 
-    const MatrixRows from(of_body), to(matrix);
+    const MatrixRows from(body_stiffness), to(matrix);
     const std::size_t n = places.size() / ports.levers;
     for (std::size_t k = 0; k < n; ++k)
       to[places[lever * n + k]] += from[k];

@@ -58,7 +58,7 @@ namespace sprag
     const PortSprings springs;
     const std::vector<unsigned int> surface; ///< degrees of freedom of a lever's ports
     Mumps factors;
-    dealii::PETScWrappers::SparseMatrix of_body; ///< stiffness of a lever's body
+    dealii::PETScWrappers::SparseMatrix body_stiffness; ///< stiffness of a lever's body
     dealii::DynamicSparsityPattern pattern;
     std::vector<std::shared_ptr<dealii::PETScWrappers::SparseMatrix>> matrices; ///< with room for a tangent each
     std::vector<std::size_t> places; ///< of the entries of each lever's body in such a matrix

@@ -66,30 +66,30 @@ namespace sprag
     return result;
   }
 
-  std::vector<LeverProperties> properties_of_levers(const Device &device)
+  std::vector<LeverProperties> all_lever_properties(const Device &device)
   {
-    if (number_of_levers(device) == 1)
+    if (count_levers(device) == 1)
       return { lever_properties(device) };
     std::vector<LeverProperties> result;
     for (const unsigned int lever : { 0, 1 })
     {
-      result.push_back(lever_properties(device_of_lever(device, lever)));
+      result.push_back(lever_properties(lever_device(device, lever)));
       result.back().spring.rest = rest_inclination(device);
       result.back().ideal_theta = [device, lever](const double x) { return pair_inclinations(device, x)[lever]; };
     }
     return result;
   }
 
-  std::string locking_objection(const Row &row, const double interface_offset, const DrivePoint &drive)
+  std::string check_locking(const Row &row, const double interface_offset, const DrivePoint &drive)
   {
     const double s    = row[Column::s];
     const double mu_e = row[Column::mu] * interface_offset;
-    if (direction_of(drive.v) >= 0 || row[Column::F] >= 0. || s > mu_e)
+    if (drive_direction(drive.v) >= 0 || row[Column::F] >= 0. || s > mu_e)
       return {};
     return "the lever locks: moving back, s = " + rounded_text(s) + " mm <= mu e = " + rounded_text(mu_e) + " mm";
   }
 
-  std::string pressure_objection(const double pressure, const double young_modulus)
+  std::string check_pressure(const double pressure, const double young_modulus)
   {
     constexpr double largest_strain = 0.5;
     const double limit              = largest_strain * young_modulus;

@@ -51,12 +51,12 @@ namespace sprag
   LeverProperties lever_properties(const Device &device);
 
   /// Returns the properties of the scene's lever, or of both of its full pair, each in its own (the second in mirrored) axes.
-  std::vector<LeverProperties> properties_of_levers(const Device &device);
+  std::vector<LeverProperties> all_lever_properties(const Device &device);
 
   /// Returns that the lever locks where it moves back with s <= mu e; empty elsewhere. The row holds s, mu and F.
-  std::string locking_objection(const Row &row, double interface_offset, const DrivePoint &drive);
+  std::string check_locking(const Row &row, double interface_offset, const DrivePoint &drive);
 
   /// Returns that linear elasticity does not hold where the pressure exceeds half of Young's modulus of the friction face [MPa];
   /// empty elsewhere.
-  std::string pressure_objection(double pressure, double young_modulus);
+  std::string check_pressure(double pressure, double young_modulus);
 } // namespace sprag

@@ -36,12 +36,12 @@ namespace sprag
   {
     if (!std::includes(window.begin(), window.end(), near.begin(), near.end()))
       move_window(near);
-    return places_of(near);
+    return find_indices(near);
   }
 
-  void PortWindow::move_window(const PortSelection &wanted)
+  void PortWindow::move_window(const PortSelection &selected)
   {
-    window_for = wanted;
+    window_for = selected;
     window.clear();
     compliance            = {};
     const auto add_spring = [&](const unsigned int port, const double own)
@@ -54,15 +54,15 @@ namespace sprag
       unsigned int first = ports.first(lever);
       for (const auto &face : faces)
       {
-        const auto begin = std::lower_bound(wanted.begin(), wanted.end(), first);
-        const auto end   = std::lower_bound(begin, wanted.end(), first + face.n_ports);
-        PortSelection of_face;
-        std::transform(begin, end, std::back_inserter(of_face), [&](const unsigned int port) { return port - first; });
-        const auto tiles = face.whole_tiles(of_face);
-        for (const unsigned int place : tiles)
+        const auto begin = std::lower_bound(selected.begin(), selected.end(), first);
+        const auto end   = std::lower_bound(begin, selected.end(), first + face.n_ports);
+        PortSelection face_ports;
+        std::transform(begin, end, std::back_inserter(face_ports), [&](const unsigned int port) { return port - first; });
+        const auto blocks = face.whole_blocks(face_ports);
+        for (const unsigned int place : blocks)
           window.push_back(first + place);
-        if (!tiles.empty())
-          compliance.append(face.among(tiles));
+        if (!blocks.empty())
+          compliance.append(face.among(blocks));
         first += face.n_ports;
       }
       for (unsigned int slope = 0; slope < ports.slopes; ++slope)
@@ -75,17 +75,17 @@ namespace sprag
 
   void PortWindow::visit_history(Archive &archive)
   {
-    PortSelection wanted = window_for;
-    archive(wanted);
-    if (archive.reads() && !wanted.empty())
-      move_window(wanted);
+    PortSelection selected = window_for;
+    archive(selected);
+    if (archive.reads() && !selected.empty())
+      move_window(selected);
   }
 
-  PortSelection PortWindow::places_of(const PortSelection &of_ports) const
+  PortSelection PortWindow::find_indices(const PortSelection &selected) const
   {
     PortSelection result;
     unsigned int place = 0;
-    for (const unsigned int port : of_ports)
+    for (const unsigned int port : selected)
     {
       while (window.at(place) != port) // throws where the window lacks it
         ++place;
@@ -98,27 +98,27 @@ namespace sprag
   {
     const auto places = look_at(near);
     Vector<double> displacements(compliance.size());
-    add_response(compliance, places_of(forces.ports), forces.values, places, displacements);
+    add_response(compliance, find_indices(forces.ports), forces.values, places, displacements);
     for (const unsigned int place : places)
       if (ports.is_surface(window[place]))
         coordinates[window[place]] = displacements[place];
   }
 
   Residual PortWindow::residual(const Vector<double> &coordinates, const PortForces &forces, const PortSelection &near,
-                                const Vector<double> *const of_faces)
+                                const Vector<double> *const face_displacements)
   {
     const auto places = look_at(near);
     Vector<double> mismatch(compliance.size());
     for (const unsigned int place : places)
       mismatch[place] = -coordinates[window[place]];
-    add_response(compliance, places_of(forces.ports), forces.values, places, mismatch);
+    add_response(compliance, find_indices(forces.ports), forces.values, places, mismatch);
     Residual result{ Vector<double>(n_coordinates()), 0. };
     double squares = 0.;
     for (const unsigned int place : places)
     {
       const unsigned int port = window[place];
-      const bool is_given     = of_faces != nullptr && ports.is_surface(port);
-      result.values[port]     = is_given ? (*of_faces)[port] - coordinates[port] : mismatch[place];
+      const bool is_set       = face_displacements != nullptr && ports.is_surface(port);
+      result.values[port]     = is_set ? (*face_displacements)[port] - coordinates[port] : mismatch[place];
       squares += result.values[port] * result.values[port];
     }
     const auto as_movement = [&](const unsigned int port, const double arm)
@@ -140,7 +140,7 @@ namespace sprag
     Vector<double> mismatch(compliance.size());
     for (const unsigned int place : places)
       mismatch[place] = residual.values[window[place]];
-    const auto in_window = port_correction(compliance, places_of(forces.ports), forces.tangent, places, mismatch);
+    const auto in_window = port_correction(compliance, find_indices(forces.ports), forces.tangent, places, mismatch);
     Vector<double> result(n_coordinates());
     for (const unsigned int place : places)
       result[window[place]] = in_window[place];

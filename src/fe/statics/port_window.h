@@ -14,8 +14,8 @@ namespace sprag
   struct FaceResponse
   {
     unsigned int n_ports;
-    std::function<PortSelection(const PortSelection &)> whole_tiles; ///< those that hold some ports
-    std::function<std::shared_ptr<const dealii::FullMatrix<double>>(const PortSelection &whole_tiles)> among; ///< [mm/N]
+    std::function<PortSelection(const PortSelection &)> whole_blocks; ///< those that hold some ports
+    std::function<std::shared_ptr<const dealii::FullMatrix<double>>(const PortSelection &whole_blocks)> among; ///< [mm/N]
   };
 
   /// Linear levers on linear springs in statics, seen through their ports, z = G f(z). The compliance G is dense on the faces of
@@ -42,9 +42,10 @@ namespace sprag
     /// Sets the displacements of those ports of the faces that are looked at to G f.
     void set_faces(const PortLoads &forces, const PortSelection &near, dealii::Vector<double> &coordinates);
 
-    /// Returns G f - z. `of_faces`: displacements of the faces in place of G f, on all their ports, of a body that is not linear.
+    /// Returns G f - z. `face_displacements`: displacements of the faces in place of G f, on all their ports, of a body that is
+    /// not linear.
     Residual residual(const dealii::Vector<double> &coordinates, const PortForces &forces, const PortSelection &near,
-                      const dealii::Vector<double> *of_faces = nullptr);
+                      const dealii::Vector<double> *face_displacements = nullptr);
 
     /// Returns the correction, 0 on ports that are not looked at. Throws AnalysisError if the tangent is singular.
     dealii::Vector<double> correction(const Residual &residual, const PortForces &forces, const PortSelection &near);
@@ -59,8 +60,8 @@ namespace sprag
     const PortLayout ports;
 
   private:
-    void move_window(const PortSelection &wanted);
-    PortSelection places_of(const PortSelection &of_ports) const;
+    void move_window(const PortSelection &selected);
+    PortSelection find_indices(const PortSelection &selected) const;
     PortSelection look_at(const PortSelection &near);
 
     const PortSprings springs;

@@ -20,11 +20,11 @@ namespace sprag
     rows.reinit(number(), n_surface + number());
     for (unsigned int i = 0; i < number(); ++i)
     {
-      const double *const of_sensor = &responses[static_cast<std::size_t>(i) * n_dofs];
+      const double *const sensor_response = &responses[static_cast<std::size_t>(i) * n_dofs];
       for (unsigned int port = 0; port < n_surface; ++port)
-        rows(i, port) = of_sensor[surface[port]];
+        rows(i, port) = sensor_response[surface[port]];
       for (unsigned int j = 0; j < number(); ++j)
-        rows(i, n_surface + j) = sensors[j].compression(of_sensor);
+        rows(i, n_surface + j) = sensors[j].compression(sensor_response);
     }
   }
 
@@ -46,14 +46,14 @@ namespace sprag
     return result;
   }
 
-  void SensorForces::add_compliance(const PortLayout &ports, const unsigned int first_of_surface,
+  void SensorForces::add_compliance(const PortLayout &ports, const unsigned int surface_begin,
                                     dealii::FullMatrix<double> &compliance) const
   {
     for (unsigned int s = 0; s < number(); ++s)
     {
       const unsigned int port = ports.sensor(s);
       for (unsigned int i = 0; i < ports.surface; ++i)
-        compliance(port, i) = compliance(i, port) = rows(s, first_of_surface + i);
+        compliance(port, i) = compliance(i, port) = rows(s, surface_begin + i);
       for (unsigned int other = 0; other < number(); ++other)
         compliance(port, ports.sensor(other)) = rows(s, n_surface + other);
     }

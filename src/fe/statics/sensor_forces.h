@@ -38,7 +38,7 @@ namespace sprag
     std::vector<double> compressions(const dealii::Vector<double> &displacement) const;
 
     /// Sets the static compliance of sensors' ports, in a layout whose ports begin at one of the surface [mm/N].
-    void add_compliance(const PortLayout &ports, unsigned int first_of_surface, dealii::FullMatrix<double> &compliance) const;
+    void add_compliance(const PortLayout &ports, unsigned int surface_begin, dealii::FullMatrix<double> &compliance) const;
 
   private:
     SensorForces(std::vector<Connector> sensors, const std::vector<unsigned int> &surface, unsigned int n_dofs,

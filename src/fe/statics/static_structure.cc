@@ -12,73 +12,73 @@ namespace sprag
   namespace
   {
     /// Ports in a row of a tile. Smaller ones make more calls of the solver, larger ones more entries that nobody asks for.
-    constexpr unsigned int tile_size = 128;
+    constexpr unsigned int block_size = 128;
   } // namespace
 
   SurfaceCompliance::SurfaceCompliance(const Mumps &stiffness, std::vector<unsigned int> dofs)
       : factors(stiffness)
-      , dof_of_port(std::move(dofs))
+      , dofs_by_port(std::move(dofs))
   {
-    for (unsigned int port = 0; port < dof_of_port.size(); ++port)
-      port_of_dof[dof_of_port[port]] = port;
+    for (unsigned int port = 0; port < dofs_by_port.size(); ++port)
+      ports_by_dof[dofs_by_port[port]] = port;
   }
 
-  unsigned int SurfaceCompliance::n_ports_of(const unsigned int tile) const
+  unsigned int SurfaceCompliance::n_block_ports(const unsigned int block) const
   {
-    return std::min(tile_size, static_cast<unsigned int>(dof_of_port.size()) - tile * tile_size);
+    return std::min(block_size, static_cast<unsigned int>(dofs_by_port.size()) - block * block_size);
   }
 
-  PortSelection SurfaceCompliance::ports_of(const unsigned int tile) const
+  PortSelection SurfaceCompliance::block_ports(const unsigned int block) const
   {
-    PortSelection result(n_ports_of(tile));
-    std::iota(result.begin(), result.end(), tile * tile_size);
+    PortSelection result(n_block_ports(block));
+    std::iota(result.begin(), result.end(), block * block_size);
     return result;
   }
 
-  PortSelection SurfaceCompliance::whole_tiles(const PortSelection &ports) const
+  PortSelection SurfaceCompliance::whole_blocks(const PortSelection &ports) const
   {
     std::set<unsigned int> touched;
     for (const unsigned int port : ports)
-      touched.insert(port / tile_size);
+      touched.insert(port / block_size);
     PortSelection result;
-    for (const unsigned int tile : touched)
+    for (const unsigned int block : touched)
     {
-      const auto of_tile = ports_of(tile);
-      result.insert(result.end(), of_tile.begin(), of_tile.end());
+      const auto own_ports = block_ports(block);
+      result.insert(result.end(), own_ports.begin(), own_ports.end());
     }
     return result;
   }
 
-  FullMatrix<double> SurfaceCompliance::among(const PortSelection &whole_tiles)
+  FullMatrix<double> SurfaceCompliance::among(const PortSelection &whole_blocks)
   {
     std::vector<unsigned int> begins; // of the tiles among the ports
-    for (unsigned int i = 0; i < whole_tiles.size(); i += n_ports_of(whole_tiles[i] / tile_size))
+    for (unsigned int i = 0; i < whole_blocks.size(); i += n_block_ports(whole_blocks[i] / block_size))
       begins.push_back(i);
-    const auto tile_at = [&](const unsigned int begin) { return whole_tiles[begin] / tile_size; };
-    std::vector<Tile> missing;
+    const auto block_at = [&](const unsigned int begin) { return whole_blocks[begin] / block_size; };
+    std::vector<Block> missing;
     for (const unsigned int row : begins)
       for (const unsigned int column : begins)
-        if (column <= row && tiles.count({ tile_at(row), tile_at(column) }) == 0)
-          missing.emplace_back(tile_at(row), tile_at(column));
+        if (column <= row && blocks.count({ block_at(row), block_at(column) }) == 0)
+          missing.emplace_back(block_at(row), block_at(column));
     if (!missing.empty())
       find(missing);
-    FullMatrix<double> matrix(static_cast<unsigned int>(whole_tiles.size()));
+    FullMatrix<double> matrix(static_cast<unsigned int>(whole_blocks.size()));
     for (const unsigned int row : begins)
       for (const unsigned int column : begins)
         if (column <= row)
         {
-          const auto &tile = tiles.at({ tile_at(row), tile_at(column) });
-          for (unsigned int i = 0; i < tile.m(); ++i)
-            for (unsigned int j = 0; j < tile.n(); ++j)
-              matrix(row + i, column + j) = matrix(column + j, row + i) = tile(i, j);
+          const auto &block = blocks.at({ block_at(row), block_at(column) });
+          for (unsigned int i = 0; i < block.m(); ++i)
+            for (unsigned int j = 0; j < block.n(); ++j)
+              matrix(row + i, column + j) = matrix(column + j, row + i) = block(i, j);
         }
     return matrix;
   }
 
   double &SurfaceCompliance::entry(const unsigned int row, const unsigned int column)
   {
-    const Tile tile(row / tile_size, column / tile_size);
-    return tile.first < tile.second ? entry(column, row) : tiles.at(tile)(row % tile_size, column % tile_size);
+    const Block block(row / block_size, column / block_size);
+    return block.first < block.second ? entry(column, row) : blocks.at(block)(row % block_size, column % block_size);
   }
 
   void SurfaceCompliance::visit_history(Archive &archive)
@@ -87,44 +87,44 @@ namespace sprag
     archive(known);
     if (!archive.reads())
       return;
-    tiles.clear();
+    blocks.clear();
     searches.clear();
     for (const auto &together : known)
       find(together);
   }
 
-  void SurfaceCompliance::find(const std::vector<Tile> &wanted)
+  void SurfaceCompliance::find(const std::vector<Block> &needed)
   {
-    searches.push_back(wanted);
+    searches.push_back(needed);
     // A row costs much, an entry little: the rows are those of ports that are new.
     std::map<unsigned int, PortSelection> columns; // by the tile of the rows, in the order of the degrees of freedom
-    for (const auto &[first, second] : wanted)
+    for (const auto &[first, second] : needed)
     {
-      const bool first_is_new = tiles.count({ first, first }) == 0;
-      const auto of_columns   = ports_of(first_is_new ? second : first);
-      auto &of_rows           = columns[first_is_new ? first : second];
-      of_rows.insert(of_rows.end(), of_columns.begin(), of_columns.end());
+      const bool first_is_new = blocks.count({ first, first }) == 0;
+      const auto column_ports = block_ports(first_is_new ? second : first);
+      auto &row_ports         = columns[first_is_new ? first : second];
+      row_ports.insert(row_ports.end(), column_ports.begin(), column_ports.end());
     }
-    for (const auto &[first, second] : wanted)
-      tiles[{ first, second }].reinit(n_ports_of(first), n_ports_of(second));
+    for (const auto &[first, second] : needed)
+      blocks[{ first, second }].reinit(n_block_ports(first), n_block_ports(second));
 
     std::map<unsigned int, std::vector<unsigned int>> entries; // degrees of freedom
-    for (auto &[tile, ports] : columns)
+    for (auto &[block, ports] : columns)
     {
       std::sort(ports.begin(), ports.end(),
-                [&](const unsigned int a, const unsigned int b) { return dof_of_port[a] < dof_of_port[b]; });
+                [&](const unsigned int a, const unsigned int b) { return dofs_by_port[a] < dofs_by_port[b]; });
       std::vector<unsigned int> dofs;
       for (const unsigned int port : ports)
-        dofs.push_back(dof_of_port[port]);
-      for (const unsigned int row : ports_of(tile))
-        entries[dof_of_port[row]] = dofs;
+        dofs.push_back(dofs_by_port[port]);
+      for (const unsigned int row : block_ports(block))
+        entries[dofs_by_port[row]] = dofs;
     }
-    const auto values = factors.entries_of_inverse(entries);
+    const auto values = factors.compute_inverse_entries(entries);
     auto value        = values.begin();
-    for (const auto &of_row : entries)
+    for (const auto &row_entries : entries)
     {
-      const unsigned int row = port_of_dof.at(of_row.first);
-      for (const unsigned int column : columns.at(row / tile_size))
+      const unsigned int row = ports_by_dof.at(row_entries.first);
+      for (const unsigned int column : columns.at(row / block_size))
         entry(row, column) = *value++;
     }
   }
@@ -132,23 +132,25 @@ namespace sprag
   namespace
   {
     /// The compliances may be made after this.
-    FaceResponse response_of(const FrictionFace<2> &of_body, std::array<SurfaceCompliance, 2> *const faces, const unsigned int i)
+    FaceResponse face_response(const FrictionFace<2> &mesh_face, std::array<SurfaceCompliance, 2> *const faces,
+                               const unsigned int i)
     {
-      return { 2 * static_cast<unsigned int>(of_body.nodes.size()),
-               [=](const PortSelection &some) { return (*faces)[i].whole_tiles(some); },
-               [=](const PortSelection &tiles) { return std::make_shared<const FullMatrix<double>>((*faces)[i].among(tiles)); } };
+      return { 2 * static_cast<unsigned int>(mesh_face.nodes.size()),
+               [=](const PortSelection &some) { return (*faces)[i].whole_blocks(some); },
+               [=](const PortSelection &blocks)
+               { return std::make_shared<const FullMatrix<double>>((*faces)[i].among(blocks)); } };
     }
   } // namespace
 
   StaticStructure::StaticStructure(const ElasticBody<2> &body_, const PortLayout &ports_, const PortSprings &springs_)
       : PortWindow(ports_, springs_,
-                   { response_of(body_.friction_face(), &faces, 0), response_of(body_.cylinder_face(), &faces, 1) })
+                   { face_response(body_.friction_face(), &faces, 0), face_response(body_.cylinder_face(), &faces, 1) })
       , body(body_)
       , surface(surface_dofs(body))
       , factors(body.factorised())
       , faces{ { SurfaceCompliance(*factors, face_dofs(body.friction_face())),
                  SurfaceCompliance(*factors, face_dofs(body.cylinder_face())) } }
-      , sensors(body, response_of(factors))
+      , sensors(body, make_response(factors))
   {
   }
 

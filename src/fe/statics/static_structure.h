@@ -26,27 +26,27 @@ namespace sprag
     SurfaceCompliance(const Mumps &stiffness, std::vector<unsigned int> dofs);
 
     /// The tiles that hold the given ports of the face, as increasing ports.
-    PortSelection whole_tiles(const PortSelection &ports) const;
+    PortSelection whole_blocks(const PortSelection &ports) const;
 
     /// The compliance between some ports, which make up whole tiles.
-    dealii::FullMatrix<double> among(const PortSelection &whole_tiles);
+    dealii::FullMatrix<double> among(const PortSelection &whole_blocks);
 
     /// Visits which tiles are known. Those found together are found together again: the solver's round-off depends on that.
     void visit_history(Archive &archive);
 
   private:
-    using Tile = std::pair<unsigned int, unsigned int>; ///< of rows and columns, first >= second
+    using Block = std::pair<unsigned int, unsigned int>; ///< of rows and columns, first >= second
 
-    unsigned int n_ports_of(unsigned int tile) const;
-    PortSelection ports_of(unsigned int tile) const;
+    unsigned int n_block_ports(unsigned int block) const;
+    PortSelection block_ports(unsigned int block) const;
     double &entry(unsigned int row, unsigned int column);
-    void find(const std::vector<Tile> &wanted);
+    void find(const std::vector<Block> &needed);
 
     const Mumps &factors;
-    const std::vector<unsigned int> dof_of_port;
-    std::map<unsigned int, unsigned int> port_of_dof;
-    std::map<Tile, dealii::FullMatrix<double>> tiles;
-    std::vector<std::vector<Tile>> searches; ///< the tiles found together
+    const std::vector<unsigned int> dofs_by_port;
+    std::map<unsigned int, unsigned int> ports_by_dof;
+    std::map<Block, dealii::FullMatrix<double>> blocks;
+    std::vector<std::vector<Block>> searches; ///< the tiles found together
   };
 
   /// Linear levers on linear springs in statics, one or both of a pair, which are alike: factorised once and seen through a

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "report/brief_lines.h"
+#include "report/summary_lines.h"
 
 #include "base/text.h"
 #include "scene/scene.h"
@@ -24,7 +24,7 @@ namespace sprag
     return four_digits(value) + (unit.empty() || unit == "1" ? "" : ' ' + unit);
   }
 
-  std::string unit_of_parameter(const std::string &name)
+  std::string parameter_unit(const std::string &name)
   {
     SceneSettings settings;
     const auto parameters       = scene_parameters(settings);
@@ -32,7 +32,7 @@ namespace sprag
     return parameter == nullptr ? "" : parameter->rule.unit;
   }
 
-  void brief_line(std::ostream &stream, const std::string &label, const std::string &text)
+  void summary_line(std::ostream &stream, const std::string &label, const std::string &text)
   {
     constexpr std::size_t label_width = 22;
     std::string padded_label          = label;

@@ -18,8 +18,8 @@ namespace sprag
   std::string with_unit(double value, const std::string &unit);
 
   /// Returns the unit of a parameter, "Section/Entry"; "" if it has none.
-  std::string unit_of_parameter(const std::string &name);
+  std::string parameter_unit(const std::string &name);
 
   /// Prints a line of a label and a text.
-  void brief_line(std::ostream &stream, const std::string &label, const std::string &text);
+  void summary_line(std::ostream &stream, const std::string &label, const std::string &text);
 } // namespace sprag

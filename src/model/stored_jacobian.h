@@ -13,29 +13,29 @@ namespace sprag
 {
   /// Derivative of the contact's forces by displacements of their ports that steps in time take from one to the next: a contact
   /// wanders little in a step, so that it serves the corrections of several.
-  struct KeptTangent
+  struct StoredJacobian
   {
     std::vector<unsigned int> ports; ///< increasing
     dealii::FullMatrix<double> matrix;
   };
 
-  void visit(Archive &archive, std::shared_ptr<const KeptTangent> &kept);
+  void visit(Archive &archive, std::shared_ptr<const StoredJacobian> &kept);
 
   /// Factors of 1 - G A of the kept tangent A used last, with the compliance G of steps of one length.
-  class KeptFactors
+  class JacobianFactors
   {
   public:
     /// Makes the factors of a tangent with the compliance of a step with these weights, unless they are there. Returns whether
     /// there are any: none where the matrix is singular.
-    bool use(std::shared_ptr<const KeptTangent> kept, const PortCompliance &compliance, const StepWeights &weights);
+    bool use(std::shared_ptr<const StoredJacobian> kept, const PortCompliance &compliance, const StepWeights &weights);
 
-    const KeptTangent &tangent() const;
+    const StoredJacobian &tangent() const;
 
     /// Returns PortFactors::reaction() of the tangent.
     dealii::Vector<double> reaction(const dealii::Vector<double> &displacements) const;
 
   private:
-    std::shared_ptr<const KeptTangent> of;
+    std::shared_ptr<const StoredJacobian> stored;
     double dt      = 0.;
     double alpha_f = 0.;
     std::optional<PortFactors> factors;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "report/brief.h"
+#include "report/console_summary.h"
 
 #include "base/text.h"
-#include "report/brief_lines.h"
 #include "report/percent.h"
+#include "report/summary_lines.h"
 #include "report/summary_table.h"
 #include "scene/analysis_settings.h"
 
@@ -19,7 +19,7 @@ namespace sprag
 {
   namespace
   {
-    std::string text_of(const std::vector<ErrorPart> &parts)
+    std::string to_text(const std::vector<ErrorPart> &parts)
     {
       std::string text;
       for (const auto &part : parts)
@@ -29,7 +29,7 @@ namespace sprag
 
     std::string left_out_text(const ErrorEstimate &estimate)
     {
-      return estimate.left_out.empty() ? "" : " The model leaves out: " + text_of(estimate.left_out) + '.';
+      return estimate.left_out.empty() ? "" : " The model leaves out: " + to_text(estimate.left_out) + '.';
     }
   } // namespace
 
@@ -66,7 +66,7 @@ namespace sprag
         stream << estimate.unknown << '\n';
       else
         stream << std::setw(9) << percent(total_error(estimate)) << " of " << estimate.relative_to << ": "
-               << text_of(estimate.parts) << ". " << largest_part(estimate).remedy << left_out_text(estimate) << '\n';
+               << to_text(estimate.parts) << ". " << largest_part(estimate).remedy << left_out_text(estimate) << '\n';
     }
   }
 
@@ -93,7 +93,7 @@ namespace sprag
     constexpr int most_numbered = 12; ///< lines of reversals
 
     /// Returns the text behind the label of a line; empty where nothing is known.
-    std::string text_of(const SummaryRow &row, const Entry &entry, const Entry *before)
+    std::string to_text(const SummaryRow &row, const Entry &entry, const Entry *before)
     {
       if (const auto *const word = std::get_if<std::string>(&entry.value))
         return word->empty() ? "" : boost::replace_all_copy(row.text, "#", *word);
@@ -115,7 +115,7 @@ namespace sprag
     for (const auto &entry : summary)
     {
       const auto row  = summary_row(type, entry.name);
-      const auto text = row && !row->label.empty() ? text_of(*row, entry, before) : "";
+      const auto text = row && !row->label.empty() ? to_text(*row, entry, before) : "";
       before          = &entry;
       if (text.empty())
         continue;
@@ -154,20 +154,21 @@ namespace sprag
           worst = &error;
       }
       if (worst != nullptr)
-        brief_line(stream, "errors, estimated", estimated);
+        summary_line(stream, "errors, estimated", estimated);
       for (const auto &[reason, quantities] : unknown)
-        brief_line(stream, "not estimated", quantities + ": " + reason);
+        summary_line(stream, "not estimated", quantities + ": " + reason);
       if (worst != nullptr)
-        brief_line(stream, "to improve the worst", largest_part(*worst).remedy);
+        summary_line(stream, "to improve the worst", largest_part(*worst).remedy);
     }
   } // namespace
 
-  void print_brief(std::ostream &stream, const Group &answer, const std::vector<ErrorEstimate> &errors, const double cpu_seconds)
+  void print_console_summary(std::ostream &stream, const Group &answer, const std::vector<ErrorEstimate> &errors,
+                             const double cpu_seconds)
   {
     const auto &labels = answer.texts.front().values, &texts = answer.texts.back().values;
     for (std::size_t line = 0; line < labels.size(); ++line)
-      brief_line(stream, labels[line], texts[line]);
+      summary_line(stream, labels[line], texts[line]);
     print_errors(stream, errors);
-    brief_line(stream, "cost", formatted("%.2g", cpu_seconds) + " s of CPU time");
+    summary_line(stream, "cost", formatted("%.2g", cpu_seconds) + " s of CPU time");
   }
 } // namespace sprag

@@ -28,5 +28,6 @@ namespace sprag
   Group answer_lines(AnalysisType type, const std::vector<Entry> &summary);
 
   /// Prints what a reader wants to know first: those lines, the estimated errors and the cost.
-  void print_brief(std::ostream &stream, const Group &answer, const std::vector<ErrorEstimate> &errors, double cpu_seconds);
+  void print_console_summary(std::ostream &stream, const Group &answer, const std::vector<ErrorEstimate> &errors,
+                             double cpu_seconds);
 } // namespace sprag

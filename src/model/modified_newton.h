@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "model/kept_tangent.h"
 #include "model/port_newton.h"
+#include "model/stored_jacobian.h"
 
 namespace sprag
 {
@@ -12,10 +12,11 @@ namespace sprag
   /// wanted)` returns a PortEvaluation. Not converged where the unbalance does not fall fast: solve_ports() is to be tried
   /// instead.
   template <class Contact>
-  class KeptIteration
+  class ModifiedNewton
   {
   public:
-    KeptIteration(const PortEquations &equations_, const Contact &contact_at_, const StepWeights &weights_, KeptFactors &factors_)
+    ModifiedNewton(const PortEquations &equations_, const Contact &contact_at_, const StepWeights &weights_,
+                   JacobianFactors &factors_)
         : equations(equations_)
         , contact_at(contact_at_)
         , weights(weights_)
@@ -23,7 +24,7 @@ namespace sprag
     {
     }
 
-    PortSolution solve(PortLoads phi, std::shared_ptr<const KeptTangent> &kept, dealii::Vector<double> &z,
+    PortSolution solve(PortLoads phi, std::shared_ptr<const StoredJacobian> &kept, dealii::Vector<double> &z,
                        const double left_out) const
     {
       constexpr unsigned int most_corrections = 25;
@@ -37,43 +38,43 @@ namespace sprag
       move(phi, z);
       if (kept != nullptr && !factors.use(kept, equations.compliance, weights))
         kept.reset();
-      auto found = evaluate(z, kept == nullptr ? Wanted::with_tangent : Wanted::forces, phi);
+      auto found = evaluate(z, kept == nullptr ? Request::with_tangent : Request::forces, phi);
       if (kept == nullptr && !renew(*found.forces, kept))
         return { result, found.forces };
       double by_unit        = 0.; // of unbalance, the largest movement
       unsigned int renewals = 0;
       const double least    = equations.smallest_movement();
-      result.converged      = found.unbalance == 0.; // nothing touches
+      result.converged      = found.residual_norm == 0.; // nothing touches
       while (!result.converged && result.iterations < most_corrections)
       {
         ++result.iterations;
-        const double before   = found.unbalance;
+        const double before   = found.residual_norm;
         const double movement = correct(found, phi, z);
-        found                 = evaluate(z, Wanted::forces, phi);
-        const double share    = found.unbalance / before;
+        found                 = evaluate(z, Request::forces, phi);
+        const double share    = found.residual_norm / before;
         if (!(share < hopeless))
           break;
         by_unit          = std::max(by_unit, movement / before);
-        result.converged = by_unit * found.unbalance < left_out * (1. - share) * (relative_tolerance * found.overlap + least);
+        result.converged = by_unit * found.residual_norm < left_out * (1. - share) * (relative_tolerance * found.overlap + least);
         if (!result.converged && share > slow &&
-            (++renewals > most_renewals || !renew(*contact_at(z, Wanted::with_tangent).forces, kept)))
+            (++renewals > most_renewals || !renew(*contact_at(z, Request::with_tangent).forces, kept)))
           break;
       }
       return { result, found.forces };
     }
 
   private:
-    struct Unbalanced : PortEvaluation
+    struct ResidualEvaluation : PortEvaluation
     {
       dealii::Vector<double> difference; ///< f - phi
       dealii::Vector<double> moved;      ///< by the difference, of all ports
-      double unbalance;                  ///< size of that, each port over the root of its compliance
+      double residual_norm;              ///< size of that, each port over the root of its compliance
     };
 
     const PortEquations &equations;
     const Contact &contact_at;
     const StepWeights &weights;
-    KeptFactors &factors;
+    JacobianFactors &factors;
 
     /// Makes phi have all of some ports.
     static void include(const std::vector<unsigned int> &ports, PortLoads &phi)
@@ -84,7 +85,7 @@ namespace sprag
       std::set_union(phi.ports.begin(), phi.ports.end(), ports.begin(), ports.end(), std::back_inserter(wider.ports));
       wider.values.reinit(static_cast<unsigned int>(wider.ports.size()));
       for (unsigned int i = 0; i < phi.ports.size(); ++i)
-        wider.values[place_of(phi.ports[i], wider.ports)] = phi.values[i];
+        wider.values[find_index(phi.ports[i], wider.ports)] = phi.values[i];
       phi = std::move(wider);
     }
 
@@ -99,9 +100,9 @@ namespace sprag
       return largest;
     }
 
-    Unbalanced evaluate(const dealii::Vector<double> &z, const Wanted wanted, PortLoads &phi) const
+    ResidualEvaluation evaluate(const dealii::Vector<double> &z, const Request request, PortLoads &phi) const
     {
-      Unbalanced result{ contact_at(z, wanted), {}, dealii::Vector<double>(z.size()), 0. };
+      ResidualEvaluation result{ contact_at(z, request), {}, dealii::Vector<double>(z.size()), 0. };
       const auto &[ports, values, tangent, has_tangent] = *result.forces;
       include(ports, phi);
       result.difference = phi.values;
@@ -115,27 +116,27 @@ namespace sprag
       add_response(equations.compliance, phi.ports, result.difference, phi.ports, result.moved);
       for (const unsigned int port : phi.ports)
         if (const double own = equations.compliance(port, port); own > 0.)
-          result.unbalance += result.moved[port] * result.moved[port] / own;
-      result.unbalance = std::sqrt(result.unbalance);
+          result.residual_norm += result.moved[port] * result.moved[port] / own;
+      result.residual_norm = std::sqrt(result.residual_norm);
       return result;
     }
 
-    bool renew(const PortForces &forces, std::shared_ptr<const KeptTangent> &kept) const
+    bool renew(const PortForces &forces, std::shared_ptr<const StoredJacobian> &kept) const
     {
-      kept = std::make_shared<const KeptTangent>(KeptTangent{ forces.ports, forces.tangent });
+      kept = std::make_shared<const StoredJacobian>(StoredJacobian{ forces.ports, forces.tangent });
       return factors.use(kept, equations.compliance, weights);
     }
 
     /// Adds to phi what it differs by, and the forces by which the kept tangent answers to that. Returns the largest movement.
-    double correct(const Unbalanced &found, PortLoads &phi, dealii::Vector<double> &z) const
+    double correct(const ResidualEvaluation &found, PortLoads &phi, dealii::Vector<double> &z) const
     {
       const auto &ports = factors.tangent().ports;
-      dealii::Vector<double> of_kept(static_cast<unsigned int>(ports.size()));
-      found.moved.extract_subvector_to(ports.begin(), ports.end(), of_kept.begin());
-      of_kept = factors.reaction(of_kept);
+      dealii::Vector<double> kept_residual(static_cast<unsigned int>(ports.size()));
+      found.moved.extract_subvector_to(ports.begin(), ports.end(), kept_residual.begin());
+      kept_residual = factors.reaction(kept_residual);
       phi.values += found.difference;
       for (unsigned int i = 0; i < ports.size(); ++i)
-        phi.values[place_of(ports[i], phi.ports)] += of_kept[i];
+        phi.values[find_index(ports[i], phi.ports)] += kept_residual[i];
       return move(phi, z);
     }
   };
@@ -144,14 +145,14 @@ namespace sprag
   /// where that does not lead there, by solve_ports(), which leaves none.
   template <bool keeps_tangent, class Contact>
   PortSolution solve_step(const PortEquations &equations, const Contact &contact_at, const StepWeights &weights,
-                          const PortLoads &guess, KeptFactors &factors, std::shared_ptr<const KeptTangent> &kept,
+                          const PortLoads &guess, JacobianFactors &factors, std::shared_ptr<const StoredJacobian> &kept,
                           dealii::Vector<double> &z)
   {
     unsigned int iterations = 0;
     z                       = equations.free;
     if constexpr (keeps_tangent)
     {
-      const auto result = KeptIteration(equations, contact_at, weights, factors).solve(guess, kept, z, left_out_in_time);
+      const auto result = ModifiedNewton(equations, contact_at, weights, factors).solve(guess, kept, z, left_out_in_time);
       if (result.newton.converged)
         return result;
       iterations = result.newton.iterations;
