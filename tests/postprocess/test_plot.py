@@ -196,11 +196,9 @@ class PlotTest(PictureTest):
         self.expect_pictures(self.plot(self.folder / "a"), TRANSIENT)
 
     def test_transient_run_going_on(self):
-        for rows, names in ((3, []), (1800, ["reversal.png"])):
-            with make_transient(self.folder / f"a{rows}", rows=rows, libver="latest") as file:
-                file.swmr_mode = True
-                pictures = ["forces-over-time.png", "forces-over-x.png", "energy.png", *names]
-                self.expect_pictures(self.plot(self.folder / f"a{rows}", own_process=True), pictures)
+        with make_transient(self.folder / "a", rows=1800, libver="latest") as file:
+            file.swmr_mode = True
+            self.expect_pictures(self.plot(self.folder / "a", own_process=True), TRANSIENT)
 
     def test_transient_run_just_begun_or_without_quasi_static_values(self):
         file = make_transient(self.folder / "a", rows=1800)
