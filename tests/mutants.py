@@ -169,6 +169,10 @@ class Tree:
         _, output = self.run(["ctest", "--test-dir", self.build, "-N", *REDUCED], "build")
         return re.findall(r"^ *Test +#\d+: (\S+)", output, re.MULTILINE)
 
+    def selection(self, pattern):
+        """Options of ctest for the tests whose names have a pattern, which has too many parentheses for ctest itself."""
+        return ["-R", "|".join(f"^{re.escape(name)}$" for name in self.names() if re.search(pattern, name))]
+
     def test(self, selection, log, limit=None):
         """Returns what failed of the tests selected, by name."""
         command = ["ctest", "--test-dir", self.build, "--output-on-failure", "--no-tests=error", *REDUCED, *selection]
@@ -203,7 +207,7 @@ def check_unchanged(tree, mutants):
     if unknown:
         return [f"no test has a name like {pattern}" for pattern in unknown]
     print(f"runs the tests of {len(mutants)} mutants unchanged", flush=True)
-    return [f"the unchanged program fails {failure}" for failure in tree.test(["-R", "|".join(tests)], "build")]
+    return [f"the unchanged program fails {failure}" for failure in tree.test(tree.selection("|".join(tests)), "build")]
 
 
 def verdict_of(tree, name, mutant, all_quick):
@@ -216,7 +220,7 @@ def verdict_of(tree, name, mutant, all_quick):
         if not tree.compile(targets_of(mutant["tests"]), name):
             return "did not compile", []
         usual = sum(seconds for test, seconds in tree.seconds.items() if re.search(mutant["tests"], test))
-        seen = tree.test(["-R", mutant["tests"]], name, 60 + 20 * usual)
+        seen = tree.test(tree.selection(mutant["tests"]), name, 60 + 20 * usual)
         if not seen and all_quick:
             if not tree.compile(["all"], name):
                 return "did not compile", []
