@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/team/team.h"
+#include "analysis/task_farm/task_farm.h"
 #include "base/error_text.h"
 #include "base/fingerprint.h"
 #include "base/hdf5_handle.h"

@@ -15,6 +15,7 @@ changes. The exit status is 1 if no test sees a mutant or one does not compile, 
 """
 
 import argparse
+import functools
 import json
 import os
 import re
@@ -36,13 +37,13 @@ UNNAMED = r"^(structure|presets)\."  # these see that a text has changed, or bui
 
 
 def mutants_listed():
-    """Mutants by name. `tests` is a pattern of one suite, whose test of ctest has several beside it, with commas between them."""
     with open(LIST, "rb") as file:
-        mutants = tomllib.load(file)
-    for mutant in mutants.values():
-        if "tests" in mutant:
-            mutant["tests"] = mutant["tests"].replace("^", "(^|,)").replace("$", "(,|$)")
-    return mutants
+        return tomllib.load(file)
+
+
+def holds(test, pattern):
+    """Whether a test of ctest, whose name lists suites with commas between them, has one with a pattern."""
+    return any(re.search(pattern, suite) for suite in test.split(","))
 
 
 def mistakes_of(name, mutant):
@@ -165,13 +166,15 @@ class Tree:
                 break
         return status == 0
 
+    @functools.cached_property
     def names(self):
+        """Names of the tests of the unchanged program, once it is built."""
         _, output = self.run(["ctest", "--test-dir", self.build, "-N", *REDUCED], "build")
         return re.findall(r"^ *Test +#\d+: (\S+)", output, re.MULTILINE)
 
     def selection(self, pattern):
-        """Options of ctest for the tests whose names have a pattern, which has too many parentheses for ctest itself."""
-        return ["-R", "|".join(f"^{re.escape(name)}$" for name in self.names() if re.search(pattern, name))]
+        """Options of ctest for the tests with a pattern."""
+        return ["-R", "|".join(f"^{re.escape(name)}$" for name in self.names if holds(name, pattern))]
 
     def test(self, selection, log, limit=None):
         """Returns what failed of the tests selected, by name."""
@@ -202,8 +205,7 @@ def check_unchanged(tree, mutants):
     print(f"builds {', '.join(targets)} unchanged", flush=True)
     if not tree.configure() or not tree.compile(targets, "build"):
         return [f"the unchanged program does not build: see {tree.logs / 'build.txt'}"]
-    names = tree.names()
-    unknown = [pattern for pattern in tests if not any(re.search(pattern, name) for name in names)]
+    unknown = [pattern for pattern in tests if not any(holds(name, pattern) for name in tree.names)]
     if unknown:
         return [f"no test has a name like {pattern}" for pattern in unknown]
     print(f"runs the tests of {len(mutants)} mutants unchanged", flush=True)
@@ -219,7 +221,7 @@ def verdict_of(tree, name, mutant, all_quick):
     try:
         if not tree.compile(targets_of(mutant["tests"]), name):
             return "did not compile", []
-        usual = sum(seconds for test, seconds in tree.seconds.items() if re.search(mutant["tests"], test))
+        usual = sum(seconds for test, seconds in tree.seconds.items() if holds(test, mutant["tests"]))
         seen = tree.test(tree.selection(mutant["tests"]), name, 60 + 20 * usual)
         if not seen and all_quick:
             if not tree.compile(["all"], name):

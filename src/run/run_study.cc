@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/study/study_trade.h"
-#include "analysis/team/team.h"
+#include "analysis/task_farm/task_farm.h"
 #include "base/append.h"
 #include "base/phase_timer.h"
 #include "base/progress.h"

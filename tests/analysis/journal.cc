@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/team/journal.h"
+#include "analysis/task_farm/journal.h"
 
-#include "analysis/map/map_team.h"
+#include "analysis/map/map_farm.h"
 
 #include "base/errors.h"
 #include "scene/scene.h"

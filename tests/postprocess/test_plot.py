@@ -200,6 +200,10 @@ class PlotTest(PictureTest):
             file.swmr_mode = True
             self.expect_pictures(self.plot(self.folder / "a", own_process=True), TRANSIENT)
 
+    def test_transient_run_of_three_rows(self):
+        finish(make_transient(self.folder / "a", rows=3))
+        self.expect_pictures(self.plot(self.folder / "a"), ["forces-over-time.png", "forces-over-x.png", "energy.png"])
+
     def test_transient_run_just_begun_or_without_quasi_static_values(self):
         file = make_transient(self.folder / "a", rows=1800)
         file["table/P_quasi_static"][:] = np.nan

@@ -2,7 +2,7 @@
 #include "results/result_file.h"
 
 #include "base/errors.h"
-#include "support/row_of.h"
+#include "support/make_row.h"
 #include "support/temporary_folder.h"
 
 #include <array>

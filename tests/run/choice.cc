@@ -82,7 +82,7 @@ TEST(Choice, BudgetIsKept)
   const double budget             = probes + 1.5 * run;
   const auto [choice, spent, more] =
       choose(asked("model-a", { "Accuracy/Target=1e-5", "Accuracy/Budget=" + std::to_string(budget) }));
-  EXPECT_LE(spent + more, 2. * budget);
+  EXPECT_LE(spent + more, 1.5 * budget);
   EXPECT_NE(choice.limit.find("Accuracy/Budget"), std::string::npos);
 }
 

@@ -5,7 +5,7 @@
 #include "scene/contact_width.h"
 #include "scene/scene.h"
 #include "scenes.h"
-#include "support/row_of.h"
+#include "support/make_row.h"
 
 #include <algorithm>
 #include <cmath>

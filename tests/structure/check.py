@@ -16,7 +16,7 @@ UNSEEN = {"analysis": ["fe"]}
 # So do the rooms of a folder.
 ROOMS = {
     "fe": ["algebra", "body", "mesh", "contact", "statics", "dynamics", "solid", "leaf", "fields"],
-    "analysis": ["statics", "accuracy", "transient", "isolation", "stability", "limit_cycle", "team", "map", "study", "calibration", "identification", "design"],
+    "analysis": ["statics", "accuracy", "transient", "isolation", "stability", "limit_cycle", "task_farm", "map", "study", "calibration", "identification", "design"],
 }
 CODE = {".cc", ".h", ".py", ".sh", ".geo", ".cmake", ".txt"}
 MAX_LINES = 600

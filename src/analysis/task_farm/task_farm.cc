@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/team/team.h"
+#include "analysis/task_farm/task_farm.h"
 
 #include "base/errors.h"
 #include "base/messages.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/map/map_cell.h"
-#include "analysis/team/team.h"
+#include "analysis/task_farm/task_farm.h"
 
 namespace sprag
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/team/journal.h"
+#include "analysis/task_farm/journal.h"
 
 #include "base/errors.h"
 #include "base/fingerprint.h"

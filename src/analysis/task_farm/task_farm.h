@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "analysis/team/journal.h"
+#include "analysis/task_farm/journal.h"
 
 #include <cstddef>
 #include <functional>
