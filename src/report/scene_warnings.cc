@@ -9,6 +9,8 @@
 #include "scene/scene.h"
 #include "scene/sections.h"
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <variant>
@@ -351,6 +353,17 @@ namespace sprag
               "Nothing, if none of them was meant; a column that is meant needs its name, see params/scene-files.md." });
     }
   } // namespace
+
+  Warnings without_effect(const std::vector<std::string> &parameters)
+  {
+    if (parameters.empty())
+      return {};
+    return { { "without_effect",
+               "What Stability/Ranges and Stability/Critical vary changes nothing, to the last digit: " +
+                   boost::algorithm::join(parameters, ", ") + '.',
+               "The verdict says nothing of these ranges: this model does not have the parameter.",
+               "Vary what the model has. params/parameters.md says what is of reduced levers alone." } };
+  }
 
   Warnings scene_warnings(const Scene &scene)
   {

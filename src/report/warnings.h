@@ -31,6 +31,9 @@ namespace sprag
   /// `frequency` and `growth_rate` are its own [Hz, 1/s].
   Warnings beam_warnings(const Scene &scene, double frequency, double growth_rate);
 
+  /// Warns of parameters that a verdict varies, and which do not change it; returns nothing where there are none.
+  Warnings without_effect(const std::vector<std::string> &parameters);
+
   /// Returns Friction layer/Strength, or where it is auto and nu <= 0.2 the share 0.04 of Young's modulus at which the cells of
   /// cork buckle: 0.8 MPa of 20 MPa across the rings (Gibson, Easterling and Ashby, Proc. R. Soc. A 377 (1981) 99; Gibson and
   /// Ashby, Cellular Solids, table of cork). There is none without a layer and for other layers.

@@ -235,6 +235,7 @@ namespace sprag
       bool is_decided   = true;
       const auto swept  = timed(maker, [&] { return sweep(whole, maker, true); });
       const Scene scene = slide_scene(whole, swept.worst());
+      auto idle         = ranges_without_effect(whole, swept);
       {
         const Scene held    = held_scene(scene);
         const auto dynamics = maker.make(held);
@@ -280,9 +281,13 @@ namespace sprag
       {
         const auto critical = all_critical(whole, maker, options.quiet);
         append(result.summary, critical_entries(critical));
+        for (const auto &search : critical)
+          if (!search.has_effect)
+            idle.push_back(search.range.name);
         if (!options.quiet)
           print_critical(std::cout, whole, critical, options.verbose);
       }
+      append(warnings, without_effect(idle));
       return result;
     }
   } // namespace

@@ -141,7 +141,7 @@ namespace sprag
     stream << "  Critical values of " << (is_worst ? "the worst slide" : "this slide") << ", all else as it is"
            << (scene.stability.ranges == "none" ? " (Stability/Ranges looks at ranges of damping and friction)" : "")
            << "; narrow islands between the values tried may be missed:\n";
-    for (const auto &[range, first, changes, worst, not_judged, reason, spacing, more_values] : searches)
+    for (const auto &[range, first, changes, worst, not_judged, reason, spacing, more_values, has_effect] : searches)
     {
       const auto unit = parameter_unit(range.name);
       stream << "    " << range.name << " from " << four_digits(range.from) << " to " << with_unit(range.to, unit) << ": "
@@ -156,7 +156,7 @@ namespace sprag
           stream << " (worst " << (critical.worse.drive.v < 0. ? "backward" : "forward")
                  << " at x = " << with_unit(critical.worse.drive.x, "mm") << ")";
       }
-      stream << (first && changes.empty() ? " throughout" : "");
+      stream << (first && changes.empty() ? " throughout" : "") << (has_effect ? "" : ", without effect");
       if (first && !not_judged.empty())
       {
         const auto [least, most] = std::minmax_element(not_judged.begin(), not_judged.end());

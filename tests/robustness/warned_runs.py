@@ -32,6 +32,7 @@ PROVOKED = {
     "one step": ("model-a", (*FORWARD, "Analysis/Step=65"), ["long_steps"]),
     "near locking": ("closed-form-a", ("Friction/Law=Coulomb", "Friction/Coefficient=2.62"), ["near_locking", "pressure_beyond_strength"]),
     "pulled sensor": ("plate-a", ("Mesh/Face size=4", "Analysis/Step=2", "Output/Fields=none"), ["coarse_contact", "sensor_in_tension"]),
+    "ranges that a beam does not have": ("stability-a", ("Analysis/Model=beam", "Stability/Ranges=Contact/Penalty 100 1000; Friction/Factor 0.8 1.2", "Stability/Critical=Mesh/Face size 0.5 1", "Stability/Roles=off"), ["without_effect"]),
     "none": ("model-a", FORWARD, []),
 }
 

@@ -94,6 +94,9 @@ namespace sprag
 
       CriticalSearch found(const double tolerance)
       {
+        const auto is_as_first = [&](const Tried &tried)
+        { return tried.slide && all.front().slide && is_alike(*tried.slide, *all.front().slide); };
+        result.has_effect = all.size() < 2 || !std::all_of(all.begin(), all.end(), is_as_first);
         for (std::size_t i = 1; i < all.size() && tolerance > 0.; ++i)
           narrow(all[i - 1], all[i], tolerance * std::abs(result.range.to - result.range.from));
         return result;
@@ -220,6 +223,11 @@ namespace sprag
   bool is_worse(const JudgedSlide &a, const JudgedSlide &b)
   {
     return rank(a.kind) != rank(b.kind) ? rank(a.kind) > rank(b.kind) : a.growth_rate > b.growth_rate;
+  }
+
+  bool is_alike(const JudgedSlide &a, const JudgedSlide &b)
+  {
+    return a.growth_rate == b.growth_rate && a.P == b.P;
   }
 
   CriticalSearch search_kinds(const ParameterRange &range, const SearchEffort &effort,

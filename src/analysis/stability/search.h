@@ -29,6 +29,9 @@ namespace sprag
   /// Returns whether a does worse than b: what jams is worse than what vibrates, this than what is stable; then growth decides.
   bool is_worse(const JudgedSlide &a, const JudgedSlide &b);
 
+  /// Returns whether two slides do the same to the last digit; slides that jam never do.
+  bool is_alike(const JudgedSlide &a, const JudgedSlide &b);
+
   inline bool is_unstable(const SlideKind kind)
   {
     return kind == SlideKind::flutter || kind == SlideKind::divergence;
@@ -55,6 +58,7 @@ namespace sprag
     std::string reason;               ///< why the last of them was not
     double spacing           = 0.;    ///< of the values tried throughout
     unsigned int more_values = 0;     ///< tried between them, where a growth rate peaks
+    bool has_effect          = true;  ///< whether any two of the values tried differ in their growth
   };
 
   /// Values that a search is expected to try beside the points of its range.

@@ -126,6 +126,29 @@ namespace sprag
     return result;
   }
 
+  std::vector<std::string> ranges_without_effect(const Scene &scene, const SweptSlides &swept)
+  {
+    const auto ranges = uncertain_ranges(scene).value_or(std::vector<ParameterRange>());
+    const auto n_ways = held_directions(scene).size();
+    // The scene's own constants stand before those of the corners.
+    const auto worst = [&](const std::size_t corner, const std::size_t way) -> const std::optional<JudgedSlide> &
+    { return swept.ways[(1 + corner) * n_ways + way].along.worst; };
+    std::vector<std::string> result;
+    for (std::size_t i = 0; i < ranges.size(); ++i)
+    {
+      bool all_alike = true;
+      for (std::size_t corner = 0; corner < std::size_t(1) << ranges.size(); ++corner)
+        for (std::size_t way = 0; way < n_ways; ++way)
+        {
+          const auto &here = worst(corner, way), &opposite = worst(corner ^ std::size_t(1) << i, way);
+          all_alike = all_alike && here && opposite && is_alike(*here, *opposite);
+        }
+      if (all_alike)
+        result.push_back(ranges[i].name);
+    }
+    return result;
+  }
+
   unsigned int least_slides(const Scene &scene)
   {
     const auto n = static_cast<unsigned int>(corners(scene).size() * held_directions(scene).size());

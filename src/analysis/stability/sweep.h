@@ -30,6 +30,9 @@ namespace sprag
   /// Judges them. `finds_edges`: whether the x are sought, too, where the kind changes.
   SweptSlides sweep(const Scene &scene, DynamicsMaker &maker, bool finds_edges = false);
 
+  /// Returns the names of those of Stability/Ranges whose ends give the same slides, to the last digit.
+  std::vector<std::string> ranges_without_effect(const Scene &scene, const SweptSlides &swept);
+
   /// Returns the slides that a sweep judges without those where a growth rate peaks.
   unsigned int least_slides(const Scene &scene);
 
