@@ -88,7 +88,7 @@ namespace sprag
       constexpr unsigned int points = 4, island_steps = 5;
       const double own = scene.contact.damping;
       const double end = std::max(largest, own);
-      DampingRange result{ 0., end, std::nan("") };
+      DampingRange result{ 0., end, std::nan(""), 0. };
       const auto judge_at = [&](const double damping)
       {
         if (damping == own)
@@ -117,6 +117,9 @@ namespace sprag
       if (own < end)
         for (const double value : range_ends(own, end))
           result.high = std::min(result.high, value);
+      Scene damped           = scene;
+      damped.contact.damping = result.high;
+      result.loss_factor     = 2. * M_PI * verdict.frequency * contact_reference(damped).relaxation;
       return result;
     }
 

@@ -416,6 +416,7 @@ namespace sprag
   {
     return { { "contact_damping_limit_low", range.low },
              { "contact_damping_limit_high", range.high },
+             { "contact_loss_factor_limit_high", range.loss_factor },
              { "growth_rate_without_contact_damping", range.growth_rate_at_none } };
   }
 

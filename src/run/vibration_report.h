@@ -54,6 +54,7 @@ namespace sprag
   {
     double low, high;           ///< shares of critical
     double growth_rate_at_none; ///< without damping of the contact [1/s]
+    double loss_factor;         ///< omega times damping over stiffness, at `high` and the frequency of the slide
   };
 
   /// Growth at the limits of the contact's stiffness in stick, through which friction lags behind the pressure.

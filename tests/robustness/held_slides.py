@@ -2,6 +2,7 @@
 """Held slides from outside: what modal, stability, map and sprag-slip scenes are refused for, and what becomes of a slide that jams.
 Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 
+import math
 import re
 import unittest
 
@@ -175,6 +176,8 @@ class JammedSlide(ProgramTest):
 class Damping(RunTest):
     """A beam of 15 mm moving out at x = 40 mm, which damping of the contact makes grow."""
 
+    ENTRIES = ("growth_rate", "frequency", "contact_damping_limit_low", "contact_damping_limit_high", "contact_loss_factor_limit_high")
+
     def summary(self, damping):
         changes = ("Analysis/Model=beam", "Lever/Depth=15", "Stability/Direction=forward", "Stability/Position=40", "Stability/Critical=none")
         settings = [word for change in (*changes, f"Contact/Damping={damping}") for word in ("--set", change)]
@@ -182,13 +185,17 @@ class Damping(RunTest):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("verdict holds", done.stdout)
         with h5py.File(self.output / "result.h5", "r") as file:
-            return {name: file["summary"][name][()] for name in ("growth_rate", "contact_damping_limit_low", "contact_damping_limit_high")}
+            return {name: file["summary"][name][()] for name in self.ENTRIES}
 
     def test_is_told_with_the_verdict(self):
         found = self.summary(0.02)
         self.assertLess(found["growth_rate"], 0)
         limit = found["contact_damping_limit_high"]
         self.assertTrue(0.02 < limit < 0.1, limit)
+        # 2 pi f 2 zeta/(s sqrt(k/J)) at s and the largest P of the closed form, k = dP/d delta of P = 13068.5 N/mm^1.5 delta^1.5.
+        J, s, stiffness = 6.45, 120.05, 1.5 * 13068.5 ** (2 / 3) * 25.71 ** (1 / 3)
+        loss_factor = 4 * math.pi * found["frequency"] * limit / (s * math.sqrt(stiffness / J))
+        self.assertAlmostEqual(found["contact_loss_factor_limit_high"], loss_factor, delta=0.01 * loss_factor)
         self.assertLess(self.summary(0.99 * limit)["growth_rate"], 0)
         beyond = self.summary(1.01 * limit)
         self.assertGreater(beyond["growth_rate"], 0)
