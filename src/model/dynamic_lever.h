@@ -138,7 +138,7 @@ namespace sprag
       }
 
       if constexpr (Contact::keeps_tangent)
-        contact->complete(found);
+        evaluate(z, Request::complete);
       Motion motion  = completed(structure->advance(accepted, *solved.forces, to), to, *solved.forces);
       motion.tangent = std::move(tangent);
       structure->add_work(accepted, motion, outcome.work);

@@ -77,12 +77,6 @@ namespace sprag
       join(found);
     }
 
-    void complete(Evaluation &found) const
-    {
-      for (unsigned int lever = 0; lever < levers; ++lever)
-        contact[lever]->complete(found.per_lever[lever]);
-    }
-
     void evaluate_sliding(const SlidingState &state, Evaluation &found) const
     {
       for_each_lever(state, found,

@@ -25,11 +25,13 @@ namespace sprag
   /// Sums up forces that share ports, whose own may come in any order. `port_places` is room for a number a port.
   void sum_forces(const std::vector<PortForces> &loaded, std::vector<unsigned int> &port_places, PortForces &sum);
 
-  /// Output requested of a contact. One that does not keep its tangent always finds both.
+  /// Output requested of a contact. One that does not keep its tangent always finds all of it.
   enum class Request
   {
     forces,
-    with_tangent
+    with_tangent,
+    complete ///< forces, works, energy and points: those that may take part and, along the lines where the pressure is largest,
+             ///< all near the cylinder; all of these where nothing touches
   };
 
   /// Forces on some of the ports.

@@ -179,7 +179,7 @@ namespace sprag
         kept.reset();
         return nullptr;
       }
-      contact.complete(found);
+      at(z, Request::complete);
       return accept(z, ideal, *solved.forces);
     }
 

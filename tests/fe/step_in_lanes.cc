@@ -39,10 +39,9 @@ TEST_P(StepInLanesOfAnAxis, AStepInTimeFollowsTheLawsAtEachPoint)
     const auto step = [&](const auto &from, const auto &to, const double x, const std::vector<SurfaceMemory> &memory)
     {
       FaceEvaluation<3> found;
-      bed.surface().evaluate(
-          PortStep{ { 0., x - 0.7, 112., 0. }, none, { 6e-3, x, 112., 0., 0.3 }, { from, {}, {} }, to, {}, weights, &memory },
-          found);
-      bed.surface().complete(found);
+      PortStep step_to{ { 0., x - 0.7, 112., 0. }, none, { 6e-3, x, 112., 0., 0.3 }, { from, {}, {} }, to, {}, weights, &memory };
+      step_to.request = Request::complete;
+      bed.surface().evaluate(step_to, found);
       return found;
     };
     const auto before = bed.pressed(0.12), begin = bed.pressed(0.1); // at places further back the cylinder lies lower
@@ -334,9 +333,9 @@ TEST_P(StepInLanesOfAnAxis, NothingIsPassedOverThatTouches)
     const auto step = [&](Bed &bed)
     {
       FaceEvaluation<3> found;
-      bed.surface().evaluate(
-          PortStep{ { 0., x, 112., 0. }, none, { 6e-3, to, 112., 0. }, { begin, {}, {} }, end, {}, weights, &nothing }, found);
-      bed.surface().complete(found);
+      PortStep step_to{ { 0., x, 112., 0. }, none, { 6e-3, to, 112., 0. }, { begin, {}, {} }, end, {}, weights, &nothing };
+      step_to.request = Request::complete;
+      bed.surface().evaluate(step_to, found);
       bed.surface().add_points(found);
       return found;
     };
@@ -378,11 +377,11 @@ TEST_P(StepInLanesOfAnAxis, PointsInContactTellWhatAllPointsTell)
   {
     const auto begin = bed.pressed(overlap - 0.01), end = bed.pressed(overlap);
     FaceEvaluation<3> found;
-    bed.surface().evaluate(
-        PortStep{
-            { 0., Bed::x - 0.1, 112., 0. }, none, { 6e-3, Bed::x, 112., 0. }, { begin, {}, {} }, end, {}, weights, &nothing },
-        found);
-    bed.surface().complete(found);
+    PortStep step_to{
+      { 0., Bed::x - 0.1, 112., 0. }, none, { 6e-3, Bed::x, 112., 0. }, { begin, {}, {} }, end, {}, weights, &nothing
+    };
+    step_to.request = Request::complete;
+    bed.surface().evaluate(step_to, found);
     auto all = found;
     bed.surface().add_points(all);
     EXPECT_EQ(found.points.size() < all.points.size(), overlap > 0.);
@@ -516,19 +515,20 @@ TEST_P(StepInLanesOfAnAxis, EveryEntryOfTheTangentIsTheDerivativeOfAForce)
   {
     Bed bed(short_barrel(GetParam()), 12.5, 2, friction);
     const auto before = bed.pressed(0.12), begin = bed.pressed(0.1), end = waved(bed, 0.03);
-    const auto in_time = [&](const auto &from, const auto &to, const double x, const std::vector<SurfaceMemory> &memory)
+    const auto in_time =
+        [&](const auto &from, const auto &to, const double x, const std::vector<SurfaceMemory> &memory, const Request request)
     {
       FaceEvaluation<3> found;
-      bed.surface().evaluate(
-          PortStep{ { 0., x - 0.7, speed, 0. }, none, { 6e-3, x, speed, 0., 0.3 }, { from, {}, {} }, to, {}, weights, &memory },
-          found);
+      PortStep step_to{
+        { 0., x - 0.7, speed, 0. }, none, { 6e-3, x, speed, 0., 0.3 }, { from, {}, {} }, to, {}, weights, &memory
+      };
+      step_to.request = request;
+      bed.surface().evaluate(step_to, found);
       return found;
     };
-    auto first = in_time(before, begin, Bed::x - 0.7, {});
-    bed.surface().complete(first);
-    const auto memory = first.memory();
+    const auto memory = in_time(before, begin, Bed::x - 0.7, {}, Request::complete).memory();
     expect_every_entry(
-        bed, end, [&](const auto &at) { return in_time(begin, at, Bed::x, memory); }, every);
+        bed, end, [&](const auto &at) { return in_time(begin, at, Bed::x, memory, Request::with_tangent); }, every);
 
     StaticTerms terms{ friction, 6e-3, FrictionMode::cone, false, 0.31, 1.2 };
     bed.surface().begin_step({ begin, Bed::x - 0.7 });

@@ -302,6 +302,8 @@ namespace sprag
     place_patches(port_step.begin.position);
     press_patches(port_step.end, found);
     set_forces(port_step.request, found.forces);
+    if (port_step.request == Request::complete)
+      complete(found);
   }
 
   void SurfaceContact::place_patches(const Vector<double> &begin)
@@ -353,7 +355,7 @@ namespace sprag
   /// From the patches that were pressed last.
   void SurfaceContact::set_forces(const Request request, PortForces &forces) const
   {
-    forces.has_tangent = request != Request::forces;
+    forces.has_tangent = request == Request::with_tangent;
     forces.tangent.reinit(0, 0);
     forces.ports = summed.ports;
     forces.values.reinit(static_cast<unsigned int>(summed.ports.size()));
@@ -382,7 +384,7 @@ namespace sprag
   {
     press_slide(sliding, found);
     set_forces(sliding.request, found.forces);
-    if (sliding.request == Request::with_tangent)
+    if (sliding.request != Request::forces)
       complete(found);
   }
 
@@ -492,6 +494,7 @@ namespace sprag
       in_lanes.add_points(patch, !peak || share_line(patch, *peak), found.points);
   }
 
+  /// Finds works, energy and points of the patches as they were pressed last.
   void SurfaceContact::complete(FaceEvaluation<3> &found) const
   {
     StepInLanes::Sums sums;

@@ -46,7 +46,8 @@ namespace sprag
     /// The face must outlive the contact.
     SurfaceContact(const FrictionFace<3> &face, SurfaceContactProperties properties);
 
-    /// Evaluates a step without inertia, with its points: where it is augmented all near the cylinder, else those of complete().
+    /// Evaluates a step without inertia, with its points: where it is augmented all near the cylinder, else those of
+    /// Request::complete.
     void evaluate(const PortStep &step, FaceEvaluation<3> &found, const StaticTerms &terms);
 
     /// Sets the accepted state in which the following steps begin.
@@ -58,18 +59,13 @@ namespace sprag
     void evaluate(const SurfacePlace &end, const std::vector<SurfaceMemory> &memory, double surface_run, const StaticTerms &terms,
                   FaceEvaluation<3> &found);
 
-    /// Evaluates forces, compression and, where it is wanted, the tangent of a step in time.
+    /// Evaluates forces and compression of a step in time, and the tangent or what Request::complete adds.
     void evaluate(const PortStep &step, FaceEvaluation<3> &found);
-
-    /// Finds works, energy and points of the step in time that was evaluated last: those that may take part and, along the lines
-    /// where the pressure is largest, all near the cylinder. Where nothing touches those are all.
-    void complete(FaceEvaluation<3> &found) const;
 
     /// Finds all points near the cylinder of the last evaluation, in time or without inertia.
     void add_points(FaceEvaluation<3> &found) const;
 
-    /// Evaluates steady sliding: the cylinder's surface runs round its axis at the slide's speed. Where the tangent is not
-    /// wanted, complete() finds what there is beside forces and compression.
+    /// Evaluates steady sliding: the cylinder's surface runs round its axis at the slide's speed.
     void evaluate_sliding(const SlidingState &sliding, FaceEvaluation<3> &found);
 
     /// The same, with its forces linearised on their ports. What the spring of stick delays is left out: at a speed v it takes
@@ -150,6 +146,7 @@ namespace sprag
     using Kind    = StepInLanes::Kind;
 
     void find_ends();
+    void complete(FaceEvaluation<3> &found) const;
     bool share_line(unsigned int patch, unsigned int other) const;
     void add_points_in_contact(const std::optional<unsigned int> &peak, FaceEvaluation<3> &found) const;
     RigidCylinder::Pose to_pose(const SurfacePlace &place) const;
