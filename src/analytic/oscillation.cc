@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace sprag
 {
@@ -314,6 +315,50 @@ namespace sprag
       result.push_back(oscillation_at(rows, drive.at(turns[i], Drive::Side::after), duration, next, face_size));
     }
     return result;
+  }
+
+  Swing largest_swing(const std::vector<Row> &rows, const std::vector<Oscillation> &reversals, const double reversal_duration)
+  {
+    const auto is_behind_reversal = [&](const double time)
+    {
+      return std::any_of(reversals.begin(), reversals.end(),
+                         [&](const Oscillation &found)
+                         { return time >= found.time - reversal_duration && time <= found.window_end; });
+    };
+    Swing result;
+    std::optional<double> extreme; // the last one
+    double before = unknown, direction = 0.;
+    for (const auto &row : rows)
+    {
+      const double difference = row[Column::P] - row[Column::P_quasi_static];
+      if (!std::isfinite(difference) || is_behind_reversal(row[Column::time]))
+      {
+        extreme.reset();
+        before    = unknown;
+        direction = 0.;
+        continue;
+      }
+      const double change = difference - before;
+      if (change * direction < 0.)
+      {
+        if (extreme && 0.5 * std::abs(before - *extreme) > result.size)
+          result = { 0.5 * std::abs(before - *extreme), row[Column::x] };
+        extreme = before;
+      }
+      if (change != 0. && std::isfinite(change))
+        direction = change;
+      before = difference;
+    }
+    return result;
+  }
+
+  std::vector<Entry> swing_entries(const Swing &swing, const std::vector<Row> &rows)
+  {
+    constexpr double least     = 0.05; ///< over the largest P without inertia
+    std::vector<Entry> entries = { { "swing_P", swing.size } };
+    if (swing.size > least * largest(rows, Column::P_quasi_static))
+      entries.push_back({ "vibration", "P swings by " + rounded_text(swing.size) + " N to either side at x = " + mm(swing.x) });
+    return entries;
   }
 
   std::vector<Entry> oscillation_entries(const std::vector<Oscillation> &oscillations)

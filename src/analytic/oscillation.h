@@ -69,6 +69,19 @@ namespace sprag
   /// 0 where there are none or it is unknown.
   std::vector<Oscillation> oscillations(const std::vector<Row> &rows, const Drive &drive, double face_size = 0.);
 
+  /// The largest vibration of P elsewhere than in the windows behind reversals.
+  struct Swing
+  {
+    double size = 0.; ///< half the difference of P less its value without inertia between a maximum and the minimum beside it [N]
+    double x    = unknown; ///< there [mm]
+  };
+
+  /// Finds it; `reversals` are those of oscillations().
+  Swing largest_swing(const std::vector<Row> &rows, const std::vector<Oscillation> &reversals, double reversal_duration);
+
+  /// Returns the entries of that: swing_P and, where it is more than 5 % of the largest P without inertia, a sentence.
+  std::vector<Entry> swing_entries(const Swing &swing, const std::vector<Row> &rows);
+
   /// Warns of ringing that the mesh makes, not the lever.
   Warnings element_passing_warnings(const std::vector<Oscillation> &oscillations, double face_size);
 

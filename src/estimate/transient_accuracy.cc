@@ -66,7 +66,7 @@ namespace sprag
     void require_closed_contact(const Scene &scene, const std::vector<Row> &rows)
     {
       if (scene.drive.reversals().empty())
-        throw NoEstimate{ "the drive does not turn, and nothing rings." };
+        throw NoEstimate{ "the drive does not turn." };
       const auto is_open = [&](const Row &row)
       { return row[Column::time] > scene.drive.reversals().front() && row[Column::P] == 0.; };
       if (std::any_of(rows.begin(), rows.end(), is_open))

@@ -77,15 +77,17 @@ namespace sprag
     {
       const bool is_asked =
           std::find(asked.quantities.begin(), asked.quantities.end(), estimate.quantity) != asked.quantities.end();
-      if (!(asked.target > 0.) || !is_asked || estimate.parts.empty() || !(total_error(estimate) > asked.target))
+      const bool is_unknown = estimate.parts.empty();
+      if (!(asked.target > 0.) || !is_asked || !(is_unknown || total_error(estimate) > asked.target))
         continue;
-      missed += (missed.empty() ? "" : ", ") + estimate.quantity + ' ' + percent(total_error(estimate));
-      remedy = remedy.empty() ? largest_part(estimate).remedy : remedy;
+      missed +=
+          (missed.empty() ? "" : ", ") + estimate.quantity + ' ' + (is_unknown ? "unknown" : percent(total_error(estimate)));
+      remedy = !remedy.empty() ? remedy : is_unknown ? "None is known: " + estimate.unknown : largest_part(estimate).remedy;
     }
     if (missed.empty())
       return {};
     return { { "target_missed", "The run tells errors of " + missed + ", where " + percent(asked.target) + " was asked for.",
-               "These quantities are less accurate than asked for.", remedy } };
+               "These quantities are less accurate than asked for, or nobody knows.", remedy } };
   }
 
   namespace

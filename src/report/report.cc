@@ -87,14 +87,15 @@ namespace sprag
 
     constexpr double largest_mu_change = 0.05; ///< over which C_Q has a meaning, over the largest mu
 
-    /// C of the least-squares fit Q = C x + D x^2 over 0 < x <= 10 mm; NaN with fewer than three rows there, or where mu changes
-    /// on the way.
-    double slope_at_zero(const Rows &rows)
+    /// C of the least-squares fit Q = C x + D x^2 over 0 < x <= 10 mm, or R / 2 if that is shorter; NaN with fewer than three
+    /// rows there, or where mu changes on the way.
+    double slope_at_zero(const Rows &rows, const double cylinder_radius)
     {
+      const double window = std::min(10., 0.5 * cylinder_radius);
       std::vector<double> x, Q;
       double least_mu = std::numeric_limits<double>::infinity(), largest_mu = 0.;
       for (const Row &row : rows)
-        if (row[Column::x] > 0. && row[Column::x] <= 10.)
+        if (row[Column::x] > 0. && row[Column::x] <= window)
         {
           least_mu   = std::min(least_mu, row[Column::mu]);
           largest_mu = std::max(largest_mu, row[Column::mu]);
@@ -123,7 +124,7 @@ namespace sprag
     {
       append<Entry>(entries, { { "peak_P_" + way, peak(turned, Column::P) }, { "peak_Q_" + way, peak(turned, Column::Q) } });
       if (begins_closed(scene))
-        entries.push_back({ "slope_" + way, slope_at_zero(settled) });
+        entries.push_back({ "slope_" + way, slope_at_zero(settled, scene.geometry.cylinder_radius) });
       append<Entry>(entries, { { "deviation_P_" + way, deviation(settled, Column::P, Column::P_closed_form) },
                                { "deviation_Q_" + way, deviation(settled, Column::Q, Column::Q_closed_form) },
                                { "deviation_theta_" + way, deviation(settled, Column::theta, Column::theta_closed_form) } });

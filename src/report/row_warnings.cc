@@ -2,6 +2,7 @@
 #include "report/warnings.h"
 
 #include "base/text.h"
+#include "laws/friction.h"
 #include "report/peak_report.h"
 #include "results/row_statistics.h"
 #include "scene/closed_form.h"
@@ -322,6 +323,34 @@ namespace sprag
     return warnings;
   }
 
+  namespace
+  {
+    /// The layer's shear k_t delays what friction does to the slip: where mu falls by |mu'| a speed, |mu'| P / k_t [s] feeds a
+    /// vibration. Beyond L / v, L Friction/Memory length, the slip runs away at once.
+    void add_falling_friction(const Scene &scene, const Row &slide, Warnings &warnings)
+    {
+      const double speed = std::abs(slide[Column::v_rel]);
+      const double slope = -friction_coefficient(scene.friction, speed).derivative;
+      if (!falls_with_speed(scene.friction) || !(slope > 0.))
+        return;
+      const double shear  = slope * slide[Column::P] / contact_reference(scene).tangential;
+      const double memory = scene.friction.memory_length / speed;
+      if (is_reduced(scene.analysis.model))
+        warnings.push_back({ "shear_left_out",
+                             "Friction falls with speed " + place(slide) + ", mu by " + rounded_text(slope) +
+                                 " s/mm. Rigid and beam leave out the layer's shear, which then feeds vibrations.",
+                             "A slide that is stable here may flutter.",
+                             "Take Analysis/Model = condensed, whose mesh has the shear." });
+      if (shear > memory)
+        warnings.push_back({ "runaway_slip",
+                             "Friction falls so fast with speed " + place(slide) +
+                                 " that slip runs away sooner than mu follows: mu' P / k_t is " + rounded_text(1e3 * shear) +
+                                 " ms, Friction/Memory length over the speed " + rounded_text(1e3 * memory) + " ms.",
+                             "There is no steady slide. A growth rate depends on the mesh, and steps in time fail or shake.",
+                             "Measure mu over speed more finely and Friction/Memory length." });
+    }
+  } // namespace
+
   Warnings slide_warnings(const Scene &scene, const DrivePoint &drive, const double P, const double indentation)
   {
     Row row;
@@ -330,7 +359,9 @@ namespace sprag
     row[Column::v_rel]       = sliding_speed(scene.geometry, drive.x, drive.v);
     row[Column::P]           = P;
     row[Column::indentation] = indentation;
-    return row_warnings(scene, { row });
+    auto warnings            = row_warnings(scene, { row });
+    add_falling_friction(scene, row, warnings);
+    return warnings;
   }
 
   Warnings beam_warnings(const Scene &scene, const double frequency, const double growth_rate)

@@ -6,6 +6,7 @@
 #include "laws/friction.h"
 #include "results/columns.h"
 #include "scene/closed_form.h"
+#include "scene/held_slide.h"
 #include "scene/scene.h"
 #include "scene/sections.h"
 
@@ -325,6 +326,20 @@ namespace sprag
                            "Give Drive/Smoothing, some 30 times the rows' distance in time, if the real motion is smooth." });
     }
 
+    /// Slides are held at one speed, and friction over the speeds between a turn and that may do otherwise.
+    void add_speed_of_slides(const Scene &scene, Warnings &warnings)
+    {
+      const auto profile   = scene.drive.profile();
+      const bool is_varied = profile == DriveProfile::harmonic || profile == DriveProfile::table;
+      if (!is_varied || !looks_over_stroke(scene) || std::holds_alternative<CoulombFriction>(scene.friction.law))
+        return;
+      warnings.push_back({ "largest_speed_alone",
+                           "Slides are held at the largest speed of the drive, " + rounded_text(scene.drive.peak_speed()) +
+                               " mm/s, at every x. The drive passes most of its way more slowly, where mu is another.",
+                           "A slide that is stable at that speed may flutter at a smaller one.",
+                           "Judge several constant speeds: Drive/Profile = triangle with Stability/Ranges = Drive/Speed." });
+    }
+
     /// Those that a run writes, be it of a pair or in three dimensions, cannot be misspelt.
     bool is_written_by_sprag(const std::string &column)
     {
@@ -378,6 +393,7 @@ namespace sprag
     add_opening(scene, warnings);
     add_locking(scene, warnings);
     add_shaking(scene, warnings);
+    add_speed_of_slides(scene, warnings);
     append(warnings, implausible_values(scene));
     add_unused_columns(scene, warnings);
     return warnings;

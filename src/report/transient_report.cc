@@ -127,7 +127,9 @@ namespace sprag
                              { "steps", static_cast<double>(rows.size()) - 1. },
                              { "rejected_steps", sum(rows, Column::rejected_steps) },
                              { "iterations", sum(rows, Column::iterations) } });
-    append(entries, oscillation_entries(oscillations(rows, scene.drive, element_size(scene))));
+    const auto reversals = oscillations(rows, scene.drive, element_size(scene));
+    append(entries, oscillation_entries(reversals));
+    append(entries, swing_entries(largest_swing(rows, reversals, scene.drive.reversal_duration()), rows));
     return entries;
   }
 

@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "estimate/vibration_accuracy.h"
 #include "fe/fields/mode_frames.h"
+#include "laws/friction.h"
 #include "levers/prepared_scene.h"
 #include "model/growth.h"
 #include "program/result_writer.h"
@@ -119,7 +120,10 @@ namespace sprag
           result.high = std::min(result.high, value);
       Scene damped           = scene;
       damped.contact.damping = result.high;
-      result.loss_factor     = 2. * M_PI * verdict.frequency * contact_reference(damped).relaxation;
+      const auto reference   = contact_reference(damped);
+      result.loss_factor     = 2. * M_PI * verdict.frequency * reference.relaxation;
+      if (is_reduced(scene.analysis.model)) // the dashpot stays where a contact law is softer under a smaller P
+        result.loss_factor *= std::pow(reference.P / verdict.P, 1. - 1. / scene.contact.exponent);
       return result;
     }
 
@@ -140,6 +144,14 @@ namespace sprag
         changed.contact.tangential_stiffness = rigid * own;
       }
       result.rigid = compute_growth(changed, maker);
+      if (falls_with_speed(scene.friction) && scene.analysis.dimension == 2)
+        for (const auto &[limit, share] :
+             { std::pair<double *, double>{ &result.short_memory, 0.1 }, { &result.long_memory, 10. } })
+        {
+          changed = scene;
+          changed.friction.memory_length *= share;
+          *limit = compute_growth(changed, maker);
+        }
       return result;
     }
 

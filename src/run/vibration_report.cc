@@ -409,7 +409,10 @@ namespace sprag
 
   std::vector<Entry> stick_entries(const StickLimits &limits)
   {
-    return { { "growth_rate_soft_stick", limits.soft }, { "growth_rate_rigid_stick", limits.rigid } };
+    return { { "growth_rate_soft_stick", limits.soft },
+             { "growth_rate_rigid_stick", limits.rigid },
+             { "growth_rate_short_memory", limits.short_memory },
+             { "growth_rate_long_memory", limits.long_memory } };
   }
 
   std::vector<Entry> damping_entries(const DampingRange &range)

@@ -57,11 +57,16 @@ namespace sprag
     double loss_factor;         ///< omega times damping over stiffness, at `high` and the frequency of the slide
   };
 
-  /// Growth at the limits of the contact's stiffness in stick, through which friction lags behind the pressure.
+  /// Growth at the limits of the contact's stiffness in stick, through which friction lags behind the pressure, and of the memory
+  /// of a mu that falls with speed.
   struct StickLimits
   {
     double soft  = std::numeric_limits<double>::quiet_NaN(); ///< a tenth of it [1/s]; NaN where a mesh has the layer's shear
     double rigid = std::numeric_limits<double>::quiet_NaN(); ///< no lag [1/s]
+
+    // With a tenth of Friction/Memory length and with ten times that [1/s]; NaN where mu does not fall.
+    double short_memory = std::numeric_limits<double>::quiet_NaN();
+    double long_memory  = std::numeric_limits<double>::quiet_NaN();
   };
 
   /// Tells where the slides that were looked at are unstable, and their worst growth, each way.

@@ -371,3 +371,18 @@ TEST(Recurrence, IsThePeriodOfWhatRepeatsItself)
       std::isnan(recurrence_time(signal([&](const double t) { return wave(50., t) + 0.5 * wave(50. * std::sqrt(2.), t); }))));
   EXPECT_TRUE(std::isnan(recurrence_time(signal([](const double) { return 2.; }))));
 }
+
+TEST(Oscillation, IsToldWhereNoReversalIs)
+{
+  const auto swing = [](const Deviation &deviation)
+  {
+    const auto rows = rows_with(deviation);
+    return largest_swing(rows, oscillations(rows, there_and_back()), duration);
+  };
+  const auto wave  = sinusoid(8., 290., 0.);
+  const auto found = swing([&](const double time) { return time > 0.2 && time < 0.3 ? wave(time) : 0.; });
+  EXPECT_NEAR(found.size, 8., 0.05);
+  EXPECT_NEAR(found.x, 65. - 112. * 0.25, 112. * 0.06);
+  const auto behind_a_reversal = swing([&](const double time) { return time < 0.09 ? wave(time) : 0.; });
+  EXPECT_EQ(behind_a_reversal.size, 0.);
+}

@@ -21,8 +21,9 @@ namespace sprag
       return is_cheap ? 33 : 9;
     }
 
-    /// Overrides of the scene's own constants, none, and of all combinations of the ends of Stability/Ranges.
-    std::vector<std::vector<std::string>> corners(const Scene &scene)
+    /// Overrides of the scene's own constants, none, of all combinations of the ends of Stability/Ranges and, with `inside`, of
+    /// so many values inside each range alone.
+    std::vector<std::vector<std::string>> corners(const Scene &scene, const unsigned int inside)
     {
       std::vector<std::vector<std::string>> result = { {} };
       const auto ranges                            = uncertain_ranges(scene).value_or(std::vector<ParameterRange>());
@@ -32,6 +33,9 @@ namespace sprag
         for (std::size_t i = 0; i < ranges.size(); ++i)
           result.back().push_back(override_text(ranges[i].name, (corner >> i & 1u) == 0 ? ranges[i].from : ranges[i].to));
       }
+      for (const auto &[name, from, to, points] : ranges)
+        for (unsigned int i = 1; i <= inside; ++i)
+          result.push_back({ override_text(name, from + (to - from) * i / (inside + 1.)) });
       return result;
     }
 
@@ -109,7 +113,8 @@ namespace sprag
     constexpr unsigned int island_steps = 4;
     constexpr double tolerance          = 2e-3;
     SweptSlides result;
-    for (const auto &constants : corners(scene))
+    const unsigned int inside = !finds_edges ? 0 : is_reduced(scene.analysis.model) ? 7 : 1;
+    for (const auto &constants : corners(scene, inside))
     {
       Scene here          = constants.empty() ? scene : prepared(variant(scene, constants));
       const auto dynamics = maker.make(held_scene(here));
@@ -151,7 +156,7 @@ namespace sprag
 
   unsigned int least_slides(const Scene &scene)
   {
-    const auto n = static_cast<unsigned int>(corners(scene).size() * held_directions(scene).size());
+    const auto n = static_cast<unsigned int>(corners(scene, 0).size() * held_directions(scene).size());
     return n * (looks_over_stroke(scene) ? points_along(scene) : 1);
   }
 

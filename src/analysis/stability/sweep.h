@@ -16,7 +16,7 @@ namespace sprag
   };
 
   /// The slides that a verdict looks at: of Stability/Position or the whole stroke, of Stability/Direction or both, with the
-  /// constants of the scene and each combination of the ends of Stability/Ranges.
+  /// constants of the scene and each combination of the ends of Stability/Ranges; with `finds_edges` see sweep().
   struct SweptSlides
   {
     std::vector<SweptWay> ways;
@@ -27,7 +27,8 @@ namespace sprag
     unsigned int slides() const; ///< judged
   };
 
-  /// Judges them. `finds_edges`: whether the x are sought, too, where the kind changes.
+  /// Judges them. `finds_edges`: whether the x are sought, too, where the kind changes, and values inside each of the ranges are
+  /// judged: seven of a reduced lever, else the middle.
   SweptSlides sweep(const Scene &scene, DynamicsMaker &maker, bool finds_edges = false);
 
   /// Returns the names of those of Stability/Ranges whose ends give the same slides, to the last digit.
