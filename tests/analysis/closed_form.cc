@@ -244,24 +244,23 @@ TEST(ClosedFormRows, APairWithoutOffsetIsASingleLeverTwice)
 
 TEST(ClosedFormRows, BothLeversOfAPairShareTheDrivesWorkAndItsEnergy)
 {
-  for (const auto joint : { SpringJoint::held, SpringJoint::free })
-    for (const double offset : { 0.5, -0.5 })
+  for (const auto &[joint, offset] : { std::pair{ SpringJoint::held, 0.5 }, std::pair{ SpringJoint::free, -0.5 } })
+  {
+    Scene scene          = make_pair_scene(model_a(), joint, offset);
+    scene.analysis.step  = 0.01;
+    const auto rows      = compute_rows(scene);
+    const double started = rows.front()[Column::spring_energy];
+    const double total   = rows.back()[Column::friction_work];
+    double area          = 0.;
+    for (std::size_t i = 0; i < rows.size(); ++i)
     {
-      Scene scene          = make_pair_scene(model_a(), joint, offset);
-      scene.analysis.step  = 0.01;
-      const auto rows      = compute_rows(scene);
-      const double started = rows.front()[Column::spring_energy];
-      const double total   = rows.back()[Column::friction_work];
-      double area          = 0.;
-      for (std::size_t i = 0; i < rows.size(); ++i)
-      {
-        const double stored = rows[i][Column::spring_energy] - started;
-        EXPECT_NEAR(rows[i][Column::drive_work], rows[i][Column::friction_work] + stored, 1e-8 * total);
-        EXPECT_FALSE(std::isnan(rows[i][Column::friction_power]));
-        if (i > 0)
-          area += 0.5 * (rows[i - 1].drive_force() + rows[i].drive_force()) * (rows[i][Column::x] - rows[i - 1][Column::x]);
-      }
-      // The trapezoidal rule as above; where a lever begins to be reached dQ/dx jumps by 0.1 N/mm.
-      EXPECT_NEAR(area, total, 2e-4);
+      const double stored = rows[i][Column::spring_energy] - started;
+      EXPECT_NEAR(rows[i][Column::drive_work], rows[i][Column::friction_work] + stored, 1e-8 * total);
+      EXPECT_FALSE(std::isnan(rows[i][Column::friction_power]));
+      if (i > 0)
+        area += 0.5 * (rows[i - 1].drive_force() + rows[i].drive_force()) * (rows[i][Column::x] - rows[i - 1][Column::x]);
     }
+    // The trapezoidal rule as above; where a lever begins to be reached dQ/dx jumps by 0.1 N/mm.
+    EXPECT_NEAR(area, total, 2e-4);
+  }
 }

@@ -19,7 +19,7 @@ namespace
 {
   using Truth = std::map<std::string, double>;
 
-  constexpr unsigned int seeds = 200;
+  constexpr unsigned int seeds = 120;
 
   Identification identified(const Scene &scene)
   {

@@ -33,7 +33,7 @@ TEST_P(StepInLanesOfAnAxis, AStepInTimeFollowsTheLawsAtEachPoint)
   for (const auto &friction : { FrictionLaw{ CoulombFriction{ 0.4 } }, FrictionLaw{ CoulombFriction{ 50. } }, FrictionLaw{},
                                 FrictionLaw{ StribeckFriction{} }, regularised })
   {
-    Bed bed(cylinder, 12.5, 6, friction);
+    Bed bed(cylinder, 12.5, 3, friction);
     const auto weights = generalised_alpha(0.8, 6e-3);
     const std::vector<ContactMemory> none;
     const auto step = [&](const auto &from, const auto &to, const double x, const std::vector<SurfaceMemory> &memory)
@@ -166,11 +166,10 @@ TEST_P(StepInLanesOfAnAxis, AStepWithoutInertiaFollowsTheLawsAtEachPoint)
   const auto coulomb  = FrictionLaw{ CoulombFriction{ 0.4 } };
   const auto stribeck = FrictionLaw{ StribeckFriction{} };
   for (const auto &[friction, mode, augmented] :
-       { Case{ coulomb, cone, false }, Case{ coulomb, cone, true }, Case{ FrictionLaw{ CoulombFriction{ 50. } }, cone, false },
-         Case{ stribeck, cone, false }, Case{ stribeck, cone, true }, Case{ coulomb, FrictionMode::stick, false },
-         Case{ FrictionLaw{}, FrictionMode::stick, true } })
+       { Case{ coulomb, cone, false }, Case{ FrictionLaw{ CoulombFriction{ 50. } }, cone, false }, Case{ stribeck, cone, true },
+         Case{ coulomb, FrictionMode::stick, false }, Case{ FrictionLaw{}, FrictionMode::stick, true } })
   {
-    Bed bed(cylinder, 12.5, 3);
+    Bed bed(cylinder, 12.5, 2);
     const StaticTerms terms{ friction, 6e-3, mode, augmented, 0.31, 1.2 };
     const auto step = [&](const auto &from, const auto &to, const double x, const std::vector<SurfaceMemory> &memory)
     {
@@ -320,7 +319,7 @@ TEST_P(StepInLanesOfAnAxis, NothingIsPassedOverThatTouches)
   const auto weights = generalised_alpha(0.8, 6e-3);
   const std::vector<ContactMemory> none;
   const std::vector<SurfaceMemory> nothing;
-  Bed traveller(short_barrel(GetParam()), 12.5, 6, friction);
+  Bed traveller(short_barrel(GetParam()), 12.5, 3, friction);
   unsigned int touching = 0;
   double x              = Bed::x - 0.3;
   auto begin            = traveller.pressed(-0.01);
@@ -339,7 +338,7 @@ TEST_P(StepInLanesOfAnAxis, NothingIsPassedOverThatTouches)
       bed.surface().add_points(found);
       return found;
     };
-    Bed newcomer(short_barrel(GetParam()), 12.5, 6, friction);
+    Bed newcomer(short_barrel(GetParam()), 12.5, 3, friction);
     const auto found = step(traveller), expected = step(newcomer);
     EXPECT_EQ(found.forces.ports, expected.forces.ports);
     EXPECT_EQ(found.forces.values, expected.forces.values);
@@ -509,7 +508,7 @@ TEST_P(StepInLanesOfAnAxis, EveryEntryOfTheTangentIsTheDerivativeOfAForce)
   const FrictionLaw falling{ StribeckFriction{ 0.6, 0.2, 100. } };
   const std::vector<ContactMemory> none;
   const auto weights = generalised_alpha(0.8, 6e-3);
-  unsigned int every = 4; // of one law more columns
+  unsigned int every = 8; // of one law more columns
   for (const auto &friction :
        { falling, FrictionLaw{ CoulombFriction{ 0.4 } }, FrictionLaw{ CoulombFriction{ 50. } }, FrictionLaw{}, regularised })
   {

@@ -17,7 +17,8 @@ import device  # noqa: E402
 import drafting  # noqa: E402
 from sprag import program  # noqa: E402
 from sprag.results import NotAResult, read_result  # noqa: E402
-from style import plt, use_print_style  # noqa: E402
+from layout import problems  # noqa: E402
+from style import use_print_style  # noqa: E402
 
 SCENES = Path(os.environ.get("SPRAG_SOURCE", SOURCE)) / "params"
 SPRAG = program.program()
@@ -37,21 +38,19 @@ end
 
 
 @lru_cache
-def device_of(scene):
-    return apparatus.device_of(scene, SPRAG, None)
+def drawing_of(scene):
+    """A device, its drawing and what is wrong with the layout."""
+    found = apparatus.device_of(scene, SPRAG, None)
+    use_print_style()
+    figure = device.drawing(found)
+    return found, figure, problems(figure)
 
 
 class DeviceTest(PictureTest):
-    def setUp(self):
-        super().setUp()
-        use_print_style()
-        self.addCleanup(plt.close, "all")
-
     def drawn(self, scene):
-        self.device = device_of(scene)
-        figure = device.drawing(self.device)
+        self.device, figure, wrong = drawing_of(scene)
         (self.axes,) = figure.axes
-        self.expect_layout(figure)
+        self.assertEqual(wrong, [])
 
     def patches(self, gid):
         return [patch for patch in self.axes.patches if patch.get_gid() == gid]

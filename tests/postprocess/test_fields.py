@@ -331,7 +331,7 @@ class DrawTest(PictureTest):
 
     def test_every_part_of_the_apparatus(self):
         make_run(self.folder / "a", apparatus_blocks() + leaf_blocks())
-        for part in ("all", "lever", "plate", "cylinder", "leaf"):
+        for part in ("all", "plate", "cylinder", "leaf"):
             name = "fields-x30" + ("" if part == "all" else f"-{part}")
             done = draw("fields.py", self.folder / "a", "--x", "30", "--part", part)
             self.expect_picture(done, name)

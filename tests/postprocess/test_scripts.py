@@ -9,7 +9,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
-from pictures import FOLDER  # noqa: E402
+from pictures import FOLDER, draw  # noqa: E402
 
 SCRIPTS = [path for path in sorted(FOLDER.glob("*.py")) if "def main(" in path.read_text(encoding="utf-8")]
 # Needs ParaView's own Python, which knows no h5py.
@@ -33,7 +33,7 @@ class ScriptsTest(unittest.TestCase):
     def test_help(self):
         for path in (path for path in SCRIPTS if path.name != PARAVIEW):
             with self.subTest(path.name):
-                done = subprocess.run([path, "--help"], capture_output=True, text=True, check=False)
+                done = draw(path.name, "--help")
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
                 for word in ("usage: ", "-o", "--output", *(() if path.name == ONE_FORMAT else ("--format",))):
                     self.assertIn(word, done.stdout)

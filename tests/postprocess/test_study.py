@@ -95,7 +95,7 @@ class StudyTest(PictureTest):
     def test_labels_of_logarithms_stay_apart(self):
         use_print_style()
         for low in (0.14, 2.1):
-            for ratio in (1.1, 1.5, 3, 4.9, 5.1, 9, 20, 30, 1e4):
+            for ratio in (1.1, 3, 4.9, 5.1, 20, 1e4):
                 figure, axes = plt.subplots(figsize=(2, 2))
                 axes.loglog((low, low * ratio), (low, low * ratio), "o")
                 for axis in (axes.xaxis, axes.yaxis):

@@ -172,9 +172,9 @@ class BadScene(ProgramTest):
         for header in ("mu,v [mm/s]\n", "friction coefficient;speed\n", "mu speed\n"):
             with self.subTest(header=header):
                 self.refused(self.table(fine, header=header), says=["coefficient 3", "exchanged"], mistakes=1)
-                done = sprag(self.table(rows, header=header), "--validate")
+                done = sprag(self.table(rows, header=header), "--validate", "--quiet")
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
-        done = sprag(self.table(fine, header="friction speed [mm/s], mu [-]\n"), "--validate")
+        done = sprag(self.table(fine, header="friction speed [mm/s], mu [-]\n"), "--validate", "--quiet")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         drive = self.table("0,0\n1,0.1\n1,0.2\n3,0.3\n", "Drive", "Profile", header="displacement [mm]; t [m]\n")
         self.refused(drive, says=["column 't'", "must be in s", "'m' has the dimension m"], mistakes=1)

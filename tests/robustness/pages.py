@@ -4,12 +4,12 @@ options. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_S
 
 import re
 import shlex
-import subprocess
 import sys
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from pictures import draw  # noqa: E402
 from folders import FolderTest  # noqa: E402
 from runs import SOURCE, sprag  # noqa: E402
 
@@ -114,7 +114,7 @@ class Pages(FolderTest):
                 options.setdefault(words[0], {}).setdefault(page, set()).update(given)
         self.assertGreater(len(options), 5)
         for script, pages in options.items():
-            shown = subprocess.run(["/usr/bin/python3", str(SOURCE / script), "--help"], capture_output=True, text=True, check=False)
+            shown = draw(Path(script).name, "--help")
             self.assertEqual(shown.returncode, 0, script)
             for page, given in pages.items():
                 for option in given:

@@ -127,7 +127,7 @@ class Meshes(StrangerTest):
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_no_temporary_file_is_made(self):
-        for folder in ("/proc", "", "/nowhere"):
+        for folder in ("/proc", ""):
             with self.subTest(TMPDIR=folder):
                 self.write("own.geo", SCRIPT)
                 done = self.validate("own.geo", env={**os.environ, "TMPDIR": folder})
@@ -204,11 +204,13 @@ class Results(StrangerTest):
 
     def test_earlier_fields_go_with_their_result(self):
         coarse = [word for change in ("Mesh/Face size=4", "Analysis/Step=5", "Drive/Stroke=20") for word in ("--set", change)]
+        self.assertEqual(self.run_scene(*coarse, "--set", "Analysis/Model=finite element").returncode, 0)
+        self.assertTrue((self.output / "fields.xdmf").exists())
+        shutil.copytree(self.output, self.folder / "earlier")
         for changes in (("Analysis/Model=closed form",), ("Analysis/Model=finite element", "Output/Fields=none"), ("Analysis/Type=slope",)):
             with self.subTest(changes):
                 shutil.rmtree(self.output)
-                self.assertEqual(self.run_scene(*coarse, "--set", "Analysis/Model=finite element").returncode, 0)
-                self.assertTrue((self.output / "fields.xdmf").exists())
+                shutil.copytree(self.folder / "earlier", self.output)
                 words = [word for change in changes for word in ("--set", change)]
                 self.assertEqual(self.run_scene(*coarse, *words, "--overwrite").returncode, 0)
                 self.assertEqual([path.name for path in self.output.glob("f*")], [])

@@ -19,10 +19,10 @@ from system_calls import CAN_FILTER, without_locks  # noqa: E402
 STATIC = SOURCE / "params" / "model-a.prm"
 IN_TIME = SOURCE / "params" / "reversal-a.prm"
 COARSE = {"Mesh/Face size": "4", "Analysis/Step": "5"}
-# 60 slides of a beam: long enough to be killed on the way.
+# 32 slides of a beam: long enough to be killed on the way.
 MANY = {
     "Study/Type": "stability",
-    "Study/Vary": "Friction/Factor = 0.5 ... 1.5 : 6; Lever/Depth = 5 ... 20 : 10",
+    "Study/Vary": "Friction/Factor = 0.5 ... 1.5 : 4; Lever/Depth = 5 ... 20 : 8",
     "Stability/Critical": "none",
     "Stability/Roles": "off",
 }
@@ -62,7 +62,7 @@ class StudyTest(RunTest):
         self.assertEqual(list(texts["friction_law"]), 2 * ["Coulomb", "cork on aluminium"])
         self.assertEqual(list(table["mesh_degree"]), [1, 1, 2, 2])
         self.assertEqual((summary["runs"], summary["completed"]), (4, 4))
-        for row in range(4):
+        for row in (1, 2):  # each value once
             output = self.folder / str(row)
             own = {**COARSE, "Mesh/Degree": texts["mesh_degree"][row], "Friction/Law": texts["friction_law"][row]}
             words = [word for name, value in own.items() for word in ("--set", f"{name}={value}")]
@@ -77,7 +77,7 @@ class StudyTest(RunTest):
             return file["table"][name].attrs["unit"]
 
     def test_errors_against_a_reference_are_those_of_the_numbers(self):
-        changes = {"Study/Vary": "Mesh/Face size = 4, 2, 1", "Study/Reference": "Mesh/Face size = 0.5", "Analysis/Step": "5"}
+        changes = {"Study/Vary": "Mesh/Face size = 8, 4, 2", "Study/Reference": "Mesh/Face size = 1", "Analysis/Step": "5"}
         table, _, summary, done = self.study(STATIC, changes)
         self.assertEqual(summary["reference"], "completed")
         with h5py.File(self.output / "result.h5", "r") as file:
@@ -111,10 +111,10 @@ class StudyTest(RunTest):
         self.assertAlmostEqual(table["steps"][1] / table["steps"][0], 2, delta=0.02)
 
     def test_killed_and_started_again(self):
-        whole, *_ = self.study(IN_TIME, MANY, output=self.folder / "whole")
+        whole, *_ = self.study(IN_TIME, MANY, "--jobs", 1, output=self.folder / "whole")
         journal = self.output / "study.journal"
         process = self.start(IN_TIME, "--output", self.output, *settings(MANY), "--jobs", 1)
-        self.wait_until(process, lambda: journal.exists() and len(journal.read_bytes().splitlines()) > 15 or None)
+        self.wait_until(process, lambda: journal.exists() and len(journal.read_bytes().splitlines()) > 10 or None)
         process.kill()
         process.wait(TIMEOUT)
         with open(journal, "rb+") as file:  # torn in the middle of a line
@@ -122,7 +122,7 @@ class StudyTest(RunTest):
         table, _, _, done = self.study(IN_TIME, MANY)
         self.assertRegex(done.stderr, r"study.journal: \d+ runs taken over")
         with h5py.File(self.output / "result.h5", "r") as file:
-            self.assertGreater(file["meta/runs_taken_over"][()], 10)
+            self.assertGreater(file["meta/runs_taken_over"][()], 6)
         self.expect_same_numbers(whole, table)
 
     def other_build(self):
@@ -137,10 +137,10 @@ class StudyTest(RunTest):
         other = self.other_build()
         process = self.start(IN_TIME, "--output", self.output, *settings(MANY), "--jobs", 1)
         journal = self.output / "study.journal"
-        self.wait_until(process, lambda: journal.exists() and len(journal.read_bytes().splitlines()) > 10 or None)
+        self.wait_until(process, lambda: journal.exists() and len(journal.read_bytes().splitlines()) > 5 or None)
         process.kill()
         process.wait(TIMEOUT)
-        done = sprag(IN_TIME, "--output", self.output, *settings(MANY), program=other)
+        done = sprag(IN_TIME, "--output", self.output, *settings(MANY), "--jobs", 1, program=other)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("study.journal is of another scene or build: begun anew", done.stderr)
 
@@ -176,14 +176,14 @@ class StudyTest(RunTest):
     def test_interrupted(self):
         process = self.start(IN_TIME, "--output", self.output, *settings(MANY), "--jobs", 2, "--quiet")
         journal = self.output / "study.journal"
-        self.wait_until(process, lambda: journal.exists() and len(journal.read_bytes().splitlines()) > 15 or None)
+        self.wait_until(process, lambda: journal.exists() and len(journal.read_bytes().splitlines()) > 8 or None)
         process.send_signal(signal.SIGINT)
         said = process.communicate(timeout=TIMEOUT)
         self.assertEqual((process.returncode, said[0]), (1, ""))
         self.assertEqual(len(said[1].splitlines()), 1, said[1])
         table, _, summary = read(self.output)
         self.assertIn("interrupted", summary["status"])
-        self.assertGreaterEqual(len(table["run"]), 15)
+        self.assertGreaterEqual(len(table["run"]), 8)
         self.assertTrue(journal.exists())
 
     def test_any_number_of_processes(self):

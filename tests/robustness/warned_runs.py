@@ -12,35 +12,43 @@ import h5py
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from runs import SOURCE, RunTest, counted, sprag  # noqa: E402
 
-STRAIN = "Analysis/Plane=strain"
 FORWARD = ("Drive/Cycles=0.5", "Output/Fields=none", "Analysis/Step=2")
 BEAM = ("Analysis/Model=beam", "Stability/Critical=none", "Stability/Roles=off")
 FALLING = ("Friction/Law=Stribeck", "Friction/Stribeck speed=10", "Drive/Speed=10")
+COARSE = ("Drive/Cycles=0.5", "Output/Fields=none", "Analysis/Step=13")
 OTHER_DEVICE = ("Geometry/Cylinder radius=50", "Geometry/Pivot distance=180")
 
 # What is provoked: scene, options, warnings in the order of the program.
 PROVOKED = {
-    "penalty of 1e-3": ("model-a", (*FORWARD, "Contact/Penalty=1e-3"), ["overlap_of_layer", "soft_penalty", "soft_tangential_penalty", "far_from_closed_form"]),
-    "lever of 1 mm": ("model-a", (*FORWARD, "Lever/Depth=1"), ["coarse_contact", "large_deflection", "far_from_closed_form"]),
-    "leaf of 5 mm": ("leaf-a", (*FORWARD, "Leaf spring/Thickness=5"), ["large_strain", "pressure_beyond_strength"]),
+    "leaf of 5 mm": ("leaf-a", (*COARSE, "Leaf spring/Thickness=5"), ["large_strain", "pressure_beyond_strength", "long_steps"]),
     "leaf of 8 mm": ("leaf-a", ("Analysis/Model=closed form", "Leaf spring/Thickness=8"), ["leaf_beyond_yield", "pressure_beyond_strength"]),
-    "incompressible in plane stress": ("model-a", (*FORWARD, "Friction layer/Poisson's ratio=0.49", "Friction layer/Plane=stress"), ["plane_stress_of_layer"]),
-    "coarse contact": ("model-a", (*FORWARD, "Mesh/Face size=2"), ["coarse_contact"]),
-    "own mesh": ("model-a", (*FORWARD, "Mesh/File=../meshes/lever.geo"), ["coarse_contact"]),
-    "other device": ("model-a", (*FORWARD, *OTHER_DEVICE), ["defaults_of_model_a", "coarse_contact"]),
+    "own mesh": ("model-a", (*COARSE, "Mesh/File=../meshes/lever.geo"), ["coarse_contact", "long_steps"]),
     "crushed cork under a beam": ("reversal-a", ("Friction layer/Strength=0.1",), ["pressure_beyond_strength"]),
-    "stiff penalty": ("model-a", (*FORWARD, "Mesh/Faces in contact=0", "Contact/Penalty=1e4"), ["stiff_penalty"]),
-    "e almost R": ("model-a", (*FORWARD, "Geometry/Interface offset=55.999999"), ["contact_between_points", "soft_penalty", "coarse_contact", "far_from_closed_form"]),
-    "one step": ("model-a", (*FORWARD, "Analysis/Step=65"), ["long_steps"]),
     "near locking": ("closed-form-a", ("Friction/Law=Coulomb", "Friction/Coefficient=2.62"), ["near_locking", "pressure_beyond_strength"]),
     "pulled sensor": ("plate-a", ("Mesh/Face size=4", "Analysis/Step=2", "Output/Fields=none"), ["coarse_contact", "sensor_in_tension"]),
     "ranges that a beam does not have": ("stability-a", ("Analysis/Model=beam", "Stability/Ranges=Contact/Penalty 100 1000; Friction/Factor 0.8 1.2", "Stability/Critical=Mesh/Face size 0.5 1", "Stability/Roles=off"), ["without_effect"]),
-    "falling friction of a beam": ("stability-a", (*BEAM, *FALLING), ["shear_left_out"]),
     "friction that falls at once": ("stability-a", (*BEAM, *FALLING, "Friction/Memory length=1e-3"), ["shear_left_out", "runaway_slip"]),
     "slides of a harmonic drive": ("stability-a", (*BEAM, "Drive/Profile=harmonic", "Stability/Position=auto"), ["largest_speed_alone"]),
     "target of a drive that does not turn": ("reversal-a", ("Analysis/Model=rigid", "Drive/Start=64", "Drive/Cycles=0.5", "Accuracy/Target=0.01"), ["target_missed"]),
-    "none": ("model-a", FORWARD, []),
 }
+
+# The same for rows of a study of model A, which needs one start for all.
+ROWS = {
+    "penalty of 1e-3": (("Contact/Penalty=1e-3",), ["overlap_of_layer", "soft_penalty", "soft_tangential_penalty", "far_from_closed_form"]),
+    "lever of 1 mm": (("Lever/Depth=1",), ["coarse_contact", "large_deflection", "far_from_closed_form"]),
+    "incompressible in plane stress": (("Friction layer/Poisson's ratio=0.49", "Friction layer/Plane=stress"), ["plane_stress_of_layer"]),
+    "coarse contact": (("Mesh/Face size=2",), ["coarse_contact"]),
+    "other device": (OTHER_DEVICE, ["defaults_of_model_a", "coarse_contact"]),
+    "stiff penalty": (("Mesh/Faces in contact=0", "Contact/Penalty=1e4"), ["stiff_penalty"]),
+    "e almost R": (("Geometry/Interface offset=55.999999",), ["contact_between_points", "soft_penalty", "coarse_contact", "far_from_closed_form"]),
+    "one step": (("Analysis/Step=65",), ["long_steps"]),
+    "none": ((), []),
+}
+# Values of model A for rows that do not change them.
+MODEL_A = {
+    "Contact/Penalty": "auto", "Lever/Depth": "20", "Friction layer/Poisson's ratio": "0", "Friction layer/Plane": "strain", "Mesh/Face size": "auto", "Geometry/Cylinder radius": "56",
+    "Geometry/Pivot distance": "185.5", "Mesh/Faces in contact": "auto", "Geometry/Interface offset": "45.6", "Analysis/Step": "2",
+}  # fmt: skip
 
 
 def run(scene, options, *arguments):
@@ -69,6 +77,15 @@ class WarnedRunsTest(RunTest):
                         self.assertIn(text, words)
                         self.assertRegex(text, r"^[A-Z].*\.$")
 
+    def test_each_is_told_of_a_row(self):
+        changes = [dict(option.split("=") for option in options) for options, _ in ROWS.values()]
+        vary = "; ".join(f"{name} = {', '.join(row.get(name, usual) for row in changes)}" for name, usual in MODEL_A.items())
+        done = run("model-a", (*FORWARD, "Analysis/Type=study", "Study/Combine=list", f"Study/Vary={vary}"), "--output", self.output, "--quiet")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        with h5py.File(self.output / "result.h5", "r") as file:
+            found = file["runs/warnings"].asstr()[:]
+        self.assertEqual(dict(zip(ROWS, found)), {case: ", ".join(names) for case, (_, names) in ROWS.items()})
+
     def test_error_fails_the_run_after_everything_is_written(self):
         scene, options, names = PROVOKED["near locking"]
         done = run(scene, (*options, "Analysis/Warnings=error"), "--output", self.output)
@@ -87,21 +104,19 @@ class WarnedRunsTest(RunTest):
         self.assertEqual(list(self.stored()), names)
 
     def test_validate_prints_those_of_the_scene(self):
-        for case in ("near locking", "other device", "incompressible in plane stress"):
-            scene, options, names = PROVOKED[case]
-            names = names[:1]  # the pressure follows from the run
+        for scene, options, name in (("closed-form-a", PROVOKED["near locking"][1], "near_locking"), ("model-a", OTHER_DEVICE, "defaults_of_model_a")):
             done = run(scene, options, "--validate")
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertTrue(done.stdout.endswith(f"{scene}.prm: valid, {counted(names)}\n"), done.stdout)
+            self.assertTrue(done.stdout.endswith(f"{scene}.prm: valid, {counted([name])}\n"), done.stdout)
             self.assertEqual(run(scene, (*options, "Analysis/Warnings=error"), "--validate").returncode, 1)
         self.assertFalse(self.output.exists())
 
     def test_a_failed_run_tells_them_too(self):
-        options = ("Friction layer/Strength=0.01", "Analysis/Maximum deviation=1e-9", *FORWARD)
+        options = ("Friction layer/Strength=0.01", "Analysis/Maximum deviation=1e-9", "Mesh/Face size=2", *COARSE)
         done = run("model-a", options, "--output", self.output)
         self.assertEqual(done.returncode, 1)
         self.assertIn("Maximum deviation", done.stderr)
-        self.assertEqual(done.stdout.splitlines()[-1], "failed, 1 warning: pressure_beyond_strength")
+        self.assertEqual(done.stdout.splitlines()[-1], "failed, 3 warnings: coarse_contact, pressure_beyond_strength, long_steps")
 
     def test_the_table_is_that_of_the_program(self):
         text = (SOURCE / "params/warnings.md").read_text(encoding="utf-8")
@@ -114,7 +129,7 @@ class WarnedRunsTest(RunTest):
             for function in re.findall(r"^  Warnings \w+\(.*?^  \}", text, re.MULTILINE | re.DOTALL):
                 program |= set(re.findall(r'return \{ \{ "(\w+)"', function))
         self.assertEqual(set(table), program)
-        self.assertLessEqual({name for _, _, names in PROVOKED.values() for name in names}, program)
+        self.assertLessEqual({name for *_, names in (*PROVOKED.values(), *ROWS.values()) for name in names}, program)
 
 
 if __name__ == "__main__":

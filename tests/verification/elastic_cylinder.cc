@@ -77,8 +77,7 @@ namespace
 // points 0.02 mm apart, and the lines between rows, (1 mm)^2 / 8 times a curvature of P of some 5e-3 N/mm^2 over 25 N.
 TEST(ElasticCylinder, StiffIsTheRigidCircle)
 {
-  for (const Scene &scene : { coarse(), with_augmented_lagrangian(coarse()) })
-    EXPECT_LT(difference(run_scene(on_solid_cylinder(scene, 7e10)), run_scene(scene)), 1e-4);
+  EXPECT_LT(difference(run_scene(on_solid_cylinder(coarse(), 7e10)), run_scene(coarse())), 1e-4);
 }
 
 // Aluminium is 3500 times as stiff as cork: of the indentation of some 0.02 mm it takes no more than a hundredth, which P, from
@@ -91,7 +90,8 @@ TEST(ElasticCylinder, OfAluminiumHardlyMattersSlow)
 // Coulomb's law holds at each point, on every row and in full sliding with equality.
 TEST(ElasticCylinder, FrictionIsMuTimesPressureThroughBothStrokesAndTheReversal)
 {
-  for (const Scene &scene : { coarse(), with_augmented_lagrangian(coarse()) })
+  const Scene short_way = with_drive(coarse(), Drive(DriveProfile::triangle, 40., 65., 112., 1.));
+  for (const Scene &scene : { short_way, with_augmented_lagrangian(short_way) })
   {
     unsigned int sliding_rows = 0, partial_rows = 0;
     double worst = 0.;
@@ -109,7 +109,7 @@ TEST(ElasticCylinder, FrictionIsMuTimesPressureThroughBothStrokesAndTheReversal)
                  smallest           = std::min(smallest, ratio);
                }
              EXPECT_LE(largest, 1. + 1e-4) << "x " << row[Column::x];
-             const bool slides = row[Column::x] > 0. && (row[Column::v] > 0. || row[Column::x] < 63.);
+             const bool slides = row[Column::x] > 40. && (row[Column::v] > 0. || row[Column::x] < 63.);
              if (slides && peak > 0.)
              {
                ++sliding_rows;
@@ -120,7 +120,7 @@ TEST(ElasticCylinder, FrictionIsMuTimesPressureThroughBothStrokesAndTheReversal)
            });
     std::printf("friction over mu p in sliding off by %.1e\n", worst);
     EXPECT_LT(worst, 1e-4);
-    EXPECT_GT(sliding_rows, 100u);
+    EXPECT_GT(sliding_rows, 40u);
     EXPECT_GT(partial_rows, 3u);
   }
 }

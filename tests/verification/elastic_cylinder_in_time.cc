@@ -10,10 +10,10 @@ using namespace sprag;
 namespace
 {
   /// Model A around its reversal, short and coarse.
-  Scene reversal(const ModelType model, const CylinderType type)
+  Scene reversal(const ModelType model, const CylinderType type, const double start = 64.5)
   {
     Scene scene              = with_fixed_step(in_time(model_a(), model), 5e-5);
-    scene.drive              = Drive(DriveProfile::triangle, 64.5, 65., 112., 1., 2e-3);
+    scene.drive              = Drive(DriveProfile::triangle, start, 65., 112., 1., 2e-3);
     scene.mesh.face_size     = 1.;
     scene.cylinder.type      = type;
     scene.cylinder.face_size = 0.5;
@@ -41,11 +41,11 @@ namespace
 // Third-order terms of the rows, as with a rigid cylinder; the finite elements' own solver leaves 2e-7 there too.
 TEST(ElasticCylinderInTime, LedgerClosesAndCondensedAgreesWithFiniteElements)
 {
-  const auto condensed = run_meshed_in_time(reversal(ModelType::condensed, CylinderType::solid));
-  const auto finite    = run_meshed_in_time(reversal(ModelType::finite_element, CylinderType::solid));
+  const auto condensed = run_meshed_in_time(reversal(ModelType::condensed, CylinderType::solid, 64.75));
+  const auto finite    = run_meshed_in_time(reversal(ModelType::finite_element, CylinderType::solid, 64.75));
   EXPECT_LT(largest(condensed, Column::energy_residual), 1e-7 * largest(condensed, Column::drive_work));
   EXPECT_LT(largest(finite, Column::energy_residual), 1e-6 * largest(finite, Column::drive_work));
-  EXPECT_GT(finite.rows.back()[Column::friction_work], 5.);
+  EXPECT_GT(finite.rows.back()[Column::friction_work], 2.);
   // What modes beyond the 20 kept do in time, as with a rigid cylinder.
   const double P = largest(finite, Column::P);
   EXPECT_LT(largest_difference(condensed, finite, Column::P), 5e-3 * P);
@@ -74,10 +74,10 @@ TEST(ElasticCylinderInTime, OfStiffMaterialIsTheRigidOneSlow)
 // A soft cylinder lets the lever in by what its own yielding adds, and its own vibration of some 1 kHz goes on the ledger too.
 TEST(ElasticCylinderInTime, OfSoftMaterialYields)
 {
-  auto scene                   = reversal(ModelType::condensed, CylinderType::solid);
+  auto scene                   = reversal(ModelType::condensed, CylinderType::solid, 64.75);
   scene.cylinder.young_modulus = 200.;
   const auto soft              = run_meshed_in_time(scene);
-  const auto rigid             = run_meshed_in_time(reversal(ModelType::condensed, CylinderType::rigid));
+  const auto rigid             = run_meshed_in_time(reversal(ModelType::condensed, CylinderType::rigid, 64.75));
   EXPECT_LT(largest(soft, Column::energy_residual), 1e-6 * largest(soft, Column::drive_work));
   // Less pressure on the cork, whose spring is that of both in series.
   EXPECT_LT(soft.rows[1][Column::P], rigid.rows[1][Column::P] * (1. - 1e-4));

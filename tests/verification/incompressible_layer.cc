@@ -63,21 +63,21 @@ TEST(IncompressibleLayer, MeetsTheExactLayerOnARigidBase)
   {
     double poisson_ratio, half_width, indentation, pressure;
   };
-  for (const Exact &exact : { Exact{ 0.49, 0.7866, 0.31533, 0.8330 }, Exact{ 0.4999, 0.7808, 0.29793, 0.8411 } })
-    for (const auto &[material, degree, allowed] :
-         { std::tuple{ MaterialModel::linear, 1u, 0.02 }, std::tuple{ MaterialModel::linear, 2u, 0.01 },
-           std::tuple{ MaterialModel::neo_hookean, 2u, 0.03 } })
-    {
-      const Layer layer{ material, degree, exact.poisson_ratio, degree == 1 ? 2e4 : 1e5 };
-      const auto outcome = indented(triangulation, layer, radius, exact.indentation / radius);
-      const double load = outcome.load * radius / modulus, pressure = outcome.pressure * radius / modulus;
-      std::printf("nu %g, degree %u: load %.4f, a %.4f, p %.4f\n", exact.poisson_ratio, degree, load, outcome.half_width,
-                  pressure);
-      EXPECT_NEAR(load, 1., allowed);
-      const double ripple = degree == 1 ? layer.penalty * 0.05 * 0.05 / (8. * radius) * radius / modulus : 0.;
-      EXPECT_NEAR(outcome.half_width, exact.half_width, 0.035);
-      EXPECT_NEAR(pressure, exact.pressure, allowed * exact.pressure + ripple);
-    }
+  const Exact compressible{ 0.49, 0.7866, 0.31533, 0.8330 }, almost_not{ 0.4999, 0.7808, 0.29793, 0.8411 };
+  for (const auto &[exact, material, degree, allowed] :
+       { std::tuple{ almost_not, MaterialModel::linear, 1u, 0.02 }, std::tuple{ compressible, MaterialModel::linear, 2u, 0.01 },
+         std::tuple{ almost_not, MaterialModel::linear, 2u, 0.01 },
+         std::tuple{ almost_not, MaterialModel::neo_hookean, 2u, 0.03 } })
+  {
+    const Layer layer{ material, degree, exact.poisson_ratio, degree == 1 ? 2e4 : 1e5 };
+    const auto outcome = indented(triangulation, layer, radius, exact.indentation / radius);
+    const double load = outcome.load * radius / modulus, pressure = outcome.pressure * radius / modulus;
+    std::printf("nu %g, degree %u: load %.4f, a %.4f, p %.4f\n", exact.poisson_ratio, degree, load, outcome.half_width, pressure);
+    EXPECT_NEAR(load, 1., allowed);
+    const double ripple = degree == 1 ? layer.penalty * 0.05 * 0.05 / (8. * radius) * radius / modulus : 0.;
+    EXPECT_NEAR(outcome.half_width, exact.half_width, 0.035);
+    EXPECT_NEAR(pressure, exact.pressure, allowed * exact.pressure + ripple);
+  }
 }
 
 // Thin-layer theory of the incompressible bonded layer (Johnson, Contact Mechanics, 5.8): the material is squeezed out sideways,

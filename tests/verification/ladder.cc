@@ -43,8 +43,8 @@ TEST(Ladder, BeamAndCondensedLeverRingAtTheSameFrequency)
 {
   for (const auto &scene : { thick_a, thick_b })
   {
-    const auto beam      = oscillation(around_the_reversal(scene(ModelType::beam), 55.));
-    const auto condensed = oscillation(around_the_reversal(scene(ModelType::condensed), 55.));
+    const auto beam      = oscillation(around_the_reversal(scene(ModelType::beam), 60.));
+    const auto condensed = oscillation(around_the_reversal(scene(ModelType::condensed), 60.));
     EXPECT_NEAR(beam.frequency, condensed.frequency, 0.02 * condensed.frequency);
     EXPECT_NEAR(beam.frequency_Q, condensed.frequency_Q, 0.02 * condensed.frequency_Q);
     RecordProperty("beam", std::to_string(beam.frequency));
@@ -107,7 +107,7 @@ static void expect_a_closed_ledger(const ModelType model, const double face_size
   auto scene           = undamped(with_spectral_radius(with_fixed_step(thick_a(model), 5e-5), 1.));
   scene.friction.law   = CoulombFriction{ 0. };
   scene.mesh.face_size = face_size;
-  scene.drive          = Drive(DriveProfile::triangle, 0., 60., 112., 0.5, 5e-3);
+  scene.drive          = Drive(DriveProfile::triangle, 0., 30., 112., 0.5, 5e-3);
   const auto run       = run_meshed_in_time(scene);
   double stored        = 0.;
   for (const auto &row : run.rows)

@@ -154,6 +154,7 @@ TEST(MirroredPairInTime, ModesOfAllFidelitiesAgree)
   scene.spring.type     = SpringType::leaf;
   scene.pair.joint_mass = 1e-4;
   scene.condensed.modes = 40;
+  scene.mesh.face_size  = 4.;
   scene.spring          = prepared_spring(scene);
   scene                 = undamped(scene);
   const auto modes      = [](const Scene &slide_scene)

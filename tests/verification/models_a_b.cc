@@ -182,12 +182,12 @@ namespace
 TEST(ModelsAAndB, FrictionTurnsOverThroughStickAfterTheReversal)
 {
   for (const auto &[name, model] : models())
-    for (const Scene &scene : { model, with_augmented_lagrangian(model) })
-      for (const double coefficient : { 0.3, mu, 1.2 })
-      {
-        SCOPED_TRACE(name);
-        expect_turn_over(scene, coefficient);
-      }
+  {
+    SCOPED_TRACE(name);
+    for (const double coefficient : { 0.3, mu, 1.2 })
+      expect_turn_over(model, coefficient);
+    expect_turn_over(with_augmented_lagrangian(model), mu);
+  }
 }
 
 // With mu(v) the speed of slip comes up to the drive's as F creeps up: dF/dx = k_t (1 - w / v), F = P mu(w), so the rest of F

@@ -32,6 +32,7 @@ TEST(SolidFiniteStrain, WithoutContractionItIsPlaneStrain)
   Scene scene                = at_finite_strain(0.);
   scene.mesh.elements_across = 2;
   scene.drive                = Drive(DriveProfile::triangle, 0., 10., 112., 0.5);
+  scene.analysis.step        = 2.5;
   Scene plane = scene, linear = scene;
   plane.analysis.dimension = 2;
   linear.lever.material    = MaterialModel::linear;
