@@ -143,7 +143,8 @@ def curves(result):
 
 def set_abscissa(axes, abscissa, shown):
     if not abscissa.is_number:
-        axes.set_xticks(np.unique(abscissa.numbers), list(dict.fromkeys(abscissa.texts[np.argsort(abscissa.numbers)])))
+        texts = dict.fromkeys(abscissa.texts[np.argsort(abscissa.numbers)])
+        axes.set_xticks(np.unique(abscissa.numbers), [text.replace(" ", "\n") for text in texts])
     elif len(shown) and shown.min() > 0 and shown.max() / shown.min() > WIDE:
         axes.set_xscale("log")
         plain_logarithms(axes.xaxis)

@@ -253,9 +253,16 @@ namespace sprag
     beam.analysis.type  = AnalysisType::stability;
     beam.analysis.model = ModelType::beam;
     double largest      = -infinite;
-    for (const auto direction : { Direction::forward, Direction::backward })
-      for (const double x : sample_positions(scene))
-        largest = std::max(largest, compute_growth(slide_at(beam, x, direction, *in_memory.dynamics)));
+    try
+    {
+      for (const auto direction : { Direction::forward, Direction::backward })
+        for (const double x : sample_positions(scene))
+          largest = std::max(largest, compute_growth(slide_at(beam, x, direction, *in_memory.dynamics)));
+    }
+    catch (const AnalysisError &)
+    {
+      return infinite;
+    }
     return largest;
   }
 } // namespace sprag

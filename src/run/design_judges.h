@@ -42,7 +42,8 @@ namespace sprag
 
     Judgement judge(DesignJudge by, const Proposal &lever, bool in_time);
 
-    /// Returns the largest growth rate of all slides of a beam of this scene [1/s]; infinite where one of them is not unique.
+    /// Returns the largest growth rate of all slides of a beam of this scene [1/s]; infinite where one of them is not unique or
+    /// not found.
     double beam_growth(const Scene &scene);
 
   private:

@@ -396,14 +396,15 @@ namespace sprag
             found.push_back({ *number, entry->unit, row->run });
       if (found.empty())
         return;
-      // Peaks of a force that acts backward are negative: the largest is that of the largest magnitude.
-      const bool is_peak = name.rfind("peak_", 0) == 0;
-      const auto size    = [is_peak](const Found &one) { return is_peak ? std::abs(one.value) : one.value; };
+      // Peaks of a force that acts backward are negative, offsets lie on both sides of 0: the largest has the largest magnitude.
+      const bool by_size = name.rfind("peak_", 0) == 0 || name == "residual_offset";
+      const auto size    = [by_size](const Found &one) { return by_size ? std::abs(one.value) : one.value; };
       const auto [least, most] =
           std::minmax_element(found.begin(), found.end(), [&size](const Found &a, const Found &b) { return size(a) < size(b); });
+      const auto settings = [&printer](const Found &one) { return settings_with_units(printer.study, printer.points[one.run]); };
       summary_line(stream, name,
-                   four_digits(least->value) + " to " + with_unit(most->value, most->unit) + ", most for " +
-                       settings_with_units(printer.study, printer.points[most->run]));
+                   four_digits(least->value) + " to " + with_unit(most->value, most->unit) + ", least for " + settings(*least) +
+                       ", most for " + settings(*most));
     }
 
     /// Prints how the runs of a study ended and, where there is a reference, the cheapest settings that meet accuracies: with
