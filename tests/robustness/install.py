@@ -61,6 +61,13 @@ class Install(FolderTest):
         (self.folder / "own.txt").touch()
         self.assertEqual(self.completions("ow"), ["own.prm"])
 
+    def test_manual_page_has_every_option(self):
+        page = (self.prefix / "share" / "man" / "man1" / "sprag.1").read_text().replace("\\-", "-")
+        printed = self.call(self.prefix / "bin" / "sprag", "--help").stdout
+        for option in re.findall(r"^  (?:-h,)?(--[a-z-]+)", printed, re.MULTILINE):
+            self.assertRegex(page, rf"(?m)^\.B\S* .*{option}\b", option)
+        self.assertIn(self.call(self.prefix / "bin" / "sprag", "--version").stdout.split()[1], page)
+
     def test_nothing_of_it_names_the_sources(self):
         for path in self.prefix.rglob("*"):
             if path.is_file() and path.suffix in (".py", ".prm", ".geo", ".md"):
