@@ -10,6 +10,7 @@
 
 #include <iostream>
 #include <sstream>
+#include <unistd.h>
 
 namespace sprag
 {
@@ -62,13 +63,13 @@ namespace sprag
 
   int tell(const InputError &error)
   {
-    std::cerr << shown(error.what()) << '\n';
+    std::cerr << coloured(shown(error.what()), STDERR_FILENO, error_colour) << '\n';
     return bad_input;
   }
 
   int tell(const std::string &failure)
   {
-    std::cerr << "sprag: " << shown(failure) << '\n';
+    std::cerr << coloured("sprag: " + shown(failure), STDERR_FILENO, error_colour) << '\n';
     return analysis_failed;
   }
 

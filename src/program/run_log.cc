@@ -60,13 +60,17 @@ namespace sprag
 
   struct RunLog::Record
   {
-    std::string text; ///< before the file is open
-    std::string line; ///< that is not at its end
+    std::string text;       ///< before the file is open
+    std::string line;       ///< that is not at its end
+    bool in_colour = false; ///< within a sequence of coloured(), which is left out
     std::ofstream file;
 
     void take(const char c)
     {
-      if (c == '\r')
+      in_colour = in_colour || c == '\033';
+      if (in_colour)
+        in_colour = c != 'm';
+      else if (c == '\r')
         line.clear();
       else
         line += c;

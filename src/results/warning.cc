@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "results/warning.h"
 
+#include "base/escaped.h"
+
 #include <sstream>
+#include <unistd.h>
 
 namespace sprag
 {
@@ -31,8 +34,9 @@ namespace sprag
   {
     std::string result;
     for (const Warning &warning : warnings)
-      result += "\nWarning: " + warning.name + '\n' + paragraph("  found: ", warning.found) +
-                paragraph("  effect:", warning.effect) + paragraph("  remedy:", warning.remedy);
+      result += '\n' + coloured("Warning: " + warning.name, STDOUT_FILENO, warning_colour) + '\n' +
+                paragraph("  found: ", warning.found) + paragraph("  effect:", warning.effect) +
+                paragraph("  remedy:", warning.remedy);
     return warnings.empty() ? "" : result + '\n';
   }
 

@@ -3,7 +3,9 @@
 /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 
 import os
+import pty
 import re
+import subprocess
 import sys
 import unittest
 from pathlib import Path
@@ -11,7 +13,7 @@ from pathlib import Path
 import h5py
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, RunTest, sprag  # noqa: E402
+from runs import SOURCE, SPRAG, TIMEOUT, RunTest, sprag  # noqa: E402
 
 SHORT = {
     "model-a": ("Mesh/Face size=1", "Analysis/Step=4", "Output/Fields=none"),
@@ -55,6 +57,37 @@ class Output(RunTest):
         with h5py.File(self.output / "result.h5") as file:
             for way, printed in re.findall(r"(forward|backward) (\S+) N", line):
                 self.assertAlmostEqual(float(printed) / file[f"summary/peak_P_{way}"][()], 1, delta=1e-3)
+
+    def on_a_terminal(self, *arguments, **environment):
+        """What a terminal gets of a run, and its exit status."""
+        ours, its = pty.openpty()
+        inherited = {name: value for name, value in os.environ.items() if name != "NO_COLOR"}
+        with subprocess.Popen([SPRAG, *map(str, arguments)], stdout=its, stderr=its, env={**inherited, **environment}) as run:
+            os.close(its)
+            got = b""
+            try:
+                while more := os.read(ours, 4096):
+                    got += more
+            except OSError:  # the end of a pseudo-terminal
+                pass
+            os.close(ours)
+            return got.decode(), run.wait(TIMEOUT)
+
+    def test_a_terminal_alone_gets_colours(self):
+        settings = ("Friction/Law=Coulomb", "Friction/Coefficient=2.62")
+        warned = (SOURCE / "params/closed-form-a.prm", *(word for setting in settings for word in ("--set", setting)), "--output", self.output)
+        text, status = self.on_a_terminal(*warned)
+        self.assertEqual(status, 0, text)
+        self.assertIn("\033[33mWarning: near_locking\033[0m", text)
+        log = (self.output / "run.log").read_text()
+        self.assertIn("\nWarning: near_locking\n", log)
+        self.assertNotIn("\033", log)
+        for environment, arguments in (({"NO_COLOR": "1"}, (*warned, "--overwrite")), ({"NO_COLOR": "1"}, (self.folder / "none.prm",))):
+            self.assertNotIn("\033", self.on_a_terminal(*arguments, **environment)[0])
+        text, status = self.on_a_terminal(self.folder / "none.prm")
+        self.assertEqual(status, 2)
+        self.assertTrue(text.startswith("\033[31m"), text)
+        self.assertNotIn("\033", sprag(self.folder / "none.prm").stderr)
 
     def test_many_reversals_are_a_table_with_an_end(self):
         settings = [word for setting in MANY_TURNS for word in ("--set", setting)]
