@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/hdf5_handle.h"
-#include "base/system/guard.h"
+#include "base/system/exec.h"
 #include "base/system/interrupt.h"
-#include "base/system/neighbour.h"
 #include "base/system/open_mpi.h"
+#include "base/system/supervisor.h"
 #include "program/cost.h"
 #include "program/memory.h"
 #include "program/outcome.h"
@@ -21,7 +21,7 @@
 #include <string>
 #include <sys/resource.h>
 
-// The program that one calls. It reads, checks and looks after runs and does itself what formulas answer; for models, which take
+// The program that one calls. It reads, checks and supervises runs and does itself what formulas answer; for models, which take
 // some 200 shared libraries, it becomes sprag-models. Linking it says what it must not use.
 
 namespace sprag
@@ -54,7 +54,7 @@ namespace sprag
       return "crashed (" + reason + "); every finished step is kept";
     }
 
-    /// The exit status of a run that was looked after.
+    /// The exit status of a run that was supervised.
     int conclude(const WorkEnd &end, const Arguments &arguments, const Scene &scene, const std::timespec &since)
     {
       const bool ended_itself = end.signal == 0 && end.status <= bad_input;
@@ -106,7 +106,7 @@ namespace sprag
     /// The arguments and the file are read again there.
     [[noreturn]] void become_models(char **argv)
     {
-      become_neighbour("sprag-models", argv);
+      execute_beside("sprag-models", argv);
     }
 
     void do_without_models(const Arguments &arguments, const Scene &scene, RunLog &log)
@@ -142,7 +142,7 @@ namespace sprag
       const Scene scene            = load_scene(arguments);
       const unsigned int processes = processes_for(arguments, scene);
       const bool on_all_cores      = is_for_all_cores(arguments, scene, processes);
-      if (const auto end = on_all_cores ? look_after(SIGTERM, process_grace) : look_after(SIGKILL, grace))
+      if (const auto end = on_all_cores ? supervise(SIGTERM, process_grace) : supervise(SIGKILL, grace))
         return conclude(*end, arguments, scene, since);
       if (on_all_cores)
         become_mpirun(argv, processes);
@@ -169,7 +169,7 @@ int main(int argc, char **argv)
   {
     require_stack();
     if (under_mpi() && !arguments.print_parameters)
-      become_neighbour("sprag-models", argv);
+      execute_beside("sprag-models", argv);
     return run_looked_after(arguments, since, argc, argv);
   }
   catch (const InputError &error)

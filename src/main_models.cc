@@ -4,9 +4,9 @@
 #include "base/fingerprint.h"
 #include "base/hdf5_handle.h"
 #include "base/messages.h"
-#include "base/system/guard.h"
 #include "base/system/interrupt.h"
 #include "base/system/open_mpi.h"
+#include "base/system/supervisor.h"
 #include "fe/fields/help_first_rank.h"
 #include "fe/mesh/geometry_script.h"
 #include "fe/solid/first_rank.h"
@@ -97,7 +97,7 @@ namespace sprag
     /// Returns true if MPI is needed: by PETSc and meshes, or because processes share the work.
     bool needs_mpi(const Scene &scene)
     {
-      return needs_mesh(scene) || is_judged_by_mesh(scene) || scene.spring.type == SpringType::leaf ||
+      return needs_mesh(scene) || is_checked_by_mesh(scene) || scene.spring.type == SpringType::leaf ||
              works_in_parallel(scene.analysis.type);
     }
 

@@ -36,13 +36,13 @@ namespace sprag
     }
   } // namespace
 
-  void visit(Archive &archive, LedgerReport &report)
+  void serialise(Archive &archive, LedgerReport &report)
   {
     auto &[residual, largest_work, time, term] = report;
     archive(residual, largest_work, time, term);
   }
 
-  void visit(Archive &archive, EnergyLedger &ledger)
+  void serialise(Archive &archive, EnergyLedger &ledger)
   {
     auto &[start, now, sum, largest_change, found] = ledger;
     archive(start, now, sum, largest_change, found);

@@ -23,7 +23,7 @@ namespace sprag
     }
   };
 
-  void visit(Archive &archive, LedgerReport &report);
+  void serialise(Archive &archive, LedgerReport &report);
 
   /// Adds up the works of accepted steps:
   ///   residual = work of the drive - change of the stored energies - friction - damping - algorithmic dissipation.
@@ -49,7 +49,7 @@ namespace sprag
     }
 
   private:
-    friend void visit(Archive &archive, EnergyLedger &ledger);
+    friend void serialise(Archive &archive, EnergyLedger &ledger);
 
     StoredEnergy start;
     StoredEnergy now;
@@ -58,7 +58,7 @@ namespace sprag
     LedgerReport found;
   };
 
-  void visit(Archive &archive, EnergyLedger &ledger);
+  void serialise(Archive &archive, EnergyLedger &ledger);
 
   /// Counts the steps of a run in time and holds its energy ledger.
   struct TransientReport

@@ -29,7 +29,7 @@ namespace sprag
       std::optional<unsigned int> periods(double tolerance) const;
 
     private:
-      friend void visit(Archive &archive, SteadyState &steady);
+      friend void serialise(Archive &archive, SteadyState &steady);
 
       struct Instant
       {
@@ -84,7 +84,7 @@ namespace sprag
       return {};
     }
 
-    void visit(Archive &archive, SteadyState &steady)
+    void serialise(Archive &archive, SteadyState &steady)
     {
       archive(steady.instants);
     }
@@ -128,7 +128,7 @@ namespace sprag
     }
 
     /// State from which an interrupted run resumes, beside its findings and the table.
-    struct Course
+    struct SolverState
     {
       std::size_t rows           = 1;
       unsigned int periods_ended = 0;
@@ -143,9 +143,9 @@ namespace sprag
       double largest_residual = 0.;
     };
 
-    void visit(Archive &archive, Course &course)
+    void serialise(Archive &archive, SolverState &solver)
     {
-      auto &[rows, ended, stops, has_ended, steady, periods, sections, turns, square, energy, residual] = course;
+      auto &[rows, ended, stops, has_ended, steady, periods, sections, turns, square, energy, residual] = solver;
       archive(rows, ended, stops, has_ended, steady, periods, sections, turns, square, energy, residual);
     }
 
@@ -181,17 +181,17 @@ namespace sprag
           note();
           write(false);
         }
-        while (motion.state().time < settings.duration && !course.has_ended)
+        while (motion.state().time < settings.duration && !solver.has_ended)
         {
-          const double row = static_cast<double>(course.rows) * between_rows;
+          const double row = static_cast<double>(solver.rows) * between_rows;
           const double end = period_end(), section = section_end();
           go_on(std::min({ settings.duration, record ? row : settings.duration, end, section }));
           if (motion.state().time >= row)
-            ++course.rows;
+            ++solver.rows;
           if (motion.state().time == end)
             end_period();
           if (motion.state().time == section)
-            course.sections.push_back({ motion.state().square, motion.state().base_square });
+            solver.sections.push_back({ motion.state().square, motion.state().base_square });
           keep();
         }
         if (keeper != nullptr)
@@ -208,20 +208,20 @@ namespace sprag
         found.dissipated  = state.dissipated;
         if (motion.rests())
           found.residual_offset = state.z;
-        else if (const auto &turns = course.last_turns; turns.size() == 2 && state.time > base_motion(settings).end)
+        else if (const auto &turns = solver.last_turns; turns.size() == 2 && state.time > base_motion(settings).end)
           found.residual_offset = 0.5 * (turns[0] + turns[1]);
-        course.square += state.square;
-        found.rms_acceleration = state.time > 0. ? std::sqrt(course.square / state.time) : 0.;
-        found.energy_residual  = course.largest_energy > 0. ? course.largest_residual / course.largest_energy : 0.;
+        solver.square += state.square;
+        found.rms_acceleration = state.time > 0. ? std::sqrt(solver.square / state.time) : 0.;
+        found.energy_residual  = solver.largest_energy > 0. ? solver.largest_residual / solver.largest_energy : 0.;
         if (is_harmonic)
           take_period_ratios();
         else if (motion.largest_base_acceleration() > 0.)
         {
           found.peak = motion.largest_acceleration() / motion.largest_base_acceleration();
           found.rms  = std::sqrt(state.square / state.base_square);
-          if (course.sections.size() == random_sections)
+          if (solver.sections.size() == random_sections)
           {
-            const double half = half_interval(course.sections);
+            const double half = half_interval(solver.sections);
             found.rms_low     = std::max(0., found.rms - half);
             found.rms_high    = found.rms + half;
           }
@@ -246,26 +246,26 @@ namespace sprag
       IsolatedTable &motion;
       const bool is_harmonic;
       const double between_rows;
-      Course course;
+      SolverState solver;
 
       double period_end() const
       {
-        return is_harmonic ? (course.periods_ended + 1) / settings.base_frequency : std::numeric_limits<double>::infinity();
+        return is_harmonic ? (solver.periods_ended + 1) / settings.base_frequency : std::numeric_limits<double>::infinity();
       }
 
       double section_end() const
       {
         return settings.base == BaseMotionType::random
-                   ? std::min(1., static_cast<double>(course.sections.size() + 1) / random_sections) * settings.duration
+                   ? std::min(1., static_cast<double>(solver.sections.size() + 1) / random_sections) * settings.duration
                    : std::numeric_limits<double>::infinity();
       }
 
-      ProgressVisit progress()
+      ProgressSerialiser progress()
       {
         return [this](Archive &archive)
         {
-          archive(found, course);
-          keeper->visit_table(archive);
+          archive(found, solver);
+          keeper->serialise_table(archive);
         };
       }
 
@@ -288,8 +288,8 @@ namespace sprag
       {
         const auto &state          = motion.state();
         const double largest       = std::max({ std::abs(state.base_work), state.dissipated, motion.energy() });
-        course.largest_energy      = std::max(course.largest_energy, largest);
-        course.largest_residual    = std::max(course.largest_residual, std::abs(motion.energy_residual()));
+        solver.largest_energy      = std::max(solver.largest_energy, largest);
+        solver.largest_residual    = std::max(solver.largest_residual, std::abs(motion.energy_residual()));
         found.largest_displacement = std::max(found.largest_displacement, motion.largest_displacement());
         found.largest_acceleration = std::max(found.largest_acceleration, motion.largest_acceleration());
       }
@@ -314,13 +314,13 @@ namespace sprag
         if (turns)
         {
           ++found.turns;
-          add_last(motion.state().z, 2, course.last_turns);
+          add_last(motion.state().z, 2, solver.last_turns);
           write(true);
         }
         if (event == TableEvent::stop)
         {
           ++found.stops;
-          ++course.period_stops;
+          ++solver.period_stops;
         }
         note();
         write(false);
@@ -330,28 +330,28 @@ namespace sprag
       {
         const auto &state = motion.state();
         add_last(Period{ motion.largest_acceleration(), motion.largest_displacement(), state.square, state.cosine, state.sine,
-                         course.period_stops },
-                 8, course.periods);
-        course.square += state.square;
-        course.steady.add(state.z, state.rate / (2. * M_PI * settings.base_frequency), motion.largest_displacement());
-        ++course.periods_ended;
-        course.period_stops = 0;
+                         solver.period_stops },
+                 8, solver.periods);
+        solver.square += state.square;
+        solver.steady.add(state.z, state.rate / (2. * M_PI * settings.base_frequency), motion.largest_displacement());
+        ++solver.periods_ended;
+        solver.period_stops = 0;
         motion.reset_period();
-        const auto repeats = course.steady.periods(settings.periodic_tolerance);
+        const auto repeats = solver.steady.periods(settings.periodic_tolerance);
         if (repeats && !found.is_steady)
           found.steady_from = state.time;
         found.is_steady  = repeats.has_value();
         found.periods    = repeats.value_or(1);
-        course.has_ended = repeats && settings.end == IsolationEnd::steady_state;
+        solver.has_ended = repeats && settings.end == IsolationEnd::steady_state;
       }
 
       void take_period_ratios()
       {
-        found.periods = std::min<unsigned int>(found.periods, static_cast<unsigned int>(course.periods.size()));
+        found.periods = std::min<unsigned int>(found.periods, static_cast<unsigned int>(solver.periods.size()));
         if (found.periods == 0)
           return;
         Period sum{};
-        for (auto period = course.periods.end() - found.periods; period != course.periods.end(); ++period)
+        for (auto period = solver.periods.end() - found.periods; period != solver.periods.end(); ++period)
         {
           sum.peak         = std::max(sum.peak, period->peak);
           sum.displacement = std::max(sum.displacement, period->displacement);

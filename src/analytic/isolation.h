@@ -45,11 +45,11 @@ namespace sprag
   /// Takes the motion at the instants of the table; `is_before` tells that the force is still that before a turn.
   using RecordTable = std::function<void(const IsolatedTable &, bool is_before)>;
 
-  /// Keeper of a run's progress, with the visitor of the table's part of it.
+  /// Keeper of a run's progress, with the serialiser of the table's part of it.
   struct TableKeeper
   {
     ProgressKeeper &progress;
-    ProgressVisit visit_table;
+    ProgressSerialiser serialise_table;
   };
 
   /// Follows a table of the scene to its end and fills in what it finds, also where it throws AnalysisError: the damper ends,

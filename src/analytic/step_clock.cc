@@ -50,7 +50,7 @@ namespace sprag
       begin_segment();
   }
 
-  void visit(Archive &archive, StepClock &clock)
+  void serialise(Archive &archive, StepClock &clock)
   {
     auto &[ends, first, largest, nominal_step, segment, begin, count, passed] = clock;
     archive(ends, first, largest, nominal_step, segment, begin, count, passed);

@@ -47,7 +47,7 @@ namespace sprag
     void advance();
 
   private:
-    friend void visit(Archive &archive, StepClock &clock);
+    friend void serialise(Archive &archive, StepClock &clock);
 
     void begin_segment();
 
@@ -61,5 +61,5 @@ namespace sprag
     unsigned long passed = 0;
   };
 
-  void visit(Archive &archive, StepClock &clock);
+  void serialise(Archive &archive, StepClock &clock);
 } // namespace sprag

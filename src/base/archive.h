@@ -14,14 +14,14 @@ namespace sprag
   /// Plain data as bytes, to the last bit, for the same build of the program to read again. What can be copied byte by byte
   /// (numbers, structures of numbers) is kept whole; any other type says what there is to keep in one function, which serves
   /// writing and reading alike:
-  ///   void visit(Archive &archive, Thing &thing) { archive(thing.name, thing.values); }
+  ///   void serialise(Archive &archive, Thing &thing) { archive(thing.name, thing.values); }
   class Archive
   {
   public:
-    /// Begins without bytes and adds what it visits.
+    /// Begins without bytes and adds what it serialises.
     Archive() = default;
 
-    /// Gives what it visits the values in bytes that an archive was left with. They must be such bytes, see sealed().
+    /// Gives what it serialises the values in bytes that an archive was left with. They must be such bytes, see sealed().
     explicit Archive(std::string whole)
         : kept(std::move(whole))
         , reading(true)
@@ -38,7 +38,7 @@ namespace sprag
       return kept;
     }
 
-    /// Forgets what was visited, and keeps the memory for what follows.
+    /// Forgets what was serialised, and keeps the memory for what follows.
     void clear()
     {
       kept.clear();
@@ -50,7 +50,7 @@ namespace sprag
       return position == kept.size();
     }
 
-    /// Visits one after another. Throws AnalysisError where there are not enough bytes.
+    /// Serialises one after another. Throws AnalysisError where there are not enough bytes.
     template <class... Items>
     void operator()(Items &...items)
     {
@@ -64,7 +64,7 @@ namespace sprag
 
     void raw(void *data, std::size_t size);
 
-    /// Visits the number of items; a number that the bytes left cannot hold is no such number.
+    /// Serialises the number of items; a number that the bytes left cannot hold is no such number.
     std::size_t transfer_size(std::size_t items);
 
     template <class Item>
@@ -73,7 +73,7 @@ namespace sprag
       if constexpr (std::is_trivially_copyable_v<Item>)
         raw(&one, sizeof(Item));
       else
-        visit(*this, one);
+        serialise(*this, one);
     }
 
     void item(std::string &text)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "base/lanes.h"
+#include "base/simd_batch.h"
 
 #include <cmath>
 #include <type_traits>
@@ -10,10 +10,10 @@
 
 namespace sprag
 {
-  /// Lanes as an argument of templates, which forget their alignment: what is kept of them in memory says alignas(Lanes).
+  /// The batch as an argument of templates, which forget its alignment: what is kept of it in memory says alignas(SimdBatch).
   using Batch = double __attribute__((vector_size(64)));
 
-  /// A number with its derivatives by n variables (forward differentiation). T is double, Lanes, or a dual number of these.
+  /// A number with its derivatives by n variables (forward differentiation). T is double, SimdBatch, or a dual number of these.
   template <class T, int n>
   struct Dual
   {
@@ -31,7 +31,7 @@ namespace sprag
   {
   };
 
-  /// The numbers below all derivatives: double or Lanes.
+  /// The numbers below all derivatives: double or SimdBatch.
   template <class N>
   using Plain = typename PlainType<N>::type;
 
@@ -51,7 +51,7 @@ namespace sprag
   {
     return a;
   }
-  SPRAG_PART Lanes value(const Lanes &a)
+  SPRAG_PART SimdBatch value(const SimdBatch &a)
   {
     return a;
   }
@@ -69,7 +69,7 @@ namespace sprag
   {
     return !mask;
   }
-  SPRAG_PART LaneMask negated(const LaneMask &mask)
+  SPRAG_PART BatchMask negated(const BatchMask &mask)
   {
     return ~mask;
   }
@@ -78,7 +78,7 @@ namespace sprag
   {
     return mask ? a : b;
   }
-  SPRAG_PART Lanes select(const LaneMask &mask, const Lanes &a, const Lanes &b)
+  SPRAG_PART SimdBatch select(const BatchMask &mask, const SimdBatch &a, const SimdBatch &b)
   {
     return mask ? a : b;
   }
@@ -105,7 +105,7 @@ namespace sprag
   {
     return a;
   }
-  SPRAG_PART double at_lane(const Lanes &a, const unsigned int lane)
+  SPRAG_PART double at_lane(const SimdBatch &a, const unsigned int lane)
   {
     return a[lane];
   }
@@ -113,7 +113,7 @@ namespace sprag
   {
     a = to;
   }
-  SPRAG_PART void set_lane(Lanes &a, const unsigned int lane, const double to)
+  SPRAG_PART void set_lane(SimdBatch &a, const unsigned int lane, const double to)
   {
     a[lane] = to;
   }
@@ -126,7 +126,7 @@ namespace sprag
       visit(0u);
   }
   template <class LaneVisitor>
-  SPRAG_PART void for_each_lane(const LaneMask &mask, const LaneVisitor &visit)
+  SPRAG_PART void for_each_lane(const BatchMask &mask, const LaneVisitor &visit)
   {
     if (any(mask))
       for (unsigned int lane = 0; lane < n_lanes; ++lane)
@@ -176,7 +176,7 @@ namespace sprag
     return r;
   }
 
-  // With constants: double, Lanes, or dual numbers of fewer derivatives.
+  // With constants: double, SimdBatch, or dual numbers of fewer derivatives.
   template <class C, class T, int n, class = std::enable_if_t<is_constant<C, T>>>
   SPRAG_PART Dual<T, n> operator+(const Dual<T, n> &a, const C &b)
   {
@@ -225,7 +225,7 @@ namespace sprag
   {
     return f;
   }
-  SPRAG_PART Lanes chained(const Lanes &f, const Lanes &, const Lanes &)
+  SPRAG_PART SimdBatch chained(const SimdBatch &f, const SimdBatch &, const SimdBatch &)
   {
     return f;
   }
@@ -287,16 +287,16 @@ namespace sprag
   }
 
   /// The same number in all lanes.
-  SPRAG_PART Batch in_lanes(const double a)
+  SPRAG_PART Batch to_batch(const double a)
   {
-    return all_lanes(a);
+    return uniform_batch(a);
   }
   template <class T, int n>
-  SPRAG_PART auto in_lanes(const Dual<T, n> &a)
+  SPRAG_PART auto to_batch(const Dual<T, n> &a)
   {
-    Dual<decltype(in_lanes(a.v)), n> r;
-    r.v               = in_lanes(a.v);
-    SPRAG_EACH r.d[i] = in_lanes(a.d[i]);
+    Dual<decltype(to_batch(a.v)), n> r;
+    r.v               = to_batch(a.v);
+    SPRAG_EACH r.d[i] = to_batch(a.d[i]);
     return r;
   }
 

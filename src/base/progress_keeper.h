@@ -7,8 +7,8 @@
 
 namespace sprag
 {
-  /// Visits all that an analysis goes on from.
-  using ProgressVisit = std::function<void(Archive &)>;
+  /// Serialises all that an analysis goes on from.
+  using ProgressSerialiser = std::function<void(Archive &)>;
 
   /// Keeps the progress of a long analysis, so that a run that was killed goes on from there.
   class ProgressKeeper
@@ -18,13 +18,13 @@ namespace sprag
 
     /// Gives the analysis the progress that an earlier run was left with; returns false where there is none. To be called before
     /// the first step.
-    virtual bool take_up(const ProgressVisit &progress) = 0;
+    virtual bool take_up(const ProgressSerialiser &progress) = 0;
 
     /// Is to be called after each accepted step, when it was handed on and nothing of it is left to do. Throws AnalysisError when
     /// the run is interrupted.
-    virtual void accept_step(const ProgressVisit &progress) = 0;
+    virtual void accept_step(const ProgressSerialiser &progress) = 0;
 
     /// Is to be called behind the last step: what follows may take long, too.
-    virtual void end_steps(const ProgressVisit &progress) = 0;
+    virtual void end_steps(const ProgressSerialiser &progress) = 0;
   };
 } // namespace sprag

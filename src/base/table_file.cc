@@ -377,7 +377,7 @@ namespace sprag
       Names mistakes;
     };
 
-    void visit(Archive &archive, Found &found)
+    void serialise(Archive &archive, Found &found)
     {
       archive(found.names, found.units, found.values, found.chosen, found.mistakes);
     }
@@ -414,7 +414,7 @@ namespace sprag
           found.mistakes = error.messages;
         }
         Archive archive;
-        visit(archive, found);
+        serialise(archive, found);
         return archive.bytes();
       };
       const auto answer = in_child_process(work, file_patience + 1e-7 * static_cast<double>(bytes));
@@ -422,7 +422,7 @@ namespace sprag
         throw InputError(path + ": HDF5 " + answer.failure + " on it: the file is damaged");
       Found found;
       Archive archive(answer.text);
-      visit(archive, found);
+      serialise(archive, found);
       if (!found.mistakes.empty())
         throw InputError(found.mistakes);
       std::vector<NamedColumn> columns;

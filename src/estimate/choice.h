@@ -40,12 +40,12 @@ namespace sprag
   /// Returns the scene in the plane, its cylinder true.
   Scene to_plane(Scene scene);
 
-  /// Chooses two or three dimensions for Analysis/Dimension = auto by a probe, the same coarse mesh in both: three where the
-  /// plane is off by more than Accuracy/Target, or 1 %, in one of Accuracy/Quantity. Throws AnalysisError where a probe has no
-  /// equilibrium.
+  /// Chooses two or three dimensions for Analysis/Dimension = auto by a trial run, the same coarse mesh in both: three where the
+  /// plane is off by more than Accuracy/Target, or 1 %, in one of Accuracy/Quantity. Throws AnalysisError where a trial run has
+  /// no equilibrium.
   ChosenSetting choose_dimension(const Scene &scene);
 
-  /// Called with a sentence about a dear probe and the CPU time that it is expected to take [s]; returns whether to solve it.
+  /// Called with a sentence about a dear trial run and the CPU time that it is expected to take [s]; returns whether to solve it.
   using Announce = std::function<bool(const std::string &, double)>;
 
   /// Goes on without a word.
@@ -55,8 +55,8 @@ namespace sprag
   }
 
   /// Chooses what the file leaves open so that Accuracy/Target is met, or of what Accuracy/Budget pays the most accurate. Makes
-  /// probes: models of the scene on coarser meshes, in three dimensions too those of the plane; of the elements across these do
-  /// not tell. Throws AnalysisError where probes have no equilibrium.
+  /// trial runs: models of the scene on coarser meshes, in three dimensions too those of the plane; of the elements across these
+  /// do not tell. Throws AnalysisError where trial runs have no equilibrium.
   Choice choose_settings(const Scene &scene, const Announce &announce = solve_silently);
 
   /// A scene that can be run, and what was chosen on the way.
@@ -74,7 +74,7 @@ namespace sprag
   class StaticChoice
   {
   public:
-    /// Solves the probes. Throws InputError where memory does not suffice.
+    /// Solves the trial runs. Throws InputError where memory does not suffice.
     explicit StaticChoice(const Scene &scene, const Announce &announce = solve_silently);
 
     Choice meeting(double target) const;
@@ -82,13 +82,13 @@ namespace sprag
   private:
     Scene scene;
     const bool enforcement_is_open;
-    bool is_refined  = false;               ///< after the first probes
+    bool is_refined  = false;               ///< after the first trial runs
     double width     = 0.;                  ///< of the contact where P is largest [mm]
-    double face_size = 0.;                  ///< of the finer probe [mm]
-    std::vector<double> errors;             ///< of the finer probe, of each quantity
+    double face_size = 0.;                  ///< of the finer trial run [mm]
+    std::vector<double> errors;             ///< of the finer trial run, of each quantity
     std::vector<double> closed_form_errors; ///< of the closed form; infinite of what it does not tell
 
-    void solve_probes(double size);
+    void solve_trial_runs(double size);
     double longest_face(double target) const;
     void add_mesh(double target, Choice &choice) const;
   };
@@ -97,18 +97,18 @@ namespace sprag
   class VibrationChoice
   {
   public:
-    /// Judges the slide by the probes.
+    /// Checks the slide by the trial runs.
     explicit VibrationChoice(const Scene &scene);
 
     Choice meeting(double target) const;
 
   private:
     const Scene scene;
-    double face_size     = 0.;                                ///< of the finer probe [mm]
-    double mesh_error    = 0.;                                ///< of the finer probe, of the worst quantity
+    double face_size     = 0.;                                ///< of the finer trial run [mm]
+    double mesh_error    = 0.;                                ///< of the finer trial run, of the worst quantity
     double beam_error    = 0.;                                ///< of the beam, likewise
-    double penalty_error = 0.;                                ///< of the probe's penalty, likewise
-    ContactPenalties penalties{};                             ///< of the probe
+    double penalty_error = 0.;                                ///< of the trial run's penalty, likewise
+    ContactPenalties penalties{};                             ///< of the trial run
     std::vector<std::pair<unsigned int, double>> mode_errors; ///< of numbers of modes
 
     bool takes_beam(double target) const;

@@ -25,9 +25,9 @@ namespace sprag
   namespace
   {
     constexpr double default_target = 0.01;
-    constexpr double probe_faces    = 1.5; ///< across the contact where P is largest: both probes have the same
+    constexpr double trial_faces    = 1.5; ///< across the contact where P is largest: both trial runs have the same
     constexpr double most_faces     = 40.; ///< along the way of the contact
-    constexpr unsigned int across   = 6;   ///< elements of a probe
+    constexpr unsigned int across   = 6;   ///< elements of a trial run
     constexpr const char *pressure  = "largest_pressure";
 
     /// Error of the plane model in a quantity, relative to three dimensions.
@@ -37,11 +37,11 @@ namespace sprag
       double error;
     };
 
-    Scene with_probe_mesh(Scene scene)
+    Scene with_trial_mesh(Scene scene)
     {
       const auto [from, to]       = swept_contact(scene);
       const double width          = estimated_contact_width(scene, contact_reference(scene).P);
-      scene.mesh.face_size        = std::max({ scene.mesh.face_size, width / probe_faces, (to - from) / most_faces });
+      scene.mesh.face_size        = std::max({ scene.mesh.face_size, width / trial_faces, (to - from) / most_faces });
       scene.mesh.faces_in_contact = 0.;
       scene.mesh.elements_across  = std::min(scene.mesh.elements_across, across);
       scene.analysis.dimension    = 3;
@@ -50,7 +50,7 @@ namespace sprag
 
     std::vector<Off> off_along_drive(const Scene &scene)
     {
-      const Scene solid = with_probe_mesh(scene);
+      const Scene solid = with_trial_mesh(scene);
       const Scene plane = to_plane(solid);
       const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
       const auto places  = drive_samples(scene.drive);
@@ -76,12 +76,12 @@ namespace sprag
       scene.analysis.type  = AnalysisType::stability; // of which a whole lever is taken
       scene.analysis.model = ModelType::condensed;
       DynamicsMaker maker(true, 1);
-      return judge(held_scene(scene), maker);
+      return check_slide(held_scene(scene), maker);
     }
 
     std::vector<Off> off_in_slide(const Scene &scene)
     {
-      const Scene solid   = with_probe_mesh(scene);
+      const Scene solid   = with_trial_mesh(scene);
       const auto in_space = find_slide(solid);
       const auto in_plane = find_slide(to_plane(solid));
       std::vector<Off> result{ { "frequency", std::abs(in_plane.frequency() / in_space.frequency() - 1.) } };

@@ -32,8 +32,8 @@ namespace sprag
     constexpr double model_share   = 0.8;
 
     constexpr double stiffest    = 0.5; ///< penalty over the stiffest that a mesh takes
-    constexpr double probe_faces = 3.;  ///< across the contact where P is largest
-    constexpr double finest      = 8.;  ///< Mesh/Face size of the probe over that of a run
+    constexpr double trial_faces = 3.;  ///< across the contact where P is largest
+    constexpr double finest      = 8.;  ///< Mesh/Face size of the trial run over that of a run
 
     double difference(const SlideStability &found, const SlideStability &other, const std::vector<std::string> &quantities)
     {
@@ -50,7 +50,7 @@ namespace sprag
       return result;
     }
 
-    std::vector<std::string> probed_quantities(const Scene &scene)
+    std::vector<std::string> trial_quantities(const Scene &scene)
     {
       if (scene.analysis.type == AnalysisType::transient)
         return { "frequency" };
@@ -85,15 +85,15 @@ namespace sprag
   {
     if (!is_meshed(scene.analysis.model))
       return;
-    const auto quantities = probed_quantities(scene);
+    const auto quantities = trial_quantities(scene);
     const double factor   = error_over_frequency(scene);
     DynamicsMaker maker(true, 2);
     Scene fine          = held_scene(scene);
     fine.analysis.model = ModelType::condensed;
-    face_size           = estimated_contact_width(scene, contact_reference(scene).P) / probe_faces;
+    face_size           = estimated_contact_width(scene, contact_reference(scene).P) / trial_faces;
     fine.mesh.face_size = face_size;
-    const auto found    = judge(fine, maker);
-    const auto change   = [&](const Scene &other) { return factor * difference(found, judge(other, maker), quantities); };
+    const auto found    = check_slide(fine, maker);
+    const auto change   = [&](const Scene &other) { return factor * difference(found, check_slide(other, maker), quantities); };
     penalties           = maker.make(fine).meshed.penalties;
     penalty_error       = change(with_penalties(fine, penalties, 1. / softer)) * finer_share(softer, 1.);
     for (unsigned int modes = 5; modes < fine.condensed.modes; modes *= 2)

@@ -35,14 +35,14 @@ namespace sprag
     constexpr double row_share          = 0.3;
     constexpr double model_share        = 0.7;
 
-    constexpr double probe_faces            = 4.;    ///< across the contact where P is largest
+    constexpr double trial_faces            = 4.;    ///< across the contact where P is largest
     constexpr double least_faces            = 3.;    ///< likewise, where pressure or width are wanted
-    constexpr double most_probe_faces       = 300.;  ///< along the way of the contact
+    constexpr double most_trial_faces       = 300.;  ///< along the way of the contact
     constexpr double reversal_error         = 0.025; ///< of P and Q behind a reversal, times the square of the faces in contact
     constexpr double reversal_share         = 0.6;
-    constexpr double extrapolated           = 0.8; ///< face size over a probe's, below which another probe is solved
+    constexpr double extrapolated           = 0.8; ///< face size over a trial run's, below which another trial run is solved
     constexpr unsigned int most_refinements = 2;
-    constexpr double finest                 = 16.; ///< Mesh/Face size of the probe over that of a run
+    constexpr double finest                 = 16.; ///< Mesh/Face size of the trial run over that of a run
 
     double convergence_order(const Scene &scene, const std::string &quantity)
     {
@@ -59,11 +59,11 @@ namespace sprag
       return is_force_quantity(quantity) ? mesh_share : contact_mesh_share;
     }
 
-    constexpr double probe_rows = 30.; ///< steps of a run that cost as much as the probe and the coarser one
+    constexpr double trial_rows = 30.; ///< steps of a run that cost as much as the trial run and the coarser one
 
-    ExpectedCost probe_cost(Scene fine)
+    ExpectedCost trial_cost(Scene fine)
     {
-      fine.analysis.step = (fine.drive.maximum() - fine.drive.minimum()) / probe_rows;
+      fine.analysis.step = (fine.drive.maximum() - fine.drive.minimum()) / trial_rows;
       return expected_cost(fine);
     }
 
@@ -73,9 +73,9 @@ namespace sprag
              " s of CPU time, " + formatted("%.2g", cost.bytes / 1e9) + " GB";
     }
 
-    constexpr double largest_on_cylinder = 0.05; ///< Cylinder/Face size over its radius; a probe has twice that
+    constexpr double largest_on_cylinder = 0.05; ///< Cylinder/Face size over its radius; a trial run has twice that
 
-    std::vector<Row> probe(const Scene &scene, const std::vector<Row> &places)
+    std::vector<Row> trial_run(const Scene &scene, const std::vector<Row> &places)
     {
       Mesh mesh;
       make_mesh(scene, mesh);
@@ -126,7 +126,7 @@ namespace sprag
       scene.contact.enforcement = Enforcement::augmented_lagrangian;
     const auto [from, to] = swept_contact(scene);
     width                 = estimated_contact_width(scene, contact_reference(scene).P);
-    solve_probes(std::max(width / probe_faces, (to - from) / most_probe_faces));
+    solve_trial_runs(std::max(width / trial_faces, (to - from) / most_trial_faces));
     const double target   = scene.accuracy.target;
     const auto is_too_far = [&]
     { return longest_face(target) < extrapolated * face_size && is_paid(with_budget_left(scene, since), meeting(target)); };
@@ -134,15 +134,15 @@ namespace sprag
     {
       const Scene fine = with_face_size(scene, longest_face(target));
       require_memory(fine);
-      const auto cost = probe_cost(fine);
+      const auto cost = trial_cost(fine);
       if (!announce(announcement(fine, cost), cost.cpu_seconds))
         break;
-      solve_probes(fine.mesh.face_size);
+      solve_trial_runs(fine.mesh.face_size);
       is_refined = true;
     }
   }
 
-  void StaticChoice::solve_probes(const double size)
+  void StaticChoice::solve_trial_runs(const double size)
   {
     face_size         = size;
     const Scene fine  = with_face_size(scene, size);
@@ -153,10 +153,10 @@ namespace sprag
     if (!turn.empty()) // the closed form alone jumps there
       sampled.erase(std::find_if(sampled.begin(), sampled.end(),
                                  [&](const Row &row) { return row[Column::time] == turn.front()[Column::time]; }));
-    const auto solved = probe(fine, sampled);
+    const auto solved = trial_run(fine, sampled);
     const auto rows   = rows_at(sample_times(places), solved);
     const auto jump   = with_closed_form(scene, turn);
-    const auto coarse = probe(with_coarser_mesh(fine), places);
+    const auto coarse = trial_run(with_coarser_mesh(fine), places);
     const auto closed = with_closed_form(scene, rows);
     errors.clear();
     closed_form_errors.clear();
@@ -172,14 +172,15 @@ namespace sprag
 
   double StaticChoice::longest_face(const double target) const
   {
-    // Beyond the coarser of the first probes the contact may be narrower than a face; what a refined one found holds for itself.
+    // Beyond the coarser of the first trial runs the contact may be narrower than a face; what a refined one found holds for
+    // itself.
     double result = is_refined ? face_size : coarser * face_size;
     for (std::size_t i = 0; i < errors.size(); ++i)
     {
       const auto &quantity = scene.accuracy.quantities[i];
       const double share   = share_for(quantity) * target / std::max(errors[i], 1e-12);
       if (!is_force_quantity(quantity))
-        result = std::min(result, face_size * probe_faces / least_faces);
+        result = std::min(result, face_size * trial_faces / least_faces);
       result = std::min(result, face_size * std::pow(share, 1. / convergence_order(scene, quantity)));
     }
     return std::max(result, face_size / finest);
@@ -191,10 +192,10 @@ namespace sprag
     const bool wants_peaks =
         std::count(requested.begin(), requested.end(), "P") + std::count(requested.begin(), requested.end(), "Q") > 0;
     const bool has_reversal      = wants_peaks && !scene.drive.reversals().empty();
-    const double probe_face_size = longest_face(target);
+    const double trial_face_size = longest_face(target);
     const double longest         = std::max(face_size / finest, width * std::sqrt(reversal_share * target / reversal_error));
-    const bool is_shorter        = has_reversal && longest < probe_face_size;
-    const double size            = is_shorter ? longest : probe_face_size;
+    const bool is_shorter        = has_reversal && longest < trial_face_size;
+    const double size            = is_shorter ? longest : trial_face_size;
     bool is_short_enough         = true;
     if (has_reversal)
       choice.error = reversal_error * std::pow(size / width, 2);

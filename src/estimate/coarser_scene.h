@@ -14,8 +14,8 @@ namespace sprag
 
   // Scenes whose results tell the error of another's, and the parts of that error.
 
-  constexpr double softer  = 3.; ///< penalty of a run over that of its probe
-  constexpr double coarser = 2.; ///< face size of a probe over that of its run; of a mesh from a file it is the inverse
+  constexpr double softer  = 3.; ///< penalty of a run over that of its trial run
+  constexpr double coarser = 2.; ///< face size of a trial run over that of its run; of a mesh from a file it is the inverse
 
   /// Says why no error can be estimated, the end of a sentence.
   struct NoEstimate
@@ -23,8 +23,8 @@ namespace sprag
     std::string reason;
   };
 
-  /// Returns what `estimate` finds, or of all these quantities the reason why it finds none: a NoEstimate, a failure of a probe
-  /// or another mesh that is refused. A mesh from a file in three dimensions is compared with none.
+  /// Returns what `estimate` finds, or of all these quantities the reason why it finds none: a NoEstimate, a failure of a trial
+  /// run or another mesh that is refused. A mesh from a file in three dimensions is compared with none.
   std::vector<ErrorEstimate> estimates_or_reason(const Scene &scene, const std::vector<std::string> &quantities,
                                                  const std::function<std::vector<ErrorEstimate>()> &estimate);
 

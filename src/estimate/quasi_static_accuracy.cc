@@ -116,25 +116,25 @@ namespace sprag
 
     /// Sets the samples of a run, and returns them with the rows of its passage through stick between.
     std::vector<Row> choose_rows(const std::vector<Row> &rows, const unsigned int n_per_stroke, const std::vector<double> &times,
-                                 Probes &probes)
+                                 TrialRuns &trial_runs)
     {
-      probes.run     = slide_samples(rows, n_per_stroke, times);
-      probes.passage = passage_rows(rows);
-      auto chosen    = sample_times(probes.run);
-      append(chosen, sample_times(probes.passage));
+      trial_runs.run     = slide_samples(rows, n_per_stroke, times);
+      trial_runs.passage = passage_rows(rows);
+      auto chosen        = sample_times(trial_runs.run);
+      append(chosen, sample_times(trial_runs.passage));
       return rows_at(chosen, rows);
     }
 
-    void set_other(const std::vector<Row> &rows, Probes &probes)
+    void set_other(const std::vector<Row> &rows, TrialRuns &trial_runs)
     {
-      probes.other         = rows_at(sample_times(probes.run), rows);
-      probes.other_passage = rows_at(sample_times(probes.passage), rows);
+      trial_runs.other         = rows_at(sample_times(trial_runs.run), rows);
+      trial_runs.other_passage = rows_at(sample_times(trial_runs.passage), rows);
     }
 
-    void set_soft(const std::vector<Row> &rows, Probes &probes)
+    void set_soft(const std::vector<Row> &rows, TrialRuns &trial_runs)
     {
-      probes.soft         = rows_at(sample_times(probes.run), rows);
-      probes.soft_passage = rows_at(sample_times(probes.passage), rows);
+      trial_runs.soft         = rows_at(sample_times(trial_runs.run), rows);
+      trial_runs.soft_passage = rows_at(sample_times(trial_runs.passage), rows);
     }
 
     /// Gives a model its own penalties back.
@@ -165,10 +165,10 @@ namespace sprag
     }
   } // namespace
 
-  Probes plane_probes(const Scene &scene, StaticLever<2> &levers, const std::vector<Row> &rows,
-                      const QuasiStaticSettings &settings, const std::vector<StressSample> &stresses)
+  TrialRuns plane_trial_runs(const Scene &scene, StaticLever<2> &levers, const std::vector<Row> &rows,
+                             const QuasiStaticSettings &settings, const std::vector<StressSample> &stresses)
   {
-    Probes result;
+    TrialRuns result;
     const auto times   = sample_times(stresses);
     const double start = rows.front()[Column::x];
     const auto chosen  = choose_rows(rows, samples_per_stroke, times, result);
@@ -187,10 +187,10 @@ namespace sprag
     return result;
   }
 
-  Probes solid_probes(const Scene &scene, SolidBody &body, StaticLever<3> &lever, const std::vector<Row> &rows,
-                      const QuasiStaticSettings &settings)
+  TrialRuns solid_trial_runs(const Scene &scene, SolidBody &body, StaticLever<3> &lever, const std::vector<Row> &rows,
+                             const QuasiStaticSettings &settings)
   {
-    Probes result;
+    TrialRuns result;
     const double start = rows.front()[Column::x];
     const auto chosen  = choose_rows(rows, samples_in_space, {}, result);
     set_soft(with_softer_penalty(scene, lever, chosen, start, settings), result);
@@ -223,53 +223,54 @@ namespace sprag
 
     /// Adds what the largest P or Q, which may lie in the passage through stick behind a reversal, are off beyond the parts in
     /// full sliding.
-    void add_reversal(const Scene &scene, const Probes &probes, ErrorEstimate &estimate)
+    void add_reversal(const Scene &scene, const TrialRuns &trial_runs, ErrorEstimate &estimate)
     {
       // A narrower contact does not converge with the order of forces yet.
-      const bool is_narrow = faces_in_contact(scene, probes.run) < least_reversal_faces;
+      const bool is_narrow = faces_in_contact(scene, trial_runs.run) < least_reversal_faces;
       const double order   = is_narrow ? 1. : force_order(scene);
       const auto change    = [&](const std::vector<Row> &other)
-      { return other.empty() ? 0. : peak_change(estimate.quantity, probes.passage, other); };
-      auto part  = mesh_part(scene, change(probes.other_passage), order);
-      part.value = part.value + penalty_part(scene, change(probes.soft_passage)).value - total_error(estimate);
+      { return other.empty() ? 0. : peak_change(estimate.quantity, trial_runs.passage, other); };
+      auto part  = mesh_part(scene, change(trial_runs.other_passage), order);
+      part.value = part.value + penalty_part(scene, change(trial_runs.soft_passage)).value - total_error(estimate);
       part.name  = "reversal";
       if (part.value > 0.)
         estimate.parts.push_back(part);
     }
 
-    ErrorEstimate estimate(const Scene &scene, const Probes &probes, const std::string &quantity, const std::string &relative_to)
+    ErrorEstimate estimate(const Scene &scene, const TrialRuns &trial_runs, const std::string &quantity,
+                           const std::string &relative_to)
     {
-      const auto change  = [&](const std::vector<Row> &other) { return relative_change(quantity, probes.run, other); };
+      const auto change  = [&](const std::vector<Row> &other) { return relative_change(quantity, trial_runs.run, other); };
       const double order = quantity == "largest_pressure" ? pressure_order(scene) : force_order(scene);
-      ErrorEstimate result{ quantity, relative_to, { mesh_part(scene, change(probes.other), order) }, {} };
-      if (!probes.soft.empty())
-        result.parts.push_back(penalty_part(scene, change(probes.soft)));
-      if (!probes.soft.empty() && augments(scene))
+      ErrorEstimate result{ quantity, relative_to, { mesh_part(scene, change(trial_runs.other), order) }, {} };
+      if (!trial_runs.soft.empty())
+        result.parts.push_back(penalty_part(scene, change(trial_runs.soft)));
+      if (!trial_runs.soft.empty() && augments(scene))
         result.parts.back().remedy = "Try twice the Contact/Tangential penalty, or leave it at auto.";
-      add_reversal(scene, probes, result);
+      add_reversal(scene, trial_runs, result);
       return result;
     }
 
     /// Returns the estimate of a column that three dimensions add.
-    ErrorEstimate estimate_across(const Scene &scene, const Probes &probes, const std::string &quantity)
+    ErrorEstimate estimate_across(const Scene &scene, const TrialRuns &trial_runs, const std::string &quantity)
     {
       const auto &columns = columns_across();
       const auto index    = static_cast<std::size_t>(
           std::find_if(columns.begin(), columns.end(), [&](const ColumnInfo &column) { return column.name == quantity; }) -
           columns.begin());
-      const double peak = largest(probes.run, [&](const Row &row) { return row.across.at(index); });
+      const double peak = largest(trial_runs.run, [&](const Row &row) { return row.across.at(index); });
       if (!(peak > least_across * scene.lever.width))
         return { quantity, "", {}, "No estimate: the contact is the same on both sides." };
       const auto change = [&](const std::vector<Row> &other)
       {
         double result = 0.;
         for (std::size_t i = 0; i < other.size(); ++i)
-          result = std::fmax(result, std::abs(other[i].across.at(index) - probes.run[i].across.at(index)));
+          result = std::fmax(result, std::abs(other[i].across.at(index) - trial_runs.run[i].across.at(index)));
         return result / peak;
       };
-      ErrorEstimate result{ quantity, "its peak", { mesh_part(scene, change(probes.other), force_order(scene)) }, {} };
-      if (!probes.soft.empty())
-        result.parts.push_back(penalty_part(scene, change(probes.soft)));
+      ErrorEstimate result{ quantity, "its peak", { mesh_part(scene, change(trial_runs.other), force_order(scene)) }, {} };
+      if (!trial_runs.soft.empty())
+        result.parts.push_back(penalty_part(scene, change(trial_runs.soft)));
       return result;
     }
 
@@ -302,33 +303,33 @@ namespace sprag
 
     constexpr double least_loop = 1e-3; ///< over the largest work on the way; less is left of it without friction
 
-    ErrorEstimate loop_area(const Scene &scene, const Probes &probes, const std::vector<Row> &rows)
+    ErrorEstimate loop_area(const Scene &scene, const TrialRuns &trial_runs, const std::vector<Row> &rows)
     {
       if (std::abs(rows.back()[Column::drive_work]) < least_loop * largest(rows, Column::drive_work))
         return { "loop_area", "", {}, "No estimate: what is left of the drive's work is a difference of much larger ones." };
-      auto result = estimate(scene, probes, "loop_area", "it");
+      auto result = estimate(scene, trial_runs, "loop_area", "it");
       result.parts.push_back({ "step", std::abs(trapezoid_error(rows) / rows.back()[Column::drive_work]),
                                "Try an Analysis/Step 0.7 times as large." });
       return result;
     }
 
-    ErrorEstimate largest_stress(const Scene &scene, const Probes &probes)
+    ErrorEstimate largest_stress(const Scene &scene, const TrialRuns &trial_runs)
     {
-      if (!probes.stress)
+      if (!trial_runs.stress)
         return { "largest_stress", "", {}, "No estimate: no stress was found in a state in which the whole contact slides." };
-      if (probes.stress->is_at_edge)
+      if (trial_runs.stress->is_at_edge)
         return { "largest_stress",
                  "",
                  {},
                  "No estimate: in the layer the stress rises to a cusp where the contact ends; a finer mesh finds more of it." };
-      auto lever  = mesh_part(scene, probes.stress->lever, force_order(scene));
-      auto layer  = mesh_part(scene, probes.stress->layer, scene.mesh.degree);
-      layer.value = std::max(layer.value, mesh_part(scene, probes.pressure_with_stress, pressure_order(scene)).value);
+      auto lever  = mesh_part(scene, trial_runs.stress->lever, force_order(scene));
+      auto layer  = mesh_part(scene, trial_runs.stress->layer, scene.mesh.degree);
+      layer.value = std::max(layer.value, mesh_part(scene, trial_runs.pressure_with_stress, pressure_order(scene)).value);
       lever.name  = "mesh_of_lever";
       layer.name  = "mesh_of_layer";
       ErrorEstimate result{ "largest_stress", "that of the lever or of the layer", { lever, layer }, {} };
-      if (!probes.soft.empty())
-        result.parts.push_back(penalty_part(scene, relative_change("largest_pressure", probes.run, probes.soft)));
+      if (!trial_runs.soft.empty())
+        result.parts.push_back(penalty_part(scene, relative_change("largest_pressure", trial_runs.run, trial_runs.soft)));
       return result;
     }
 
@@ -354,32 +355,32 @@ namespace sprag
   } // namespace
 
   std::vector<ErrorEstimate> quasi_static_accuracy(const Scene &scene, const std::vector<Row> &rows,
-                                                   const std::function<Probes()> &probe)
+                                                   const std::function<TrialRuns()> &run_trials)
   {
     const std::vector<std::string> across = { "centre_across", "twisting_moment" };
     const auto estimate_all               = [&]
     {
-      const Probes probes = probe();
-      if (probes.run.size() < 2)
+      const TrialRuns trial_runs = run_trials();
+      if (trial_runs.run.size() < 2)
         throw NoEstimate{ "there are no two states in which the whole contact slides." };
-      const double faces       = faces_in_contact(scene, probes.run);
+      const double faces       = faces_in_contact(scene, trial_runs.run);
       const bool forces_follow = faces > 1.;
       const bool all_follows   = expected_pressure_error(faces, scene.mesh.degree) <= follows_pressure;
       const double scatter     = smoothed_largest_pressure(rows, scene.mesh.face_size).scatter;
       const auto make_estimate = [&](const std::string &quantity, const std::string &relative_to, const bool is_followed)
       {
         const double least = quantity == "largest_pressure" ? scatter : 0.;
-        return unless_narrow(with_scatter(estimate(scene, probes, quantity, relative_to), least), faces, is_followed);
+        return unless_narrow(with_scatter(estimate(scene, trial_runs, quantity, relative_to), least), faces, is_followed);
       };
       std::vector<ErrorEstimate> result = { make_estimate("P", "its peak", forces_follow),
                                             make_estimate("Q", "its peak", forces_follow),
-                                            unless_narrow(loop_area(scene, probes, rows), faces, forces_follow),
+                                            unless_narrow(loop_area(scene, trial_runs, rows), faces, forces_follow),
                                             make_estimate("largest_pressure", "it", all_follows),
                                             make_estimate("contact_width", "the largest one", all_follows),
-                                            unless_narrow(largest_stress(scene, probes), faces, all_follows) };
+                                            unless_narrow(largest_stress(scene, trial_runs), faces, all_follows) };
       if (scene.analysis.dimension == 3)
         for (const auto &quantity : across)
-          result.push_back(unless_narrow(estimate_across(scene, probes, quantity), faces, forces_follow));
+          result.push_back(unless_narrow(estimate_across(scene, trial_runs, quantity), faces, forces_follow));
       const double inertia = left_out_inertia(scene, rows);
       for (auto &estimate : result)
         if (estimate.quantity == "P" && !estimate.parts.empty())

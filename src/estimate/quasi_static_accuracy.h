@@ -59,7 +59,7 @@ namespace sprag
   std::vector<double> sample_times(const std::vector<StressSample> &samples);
 
   /// Some states of a run in full sliding, and what other models make of them in single steps from one to the next.
-  struct Probes
+  struct TrialRuns
   {
     std::vector<Row> run;
     std::vector<Row> other;         ///< on the mesh of with_compared_mesh() with the same penalty
@@ -73,25 +73,25 @@ namespace sprag
   };
 
   /// `levers` is the run's model; it is left with its own penalties. `stresses` are those of the run.
-  Probes plane_probes(const Scene &scene, StaticLever<2> &levers, const std::vector<Row> &rows,
-                      const QuasiStaticSettings &settings, const std::vector<StressSample> &stresses);
+  TrialRuns plane_trial_runs(const Scene &scene, StaticLever<2> &levers, const std::vector<Row> &rows,
+                             const QuasiStaticSettings &settings, const std::vector<StressSample> &stresses);
 
   /// The same of a lever in three dimensions, without stresses. The first rank makes the other one alone, when the body's own
   /// factors are given back.
-  Probes solid_probes(const Scene &scene, SolidBody &body, StaticLever<3> &lever, const std::vector<Row> &rows,
-                      const QuasiStaticSettings &settings);
+  TrialRuns solid_trial_runs(const Scene &scene, SolidBody &body, StaticLever<3> &lever, const std::vector<Row> &rows,
+                             const QuasiStaticSettings &settings);
 
   /// Estimates the errors of a finished run without inertia, of P, Q, loop_area, largest_pressure, contact_width and
   /// largest_stress.
   ///
-  /// A few states of the run in full sliding are solved again by other models, which `probe` makes. What changes tells the run's
-  /// own error by Richardson: forces converge with the second power of the size, degree 1 with the power 1.6, pressures with the
-  /// third, all with the first power of 1/penalty. The loop area's part of the step is that of the trapezoidal rule, from every
-  /// other row. Stresses are compared in the states whose fields were found and converge with the power of the size that the
-  /// degree is; those of the layer are told to be no better than the pressure on it is there. The largest P and Q behind a
-  /// reversal are compared over the rows of the passage through stick, and the largest pressure is told to be no better than the
-  /// rows scatter. The lever's inertia, which such a
-  /// run leaves out, is told apart, by the closed form: J d^2(th)/dt^2 over the spring's moment.
+  /// A few states of the run in full sliding are solved again by other models, which `run_trials` makes. What changes tells the
+  /// run's own error by Richardson: forces converge with the second power of the size, degree 1 with the power 1.6, pressures
+  /// with the third, all with the first power of 1/penalty. The loop area's part of the step is that of the trapezoidal rule,
+  /// from every other row. Stresses are compared in the states whose fields were found and converge with the power of the size
+  /// that the degree is; those of the layer are told to be no better than the pressure on it is there. The largest P and Q behind
+  /// a reversal are compared over the rows of the passage through stick, and the largest pressure is told to be no better than
+  /// the rows scatter. The lever's inertia, which such a run leaves out, is told apart, by the closed form: J d^2(th)/dt^2 over
+  /// the spring's moment.
   std::vector<ErrorEstimate> quasi_static_accuracy(const Scene &scene, const std::vector<Row> &rows,
-                                                   const std::function<Probes()> &probe);
+                                                   const std::function<TrialRuns()> &run_trials);
 } // namespace sprag

@@ -82,7 +82,7 @@ namespace sprag
       if (!(measured > 0.))
         throw NoEstimate{ "P does not ring behind the first reversal." };
       const Scene held           = slide_behind_reversal(scene);
-      const auto found           = judge(held, maker);
+      const auto found           = check_slide(held, maker);
       const auto slide_frequency = [&](const SlideStability &slide)
       { return eigenvalue_near(slide, measured).imag() / (2. * M_PI); };
       const auto decay_rate = [&](const SlideStability &slide) { return -eigenvalue_near(slide, measured).real(); };
@@ -98,9 +98,9 @@ namespace sprag
       std::vector<ErrorPart> frequency_parts, decay_parts;
       if (is_meshed(scene.analysis.model))
       {
-        const auto probes = probe_slide(held, dynamics.penalties, maker);
-        frequency_parts   = slide_error_parts(held, found, probes, slide_frequency);
-        decay_parts       = slide_error_parts(held, found, probes, decay_rate);
+        const auto trial_runs = run_slide_trials(held, dynamics.penalties, maker);
+        frequency_parts       = slide_error_parts(held, found, trial_runs, slide_frequency);
+        decay_parts           = slide_error_parts(held, found, trial_runs, decay_rate);
       }
       for (const auto &part : frequency_parts)
         if (!(part.value < too_far))

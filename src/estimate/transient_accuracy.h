@@ -11,10 +11,10 @@ namespace sprag
   /// Estimates the errors of a finished run in time, of P, overshoot, frequency and decay of the ringing behind the first
   /// reversal.
   ///
-  /// The slide behind that reversal is held, and the vibration nearest to the frequency of P judged as vibration_accuracy() does:
-  /// that gives the parts of mesh, penalty and modes. The part of the step is what the generalised-alpha method slows it, see
-  /// estimate_slowing(). A vibration that is too slow lags behind, the more the longer it rings, see change_by_frequency(). The
-  /// overshoot is wrong as the stiffness is, with the square of the frequency, and a peak may lie between two rows. Under a
+  /// The slide behind that reversal is held, and the vibration nearest to the frequency of P checked as vibration_accuracy()
+  /// does: that gives the parts of mesh, penalty and modes. The part of the step is what the generalised-alpha method slows it,
+  /// see estimate_slowing(). A vibration that is too slow lags behind, the more the longer it rings, see change_by_frequency().
+  /// The overshoot is wrong as the stiffness is, with the square of the frequency, and a peak may lie between two rows. Under a
   /// contact of few faces it depends on where between two nodes the drive turns. The decay has the parts of the vibration's, for
   /// the step the algorithmic damping, and `fit`: how far the envelope's decay is from that of the slide. Of reduced levers the
   /// step alone is told: what they leave out, only finite elements tell.

@@ -21,10 +21,10 @@ namespace sprag
     constexpr unsigned int several_modes = 4;
   } // namespace
 
-  SlideProbes probe_slide(const Scene &scene, const ContactPenalties &penalties, DynamicsMaker &maker)
+  SlideTrials run_slide_trials(const Scene &scene, const ContactPenalties &penalties, DynamicsMaker &maker)
   {
-    SlideProbes result;
-    result.soft = judge(with_penalties(scene, penalties, 1. / softer), maker);
+    SlideTrials result;
+    result.soft = check_slide(with_penalties(scene, penalties, 1. / softer), maker);
     {
       const Scene held    = held_scene(scene);
       const auto dynamics = maker.make(held);
@@ -33,7 +33,7 @@ namespace sprag
         DrivePoint drive  = held_drive(scene);
         const double away = share * scene.mesh.face_size;
         drive.x += drive.x - away > scene.drive.minimum() ? -away : away;
-        if (auto slide = judge(dynamics.model(), drive, judged_modes(held)); slide.slide)
+        if (auto slide = check_slide(dynamics.model(), drive, checked_modes(held)); slide.slide)
           result.elsewhere.push_back(std::move(slide));
       }
     }
@@ -42,7 +42,7 @@ namespace sprag
     {
       other.condensed.modes = scene.condensed.modes / 2;
       const auto dynamics   = maker.make_with_modes(scene, other.condensed.modes);
-      result.other_modes    = judge(dynamics.model(), held_drive(scene), judged_modes(scene));
+      result.other_modes    = check_slide(dynamics.model(), held_drive(scene), checked_modes(scene));
     }
     else if (scene.analysis.model == ModelType::condensed)
     {
@@ -50,30 +50,30 @@ namespace sprag
       Scene more            = scene;
       more.condensed.modes  = several_modes;
       DynamicsMaker finer_maker;
-      result.other_modes = judge(more, finer_maker);
+      result.other_modes = check_slide(more, finer_maker);
     }
     DynamicsMaker other_maker;
-    result.other_mesh = judge(other, other_maker);
+    result.other_mesh = check_slide(other, other_maker);
     return result;
   }
 
-  std::vector<ErrorPart> slide_error_parts(const Scene &scene, const SlideStability &found, const SlideProbes &probes,
+  std::vector<ErrorPart> slide_error_parts(const Scene &scene, const SlideStability &found, const SlideTrials &trial_runs,
                                            const std::function<double(const SlideStability &)> &value)
   {
     const auto difference = [&](const SlideStability &a, const SlideStability &b)
     { return std::abs((value(a) - value(b)) / value(found)); };
-    const auto &on_mesh = probes.other_modes ? *probes.other_modes : found;
-    ErrorPart mesh      = mesh_part(scene, difference(probes.other_mesh, on_mesh), force_order(scene));
+    const auto &on_mesh = trial_runs.other_modes ? *trial_runs.other_modes : found;
+    ErrorPart mesh      = mesh_part(scene, difference(trial_runs.other_mesh, on_mesh), force_order(scene));
     double least = value(found), most = value(found);
-    for (const auto &slide : probes.elsewhere)
+    for (const auto &slide : trial_runs.elsewhere)
     {
       least = std::fmin(least, value(slide)); // passes over places without a slide
       most  = std::fmax(most, value(slide));
     }
     mesh.value                   = std::max(mesh.value, (most - least) / std::abs(value(found)));
-    std::vector<ErrorPart> parts = { mesh, penalty_part(scene, difference(probes.soft, found)) };
-    if (probes.other_modes)
-      parts.push_back({ "modes", difference(*probes.other_modes, found), "Try twice the Condensed/Modes." });
+    std::vector<ErrorPart> parts = { mesh, penalty_part(scene, difference(trial_runs.soft, found)) };
+    if (trial_runs.other_modes)
+      parts.push_back({ "modes", difference(*trial_runs.other_modes, found), "Try twice the Condensed/Modes." });
     return parts;
   }
 
@@ -86,10 +86,10 @@ namespace sprag
     {
       if (!(found.frequency() > 0.))
         throw NoEstimate{ "the mode that grows most does not oscillate." };
-      const auto probes = probe_slide(scene, dynamics.penalties, maker);
-      if (!(probes.other_mesh.frequency() > 0.) || !(probes.soft.frequency() > 0.))
+      const auto trial_runs = run_slide_trials(scene, dynamics.penalties, maker);
+      if (!(trial_runs.other_mesh.frequency() > 0.) || !(trial_runs.soft.frequency() > 0.))
         throw NoEstimate{ "on another mesh or with a softer penalty the mode that grows most does not oscillate." };
-      const auto parts = [&](const auto &value) { return slide_error_parts(scene, found, probes, value); };
+      const auto parts = [&](const auto &value) { return slide_error_parts(scene, found, trial_runs, value); };
       return std::vector<ErrorEstimate>{
         { "growth_rate",
           "it, and beyond 100 % the verdict may flip",

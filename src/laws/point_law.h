@@ -7,11 +7,11 @@
 #include <cmath>
 #include <limits>
 
-/// The laws of a contact point, for any kind of number: double, Lanes, or dual numbers of these, which carry the derivatives.
+/// The laws of a contact point, for any kind of number: double, SimdBatch, or dual numbers of these, which carry the derivatives.
 /// Where a step begins all is known: values there are plain.
 namespace sprag
 {
-  /// Some numbers. std::array would not let them be added in lanes.
+  /// Some numbers. std::array would not let them be added as batches.
   template <class N, int n>
   struct Several
   {
@@ -27,7 +27,7 @@ namespace sprag
     }
   };
 
-  /// Unilateral spring p = stiffness delta^exponent of the overlap delta = max(0, -gap).
+  /// Unilateral spring p = stiffness delta^exponent of the penetration delta = max(0, -gap).
   struct NormalLaw
   {
     double stiffness = 0.; ///< > 0
@@ -82,7 +82,7 @@ namespace sprag
   };
 
   template <class V, int slips>
-  struct SlipMemory
+  struct SlipHistory
   {
     Several<V, slips> traction;
     Several<V, slips> slip_speed; ///< mean of the last step; 0 after stick [mm/s]
@@ -104,20 +104,20 @@ namespace sprag
     if constexpr (std::is_same_v<V, Batch>)
       if (!law.pieces.empty())
       {
-        const double round_off = 4. * std::numeric_limits<double>::epsilon();
-        const Lanes fastest    = slips ? load / resistance : Lanes{};
-        Lanes w                = smaller(larger(Lanes{}, guess), fastest);
+        const double round_off  = 4. * std::numeric_limits<double>::epsilon();
+        const SimdBatch fastest = slips ? load / resistance : SimdBatch{};
+        SimdBatch w             = smaller(larger(SimdBatch{}, guess), fastest);
         for (unsigned int i = 0; i < 6 && any(unknown); ++i)
         {
           for (const auto &piece : law.pieces)
           {
-            const LaneMask here = w >= piece.from;
-            mu                  = here ? (piece.quadratic * w + piece.linear) * w + piece.constant : mu;
-            slope               = here ? 2. * piece.quadratic * w + piece.linear : slope;
+            const BatchMask here = w >= piece.from;
+            mu                   = here ? (piece.quadratic * w + piece.linear) * w + piece.constant : mu;
+            slope                = here ? 2. * piece.quadratic * w + piece.linear : slope;
           }
-          const Lanes excess = load - resistance * w - mu * p;
-          unknown            = slips & (absolute(excess) > round_off * load);
-          w                  = smaller(larger(Lanes{}, w + (unknown ? excess / (resistance + slope * p) : Lanes{})), fastest);
+          const SimdBatch excess = load - resistance * w - mu * p;
+          unknown                = slips & (absolute(excess) > round_off * load);
+          w = smaller(larger(SimdBatch{}, w + (unknown ? excess / (resistance + slope * p) : SimdBatch{})), fastest);
         }
       }
     for_each_lane(unknown,
@@ -242,40 +242,40 @@ namespace sprag
   /// Slip speeds at the end of a step along a direction, from the means of this step and the last: (1 + share) times this one's
   /// less share times the last one's.
   template <class V, int slips>
-  SPRAG_PART V extrapolated_share(const SlipMemory<V, slips> &memory, const V &along_last, const double dt)
+  SPRAG_PART V extrapolated_share(const SlipHistory<V, slips> &history, const V &along_last, const double dt)
   {
-    return select((memory.step > 0.) & (along_last >= 0.), V(dt / (dt + memory.step)), V{});
+    return select((history.step > 0.) & (along_last >= 0.), V(dt / (dt + history.step)), V{});
   }
 
   /// Returns the speed that mu follows at the end of a step [mm/s]: over the memory length L it comes to that of the faces,
   ///   dw/ds = (v - w) / L   along the path s of the faces,
   /// at once where the point was open or stuck before.
   template <class N, int slips>
-  SPRAG_PART N remembered_speed(const SlipLaw &law, const SlipMemory<Plain<N>, slips> &memory, const N &path, const N &v)
+  SPRAG_PART N lagged_speed(const SlipLaw &law, const SlipHistory<Plain<N>, slips> &history, const N &path, const N &v)
   {
     using V             = Plain<N>;
     const double length = law.friction.memory_length;
     V share{};
-    for_each_lane(memory.speed > 0.,
+    for_each_lane(history.speed > 0.,
                   [&](const unsigned int i) { set_lane(share, i, std::exp(-at_lane(value(path), i) / length)); });
-    return v + chained(share, V(-1. / length * share), path) * (memory.speed - v);
+    return v + chained(share, V(-1. / length * share), path) * (history.speed - v);
   }
 
   /// Friction t = mu p w / sqrt(w^2 + v_r^2) along the mean slip of a step, w at its end. mu is mu(|w|), or follows that over the
   /// memory length where it falls with speed.
   template <class N, int slips>
-  SPRAG_PART PointFriction<N, slips> regularised(const SlipLaw &law, const SlipMemory<Plain<N>, slips> &memory,
+  SPRAG_PART PointFriction<N, slips> regularised(const SlipLaw &law, const SlipHistory<Plain<N>, slips> &history,
                                                  const Several<N, slips> &slip, const N &p, const double dt)
   {
     using V          = Plain<N>;
     const double v_r = law.friction.regularisation_speed;
     PointFriction<N, slips> result;
     const SizeAndDirection<N, slips> path(slip);
-    const N last       = dot(memory.slip_speed, path.direction);
-    const V share      = extrapolated_share(memory, value(last), dt);
+    const N last       = dot(history.slip_speed, path.direction);
+    const V share      = extrapolated_share(history, value(last), dt);
     const N w          = (1. + share) * (1. / dt * path.size) - share * last;
     const N speed      = select(value(w) < 0., N(-w), w);
-    const N followed   = law.takes_face_speed ? remembered_speed(law, memory, path.size, speed) : speed;
+    const N followed   = law.takes_face_speed ? lagged_speed(law, history, path.size, speed) : speed;
     const auto pressed = value(p) > 0.;
     V mu{}, slope{};
     set_friction(law.friction, pressed, value(followed), mu, slope);
@@ -290,7 +290,7 @@ namespace sprag
       const N at_rest      = rest_tangent * slip[i] + (i == 0 ? value(along) : V{});
       result.traction[i]   = select(pressed, p * select(path.is_nothing, at_rest, along * path.direction[i]), N{});
       result.slip_speed[i] = select(pressed, V(1. / dt * value(slip[i])), V{});
-      result.dissipated    = result.dissipated + 0.5 * (memory.traction[i] + value(result.traction[i])) * value(slip[i]);
+      result.dissipated    = result.dissipated + 0.5 * (history.traction[i] + value(result.traction[i])) * value(slip[i]);
     }
     const auto creeps = pressed & (value(path.size) < dt * v_r);
     result.creep      = select(creeps, value(path.size), V{});
@@ -300,51 +300,51 @@ namespace sprag
   /// Traction that falls with speed. mu follows the speed of the faces, elastic slip included, over the memory length; in stick
   /// it forgets how fast the point slid. At its own speed of slip a spring without mass would run away.
   template <class N, int slips>
-  SPRAG_PART PointFriction<N, slips> following_faces(const SlipLaw &law, const SlipMemory<Plain<N>, slips> &memory,
+  SPRAG_PART PointFriction<N, slips> following_faces(const SlipLaw &law, const SlipHistory<Plain<N>, slips> &history,
                                                      const Several<N, slips> &slip, const N &p, const double dt)
   {
     using V = Plain<N>;
     const SizeAndDirection<N, slips> path(slip);
-    const N last  = dot(memory.slip_speed, path.direction);
-    const V share = select(memory.speed > 0., extrapolated_share(memory, value(last), dt), V{});
+    const N last  = dot(history.slip_speed, path.direction);
+    const V share = select(history.speed > 0., extrapolated_share(history, value(last), dt), V{});
     const N v     = (1. + share) * (1. / dt * path.size) - share * last;
-    const N w     = remembered_speed(law, memory, path.size, select(value(v) > 0., v, N{}));
-    auto result   = return_at_speed(law, stick_traction(law, memory.traction, slip), p, w);
+    const N w     = lagged_speed(law, history, path.size, select(value(v) > 0., v, N{}));
+    auto result   = return_at_speed(law, stick_traction(law, history.traction, slip), p, w);
     result.speed  = select(result.slipping, value(w), V{});
     return result;
   }
 
   /// Traction that does not. The slip speed at the end is extrapolated along t from this step and the last (second order).
   template <class N, int slips>
-  SPRAG_PART PointFriction<N, slips> following_slip(const SlipLaw &law, const SlipMemory<Plain<N>, slips> &memory,
+  SPRAG_PART PointFriction<N, slips> following_slip(const SlipLaw &law, const SlipHistory<Plain<N>, slips> &history,
                                                     const Several<N, slips> &slip, const N &p, const double dt)
   {
     using V = Plain<N>;
     V last{};
     for (int i = 0; i < slips; ++i)
-      last = last + memory.slip_speed[i] * (law.stiffness * value(slip[i]) + memory.traction[i]);
-    const V share    = extrapolated_share(memory, last, dt);
+      last = last + history.slip_speed[i] * (law.stiffness * value(slip[i]) + history.traction[i]);
+    const V share    = extrapolated_share(history, last, dt);
     const V duration = dt / (1. + share);
     Several<V, slips> shift;
     for (int i = 0; i < slips; ++i)
-      shift[i] = -duration * share * memory.slip_speed[i];
-    return return_to_cone(law, stick_traction(law, memory.traction, slip), p, duration, shift, slip);
+      shift[i] = -duration * share * history.slip_speed[i];
+    return return_to_cone(law, stick_traction(law, history.traction, slip), p, duration, shift, slip);
   }
 
   /// Friction at the end of a step of duration dt > 0 [s] in which the contact slips by `slip`: stick with a spring, or slip on
   /// the cone. With a regularisation speed there is no stick.
   template <class N, int slips>
-  SPRAG_PART PointFriction<N, slips> end_friction(const SlipLaw &law, const SlipMemory<Plain<N>, slips> &memory,
+  SPRAG_PART PointFriction<N, slips> end_friction(const SlipLaw &law, const SlipHistory<Plain<N>, slips> &history,
                                                   const Several<N, slips> &slip, const N &p, const double dt)
   {
     using V = Plain<N>;
     if (law.friction.regularisation_speed > 0.)
-      return regularised(law, memory, slip, p, dt);
+      return regularised(law, history, slip, p, dt);
     const double k = law.stiffness;
-    auto result    = law.takes_face_speed ? following_faces(law, memory, slip, p, dt) : following_slip(law, memory, slip, p, dt);
+    auto result = law.takes_face_speed ? following_faces(law, history, slip, p, dt) : following_slip(law, history, slip, p, dt);
     for (int i = 0; i < slips; ++i)
     {
-      const V t = value(result.traction[i]), before = memory.traction[i];
+      const V t = value(result.traction[i]), before = history.traction[i];
       const V slipped      = value(slip[i]) - (t - before) / k;
       result.slip_speed[i] = select(result.slipping, V((law.takes_face_speed ? value(slip[i]) : slipped) / dt), V{});
       result.energy        = result.energy + 0.5 / k * t * t;
@@ -353,7 +353,7 @@ namespace sprag
     return result;
   }
 
-  /// Force of a unilateral spring; in lanes of exponent 1.
+  /// Force of a unilateral spring; in batches of exponent 1.
   template <class N>
   SPRAG_PART N spring_force(const NormalLaw &law, const N &gap)
   {

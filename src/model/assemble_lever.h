@@ -7,8 +7,8 @@
 
 namespace sprag
 {
-  /// A lever of a structure, or a pair of a MirroredStructure. `contact(lever)` makes the contact of a lever, with ports of its
-  /// own, `points` is more than the points that it remembers.
+  /// A lever of a structure, or a pair of a MirroredStructure. `contact(lever)` makes the contact of a lever, with dofs of its
+  /// own, `points` is more than the points of its history.
   template <class Structure, class MakeContact>
   std::unique_ptr<DynamicModel> assemble_lever(std::unique_ptr<Structure> structure, LeverFrame frame, const MakeContact &contact,
                                                [[maybe_unused]] const unsigned int points)
@@ -18,11 +18,11 @@ namespace sprag
       return std::make_unique<DynamicLever<Structure, Contact>>(std::move(structure), contact(0), std::move(frame));
     else
     {
-      using Pair       = MirroredContact<Contact>;
-      const auto ports = structure->ports();
+      using Pair        = MirroredContact<Contact>;
+      const auto layout = structure->layout();
       return std::make_unique<DynamicLever<Structure, Pair>>(
           std::move(structure),
-          std::make_unique<Pair>(std::array<std::unique_ptr<Contact>, 2>{ { contact(0), contact(1) } }, ports, points),
+          std::make_unique<Pair>(std::array<std::unique_ptr<Contact>, 2>{ { contact(0), contact(1) } }, layout, points),
           std::move(frame));
     }
   }

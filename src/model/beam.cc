@@ -95,7 +95,7 @@ namespace sprag
     BeamMatrices make_matrices(const Device &device, const BeamMesh &mesh)
     {
       const Lever &lever   = device.lever;
-      const unsigned int n = 1 + mesh.ports() + static_cast<unsigned int>(device.spring.behaviour.modes.size());
+      const unsigned int n = 1 + mesh.n_dofs() + static_cast<unsigned int>(device.spring.behaviour.modes.size());
       const double rho     = mass_per_length(device);
       const double e_a     = neutral_axis_offset(device);
       const double modulus = device.analysis.plane == PlaneState::stress
@@ -120,7 +120,7 @@ namespace sprag
       m.mass(0, 0) += (rho * lever.length + lever.tip_mass) * e_a * e_a;
       m.mass(tip, tip) += lever.tip_mass;
       m.momentum[tip] += lever.tip_mass;
-      attach_hub(device, 1 + mesh.ports(), m);
+      attach_hub(device, 1 + mesh.n_dofs(), m);
       use_turning_axes(mesh, device.spring.stiffness, m);
       return m;
     }
@@ -194,26 +194,26 @@ namespace sprag
       const auto &leaf = device.spring.behaviour;
       double sum       = leaf.momentum[axis] * modes(0, mode);
       for (unsigned int i = 0; i < leaf.modes.size(); ++i)
-        sum += leaf.modes[i].momentum[axis] * modes(1 + mesh.ports() + i, mode);
+        sum += leaf.modes[i].momentum[axis] * modes(1 + mesh.n_dofs() + i, mode);
       return sum;
     }
 
-    /// Port rows: deflections and slopes in lever axes, rotation, momentum.
+    /// Rows: deflections and slopes in lever axes, rotation, momentum.
     void set_shapes(const Device &device, const BeamMesh &mesh, const BeamMatrices &m, const FullMatrix<double> &modes,
                     ModalData &data)
     {
       for (unsigned int i = 0; i < modes.n(); ++i)
       {
         const double rotation = modes(0, i);
-        for (unsigned int a = 0; a < mesh.ports(); ++a)
+        for (unsigned int a = 0; a < mesh.n_dofs(); ++a)
           data.shapes(a, i) = modes(1 + a, i);
-        data.shapes(data.ports.rotation(), i) = rotation;
-        if (!data.ports.sprung)
+        data.shapes(data.layout.rotation(), i) = rotation;
+        if (!data.layout.sprung)
           continue;
         for (unsigned int a = 0; a < modes.m(); ++a)
-          data.shapes(data.ports.momentum_eta(), i) += m.momentum[a] * modes(a, i);
-        data.shapes(data.ports.momentum_eta(), i) += leaf_momentum(device, mesh, modes, i, 1);
-        data.shapes(data.ports.momentum_xi(), i) =
+          data.shapes(data.layout.momentum_eta(), i) += m.momentum[a] * modes(a, i);
+        data.shapes(data.layout.momentum_eta(), i) += leaf_momentum(device, mesh, modes, i, 1);
+        data.shapes(data.layout.momentum_xi(), i) =
             leaf_momentum(device, mesh, modes, i, 0) - neutral_axis_offset(device) * lever_mass(device) * rotation;
       }
     }
@@ -239,8 +239,8 @@ namespace sprag
       const double mass      = support.mass + on_frame;
       data.support           = i;
       data.stiffness.push_back(support.stiffness / mass);
-      data.damping(i, i)                   = support_damping(support, on_frame) / mass;
-      data.shapes(data.ports.support(), i) = 1. / std::sqrt(mass);
+      data.damping(i, i)                    = support_damping(support, on_frame) / mass;
+      data.shapes(data.layout.support(), i) = 1. / std::sqrt(mass);
     }
   } // namespace
 
@@ -254,15 +254,15 @@ namespace sprag
     const auto matrices = make_matrices(device, mesh);
     const auto modes    = solve_modes(matrices);
     ModalData data;
-    data.ports            = { mesh.ports(), device.support.type == SupportType::sprung };
+    data.layout           = { mesh.n_dofs(), device.support.type == SupportType::sprung };
     data.stiffness        = modes.stiffness;
     data.spring_stiffness = device.spring.stiffness;
-    const auto all        = modes.shapes.n() + (data.ports.sprung ? 1 : 0);
-    data.shapes.reinit(data.ports.size(), all);
+    const auto all        = modes.shapes.n() + (data.layout.sprung ? 1 : 0);
+    data.shapes.reinit(data.layout.size(), all);
     data.damping.reinit(all, all);
     set_shapes(device, mesh, matrices, modes.shapes, data);
     set_damping(device, modes.shapes, data);
-    if (data.ports.sprung)
+    if (data.layout.sprung)
       append_support(device, data);
     return data;
   }

@@ -17,8 +17,8 @@ namespace sprag
     {
       return length / elements;
     }
-    /// Ports in lever axes, at node 1, 2, ...: deflection along eta [mm] and slope [rad].
-    unsigned int ports() const
+    /// Returns the number of dofs in lever axes: at node 1, 2, ... deflection along eta [mm] and slope [rad].
+    unsigned int n_dofs() const
     {
       return 2 * elements;
     }

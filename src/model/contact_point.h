@@ -12,14 +12,14 @@ namespace sprag
     double gap = 0.;                     ///< g [mm], positive when open
     dealii::Tensor<1, n> gap_row;        ///< dg/dq
     dealii::Tensor<2, n> gap_curvature;  ///< d2g/dq2
-    double slip = 0.;                    ///< slip coordinate [mm]: its change is what the obstacle slides along the body
+    double slip = 0.;                    ///< slip coordinate [mm]: its change is what the counterface slides along the body
     dealii::Tensor<1, n> slip_row;       ///< d(slip)/dq
     dealii::Tensor<2, n> slip_curvature; ///< d2(slip)/dq2
   };
 
-  /// The memory of a contact point. In an accepted state these are the values at the end of its step.
+  /// The history of a contact point. In an accepted state these are the values at the end of its step.
   template <int slips>
-  struct PointMemory
+  struct PointHistory
   {
     double normal_multiplier = 0.;     ///< lambda [MPa]; stays 0 in the penalty method
     dealii::Tensor<1, slips> traction; ///< friction from which the stick predictor starts [MPa]; 0 while open
@@ -30,12 +30,12 @@ namespace sprag
     double speed = 0.;                   ///< that a mu falling with speed follows [mm/s]
     double step  = 0.;                   ///< duration of the last step if it ended in contact, else 0 [s]
 
-    unsigned int point = 0; ///< index of the point in a face, where only points in contact are remembered
+    unsigned int point = 0; ///< index of the point in a face, where only points in contact have a history
   };
 
   // In a plane a point slips one way.
-  using ContactMemory = PointMemory<1>;
-  using Slip          = dealii::Tensor<1, 1>;
+  using ContactHistory = PointHistory<1>;
+  using Slip           = dealii::Tensor<1, 1>;
 
   enum class FrictionMode
   {

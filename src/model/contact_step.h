@@ -91,7 +91,7 @@ namespace sprag
     dealii::Tensor<1, slips> traction; ///< positive where the slip coordinate grows
     double mu     = 0.;
     bool slipping = false;
-    PointMemory<slips> memory;
+    PointHistory<slips> history;
   };
 
   /// The response of a contact point to a step: its tractions at the end and its forces.
@@ -110,15 +110,15 @@ namespace sprag
   };
 
   template <int slips>
-  SlipMemory<double, slips> slip_memory(const PointMemory<slips> &memory)
+  SlipHistory<double, slips> slip_history(const PointHistory<slips> &history)
   {
-    SlipMemory<double, slips> result;
-    result.step  = memory.step;
-    result.speed = memory.speed;
+    SlipHistory<double, slips> result;
+    result.step  = history.step;
+    result.speed = history.speed;
     for (unsigned int s = 0; s < slips; ++s)
     {
-      result.traction[s]   = memory.traction[s];
-      result.slip_speed[s] = memory.slip_speed[s];
+      result.traction[s]   = history.traction[s];
+      result.slip_speed[s] = history.slip_speed[s];
     }
     return result;
   }
@@ -162,23 +162,23 @@ namespace sprag
       response.force -= traction[s].v * point.slip_row[s];
       response.tangent -= outer_product(point.slip_row[s], to_row(traction[s])) + traction[s].v * point.slip_curvature[s];
     }
-    response.memory.traction = response.traction;
+    response.history.traction = response.traction;
   }
 
-  /// A balance at the end of a step: tractions and forces there. The memory holds the multipliers of the current augmentation. A
+  /// A balance at the end of a step: tractions and forces there. The history holds the multipliers of the current augmentation. A
   /// point that was open has no traction to start from: its slip history begins with the step in which it touches.
   template <int n, int slips>
-  StepResponse<n, slips> end_response(const StepKinematics<n, slips> &point, const PointMemory<slips> &memory,
+  StepResponse<n, slips> end_response(const StepKinematics<n, slips> &point, const PointHistory<slips> &history,
                                       const StepContactLaw &law)
   {
     using N = StepNumber<slips>;
     StepResponse<n, slips> response;
-    const N pressure = memory.normal_multiplier - law.normal.stiffness * variable<N>(point.gap_end, 0);
+    const N pressure = history.normal_multiplier - law.normal.stiffness * variable<N>(point.gap_end, 0);
     if (!(pressure.v > 0.))
       return response;
     PointFriction<N, slips> friction;
     const auto slip   = variables(point.slip_change, 1);
-    friction.traction = stick_traction(law.slip, slip_memory(memory).traction, slip);
+    friction.traction = stick_traction(law.slip, slip_history(history).traction, slip);
     if (law.mode == FrictionMode::cone)
       friction =
           return_to_cone(law.slip, friction.traction, pressure, law.weights.dt, variables(point.slip_shift, 1 + slips), slip);
@@ -193,7 +193,7 @@ namespace sprag
   /// (discrete gradient), so that opening and closing make no energy; friction, returned to the cone at the end of the step, acts
   /// with the mean of both ends; both with the delay of generalised-alpha, whose work is the scheme's dissipation.
   template <int n, int slips>
-  StepResponse<n, slips> mean_response(const StepKinematics<n, slips> &point, const PointMemory<slips> &memory,
+  StepResponse<n, slips> mean_response(const StepKinematics<n, slips> &point, const PointHistory<slips> &history,
                                        const StepContactLaw &law)
   {
     using N = StepNumber<slips>;
@@ -204,12 +204,12 @@ namespace sprag
     const N end         = spring_force(law.normal, gap);
     const N mean        = mean_spring_force(law.normal, point.gap_begin, gap);
     const N dashpot     = dashpot_force(law.damping, end, gap, variable<N>(point.gap_rate_end, 1 + slips));
-    const N damped      = (1. - alpha) * dashpot + alpha * memory.damping;
+    const N damped      = (1. - alpha) * dashpot + alpha * history.damping;
     const N pressure    = mean + delay * (end - begin) + damped;
     const auto slip     = variables(point.slip_change, 1);
-    const auto before   = slip_memory(memory);
+    const auto before   = slip_history(history);
     const auto friction = end_friction(law.slip, before, slip, N(end + dashpot), law.weights.dt);
-    if (mean.v == 0. && end.v == 0. && memory.damping == 0. && memory.traction == dealii::Tensor<1, slips>())
+    if (mean.v == 0. && end.v == 0. && history.damping == 0. && history.traction == dealii::Tensor<1, slips>())
       return response;
 
     const double gap_change = point.gap_end - point.gap_begin;
@@ -219,25 +219,25 @@ namespace sprag
     {
       traction[s] = (0.5 + delay) * friction.traction[s] + (0.5 - delay) * before.traction[s];
       work += (friction.traction[s].v - before.traction[s]) * point.slip_change[s] + traction[s].v * point.slip_bend[s];
-      response.memory.slip_speed[s] = friction.slip_speed[s];
+      response.history.slip_speed[s] = friction.slip_speed[s];
     }
     set_response(point, N(end + dashpot), friction, pressure, traction, response);
-    response.memory.speed   = friction.speed;
-    response.memory.damping = dashpot.v;
-    response.memory.step    = law.weights.dt;
-    response.energy         = spring_energy(law.normal, point.gap_end) + friction.energy;
-    response.friction       = friction.dissipated;
-    response.damping        = -damped.v * gap_change;
-    response.algorithmic    = delay * work;
-    response.creep          = friction.creep;
+    response.history.speed   = friction.speed;
+    response.history.damping = dashpot.v;
+    response.history.step    = law.weights.dt;
+    response.energy          = spring_energy(law.normal, point.gap_end) + friction.energy;
+    response.friction        = friction.dissipated;
+    response.damping         = -damped.v * gap_change;
+    response.algorithmic     = delay * work;
+    response.creep           = friction.creep;
     return response;
   }
 
   /// The one place where contact tractions, forces and tangents come from.
   template <int n, int slips>
-  StepResponse<n, slips> step_response(const StepKinematics<n, slips> &point, const PointMemory<slips> &memory,
+  StepResponse<n, slips> step_response(const StepKinematics<n, slips> &point, const PointHistory<slips> &history,
                                        const StepContactLaw &law)
   {
-    return law.balance == ForceBalance::end ? end_response(point, memory, law) : mean_response(point, memory, law);
+    return law.balance == ForceBalance::end ? end_response(point, history, law) : mean_response(point, history, law);
   }
 } // namespace sprag

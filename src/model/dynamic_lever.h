@@ -8,11 +8,11 @@
 #include "model/frame_coupling.h"
 #include "model/growth.h"
 #include "model/hub_spring.h"
+#include "model/interface_newton.h"
+#include "model/interface_step.h"
 #include "model/lever_frame.h"
 #include "model/linearisation.h"
 #include "model/modified_newton.h"
-#include "model/port_newton.h"
-#include "model/port_step.h"
 #include "model/steady_slides.h"
 #include "scene/closed_form.h"
 
@@ -26,8 +26,8 @@ namespace sprag
   /// An equilibrium on the way from no friction to the scene's.
   struct BranchPoint
   {
-    double share;   ///< of the friction
-    double overlap; ///< [mm]
+    double share;       ///< of the friction
+    double penetration; ///< [mm]
   };
 
   /// The share of the friction up to which such a branch was followed, and whether it jams there.
@@ -38,20 +38,21 @@ namespace sprag
   };
 
   /// Returns the share of friction from the last of these points to a fold, at which the branch turns back: there the share's
-  /// slope over the overlap, a straight line near the fold, falls to 0. Infinite where it does not fall. The slopes are those
-  /// between points whose overlaps are a tenth apart, over which elements that come into contact count for little.
+  /// slope over the penetration, a straight line near the fold, falls to 0. Infinite where it does not fall. The slopes are those
+  /// between points whose penetrations are a tenth apart, over which elements that come into contact count for little.
   inline double distance_to_fold(const std::vector<BranchPoint> &branch)
   {
     constexpr double none = std::numeric_limits<double>::infinity(), apart = 0.9;
     std::vector<BranchPoint> p; // the last first
     for (auto point = branch.rbegin(); point != branch.rend() && p.size() < 3; ++point)
-      if (p.empty() || point->overlap <= apart * p.back().overlap)
+      if (p.empty() || point->penetration <= apart * p.back().penetration)
         p.push_back(*point);
     if (p.size() < 3)
       return none;
-    const auto slope  = [&](const unsigned int i) { return (p[i].share - p[i + 1].share) / (p[i].overlap - p[i + 1].overlap); };
-    const double bend = (slope(1) - slope(0)) / (0.5 * (p[0].overlap - p[2].overlap));
-    const double slope_at_end = slope(0) - 0.5 * bend * (p[0].overlap - p[1].overlap);
+    const auto slope = [&](const unsigned int i)
+    { return (p[i].share - p[i + 1].share) / (p[i].penetration - p[i + 1].penetration); };
+    const double bend         = (slope(1) - slope(0)) / (0.5 * (p[0].penetration - p[2].penetration));
+    const double slope_at_end = slope(0) - 0.5 * bend * (p[0].penetration - p[1].penetration);
     if (!(bend > 0.))
       return none;
     return slope_at_end > 0. ? 0.5 * slope_at_end * slope_at_end / bend : 0.;
@@ -68,8 +69,8 @@ namespace sprag
         : structure(std::move(structure_))
         , contact(std::move(contact_))
         , frame(std::move(frame_))
-        , coupling(frame.ports, frame.rest_inclination)
-        , hub_spring(frame.ports, frame.spring, frame.joined)
+        , coupling(frame.layout, frame.rest_inclination)
+        , hub_spring(frame.layout, frame.spring, frame.joined)
         , slides(*structure, *contact, found, frame, hub_spring)
     {
     }
@@ -101,15 +102,15 @@ namespace sprag
     StepOutcome step(const Motion &accepted, const DrivePoint &to, const StepWeights &weights) override
     {
       structure->use_step(weights);
-      const bool rates = Contact::uses_rates || frame.ports.sprung;
-      const auto &near = reachable_ports(accepted);
-      Kinematic begin =
-          rates ? structure->port_kinematics(accepted) : Kinematic{ structure->port_positions(accepted, near), {}, {} };
+      const bool rates = Contact::uses_rates || frame.layout.sprung;
+      const auto &near = candidate_dofs(accepted);
+      Kinematic begin  = rates ? structure->kinematics(accepted) : Kinematic{ structure->positions(accepted, near), {}, {} };
       const Kinematic drifted = rates ? unaccelerated(begin, weights) : Kinematic{};
-      const auto free         = structure->free_ports(accepted, near);
-      const PerLever turned   = lever_rotations(frame.ports, begin.position);
+      const auto free         = structure->free_displacements(accepted, near);
+      const PerLever turned   = lever_rotations(frame.layout, begin.position);
       dealii::Vector<double> rate;
-      const auto evaluate = [&](const dealii::Vector<double> &z, const Request request = Request::with_tangent) -> PortEvaluation
+      const auto evaluate = [&](const dealii::Vector<double> &z,
+                                const Request request = Request::with_tangent) -> InterfaceEvaluation
       {
         if (rates)
         {
@@ -117,10 +118,11 @@ namespace sprag
           rate.add(weights.rate(), z, -weights.rate(), drifted.position);
         }
         contact->evaluate(
-            PortStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights, &accepted.surface_contact, request }, found);
+            InterfaceStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights, &accepted.surface_contact, request },
+            found);
         coupling.add_forces(begin, z, weights, found.forces);
-        hub_spring.add_forces(turned, lever_rotations(frame.ports, z), weights, found.forces);
-        return { &found.forces, found.overlap() };
+        hub_spring.add_forces(turned, lever_rotations(frame.layout, z), weights, found.forces);
+        return { &found.forces, found.penetration() };
       };
 
       StepOutcome outcome;
@@ -144,8 +146,8 @@ namespace sprag
       structure->add_work(accepted, motion, outcome.work);
       outcome.work += found.work();
       coupling.add_work(begin, z, weights, outcome.work);
-      hub_spring.add_work(turned, lever_rotations(frame.ports, z), weights, outcome.work);
-      outcome.error  = weights.wants_error ? largest_gap_change(*contact, found, structure->port_error(accepted, motion)) : 0.;
+      hub_spring.add_work(turned, lever_rotations(frame.layout, z), weights, outcome.work);
+      outcome.error  = weights.wants_error ? largest_gap_change(*contact, found, structure->local_error(accepted, motion)) : 0.;
       outcome.motion = std::move(motion);
       return outcome;
     }
@@ -153,7 +155,7 @@ namespace sprag
     std::optional<SlidingForces> sliding_forces(const DrivePoint &drive) override
     {
       // There a lever touches without force.
-      if (drive.v == 0. && drive.x == 0. && frame.ports.levers == 1)
+      if (drive.v == 0. && drive.x == 0. && frame.layout.levers == 1)
         return SlidingForces{ 0., 0. };
       if (slides.follow(drive) == nullptr)
         return {};
@@ -189,7 +191,7 @@ namespace sprag
     std::vector<Eigenmode> vibrations(const HeldSlide &slide, const bool in_contact, const unsigned int number) override
     {
       const auto forces = perturbation(sliding_state(slide), in_contact);
-      return explained(*structure, structure->vibrations(forces, number), forces, frame.ports);
+      return explained(*structure, structure->vibrations(forces, number), forces, frame.layout);
     }
 
     std::vector<std::complex<double>> eigenvalues(const HeldSlide &slide, const unsigned int number) override
@@ -203,33 +205,32 @@ namespace sprag
     Motion perturbed(const HeldSlide &slide, const Eigenmode &eigenmode, const double amplitude) override
     {
       contact->evaluate_sliding(sliding_state(slide), found);
-      const std::complex<double> size = amplitude / largest_gap_change(*contact, found, eigenmode.ports);
+      const std::complex<double> size = amplitude / largest_gap_change(*contact, found, eigenmode.displacements);
       Motion motion                   = slide.motion;
       add_mode(size, eigenmode.mode, motion);
-      dealii::Vector<double> ports = slide.ports;
-      dealii::Vector<double> rates(ports.size());
-      add_real_part(size, eigenmode.ports, ports);
-      add_real_part(size * eigenmode.mode.eigenvalue, eigenmode.ports, rates);
-      contact->evaluate_sliding(SlidingState{ ports, slide.drive, slide.speed, &rates, slide.friction }, found);
-      remember(found.memory(), motion);
+      dealii::Vector<double> displacements = slide.displacements;
+      dealii::Vector<double> rates(displacements.size());
+      add_real_part(size, eigenmode.displacements, displacements);
+      add_real_part(size * eigenmode.mode.eigenvalue, eigenmode.displacements, rates);
+      contact->evaluate_sliding(SlidingState{ displacements, slide.drive, slide.speed, &rates, slide.friction }, found);
+      store_history(found.history(), motion);
       return motion;
     }
 
     ModeShape mode_shape(const Eigenmode &mode) const override
     {
-      const auto port = [&](const unsigned int i) { return std::complex<double>(mode.ports[0][i], mode.ports[1][i]); };
+      const auto at = [&](const unsigned int i)
+      { return std::complex<double>(mode.displacements[0][i], mode.displacements[1][i]); };
       ModeShape result;
-      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
+      for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
       {
-        const auto real      = contact->surface_shape(mode.ports[0], lever);
-        const auto imaginary = contact->surface_shape(mode.ports[1], lever);
+        const auto real      = contact->surface_shape(mode.displacements[0], lever);
+        const auto imaginary = contact->surface_shape(mode.displacements[1], lever);
         result.xi            = real.xi;
-        result.levers.push_back({ { { real.along, imaginary.along } },
-                                  { { real.across, imaginary.across } },
-                                  {},
-                                  port(frame.ports.rotation(lever)) });
+        result.levers.push_back(
+            { { { real.along, imaginary.along } }, { { real.across, imaginary.across } }, {}, at(frame.layout.rotation(lever)) });
       }
-      result.support = frame.ports.sprung ? port(frame.ports.support()) : 0.;
+      result.support = frame.layout.sprung ? at(frame.layout.support()) : 0.;
       return result;
     }
 
@@ -240,19 +241,19 @@ namespace sprag
       if (Contact::stands_for_layer)
         energy.layer = found.energy();
       energy.spring += hub_spring.energy(turns(motion));
-      if (frame.ports.sprung)
-        energy.kinetic += coupling.kinetic_energy(structure->port_kinematics(motion));
+      if (frame.layout.sprung)
+        energy.kinetic += coupling.kinetic_energy(structure->kinematics(motion));
       return energy;
     }
 
     void observe(const Motion &motion, Row &row) const override
     {
-      PortState support{};
-      if (frame.ports.sprung)
-        support = structure->port_state(motion, frame.ports.support());
+      DofState support{};
+      if (frame.layout.sprung)
+        support = structure->dof_state(motion, frame.layout.support());
       const double x = motion.drive.x - support.position;
       observe_lever(motion, 0, x, row);
-      if (frame.ports.levers == 2)
+      if (frame.layout.levers == 2)
       {
         Row second;
         observe_lever(motion, 1, x, second);
@@ -260,7 +261,7 @@ namespace sprag
       }
       const double support_force        = frame.support_stiffness * support.position + frame.support_damping * support.velocity;
       row[Column::support_displacement] = support.position;
-      row[Column::Q_support]            = (frame.ports.sprung ? support_force : row.drive_force()) / frame.ports.levers;
+      row[Column::Q_support]            = (frame.layout.sprung ? support_force : row.drive_force()) / frame.layout.levers;
     }
 
     double drive_force(const Motion &) const override
@@ -278,11 +279,11 @@ namespace sprag
       return contact->face_state(found, motion.drive);
     }
 
-    void visit_history(Archive &archive) override
+    void serialise_history(Archive &archive) override
     {
-      structure->visit_history(archive);
-      contact->visit_history(archive);
-      slides.visit_history(archive);
+      structure->serialise_history(archive);
+      contact->serialise_history(archive);
+      slides.serialise_history(archive);
     }
 
   private:
@@ -297,36 +298,36 @@ namespace sprag
 
     PerLever turns(const Motion &motion) const
     {
-      PortSelection rotations;
-      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
-        rotations.push_back(frame.ports.rotation(lever));
-      return lever_rotations(frame.ports, structure->port_positions(motion, rotations));
+      DofSelection rotations;
+      for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
+        rotations.push_back(frame.layout.rotation(lever));
+      return lever_rotations(frame.layout, structure->positions(motion, rotations));
     }
 
     /// `x` from the pivot frame's origin.
     void observe_lever(const Motion &motion, const unsigned int lever, const double x, Row &row) const
     {
-      const auto hub          = structure->port_state(motion, frame.ports.rotation(lever));
+      const auto hub          = structure->dof_state(motion, frame.layout.rotation(lever));
       row[Column::theta]      = frame.rest_inclination + hub.position;
       row[Column::theta_rate] = hub.velocity;
       contact->observe(found, row, lever);
       row[Column::centre_offset] = row[Column::s] - cylinder_centre(frame.geometries[lever], x, row[Column::theta]).xi;
-      if (frame.ports.sensors == 0)
+      if (frame.layout.sensors == 0)
         return;
-      PortSelection sensors;
-      for (unsigned int i = 0; i < frame.ports.sensors; ++i)
-        sensors.push_back(frame.ports.sensor(i, lever));
-      const auto compressions = structure->port_positions(motion, sensors);
+      DofSelection sensors;
+      for (unsigned int i = 0; i < frame.layout.sensors; ++i)
+        sensors.push_back(frame.layout.sensor(i, lever));
+      const auto compressions = structure->positions(motion, sensors);
       std::vector<double> forces;
-      for (const unsigned int port : sensors)
-        forces.push_back(frame.sensor_stiffness * compressions[port]);
+      for (const unsigned int dof : sensors)
+        forces.push_back(frame.sensor_stiffness * compressions[dof]);
       frame.tell_sensors(std::move(forces), row);
     }
 
-    const PortSelection &reachable_ports(const Motion &motion) const
+    const DofSelection &candidate_dofs(const Motion &motion) const
     {
-      const double u = frame.ports.sprung ? structure->port_state(motion, frame.ports.support()).position : 0.;
-      return contact->reachable_ports(motion.drive.x - u, compute_inclinations(frame, turns(motion)));
+      const double u = frame.layout.sprung ? structure->dof_state(motion, frame.layout.support()).position : 0.;
+      return contact->candidate_dofs(motion.drive.x - u, compute_inclinations(frame, turns(motion)));
     }
 
     /// Touching at x = 0. Further on as slowly slid there from x = 0, with friction as in a motion forward and mu at rest.
@@ -338,21 +339,21 @@ namespace sprag
       Motion motion = structure->rest();
       motion.drive  = drive;
       // A cylinder out of the mirror plane presses on one lever from the beginning.
-      if (frame.ports.levers == 2 && overlaps(structure->port_positions(motion), drive))
+      if (frame.layout.levers == 2 && penetrates(structure->positions(motion), drive))
         return pressed_at_rest(drive, ContactFriction::none);
-      remember(contact->touch(structure->port_positions(motion), drive, found), motion);
+      store_history(contact->touch(structure->positions(motion), drive, found), motion);
       return motion;
     }
 
-    bool overlaps(const dealii::Vector<double> &ports, const DrivePoint &drive)
+    bool penetrates(const dealii::Vector<double> &displacements, const DrivePoint &drive)
     {
-      contact->evaluate_sliding(SlidingState{ ports, drive, 1., nullptr, ContactFriction::none }, found);
-      return found.overlap() > 1e-9 * frame.geometries.front().cylinder_radius;
+      contact->evaluate_sliding(SlidingState{ displacements, drive, 1., nullptr, ContactFriction::none }, found);
+      return found.penetration() > 1e-9 * frame.geometries.front().cylinder_radius;
     }
 
     Motion pressed_at_rest(const DrivePoint &drive, const ContactFriction friction)
     {
-      const PortForces *const forces = slides.solve({ drive.time, drive.x, 0., 0. }, 1., friction);
+      const InterfaceForces *const forces = slides.solve({ drive.time, drive.x, 0., 0. }, 1., friction);
       if (forces == nullptr)
         throw AnalysisError("no equilibrium at rest. Try another Drive/Start or a smaller Mirrored pair/Cylinder offset.");
       return completed(structure->deform(*forces), drive, *forces);
@@ -368,26 +369,26 @@ namespace sprag
 
     static SlidingState sliding_state(const HeldSlide &slide)
     {
-      return { slide.ports, slide.drive, slide.speed, nullptr, slide.friction };
+      return { slide.displacements, slide.drive, slide.speed, nullptr, slide.friction };
     }
 
     /// The contact's forces about a held slide, those of the hub's spring and the coupling with a sprung support.
-    PortPerturbation perturbation(const SlidingState &slide, const bool in_contact)
+    LinearisedForces perturbation(const SlidingState &slide, const bool in_contact)
     {
-      const auto slide_rotations = lever_rotations(frame.ports, slide.ports);
+      const auto slide_rotations = lever_rotations(frame.layout, slide.displacements);
       const auto theta           = compute_inclinations(frame, slide_rotations);
-      contact->reachable_ports(slide.drive.x, theta);
-      const auto contact_perturbation = in_contact ? contact->linearise(slide, found) : PortPerturbation();
-      auto ports                      = contact_perturbation.ports;
-      for (const auto &others : { coupling.coupled_ports(), hub_spring.loaded_ports() })
-        ports.insert(ports.end(), others.begin(), others.end());
-      std::sort(ports.begin(), ports.end());
-      ports.erase(std::unique(ports.begin(), ports.end()), ports.end());
+      contact->candidate_dofs(slide.drive.x, theta);
+      const auto contact_perturbation = in_contact ? contact->linearise(slide, found) : LinearisedForces();
+      auto dofs                       = contact_perturbation.dofs;
+      for (const auto &others : { coupling.coupled_dofs(), hub_spring.loaded_dofs() })
+        dofs.insert(dofs.end(), others.begin(), others.end());
+      std::sort(dofs.begin(), dofs.end());
+      dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
 
-      PortPerturbation result(std::move(ports));
+      LinearisedForces result(std::move(dofs));
       result.add(contact_perturbation);
-      coupling.add_inertia(result.ports, theta, result.inertia);
-      hub_spring.add_stiffness(result.ports, slide_rotations, result.pressure);
+      coupling.add_inertia(result.dofs, theta, result.inertia);
+      hub_spring.add_stiffness(result.dofs, slide_rotations, result.pressure);
       return result;
     }
 
@@ -396,8 +397,8 @@ namespace sprag
     {
       structure->use_statics();
       const auto forces = perturbation(slide, true);
-      return port_determinant(structure->compliance(), forces.ports, forces.stiffness()) /
-             port_determinant(structure->compliance(), forces.ports, forces.pressure);
+      return interface_determinant(structure->compliance(), forces.dofs, forces.stiffness()) /
+             interface_determinant(structure->compliance(), forces.dofs, forces.pressure);
     }
 
     /// Finds the slide at a ratio of speeds, see SteadySlides::speed_ratio(), from the last equilibrium; none where none is
@@ -409,14 +410,14 @@ namespace sprag
       const auto *force        = slides.solve(drive, ratio, law);
       // If the structure's answer differs from its compliance by round-off, the forces are corrected.
       constexpr unsigned int most_corrections = 2;
-      dealii::Vector<double> round_off(frame.ports.size());
+      dealii::Vector<double> round_off(frame.layout.size());
       for (unsigned int i = 0; i < most_corrections && force != nullptr; ++i)
       {
-        auto change = structure->port_positions(structure->deform(*force));
-        change -= slides.last_equilibrium().ports;
-        const auto counts = [&](const unsigned int port)
-        { return std::abs(frame.lengths[port] * change[port]) > 1e-10 * found.overlap(); };
-        if (std::none_of(force->ports.begin(), force->ports.end(), counts))
+        auto change = structure->positions(structure->deform(*force));
+        change -= slides.last_equilibrium().displacements;
+        const auto counts = [&](const unsigned int dof)
+        { return std::abs(frame.lengths[dof] * change[dof]) > 1e-10 * found.penetration(); };
+        if (std::none_of(force->dofs.begin(), force->dofs.end(), counts))
           break;
         round_off += change;
         force = slides.solve(drive, ratio, law, &round_off);
@@ -424,12 +425,12 @@ namespace sprag
       if (force == nullptr)
         return {};
       HeldSlide slide;
-      slide.drive    = drive;
-      slide.motion   = completed(structure->deform(*force), { drive.time, drive.x, 0., 0. }, *force);
-      slide.ports    = slides.last_equilibrium().ports;
-      slide.friction = friction;
-      slide.speed    = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
-      slide.overlap  = found.overlap();
+      slide.drive         = drive;
+      slide.motion        = completed(structure->deform(*force), { drive.time, drive.x, 0., 0. }, *force);
+      slide.displacements = slides.last_equilibrium().displacements;
+      slide.friction      = friction;
+      slide.speed         = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
+      slide.penetration   = found.penetration();
       Row row;
       contact->observe(found, row, 0);
       slide.indentation = row[Column::indentation];
@@ -467,10 +468,10 @@ namespace sprag
       const double speed   = sliding_speed(frame.geometries.front(), drive.x, drive.v);
       const auto is_unique = [&](const double share)
       {
-        const auto ports = slides.last_equilibrium().ports;
-        return uniqueness({ ports, drive, speed, nullptr, ContactFriction::sliding, Request::with_tangent, share }) > 0.;
+        const auto displacements = slides.last_equilibrium().displacements;
+        return uniqueness({ displacements, drive, speed, nullptr, ContactFriction::sliding, Request::with_tangent, share }) > 0.;
       };
-      std::vector<BranchPoint> branch = { { 0., found.overlap() } };
+      std::vector<BranchPoint> branch = { { 0., found.penetration() } };
       for (double step = 0.25; branch.back().share < 1. && step > smallest_step;)
       {
         const double next = std::min(1., branch.back().share + step);
@@ -479,7 +480,7 @@ namespace sprag
         {
           if (indentation() > frame.largest_indentation)
             return { branch.back().share, true };
-          branch.push_back({ next, found.overlap() });
+          branch.push_back({ next, found.penetration() });
           step *= 1.5;
         }
         else
@@ -493,18 +494,18 @@ namespace sprag
 
     std::optional<Motion> sliding(const DrivePoint &drive, const double ratio)
     {
-      const PortForces *const forces = slides.solve(drive, ratio);
+      const InterfaceForces *const forces = slides.solve(drive, ratio);
       if (forces == nullptr)
         return {};
       return completed(structure->deform(*forces), drive, *forces);
     }
 
-    /// Adds to a motion what the structure does not know: drive, memory of the contact and its forces.
-    Motion completed(Motion motion, const DrivePoint &drive, const PortForces &forces) const
+    /// Adds to a motion what the structure does not know: drive, history of the contact and its forces.
+    Motion completed(Motion motion, const DrivePoint &drive, const InterfaceForces &forces) const
     {
       motion.drive  = drive;
-      motion.forces = { forces.ports, forces.values };
-      remember(found.memory(), motion);
+      motion.forces = { forces.dofs, forces.values };
+      store_history(found.history(), motion);
       return motion;
     }
   };

@@ -5,7 +5,7 @@
 #include "base/archive.h"
 #include "model/contact_point.h"
 #include "model/generalised_alpha.h"
-#include "model/port_forces.h"
+#include "model/interface_forces.h"
 #include "model/vibration.h"
 #include "results/columns.h"
 #include "results/result_file.h"
@@ -25,23 +25,23 @@ namespace sprag
     DrivePoint drive;
     Kinematic coordinates;             ///< of the structure
     dealii::Vector<double> face_force; ///< elastic forces in the static face shapes [N]; empty without such shapes
-    std::vector<ContactMemory> contact;
-    PortLoads forces;                              ///< of the step that led here: where the search for the next ones starts
-    std::vector<PointMemory<2>> surface_contact;   ///< in three dimensions, in place of `contact`
+    std::vector<ContactHistory> contact;
+    DofLoads forces;                               ///< of the step that led here: where the search for the next ones starts
+    std::vector<PointHistory<2>> surface_contact;  ///< in three dimensions, in place of `contact`
     std::shared_ptr<const StoredJacobian> tangent; ///< of a step on the way here; null without
   };
 
-  // Stores the memory of a contact, along a line or on a surface.
-  inline void remember(std::vector<ContactMemory> memory, Motion &motion)
+  // Stores the history of a contact, along a line or on a surface.
+  inline void store_history(std::vector<ContactHistory> history, Motion &motion)
   {
-    motion.contact = std::move(memory);
+    motion.contact = std::move(history);
   }
-  inline void remember(std::vector<PointMemory<2>> memory, Motion &motion)
+  inline void store_history(std::vector<PointHistory<2>> history, Motion &motion)
   {
-    motion.surface_contact = std::move(memory);
+    motion.surface_contact = std::move(history);
   }
 
-  struct PortState
+  struct DofState
   {
     double position;
     double velocity;
@@ -68,11 +68,11 @@ namespace sprag
   {
     Motion motion;    ///< at rest; its drive stands still
     DrivePoint drive; ///< whose slide it is
-    dealii::Vector<double> ports;
+    dealii::Vector<double> displacements;
     ContactFriction friction = ContactFriction::sliding;
     double speed             = 0.; ///< of the surface along the lever, signed [mm/s]
     double mu                = 0.;
-    double overlap           = 0.; ///< of the contact's spring, the largest: P follows from it [mm]
+    double penetration       = 0.; ///< of the contact's spring, the largest: P follows from it [mm]
     double indentation       = 0.; ///< physical, that of the column of this name [mm]
     SlidingForces forces{};
     double margin     = 0.; ///< to jamming: P without friction over P, (s + mu e)/s of a rigid lever with mu signed as the motion
@@ -128,8 +128,8 @@ namespace sprag
     virtual FacePoints face_points() const                   = 0;
     virtual FaceState face_state(const Motion &motion) const = 0;
 
-    /// Visits what later steps and slides depend on, to the last bit, beside the motion that they begin with: what was found on
-    /// the way and is kept. A model that takes it from an archive goes on as the one it is of.
-    virtual void visit_history(Archive &archive) = 0;
+    /// Serialises what later steps and slides depend on, to the last bit, beside the motion that they begin with: what was found
+    /// on the way and is kept. A model that takes it from an archive goes on as the one it is of.
+    virtual void serialise_history(Archive &archive) = 0;
   };
 } // namespace sprag

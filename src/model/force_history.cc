@@ -30,24 +30,24 @@ namespace sprag
     }
   } // namespace
 
-  void ForceHistory::begin(const PortLoads &forces)
+  void ForceHistory::begin(const DofLoads &forces)
   {
     time   = 0.;
     places = { { forces, time } };
   }
 
-  void ForceHistory::accept(const PortLoads &forces, const double duration)
+  void ForceHistory::accept(const DofLoads &forces, const double duration)
   {
     accept_at(forces, time + 0.5 * duration);
     time += duration;
   }
 
-  void ForceHistory::guess(const double duration, PortLoads &result) const
+  void ForceHistory::guess(const double duration, DofLoads &result) const
   {
     result = guess_at(time + 0.5 * duration);
   }
 
-  void ForceHistory::accept_at(const PortLoads &forces, const double place, const bool goes_on)
+  void ForceHistory::accept_at(const DofLoads &forces, const double place, const bool goes_on)
   {
     if (!goes_on)
       places.clear();
@@ -56,37 +56,37 @@ namespace sprag
     places.insert(places.begin(), { forces, place });
   }
 
-  PortLoads ForceHistory::guess_at(const double place) const
+  DofLoads ForceHistory::guess_at(const double place) const
   {
     std::array<Shares, most + 1> shares{}; // of polynomials through so many places
     for (std::size_t n = 1; n <= places.size(); ++n)
       shares[n] = shares_at(place, places, n);
-    std::array<unsigned int, most> next{}; // of the ports at each place
-    PortLoads result = places.front().forces;
-    for (unsigned int i = 0; i < result.ports.size(); ++i)
+    std::array<unsigned int, most> next{}; // of the dofs at each place
+    DofLoads result = places.front().forces;
+    for (unsigned int i = 0; i < result.dofs.size(); ++i)
     {
       Shares values{};
       std::size_t n = 0;
       for (; n < places.size(); ++n)
       {
-        const auto &[ports, port_values] = places[n].forces;
-        while (next[n] < ports.size() && ports[next[n]] < result.ports[i])
+        const auto &[dofs, dof_values] = places[n].forces;
+        while (next[n] < dofs.size() && dofs[next[n]] < result.dofs[i])
           ++next[n];
-        if (next[n] == ports.size() || ports[next[n]] != result.ports[i])
+        if (next[n] == dofs.size() || dofs[next[n]] != result.dofs[i])
           break;
-        values[n] = port_values[next[n]];
+        values[n] = dof_values[next[n]];
       }
       result.values[i] = std::inner_product(values.begin(), values.begin() + n, shares[n].begin(), 0.);
     }
     return result;
   }
 
-  void visit(Archive &archive, ForcesAtPlace &forces)
+  void serialise(Archive &archive, ForcesAtPlace &forces)
   {
     archive(forces.forces, forces.place);
   }
 
-  void visit(Archive &archive, ForceHistory &history)
+  void serialise(Archive &archive, ForceHistory &history)
   {
     archive(history.places, history.time);
   }

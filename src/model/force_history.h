@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/archive.h"
-#include "model/port_forces.h"
+#include "model/interface_forces.h"
 
 #include <vector>
 
@@ -10,11 +10,11 @@ namespace sprag
 {
   struct ForcesAtPlace
   {
-    PortLoads forces;
+    DofLoads forces;
     double place;
   };
 
-  void visit(Archive &archive, ForcesAtPlace &forces);
+  void serialise(Archive &archive, ForcesAtPlace &forces);
 
   /// Forces at the last few places of a way, or in the middle of the last steps in time, which tell where the search for the next
   /// ones best starts.
@@ -22,20 +22,20 @@ namespace sprag
   {
   public:
     /// Forgets what was before, and begins at the forces of a motion that no step led to.
-    void begin(const PortLoads &forces);
+    void begin(const DofLoads &forces);
 
     /// Takes the mean forces of an accepted step of some duration > 0 [s].
-    void accept(const PortLoads &forces, double duration);
+    void accept(const DofLoads &forces, double duration);
 
     /// Writes what they lead to in the next step, which has some duration > 0 [s].
-    void guess(double duration, PortLoads &result) const;
+    void guess(double duration, DofLoads &result) const;
 
     /// Takes the forces at a place beyond the last one. Forgets all others where `goes_on` is false.
-    void accept_at(const PortLoads &forces, double place, bool goes_on = true);
+    void accept_at(const DofLoads &forces, double place, bool goes_on = true);
 
-    /// Returns what they lead to at a place, on the ports of the last: each along the polynomial through its forces as far back
-    /// as it has any. There must be some.
-    PortLoads guess_at(double place) const;
+    /// Returns the forces at a place, on the dofs of the last: each along the polynomial through its forces as far back as it has
+    /// any. There must be some.
+    DofLoads guess_at(double place) const;
 
     std::size_t size() const
     {
@@ -47,7 +47,7 @@ namespace sprag
       return places.front();
     }
 
-    friend void visit(Archive &archive, ForceHistory &history);
+    friend void serialise(Archive &archive, ForceHistory &history);
 
   private:
     std::vector<ForcesAtPlace> places; ///< the last one first

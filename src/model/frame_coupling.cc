@@ -9,7 +9,7 @@ namespace sprag
 
   namespace
   {
-    /// Positions, rates and accelerations of the ports of a lever that the coupling acts on: momentum along eta and xi, support.
+    /// Positions, rates and accelerations of the dofs of a lever that the coupling acts on: momentum along eta and xi, support.
     struct Local
     {
       double theta = 0., theta_rate = 0.;
@@ -29,55 +29,55 @@ namespace sprag
       return result;
     }
 
-    Local weighted(const PortLayout &ports, const unsigned int lever, const double rest, const Kinematic &begin,
+    Local weighted(const InterfaceLayout &layout, const unsigned int lever, const double rest, const Kinematic &begin,
                    const Kinematic &end, const StepWeights &w)
     {
-      const auto rate         = [&](const unsigned int port) { return mix(begin.velocity[port], end.velocity[port], w.alpha_f); };
-      const auto acceleration = [&](const unsigned int port)
-      { return mix(begin.acceleration[port], end.acceleration[port], w.alpha_m); };
-      const unsigned int hub = ports.rotation(lever);
+      const auto rate         = [&](const unsigned int dof) { return mix(begin.velocity[dof], end.velocity[dof], w.alpha_f); };
+      const auto acceleration = [&](const unsigned int dof)
+      { return mix(begin.acceleration[dof], end.acceleration[dof], w.alpha_m); };
+      const unsigned int hub = layout.rotation(lever);
       return { rest + mix(begin.position[hub], end.position[hub], w.alpha_f),
                rate(hub),
-               rate(ports.momentum_eta(lever)),
-               rate(ports.momentum_xi(lever)),
-               rate(ports.support()),
-               acceleration(ports.momentum_eta(lever)),
-               acceleration(ports.momentum_xi(lever)),
-               acceleration(ports.support()) };
+               rate(layout.momentum_eta(lever)),
+               rate(layout.momentum_xi(lever)),
+               rate(layout.support()),
+               acceleration(layout.momentum_eta(lever)),
+               acceleration(layout.momentum_xi(lever)),
+               acceleration(layout.support()) };
     }
 
     /// Mass products of the coupling with the accelerations of (p_eta, p_xi, u).
-    Vector<double> mass_product(const PortLayout &ports, const PerLever &theta, const Kinematic &q)
+    Vector<double> mass_product(const InterfaceLayout &layout, const PerLever &theta, const Kinematic &q)
     {
-      Vector<double> result(ports.size());
-      for (unsigned int lever = 0; lever < ports.levers; ++lever)
+      Vector<double> result(layout.size());
+      for (unsigned int lever = 0; lever < layout.levers; ++lever)
       {
         const double s         = std::sin(theta[lever]);
         const double c         = std::cos(theta[lever]);
-        const unsigned int eta = ports.momentum_eta(lever);
-        const unsigned int xi  = ports.momentum_xi(lever);
-        result[eta]            = s * q.acceleration[ports.support()];
-        result[xi]             = -c * q.acceleration[ports.support()];
-        result[ports.support()] += s * q.acceleration[eta] - c * q.acceleration[xi];
+        const unsigned int eta = layout.momentum_eta(lever);
+        const unsigned int xi  = layout.momentum_xi(lever);
+        result[eta]            = s * q.acceleration[layout.support()];
+        result[xi]             = -c * q.acceleration[layout.support()];
+        result[layout.support()] += s * q.acceleration[eta] - c * q.acceleration[xi];
       }
       return result;
     }
   } // namespace
 
-  FrameCoupling::FrameCoupling(const PortLayout &ports, const double rest_inclination)
-      : layout(ports)
+  FrameCoupling::FrameCoupling(const InterfaceLayout &layout_, const double rest_inclination)
+      : layout(layout_)
       , rest(rest_inclination)
   {
   }
 
   void FrameCoupling::add_forces(const Kinematic &begin, const Vector<double> &end, const StepWeights &w,
-                                 PortForces &forces) const
+                                 InterfaceForces &forces) const
   {
     if (!layout.sprung)
       return;
     const Kinematic at = at_end(begin, end, w);
-    add_ports(coupled_ports(), forces);
-    const auto place = [&](const unsigned int port) { return find_index(port, forces.ports); };
+    add_dofs(coupled_dofs(), forces);
+    const auto place = [&](const unsigned int dof) { return find_index(dof, forces.dofs); };
     for (unsigned int lever = 0; lever < layout.levers; ++lever)
     {
       const Local q       = weighted(layout, lever, rest, begin, at, w);
@@ -112,7 +112,7 @@ namespace sprag
     }
   }
 
-  std::vector<unsigned int> FrameCoupling::coupled_ports() const
+  DofSelection FrameCoupling::coupled_dofs() const
   {
     if (!layout.sprung)
       return {};
@@ -123,16 +123,15 @@ namespace sprag
     return result;
   }
 
-  void FrameCoupling::add_inertia(const std::vector<unsigned int> &ports, const PerLever &theta,
-                                  FullMatrix<double> &inertia) const
+  void FrameCoupling::add_inertia(const DofSelection &dofs, const PerLever &theta, FullMatrix<double> &inertia) const
   {
     if (!layout.sprung)
       return;
-    const unsigned int support = find_index(layout.support(), ports);
-    const auto couple          = [&](const unsigned int port, const double mass)
+    const unsigned int support = find_index(layout.support(), dofs);
+    const auto couple          = [&](const unsigned int dof, const double mass)
     {
-      inertia(find_index(port, ports), support) += mass;
-      inertia(support, find_index(port, ports)) += mass;
+      inertia(find_index(dof, dofs), support) += mass;
+      inertia(support, find_index(dof, dofs)) += mass;
     };
     for (unsigned int lever = 0; lever < layout.levers; ++lever)
     {
@@ -153,15 +152,15 @@ namespace sprag
         inertial_dissipation(begin, after, mass_product(layout, theta, begin), mass_product(layout, theta, after), w);
   }
 
-  double FrameCoupling::kinetic_energy(const Kinematic &ports) const
+  double FrameCoupling::kinetic_energy(const Kinematic &motion) const
   {
     double momentum = 0.;
     for (unsigned int lever = 0; lever < layout.levers; ++lever)
     {
-      const double theta = rest + ports.position[layout.rotation(lever)];
-      momentum += std::sin(theta) * ports.velocity[layout.momentum_eta(lever)] -
-                  std::cos(theta) * ports.velocity[layout.momentum_xi(lever)];
+      const double theta = rest + motion.position[layout.rotation(lever)];
+      momentum += std::sin(theta) * motion.velocity[layout.momentum_eta(lever)] -
+                  std::cos(theta) * motion.velocity[layout.momentum_xi(lever)];
     }
-    return ports.velocity[layout.support()] * momentum;
+    return motion.velocity[layout.support()] * momentum;
   }
 } // namespace sprag

@@ -7,7 +7,7 @@ namespace sprag
   {
     using Complex = std::complex<double>;
 
-    /// Products conj(z_a) (F z)_a of the ports that forces act on.
+    /// Products conj(z_a) (F z)_a of the dofs that forces act on.
     std::vector<Complex> powers(const dealii::FullMatrix<double> &matrix, const std::vector<Complex> &z)
     {
       std::vector<Complex> result(z.size());
@@ -44,31 +44,31 @@ namespace sprag
 
     /// To modal mass 1 and a rotation, or the largest displacement if there is none, the first of those alike, that is real and
     /// positive.
-    void normalise(const double mass, const unsigned int rotation, StructureMode &mode, ComplexVector &ports)
+    void normalise(const double mass, const unsigned int rotation, StructureMode &mode, ComplexVector &displacements)
     {
       unsigned int reference = rotation;
-      const auto size        = [&](const unsigned int port) { return std::hypot(ports[0][port], ports[1][port]); };
+      const auto size        = [&](const unsigned int dof) { return std::hypot(displacements[0][dof], displacements[1][dof]); };
       unsigned int largest   = 0;
-      for (unsigned int port = 0; port < ports[0].size(); ++port)
-        if (size(port) > (1. + alike) * size(largest))
-          largest = port;
+      for (unsigned int dof = 0; dof < displacements[0].size(); ++dof)
+        if (size(dof) > (1. + alike) * size(largest))
+          largest = dof;
       if (size(rotation) < 1e-9 * size(largest))
         reference = largest;
-      const Complex value(ports[0][reference], ports[1][reference]);
+      const Complex value(displacements[0][reference], displacements[1][reference]);
       const Complex factor = std::conj(value) / std::abs(value) / std::sqrt(mass);
-      for (auto *const vector : { &mode.coordinates, &mode.face_force, &ports })
+      for (auto *const vector : { &mode.coordinates, &mode.face_force, &displacements })
         multiply(*vector, factor);
     }
   } // namespace
 
-  Eigenmode explained(StructureMode mode, ComplexVector ports, const ModeForms &forms, const PortPerturbation &perturbation,
-                      const PortLayout &layout)
+  Eigenmode explained(StructureMode mode, ComplexVector displacements, const ModeForms &forms,
+                      const LinearisedForces &perturbation, const InterfaceLayout &layout)
   {
     Eigenmode result;
     const Complex lambda = mode.eigenvalue;
     std::vector<Complex> z;
-    for (const unsigned int port : perturbation.ports)
-      z.emplace_back(ports[0][port], ports[1][port]);
+    for (const unsigned int dof : perturbation.dofs)
+      z.emplace_back(displacements[0][dof], displacements[1][dof]);
 
     const double contact   = -form(perturbation.pressure, z);
     const double potential = forms.spring + forms.elastic + forms.support + contact;
@@ -87,11 +87,11 @@ namespace sprag
     }
     for (unsigned int a = 0; a < friction.size(); ++a)
     {
-      const unsigned int port = perturbation.ports[a];
-      const double share      = (std::conj(lambda) * friction[a]).real() / energy;
-      if (layout.is_surface(port) || layout.is_slope(port))
+      const unsigned int dof = perturbation.dofs[a];
+      const double share     = (std::conj(lambda) * friction[a]).real() / energy;
+      if (layout.is_surface(dof) || layout.is_slope(dof))
         growth.friction_bending += share;
-      else if (layout.is_rotation(port))
+      else if (layout.is_rotation(dof))
         growth.friction_rotation += share;
       else
         growth.friction_support += share;
@@ -101,11 +101,11 @@ namespace sprag
     growth.structure_damping = -rate * forms.damping / energy;
 
     result.energy = { forms.spring / potential, forms.elastic / potential, forms.support / potential, contact / potential };
-    normalise(mass, layout.rotation(), mode, ports);
+    normalise(mass, layout.rotation(), mode, displacements);
     if (layout.levers == 2)
-      result.mirroring = symmetric_share(ports, layout);
-    result.mode  = std::move(mode);
-    result.ports = std::move(ports);
+      result.symmetry = symmetric_share(displacements, layout);
+    result.mode          = std::move(mode);
+    result.displacements = std::move(displacements);
     return result;
   }
 } // namespace sprag

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "model/dynamic_model.h"
+#include "model/interface_layout.h"
 #include "model/linearisation.h"
-#include "model/mirroring.h"
-#include "model/port_layout.h"
+#include "model/mode_symmetry.h"
 
 #include <cmath>
 
@@ -65,25 +65,26 @@ namespace sprag
   }
 
   /// Shares of growth and energy: the real part of conj(lambda) phi^H (lambda^2 M + lambda C + K) phi = 0, which says that the
-  /// mode's energy grows by 2 Re lambda times the power of what is not conservative. `ports` are displacements of all ports.
-  Eigenmode explained(StructureMode mode, ComplexVector ports, const ModeForms &forms, const PortPerturbation &perturbation,
-                      const PortLayout &layout);
+  /// mode's energy grows by 2 Re lambda times the power of what is not conservative. `displacements`: those of the whole
+  /// interface.
+  Eigenmode explained(StructureMode mode, ComplexVector displacements, const ModeForms &forms,
+                      const LinearisedForces &perturbation, const InterfaceLayout &layout);
 
   /// All modes of a structure, those of a pair that tie separated.
   template <class Structure>
   std::vector<Eigenmode> explained(const Structure &structure, std::vector<StructureMode> modes,
-                                   const PortPerturbation &perturbation, const PortLayout &layout)
+                                   const LinearisedForces &perturbation, const InterfaceLayout &layout)
   {
-    std::vector<ComplexVector> ports;
+    std::vector<ComplexVector> displacements;
     for (const auto &mode : modes)
-      ports.push_back({ { structure.port_positions(as_motion(mode, 0)), structure.port_positions(as_motion(mode, 1)) } });
+      displacements.push_back({ { structure.positions(as_motion(mode, 0)), structure.positions(as_motion(mode, 1)) } });
     if (layout.levers == 2)
-      separate_ties(modes, ports, layout);
+      separate_ties(modes, displacements, layout);
     std::vector<Eigenmode> result;
     for (std::size_t i = 0; i < modes.size(); ++i)
     {
       const auto forms = mode_forms(structure, modes[i]);
-      result.push_back(explained(std::move(modes[i]), std::move(ports[i]), forms, perturbation, layout));
+      result.push_back(explained(std::move(modes[i]), std::move(displacements[i]), forms, perturbation, layout));
     }
     return result;
   }

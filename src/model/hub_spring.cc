@@ -46,9 +46,9 @@ namespace sprag
     }
   } // namespace
 
-  HubSpringExcess::HubSpringExcess(const PortLayout &ports, MomentLaw moment_law, const bool joined_by_free_joint,
+  HubSpringExcess::HubSpringExcess(const InterfaceLayout &layout_, MomentLaw moment_law, const bool joined_by_free_joint,
                                    const double swing_stiffness)
-      : layout(ports)
+      : layout(layout_)
       , law(std::move(moment_law))
       , joined(joined_by_free_joint)
       , coupling_stiffness(joined ? (1. - swing_stiffness) * law.linear_stiffness() : 0.)
@@ -60,15 +60,15 @@ namespace sprag
     return joined || !law.is_linear();
   }
 
-  void HubSpringExcess::add(const Moments &moments, PortForces &forces) const
+  void HubSpringExcess::add(const Moments &moments, InterfaceForces &forces) const
   {
-    add_ports(loaded_ports(), forces);
+    add_dofs(loaded_dofs(), forces);
     for (unsigned int i = 0; i < layout.levers; ++i)
     {
-      const unsigned int row = find_index(layout.rotation(i), forces.ports);
+      const unsigned int row = find_index(layout.rotation(i), forces.dofs);
       forces.values[row] += moments.values[i];
       for (unsigned int j = 0; j < layout.levers && forces.has_tangent; ++j)
-        forces.tangent(row, find_index(layout.rotation(j), forces.ports)) += moments.tangent[i][j];
+        forces.tangent(row, find_index(layout.rotation(j), forces.dofs)) += moments.tangent[i][j];
     }
   }
 
@@ -123,13 +123,13 @@ namespace sprag
   }
 
   void HubSpringExcess::add_forces(const PerLever &begin, const PerLever &end, const StepWeights &weights,
-                                   PortForces &forces) const
+                                   InterfaceForces &forces) const
   {
     if (is_active())
       add(step_moments(begin, end, weights), forces);
   }
 
-  void HubSpringExcess::add_forces(const PerLever &turns, const bool swing_is_held, PortForces &forces) const
+  void HubSpringExcess::add_forces(const PerLever &turns, const bool swing_is_held, InterfaceForces &forces) const
   {
     if (is_active())
       add(at(turns, swing_is_held), forces);
@@ -160,7 +160,7 @@ namespace sprag
     return total;
   }
 
-  void HubSpringExcess::add_stiffness(const std::vector<unsigned int> &ports, const PerLever &turns,
+  void HubSpringExcess::add_stiffness(const DofSelection &dofs, const PerLever &turns,
                                       dealii::FullMatrix<double> &stiffness) const
   {
     if (!is_active())
@@ -168,10 +168,10 @@ namespace sprag
     const auto moments = at(turns, true);
     for (unsigned int i = 0; i < layout.levers; ++i)
       for (unsigned int j = 0; j < layout.levers; ++j)
-        stiffness(find_index(layout.rotation(i), ports), find_index(layout.rotation(j), ports)) += moments.tangent[i][j];
+        stiffness(find_index(layout.rotation(i), dofs), find_index(layout.rotation(j), dofs)) += moments.tangent[i][j];
   }
 
-  std::vector<unsigned int> HubSpringExcess::loaded_ports() const
+  DofSelection HubSpringExcess::loaded_dofs() const
   {
     std::vector<unsigned int> result;
     if (is_active())

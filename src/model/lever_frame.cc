@@ -8,26 +8,26 @@
 
 namespace sprag
 {
-  LeverFrame lever_frame(const Device &device, const PortLayout &ports, const double lever_mass)
+  LeverFrame lever_frame(const Device &device, const InterfaceLayout &layout, const double lever_mass)
   {
     LeverFrame frame{ {},
-                      ports,
+                      layout,
                       rest_inclination(device),
                       moment_law(device.spring),
-                      ports.levers * device.support.stiffness,
-                      ports.levers * support_damping(device.support, lever_mass),
-                      dealii::Vector<double>(ports.size()),
+                      layout.levers * device.support.stiffness,
+                      layout.levers * support_damping(device.support, lever_mass),
+                      dealii::Vector<double>(layout.size()),
                       device.plate.sensor_stiffness,
                       swings(device) };
     if (device.layer.thickness > 0.)
       frame.largest_indentation = 0.5 * device.layer.thickness;
     frame.lengths = 1.;
-    for (unsigned int slope = 0; slope < ports.slopes; ++slope)
-      frame.lengths[ports.slope(slope)] = 0.5 * device.lever.width;
-    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+    for (unsigned int slope = 0; slope < layout.slopes; ++slope)
+      frame.lengths[layout.slope(slope)] = 0.5 * device.lever.width;
+    for (unsigned int lever = 0; lever < layout.levers; ++lever)
     {
       frame.geometries.push_back(lever_device(device, lever).geometry);
-      frame.lengths[ports.rotation(lever)] = device.geometry.pivot_distance;
+      frame.lengths[layout.rotation(lever)] = device.geometry.pivot_distance;
     }
     return frame;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "model/port_layout.h"
+#include "model/interface_layout.h"
 #include "results/columns.h"
 #include "scene/lever.h"
 
@@ -18,12 +18,12 @@ namespace sprag
   struct LeverFrame
   {
     std::vector<Geometry> geometries; ///< of each lever, the cylinder's offset in them
-    PortLayout ports;
+    InterfaceLayout layout;
     double rest_inclination;         ///< theta without moment [rad]
     MomentLaw spring;                ///< rotational, over the turn from there
     double support_stiffness;        ///< k_f of all levers [N/mm]; counts on a sprung support
     double support_damping;          ///< c_f of all levers [N s/mm]
-    dealii::Vector<double> lengths;  ///< what a unit of each port moves [mm]: 1, and an arm for rotations
+    dealii::Vector<double> lengths;  ///< movement by a unit of each dof [mm]: 1, and an arm for rotations
     double sensor_stiffness = 0.;    ///< of each force sensor of a friction plate [N/mm]
     bool joined             = false; ///< the springs of a pair by a joint that nothing else carries
 
@@ -38,7 +38,7 @@ namespace sprag
 
   /// The frame of a scene, with lengths 1 but for the hubs' rotations. `lever_mass` [t], of one lever, moves with a sprung
   /// support.
-  LeverFrame lever_frame(const Device &device, const PortLayout &ports, double lever_mass);
+  LeverFrame lever_frame(const Device &device, const InterfaceLayout &layout, double lever_mass);
 
   /// c_f [N s/mm]: Support/Damping of critical of the frame with the lever on k_f.
   double support_damping(const Support &support, double lever_mass);

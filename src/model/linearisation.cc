@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "model/linearisation.h"
 
-#include "model/port_forces.h"
+#include "model/interface_forces.h"
 
 namespace sprag
 {
@@ -55,41 +55,41 @@ namespace sprag
     }
   } // namespace
 
-  PortPerturbation::PortPerturbation(std::vector<unsigned int> on_ports)
-      : ports(std::move(on_ports))
+  LinearisedForces::LinearisedForces(std::vector<unsigned int> on_dofs)
+      : dofs(std::move(on_dofs))
   {
-    const auto n = static_cast<unsigned int>(ports.size());
+    const auto n = static_cast<unsigned int>(dofs.size());
     for (auto *const matrix : { &pressure, &friction, &pressure_rate, &friction_rate, &inertia })
       matrix->reinit(n, n);
   }
 
-  void PortPerturbation::add(const PortPerturbation &other)
+  void LinearisedForces::add(const LinearisedForces &other)
   {
     std::vector<unsigned int> places;
-    for (const unsigned int port : other.ports)
-      places.push_back(find_index(port, ports));
-    for (const auto matrix : { &PortPerturbation::pressure, &PortPerturbation::friction, &PortPerturbation::pressure_rate,
-                               &PortPerturbation::friction_rate, &PortPerturbation::inertia })
+    for (const unsigned int dof : other.dofs)
+      places.push_back(find_index(dof, dofs));
+    for (const auto matrix : { &LinearisedForces::pressure, &LinearisedForces::friction, &LinearisedForces::pressure_rate,
+                               &LinearisedForces::friction_rate, &LinearisedForces::inertia })
       for (unsigned int i = 0; i < places.size(); ++i)
         for (unsigned int j = 0; j < places.size(); ++j)
           (this->*matrix)(places[i], places[j]) += (other.*matrix)(i, j);
-    const auto n = static_cast<unsigned int>(ports.size());
+    const auto n = static_cast<unsigned int>(dofs.size());
     for (const auto &delay : other.delays)
       delays.push_back({ delay.time, spread(delay.force, places, n), spread(delay.stiffness_row, places, n),
                          spread(delay.rate_row, places, n) });
   }
 
-  FullMatrix<double> PortPerturbation::stiffness() const
+  FullMatrix<double> LinearisedForces::stiffness() const
   {
     return sum(pressure, friction);
   }
 
-  FullMatrix<double> PortPerturbation::damping() const
+  FullMatrix<double> LinearisedForces::damping() const
   {
     return sum(pressure_rate, friction_rate);
   }
 
-  FullMatrix<double> PortPerturbation::immediate_stiffness() const
+  FullMatrix<double> LinearisedForces::immediate_stiffness() const
   {
     auto result = stiffness();
     for (const auto &delay : delays)
@@ -97,7 +97,7 @@ namespace sprag
     return result;
   }
 
-  FullMatrix<double> PortPerturbation::immediate_damping() const
+  FullMatrix<double> LinearisedForces::immediate_damping() const
   {
     auto result = damping();
     for (const auto &delay : delays)
@@ -105,7 +105,7 @@ namespace sprag
     return result;
   }
 
-  ComplexAmplitudes PortPerturbation::forces(const Complex lambda, const ComplexAmplitudes &z) const
+  ComplexAmplitudes LinearisedForces::forces(const Complex lambda, const ComplexAmplitudes &z) const
   {
     auto [result, by_velocity] = by_delays(lambda, z);
     for (unsigned int i = 0; i < result.size(); ++i)
@@ -118,7 +118,7 @@ namespace sprag
     return result;
   }
 
-  PortPerturbation::DelayedForces PortPerturbation::by_delays(const Complex lambda, const ComplexAmplitudes &z) const
+  LinearisedForces::DelayedForces LinearisedForces::by_delays(const Complex lambda, const ComplexAmplitudes &z) const
   {
     DelayedForces result{ ComplexAmplitudes(z.size()), ComplexAmplitudes(z.size()) };
     for (const auto &delay : delays)

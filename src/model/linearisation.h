@@ -8,16 +8,16 @@
 
 namespace sprag
 {
-  /// Complex amplitudes of some ports.
+  /// Complex amplitudes of some dofs.
   using ComplexAmplitudes = std::vector<std::complex<double>>;
 
-  /// A contact whose points all slide at one speed, at given displacements of the ports.
+  /// A contact whose points all slide at one speed, at given interface displacements.
   struct SlidingState
   {
-    const dealii::Vector<double> &ports;
+    const dealii::Vector<double> &displacements;
     const DrivePoint &drive;
     double speed;                                  ///< of the cylinder's surface along the lever [mm/s], != 0
-    const dealii::Vector<double> *rates = nullptr; ///< of the ports, which add to the slip; none: at rest
+    const dealii::Vector<double> *rates = nullptr; ///< of the interface, which add to the slip; none: at rest
     ContactFriction friction            = ContactFriction::sliding;
     Request request                     = Request::with_tangent;
     double friction_share               = 1.; ///< times mu of the law, 0 to 1: a friction on the way to the scene's
@@ -41,7 +41,7 @@ namespace sprag
 
   /// Friction at a point that lags behind,
   ///   time tau' + tau = stiffness_row . z + rate_row . z',
-  /// tau being its delayed traction and `force` what a unit of that is on the ports; see friction_lag(). While mu rises with
+  /// tau being its delayed traction and `force` the interface forces by a unit of that; see friction_lag(). While mu rises with
   /// speed, all of the traction is delayed, where it falls what follows the speed.
   struct FrictionDelay
   {
@@ -51,22 +51,22 @@ namespace sprag
     dealii::Vector<double> rate_row;
   };
 
-  /// Forces f on some ports by a small perturbation z(t) of them, about a held slide, delays of friction apart:
+  /// Forces f on some dofs by a small perturbation z(t) of them, about a held slide, delays of friction apart:
   ///   f = (pressure + friction) z + (pressure_rate + friction_rate) z' - inertia z''
   /// `pressure` and `friction` are derivatives by displacements, of the pressure with the change of its direction and of
   /// friction. `pressure_rate` and `friction_rate` are derivatives by velocities, of contact damping and of friction, whose
   /// pressure and mu follow the velocities.
-  struct PortPerturbation
+  struct LinearisedForces
   {
-    PortPerturbation() = default;
+    LinearisedForces() = default;
 
     /// A perturbation without forces.
-    explicit PortPerturbation(std::vector<unsigned int> ports);
+    explicit LinearisedForces(std::vector<unsigned int> dofs);
 
-    /// Adds forces on some of these ports, in any order.
-    void add(const PortPerturbation &other);
+    /// Adds forces on some of these dofs, in any order.
+    void add(const LinearisedForces &other);
 
-    std::vector<unsigned int> ports; ///< increasing
+    std::vector<unsigned int> dofs; ///< increasing
     dealii::FullMatrix<double> pressure;
     dealii::FullMatrix<double> friction;
     dealii::FullMatrix<double> pressure_rate;

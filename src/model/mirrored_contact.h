@@ -2,11 +2,11 @@
 #pragma once
 
 #include "model/contact_of_levers.h"
-#include "model/joined_memory.h"
-#include "model/joined_ports.h"
+#include "model/interface_layout.h"
+#include "model/interface_step.h"
+#include "model/joined_history.h"
+#include "model/joined_interfaces.h"
 #include "model/linearisation.h"
-#include "model/port_layout.h"
-#include "model/port_step.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace sprag
 {
-  /// The contacts of both levers of a mirrored pair, each with ports of its own in its own axes. Contact: see PointContact.
+  /// The contacts of both levers of a mirrored pair, each with dofs of its own in its own axes. Contact: see PointContact.
   template <class Contact>
   class MirroredContact
   {
@@ -28,13 +28,13 @@ namespace sprag
     struct Evaluation
     {
       std::array<typename Contact::Evaluation, 2> per_lever;
-      PortForces forces;
+      InterfaceForces forces;
       bool within_reach   = true;
-      unsigned int points = 0; ///< of a lever, see joined_memory()
+      unsigned int points = 0; ///< of a lever, see joined_history()
 
-      auto memory() const
+      auto history() const
       {
-        return joined_memory(points, per_lever[0].memory(), per_lever[1].memory());
+        return joined_history(points, per_lever[0].history(), per_lever[1].history());
       }
       StepWork work() const
       {
@@ -46,33 +46,34 @@ namespace sprag
       {
         return per_lever[0].energy() + per_lever[1].energy();
       }
-      double overlap() const
+      double penetration() const
       {
-        return std::max(per_lever[0].overlap(), per_lever[1].overlap());
+        return std::max(per_lever[0].penetration(), per_lever[1].penetration());
       }
     };
 
-    /// `layout` is the pair's; memories of a contact number fewer than `points`.
-    MirroredContact(std::array<std::unique_ptr<Contact>, 2> contacts, const PortLayout &layout_, const unsigned int points_)
+    /// `layout` is the pair's; histories of a contact number fewer than `points`.
+    MirroredContact(std::array<std::unique_ptr<Contact>, 2> contacts, const InterfaceLayout &layout_, const unsigned int points_)
         : contact(std::move(contacts))
         , layout(layout_)
         , points(points_)
     {
     }
 
-    void evaluate(const PortStep &step, Evaluation &found) const
+    void evaluate(const InterfaceStep &step, Evaluation &found) const
     {
       for (unsigned int lever = 0; lever < levers; ++lever)
       {
-        const auto memory = lever_memory(lever, points, step.memory);
-        const auto surface =
-            step.surface_memory != nullptr ? lever_memory(lever, points, *step.surface_memory) : std::vector<PointMemory<2>>();
-        const Kinematic begin{ lever_ports(lever, step.begin.position), lever_ports(lever, step.begin.velocity),
-                               lever_ports(lever, step.begin.acceleration) };
-        const auto end  = lever_ports(lever, step.end);
-        const auto rate = lever_ports(lever, step.end_rate);
-        contact[lever]->evaluate(PortStep{ step.from, memory, step.to, begin, end, rate, step.weights, &surface, step.request },
-                                 found.per_lever[lever]);
+        const auto history = lever_history(lever, points, step.history);
+        const auto surface = step.surface_history != nullptr ? lever_history(lever, points, *step.surface_history)
+                                                             : std::vector<PointHistory<2>>();
+        const Kinematic begin{ lever_part(lever, step.begin.position), lever_part(lever, step.begin.velocity),
+                               lever_part(lever, step.begin.acceleration) };
+        const auto end  = lever_part(lever, step.end);
+        const auto rate = lever_part(lever, step.end_rate);
+        contact[lever]->evaluate(
+            InterfaceStep{ step.from, history, step.to, begin, end, rate, step.weights, &surface, step.request },
+            found.per_lever[lever]);
       }
       join(found);
     }
@@ -84,29 +85,29 @@ namespace sprag
                      { contact[lever]->evaluate_sliding(own, found.per_lever[lever]); });
     }
 
-    PortPerturbation linearise(const SlidingState &state, Evaluation &found) const
+    LinearisedForces linearise(const SlidingState &state, Evaluation &found) const
     {
-      std::array<PortPerturbation, 2> own;
+      std::array<LinearisedForces, 2> own;
       for_each_lever(state, found,
                      [&](const unsigned int lever, const SlidingState &sliding)
                      { own[lever] = contact[lever]->linearise(sliding, found.per_lever[lever]); });
-      PortPerturbation result(found.forces.ports);
+      LinearisedForces result(found.forces.dofs);
       for (unsigned int lever = 0; lever < levers; ++lever)
       {
-        for (auto &port : own[lever].ports)
-          port = joined_port(layout, lever, port);
+        for (auto &dof : own[lever].dofs)
+          dof = joined_dof(layout, lever, dof);
         result.add(own[lever]);
       }
       return result;
     }
 
-    const PortSelection &reachable_ports(const double x, const PerLever &theta)
+    const DofSelection &candidate_dofs(const double x, const PerLever &theta)
     {
       reachable.clear();
       for (unsigned int lever = 0; lever < levers; ++lever)
-        for (const unsigned int port : contact[lever]->reachable_ports(x, { { theta[lever] } }))
-          if (port < layout.ports_per_lever())
-            reachable.push_back(layout.first(lever) + port);
+        for (const unsigned int dof : contact[lever]->candidate_dofs(x, { { theta[lever] } }))
+          if (dof < layout.dofs_per_lever())
+            reachable.push_back(layout.first(lever) + dof);
       if (layout.sprung)
         reachable.push_back(layout.support());
       return reachable;
@@ -118,26 +119,26 @@ namespace sprag
         lever_contact->widen_reach();
     }
 
-    auto touch(const dealii::Vector<double> &ports, const DrivePoint &drive, Evaluation &found) const
+    auto touch(const dealii::Vector<double> &displacements, const DrivePoint &drive, Evaluation &found) const
     {
       const auto touch_lever = [&](const unsigned int lever)
-      { return contact[lever]->touch(lever_ports(lever, ports), drive, found.per_lever[lever]); };
-      const auto first  = touch_lever(0);
-      const auto memory = joined_memory(points, first, touch_lever(1));
+      { return contact[lever]->touch(lever_part(lever, displacements), drive, found.per_lever[lever]); };
+      const auto first   = touch_lever(0);
+      const auto history = joined_history(points, first, touch_lever(1));
       join(found);
-      return memory;
+      return history;
     }
 
-    double gap_change(const Evaluation &found, const dealii::Vector<double> &port_change, const unsigned int lever) const
+    double gap_change(const Evaluation &found, const dealii::Vector<double> &change, const unsigned int lever) const
     {
-      return contact[lever]->gap_change(found.per_lever[lever], lever_ports(lever, port_change));
+      return contact[lever]->gap_change(found.per_lever[lever], lever_part(lever, change));
     }
 
     /// Mean slip of the first lever [mm].
     double mean_slip(const Evaluation &found, const dealii::Vector<double> &from, const double from_x,
                      const dealii::Vector<double> &to, const double to_x) const
     {
-      return contact[0]->mean_slip(found.per_lever[0], lever_ports(0, from), from_x, lever_ports(0, to), to_x);
+      return contact[0]->mean_slip(found.per_lever[0], lever_part(0, from), from_x, lever_part(0, to), to_x);
     }
 
     void observe(const Evaluation &found, Row &row, const unsigned int lever) const
@@ -152,7 +153,7 @@ namespace sprag
 
     SurfaceShape surface_shape(const dealii::Vector<double> &displacements, const unsigned int lever) const
     {
-      return contact[lever]->surface_shape(lever_ports(lever, displacements));
+      return contact[lever]->surface_shape(lever_part(lever, displacements));
     }
 
     /// Points of the face of either lever.
@@ -165,33 +166,33 @@ namespace sprag
       return joined_faces(contact[0]->face_state(found.per_lever[0], drive), contact[1]->face_state(found.per_lever[1], drive));
     }
 
-    void visit_history(Archive &archive)
+    void serialise_history(Archive &archive)
     {
       for (const auto &lever_contact : contact)
-        lever_contact->visit_history(archive);
+        lever_contact->serialise_history(archive);
     }
 
   private:
     const std::array<std::unique_ptr<Contact>, 2> contact;
-    const PortLayout layout;
+    const InterfaceLayout layout;
     const unsigned int points;
-    PortSelection reachable;
+    DofSelection reachable;
 
-    dealii::Vector<double> lever_ports(const unsigned int lever, const dealii::Vector<double> &pair_ports) const
+    dealii::Vector<double> lever_part(const unsigned int lever, const dealii::Vector<double> &pair_displacements) const
     {
-      return extract_lever_ports(layout, lever, pair_ports);
+      return extract_lever(layout, lever, pair_displacements);
     }
 
-    /// Evaluates both contacts, each at its own ports.
+    /// Evaluates both contacts, each at its own displacements.
     template <class Evaluate>
     void for_each_lever(const SlidingState &state, Evaluation &found, const Evaluate &evaluate) const
     {
       for (unsigned int lever = 0; lever < levers; ++lever)
       {
-        const auto ports = lever_ports(lever, state.ports);
-        const auto rates = state.rates != nullptr ? lever_ports(lever, *state.rates) : dealii::Vector<double>();
-        evaluate(lever, SlidingState{ ports, state.drive, state.speed, state.rates != nullptr ? &rates : nullptr, state.friction,
-                                      state.request, state.friction_share });
+        const auto displacements = lever_part(lever, state.displacements);
+        const auto rates         = state.rates != nullptr ? lever_part(lever, *state.rates) : dealii::Vector<double>();
+        evaluate(lever, SlidingState{ displacements, state.drive, state.speed, state.rates != nullptr ? &rates : nullptr,
+                                      state.friction, state.request, state.friction_share });
       }
       join(found);
     }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "model/dynamic_model.h"
-#include "model/mirrored_ports.h"
+#include "model/mirrored_interface.h"
 
 #include <algorithm>
 #include <array>
@@ -10,10 +10,11 @@
 
 namespace sprag
 {
-  /// Both levers of a mirrored pair as two structures of one lever each: of the motion in which they mirror each other, and of
-  /// that in which the second does the opposite, each at 1/sqrt(2) of its size for both. So a pair costs twice a lever, not more.
-  /// A sprung support moves with the first alone. Coordinates and static forces are those of the first structure and then those
-  /// of the second, on a sprung support with a coordinate of the second that stays 0. Structure: see ModalStructure.
+  /// Both levers of a mirrored pair as two structures of one lever each: of the symmetric motion, in which they mirror each
+  /// other, and of the antisymmetric, in which the second does the opposite, each at 1/sqrt(2) of its size for both. So a pair
+  /// costs twice a lever, not more. A sprung support moves with the first alone. Coordinates and static forces are those of the
+  /// first structure and then those of the second, on a sprung support with a coordinate of the second that stays 0. Structure:
+  /// see ModalStructure.
   template <class Structure>
   class MirroredStructure
   {
@@ -21,14 +22,14 @@ namespace sprag
     static constexpr unsigned int levers = 2;
 
     /// `alike`: whether both structures answer alike, so that levers feel nothing of each other.
-    MirroredStructure(std::unique_ptr<Structure> mirroring, std::unique_ptr<Structure> opposite, const bool alike_)
-        : parts{ { std::move(mirroring), std::move(opposite) } }
+    MirroredStructure(std::unique_ptr<Structure> symmetric, std::unique_ptr<Structure> antisymmetric, const bool alike_)
+        : parts{ { std::move(symmetric), std::move(antisymmetric) } }
         , alike(alike_)
-        , mirrored(parts[0]->ports())
+        , mirrored(parts[0]->layout())
     {
     }
 
-    const PortLayout &ports() const
+    const InterfaceLayout &layout() const
     {
       return mirrored.layout();
     }
@@ -53,53 +54,52 @@ namespace sprag
         use_compliance(weights);
     }
 
-    const PortCompliance &compliance() const
+    const InterfaceCompliance &compliance() const
     {
       return joined_compliance;
     }
 
-    Motion deform(const PortForces &forces) const
+    Motion deform(const InterfaceForces &forces) const
     {
       return joined(parts[0]->deform(mirrored.forces(forces, 0)), parts[1]->deform(mirrored.forces(forces, 1)));
     }
 
-    dealii::Vector<double> port_positions(const Motion &motion) const
+    dealii::Vector<double> positions(const Motion &motion) const
     {
-      return mirrored.displacements(parts[0]->port_positions(motion_part(motion, 0)),
-                                    parts[1]->port_positions(motion_part(motion, 1)));
+      return mirrored.displacements(parts[0]->positions(motion_part(motion, 0)), parts[1]->positions(motion_part(motion, 1)));
     }
 
-    dealii::Vector<double> port_positions(const Motion &motion, const PortSelection &selected) const
+    dealii::Vector<double> positions(const Motion &motion, const DofSelection &selected) const
     {
-      const auto local = mirrored.structure_ports(selected);
-      return mirrored.displacements(parts[0]->port_positions(motion_part(motion, 0), local),
-                                    parts[1]->port_positions(motion_part(motion, 1), local));
+      const auto local = mirrored.structure_dofs(selected);
+      return mirrored.displacements(parts[0]->positions(motion_part(motion, 0), local),
+                                    parts[1]->positions(motion_part(motion, 1), local));
     }
 
-    PortState port_state(const Motion &motion, const unsigned int port) const
+    DofState dof_state(const Motion &motion, const unsigned int dof) const
     {
-      const unsigned int local = mirrored.structure_port(port);
-      return mirrored.state(port, parts[0]->port_state(motion_part(motion, 0), local),
-                            parts[1]->port_state(motion_part(motion, 1), local));
+      const unsigned int local = mirrored.structure_dof(dof);
+      return mirrored.state(dof, parts[0]->dof_state(motion_part(motion, 0), local),
+                            parts[1]->dof_state(motion_part(motion, 1), local));
     }
 
-    Kinematic port_kinematics(const Motion &motion) const
+    Kinematic kinematics(const Motion &motion) const
     {
-      const auto mirroring = parts[0]->port_kinematics(motion_part(motion, 0));
-      const auto opposite  = parts[1]->port_kinematics(motion_part(motion, 1));
-      return { mirrored.displacements(mirroring.position, opposite.position),
-               mirrored.displacements(mirroring.velocity, opposite.velocity),
-               mirrored.displacements(mirroring.acceleration, opposite.acceleration) };
+      const auto symmetric     = parts[0]->kinematics(motion_part(motion, 0));
+      const auto antisymmetric = parts[1]->kinematics(motion_part(motion, 1));
+      return { mirrored.displacements(symmetric.position, antisymmetric.position),
+               mirrored.displacements(symmetric.velocity, antisymmetric.velocity),
+               mirrored.displacements(symmetric.acceleration, antisymmetric.acceleration) };
     }
 
-    dealii::Vector<double> free_ports(const Motion &accepted, const PortSelection &selected) const
+    dealii::Vector<double> free_displacements(const Motion &accepted, const DofSelection &selected) const
     {
-      const auto local = mirrored.structure_ports(selected);
-      return mirrored.displacements(parts[0]->free_ports(motion_part(accepted, 0), local),
-                                    parts[1]->free_ports(motion_part(accepted, 1), local));
+      const auto local = mirrored.structure_dofs(selected);
+      return mirrored.displacements(parts[0]->free_displacements(motion_part(accepted, 0), local),
+                                    parts[1]->free_displacements(motion_part(accepted, 1), local));
     }
 
-    Motion advance(const Motion &accepted, const PortForces &forces, const DrivePoint &to) const
+    Motion advance(const Motion &accepted, const InterfaceForces &forces, const DrivePoint &to) const
     {
       Motion result = joined(parts[0]->advance(motion_part(accepted, 0), mirrored.forces(forces, 0), to),
                              parts[1]->advance(motion_part(accepted, 1), mirrored.forces(forces, 1), to));
@@ -125,14 +125,14 @@ namespace sprag
       return sum;
     }
 
-    dealii::Vector<double> port_error(const Motion &begin, const Motion &end) const
+    dealii::Vector<double> local_error(const Motion &begin, const Motion &end) const
     {
-      return mirrored.displacements(parts[0]->port_error(motion_part(begin, 0), motion_part(end, 0)),
-                                    parts[1]->port_error(motion_part(begin, 1), motion_part(end, 1)));
+      return mirrored.displacements(parts[0]->local_error(motion_part(begin, 0), motion_part(end, 0)),
+                                    parts[1]->local_error(motion_part(begin, 1), motion_part(end, 1)));
     }
 
     /// Vibrations of both motions. Forces that do not mirror as the levers do couple them, which must be small structures then.
-    std::vector<StructureMode> vibrations(const PortPerturbation &forces, const unsigned int number)
+    std::vector<StructureMode> vibrations(const LinearisedForces &forces, const unsigned int number)
     {
       const auto both = mirrored.on_both(forces);
       std::vector<StructureMode> result;
@@ -160,7 +160,7 @@ namespace sprag
     {
       auto result = find(0, motion_part(motion, 0));
       result.add(lever == 0 ? 1. : -1., find(1, motion_part(motion, 1)));
-      result *= MirroredPorts::share();
+      result *= MirroredInterface::share();
       return result;
     }
 
@@ -171,18 +171,18 @@ namespace sprag
                           { return parts[part]->elastic_displacement(part_motion); });
     }
 
-    void visit_history(Archive &archive)
+    void serialise_history(Archive &archive)
     {
       for (const auto &part : parts)
-        part->visit_history(archive);
+        part->serialise_history(archive);
     }
 
   private:
     const std::array<std::unique_ptr<Structure>, 2> parts;
     const bool alike;
-    const MirroredPorts mirrored;
+    const MirroredInterface mirrored;
     StepWeights joined_for{}; ///< step of the compliance; of dt = 0 in statics
-    PortCompliance joined_compliance;
+    InterfaceCompliance joined_compliance;
 
     void use_compliance(const StepWeights &weights)
     {
@@ -215,18 +215,18 @@ namespace sprag
       return result;
     }
 
-    static Motion joined(const Motion &mirroring, const Motion &opposite)
+    static Motion joined(const Motion &symmetric, const Motion &antisymmetric)
     {
-      const auto &a = mirroring.coordinates;
-      const auto &b = opposite.coordinates;
+      const auto &a = symmetric.coordinates;
+      const auto &b = antisymmetric.coordinates;
       Motion result;
       result.coordinates = { stacked(a.position, b.position), stacked(a.velocity, b.velocity),
                              stacked(a.acceleration, b.acceleration) };
-      result.face_force  = stacked(mirroring.face_force, opposite.face_force);
+      result.face_force  = stacked(symmetric.face_force, antisymmetric.face_force);
       return result;
     }
 
-    std::vector<StructureMode> pair_vibrations([[maybe_unused]] const PortPerturbation &pair_perturbation) const
+    std::vector<StructureMode> pair_vibrations([[maybe_unused]] const LinearisedForces &pair_perturbation) const
     {
       if constexpr (Structure::is_small)
         return parts[0]->vibrations_with(*parts[1], pair_perturbation);
@@ -236,7 +236,7 @@ namespace sprag
     /// The second structure's coordinate of the support, which nothing moves, is a mode that the pair does not have.
     bool is_idle_support(const StructureMode &mode) const
     {
-      if (!ports().sprung)
+      if (!layout().sprung)
         return false;
       double size = 0., support_size = 0.;
       for (const auto &part : mode.coordinates)

@@ -39,9 +39,9 @@ namespace sprag
       return result;
     }
 
-    /// Adds a share of G f to displacements of the selected ports. Forces may be empty, which move nothing.
+    /// Adds a share of G f to displacements of the selected dofs. Forces may be empty, which move nothing.
     void add_static_displacements(const FullMatrix<double> &compliance, Vector<double> forces, const double share,
-                                  const PortSelection &selected, Vector<double> &displacements)
+                                  const DofSelection &selected, Vector<double> &displacements)
     {
       const auto loaded = filled_places(forces);
       if (loaded.empty())
@@ -91,7 +91,7 @@ namespace sprag
     statics.inverse.reinit(n, n);
     for (unsigned int i = 0; i < n; ++i)
       statics.inverse(i, i) = 1. / data.stiffness[i];
-    statics.compliance = port_compliance(statics.inverse, 1.);
+    statics.compliance = interface_compliance(statics.inverse, 1.);
     current            = &statics;
   }
 
@@ -100,14 +100,14 @@ namespace sprag
     return static_cast<unsigned int>(data.stiffness.size());
   }
 
-  unsigned int ModalStructure::n_ports() const
+  unsigned int ModalStructure::n_interface() const
   {
-    return data.ports.size();
+    return data.layout.size();
   }
 
-  const PortLayout &ModalStructure::ports() const
+  const InterfaceLayout &ModalStructure::layout() const
   {
-    return data.ports;
+    return data.layout;
   }
 
   Motion ModalStructure::rest() const
@@ -120,11 +120,11 @@ namespace sprag
     return motion;
   }
 
-  PortCompliance ModalStructure::port_compliance(const FullMatrix<double> &inverse, const double static_share) const
+  InterfaceCompliance ModalStructure::interface_compliance(const FullMatrix<double> &inverse, const double static_share) const
   {
-    // Without a matrix of all ports beside it, whose room in memory would not serve again.
-    const unsigned int n = data.ports.ports_per_lever();
-    FullMatrix<double> lever_compliance(n), half(n_ports(), n_modes()), shapes(n, n_modes()), own(n, n_modes());
+    // Without a matrix of the whole interface beside it, whose room in memory would not serve again.
+    const unsigned int n = data.layout.dofs_per_lever();
+    FullMatrix<double> lever_compliance(n), half(n_interface(), n_modes()), shapes(n, n_modes()), own(n, n_modes());
     data.shapes.mmult(half, inverse);
     shapes.fill(data.shapes);
     own.fill(half);
@@ -132,12 +132,12 @@ namespace sprag
     for (unsigned int i = 0; i < data.face_compliance.m(); ++i)
       for (unsigned int j = 0; j < data.face_compliance.n(); ++j)
         lever_compliance(i, j) += static_share * data.face_compliance(i, j);
-    PortCompliance result;
+    InterfaceCompliance result;
     result.append(std::move(lever_compliance));
-    if (data.ports.sprung)
+    if (data.layout.sprung)
     {
-      const double *const support_row = &half(data.ports.support(), 0);
-      result.append(std::inner_product(support_row, support_row + n_modes(), &data.shapes(data.ports.support(), 0), 0.));
+      const double *const support_row = &half(data.layout.support(), 0);
+      result.append(std::inner_product(support_row, support_row + n_modes(), &data.shapes(data.layout.support(), 0), 0.));
     }
     return result;
   }
@@ -162,7 +162,7 @@ namespace sprag
     for (unsigned int i = 0; i < n_modes(); ++i)
       effective(i, i) += weights.mass() + weights.stiffness() * data.stiffness[i];
     step->inverse    = inverse_matrix(effective);
-    step->compliance = port_compliance(step->inverse, 1. / static_weight(weights));
+    step->compliance = interface_compliance(step->inverse, 1. / static_weight(weights));
     return step;
   }
 
@@ -177,90 +177,90 @@ namespace sprag
     current                    = step_among(steps, weights, kept, [&] { return make_step(weights); });
   }
 
-  const PortCompliance &ModalStructure::compliance() const
+  const InterfaceCompliance &ModalStructure::compliance() const
   {
     return current->compliance;
   }
 
-  Vector<double> ModalStructure::modal_forces(const PortForces &forces) const
+  Vector<double> ModalStructure::modal_forces(const InterfaceForces &forces) const
   {
     Vector<double> result(n_modes());
-    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+    for (unsigned int a = 0; a < forces.dofs.size(); ++a)
       for (unsigned int i = 0; i < n_modes(); ++i)
-        result[i] += data.shapes(forces.ports[a], i) * forces.values[a];
+        result[i] += data.shapes(forces.dofs[a], i) * forces.values[a];
     return result;
   }
 
-  Motion ModalStructure::deform(const PortForces &forces) const
+  Motion ModalStructure::deform(const InterfaceForces &forces) const
   {
     Motion motion = rest();
     statics.inverse.vmult(motion.coordinates.position, modal_forces(forces));
-    for (unsigned int a = 0; a < forces.ports.size(); ++a)
-      if (forces.ports[a] < motion.face_force.size())
-        motion.face_force[forces.ports[a]] = forces.values[a];
+    for (unsigned int a = 0; a < forces.dofs.size(); ++a)
+      if (forces.dofs[a] < motion.face_force.size())
+        motion.face_force[forces.dofs[a]] = forces.values[a];
     return motion;
   }
 
-  Vector<double> ModalStructure::port_positions(const Motion &motion) const
+  Vector<double> ModalStructure::positions(const Motion &motion) const
   {
-    return port_positions(motion, all_ports(n_ports()));
+    return positions(motion, all_dofs(n_interface()));
   }
 
-  double ModalStructure::port_position(const Motion &motion, const std::vector<unsigned int> &loaded,
-                                       const unsigned int port) const
+  double ModalStructure::interface_displacement(const Motion &motion, const std::vector<unsigned int> &loaded,
+                                                const unsigned int dof) const
   {
     const auto &q             = motion.coordinates.position;
-    const double *const shape = &data.shapes(port, 0);
+    const double *const shape = &data.shapes(dof, 0);
     double sum                = 0.;
     for (unsigned int i = 0; i < q.size(); ++i)
       sum += shape[i] * q[i];
-    if (port < motion.face_force.size())
+    if (dof < motion.face_force.size())
       for (const unsigned int i : loaded)
-        sum += data.face_compliance(port, i) * motion.face_force[i];
+        sum += data.face_compliance(dof, i) * motion.face_force[i];
     return sum;
   }
 
-  std::vector<unsigned int> ModalStructure::loaded_ports(const Motion &motion, const unsigned int first_selected) const
+  DofSelection ModalStructure::loaded_dofs(const Motion &motion, const unsigned int first_selected) const
   {
     return first_selected < motion.face_force.size() ? filled_places(motion.face_force) : std::vector<unsigned int>();
   }
 
-  void ModalStructure::add_positions(const Vector<double> &coordinates, const PortSelection &selected,
+  void ModalStructure::add_positions(const Vector<double> &coordinates, const DofSelection &selected,
                                      Vector<double> &result) const
   {
-    for (const unsigned int port : selected)
+    for (const unsigned int dof : selected)
     {
-      const double *const shape = &data.shapes(port, 0);
+      const double *const shape = &data.shapes(dof, 0);
       for (unsigned int i = 0; i < coordinates.size(); ++i)
-        result[port] += shape[i] * coordinates[i];
+        result[dof] += shape[i] * coordinates[i];
     }
   }
 
-  Vector<double> ModalStructure::port_positions(const Motion &motion, const PortSelection &selected) const
+  Vector<double> ModalStructure::positions(const Motion &motion, const DofSelection &selected) const
   {
-    Vector<double> result(n_ports());
+    Vector<double> result(n_interface());
     add_positions(motion.coordinates.position, selected, result);
     add_static_displacements(data.face_compliance, motion.face_force, 1., selected, result);
     return result;
   }
 
-  PortState ModalStructure::port_state(const Motion &motion, const unsigned int port) const
+  DofState ModalStructure::dof_state(const Motion &motion, const unsigned int dof) const
   {
-    PortState state{ port_position(motion, loaded_ports(motion, port), port), 0. };
+    DofState state{ interface_displacement(motion, loaded_dofs(motion, dof), dof), 0. };
     for (unsigned int i = 0; i < n_modes(); ++i)
-      state.velocity += data.shapes(port, i) * motion.coordinates.velocity[i];
+      state.velocity += data.shapes(dof, i) * motion.coordinates.velocity[i];
     return state;
   }
 
-  Kinematic ModalStructure::port_kinematics(const Motion &motion) const
+  Kinematic ModalStructure::kinematics(const Motion &motion) const
   {
-    Kinematic result{ port_positions(motion), Vector<double>(n_ports()), Vector<double>(n_ports()) };
+    Kinematic result{ positions(motion), Vector<double>(n_interface()), Vector<double>(n_interface()) };
     data.shapes.vmult(result.velocity, motion.coordinates.velocity);
     data.shapes.vmult(result.acceleration, motion.coordinates.acceleration);
     return result;
   }
 
-  Vector<double> ModalStructure::free_ports(const Motion &accepted, const PortSelection &selected) const
+  Vector<double> ModalStructure::free_displacements(const Motion &accepted, const DofSelection &selected) const
   {
     const auto &w      = current->weights;
     const auto &start  = accepted.coordinates;
@@ -277,13 +277,13 @@ namespace sprag
     current->inverse.vmult(free_motion, right);
 
     looked_at = selected;
-    Vector<double> result(n_ports());
+    Vector<double> result(n_interface());
     add_positions(free_motion, selected, result);
     add_static_displacements(data.face_compliance, accepted.face_force, kept_share(w), selected, result);
     return result;
   }
 
-  Motion ModalStructure::advance(const Motion &accepted, const PortForces &forces, const DrivePoint &to) const
+  Motion ModalStructure::advance(const Motion &accepted, const InterfaceForces &forces, const DrivePoint &to) const
   {
     const auto &w = current->weights;
     Motion motion;
@@ -295,9 +295,9 @@ namespace sprag
     set_position(motion.coordinates, position, w);
 
     motion.face_force = scaled(accepted.face_force, kept_share(w));
-    for (unsigned int a = 0; a < forces.ports.size(); ++a)
-      if (forces.ports[a] < motion.face_force.size())
-        motion.face_force[forces.ports[a]] += forces.values[a] / static_weight(w);
+    for (unsigned int a = 0; a < forces.dofs.size(); ++a)
+      if (forces.dofs[a] < motion.face_force.size())
+        motion.face_force[forces.dofs[a]] += forces.values[a] / static_weight(w);
     drop_remnants(motion.face_force);
     return motion;
   }
@@ -334,43 +334,43 @@ namespace sprag
     for (unsigned int i = 0; i < n_modes(); ++i)
       (i == data.support ? energy.support : energy.elastic) += 0.5 * data.stiffness[i] * q.position[i] * q.position[i];
     energy.elastic += 0.5 * quadratic_form(data.face_compliance, motion.face_force);
-    const double rotation = port_state(motion, data.ports.rotation()).position;
+    const double rotation = dof_state(motion, data.layout.rotation()).position;
     energy.spring         = 0.5 * data.spring_stiffness * rotation * rotation;
     energy.elastic -= energy.spring;
     return energy;
   }
 
-  std::vector<StructureMode> ModalStructure::vibrations(const PortPerturbation &forces, const unsigned int /*number*/) const
+  std::vector<StructureMode> ModalStructure::vibrations(const LinearisedForces &forces, const unsigned int /*number*/) const
   {
     return modal_vibrations(data, forces);
   }
 
   namespace
   {
-    /// Two levers as one, whose ports, modes and static shapes follow each other.
+    /// Two levers as one, whose dofs, modes and static shapes follow each other.
     ModalData stacked(const ModalData &first, const ModalData &second)
     {
-      ModalData both          = first;
-      const std::size_t modes = first.shapes.n();
-      const std::size_t ports = first.shapes.m();
+      ModalData both                = first;
+      const std::size_t modes       = first.shapes.n();
+      const std::size_t n_interface = first.shapes.m();
       both.stiffness.insert(both.stiffness.end(), second.stiffness.begin(), second.stiffness.end());
-      both.shapes.reinit(ports + second.shapes.m(), modes + second.shapes.n());
+      both.shapes.reinit(n_interface + second.shapes.m(), modes + second.shapes.n());
       both.damping.reinit(both.shapes.n(), both.shapes.n());
       both.shapes.fill(first.shapes);
-      both.shapes.fill(second.shapes, ports, modes);
+      both.shapes.fill(second.shapes, n_interface, modes);
       both.damping.fill(first.damping);
       both.damping.fill(second.damping, modes, modes);
       if (first.face_compliance.m() > 0)
       {
-        both.face_compliance.reinit(ports + second.face_compliance.m(), ports + second.face_compliance.m());
+        both.face_compliance.reinit(n_interface + second.face_compliance.m(), n_interface + second.face_compliance.m());
         both.face_compliance.fill(first.face_compliance);
-        both.face_compliance.fill(second.face_compliance, ports, ports);
+        both.face_compliance.fill(second.face_compliance, n_interface, n_interface);
       }
       return both;
     }
   } // namespace
 
-  std::vector<StructureMode> ModalStructure::vibrations_with(const ModalStructure &other, const PortPerturbation &forces) const
+  std::vector<StructureMode> ModalStructure::vibrations_with(const ModalStructure &other, const LinearisedForces &forces) const
   {
     auto modes                   = modal_vibrations(stacked(data, other.data), forces);
     const std::size_t own_size   = data.face_compliance.m();
@@ -381,7 +381,7 @@ namespace sprag
         Vector<double> joined(static_cast<unsigned int>(own_size + other_size));
         std::copy_n(force.begin(), own_size, joined.begin());
         if (other_size > 0)
-          std::copy_n(force.begin() + n_ports(), other_size, joined.begin() + own_size);
+          std::copy_n(force.begin() + n_interface(), other_size, joined.begin() + own_size);
         force = joined;
       }
     return modes;
@@ -393,16 +393,16 @@ namespace sprag
     return product(data.damping, v, v) + data.relaxation * quadratic_form(data.face_compliance, velocities.face_force);
   }
 
-  Vector<double> ModalStructure::port_error(const Motion &begin, const Motion &end) const
+  Vector<double> ModalStructure::local_error(const Motion &begin, const Motion &end) const
   {
     const auto &w        = current->weights;
     Vector<double> error = end.coordinates.acceleration;
     error -= begin.coordinates.acceleration;
     error *= w.dt * w.dt * (w.beta - 1. / 6.);
-    Vector<double> result(n_ports());
-    for (const unsigned int port : looked_at)
+    Vector<double> result(n_interface());
+    for (const unsigned int dof : looked_at)
       for (unsigned int i = 0; i < error.size(); ++i)
-        result[port] += data.shapes(port, i) * error[i];
+        result[dof] += data.shapes(dof, i) * error[i];
     return result;
   }
 } // namespace sprag

@@ -21,19 +21,19 @@ namespace sprag
     class StateProblem
     {
     public:
-      StateProblem(const ModalData &data_, const PortPerturbation &forces_)
+      StateProblem(const ModalData &data_, const LinearisedForces &forces_)
           : data(data_)
           , forces(forces_)
           , n(static_cast<unsigned int>(data.stiffness.size()))
-          , n_forces(static_cast<unsigned int>(forces.ports.size()))
+          , n_forces(static_cast<unsigned int>(forces.dofs.size()))
       {
         for (unsigned int a = 0; a < n_forces; ++a)
-          if (forces.ports[a] < data.face_compliance.m())
+          if (forces.dofs[a] < data.face_compliance.m())
             ++n_static;
         shapes.reinit(n_forces, n);
         for (unsigned int a = 0; a < n_forces; ++a)
           for (unsigned int i = 0; i < n; ++i)
-            shapes(a, i) = data.shapes(forces.ports[a], i);
+            shapes(a, i) = data.shapes(forces.dofs[a], i);
         assemble();
       }
 
@@ -68,13 +68,13 @@ namespace sprag
           std::copy(pair.vector[part].begin(), pair.vector[part].begin() + n, result.coordinates[part].begin());
           result.face_force[part].reinit(static_cast<unsigned int>(data.face_compliance.m()));
         }
-        const auto z = port_amplitudes(pair);
+        const auto z = interface_amplitudes(pair);
         const auto f = forces.forces(lambda, z);
         for (unsigned int a = 0; a < n_static; ++a)
         {
-          const Complex elastic                 = f[a] / (1. + lambda * data.relaxation);
-          result.face_force[0][forces.ports[a]] = elastic.real();
-          result.face_force[1][forces.ports[a]] = elastic.imag();
+          const Complex elastic                = f[a] / (1. + lambda * data.relaxation);
+          result.face_force[0][forces.dofs[a]] = elastic.real();
+          result.face_force[1][forces.dofs[a]] = elastic.imag();
         }
         result.residual = backward_error(lambda, pair, f);
         return result;
@@ -82,7 +82,7 @@ namespace sprag
 
     private:
       const ModalData &data;
-      const PortPerturbation &forces;
+      const LinearisedForces &forces;
       const unsigned int n;
       const unsigned int n_forces;
       unsigned int n_static = 0; ///< of the forces, the first ones
@@ -126,7 +126,7 @@ namespace sprag
         {
           into_static(a, a) = 1.;
           for (unsigned int b = 0; b < n_static; ++b)
-            compliance(a, b) = data.face_compliance(forces.ports[a], forces.ports[b]);
+            compliance(a, b) = data.face_compliance(forces.dofs[a], forces.dofs[b]);
         }
         state_matrix.reinit(size(), size());
         rate_matrix.reinit(size(), size());
@@ -188,7 +188,7 @@ namespace sprag
         add_product(rate, one_force, into_static, -1., at_tau, at_u, rate_matrix);
       }
 
-      std::vector<Complex> port_amplitudes(const Eigenpair &pair) const
+      std::vector<Complex> interface_amplitudes(const Eigenpair &pair) const
       {
         std::vector<Complex> z(n_forces);
         for (unsigned int a = 0; a < n_forces; ++a)
@@ -259,7 +259,7 @@ namespace sprag
           double elastic_size = 0.;
           for (unsigned int b = 0; b < n_static; ++b)
           {
-            const Complex term = data.face_compliance(forces.ports[a], forces.ports[b]) * f[b];
+            const Complex term = data.face_compliance(forces.dofs[a], forces.dofs[b]) * f[b];
             elastic += term;
             elastic_size += std::abs(term);
           }
@@ -271,7 +271,7 @@ namespace sprag
     };
   } // namespace
 
-  std::vector<StructureMode> modal_vibrations(const ModalData &data, const PortPerturbation &forces)
+  std::vector<StructureMode> modal_vibrations(const ModalData &data, const LinearisedForces &forces)
   {
     constexpr double widest     = 1e-10;
     constexpr double free_creep = 1e-10;

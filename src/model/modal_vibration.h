@@ -6,11 +6,11 @@
 
 namespace sprag
 {
-  /// Solutions exp(lambda t) of a modal structure under linear forces on its ports, by increasing |lambda|. With displacements
-  /// q of the modes and u of the loaded static shapes
-  ///   q'' + C q' + omega^2 q = S^T f,   u + relaxation u' = G f,   f as in PortPerturbation, z = S q + u,
+  /// Solutions exp(lambda t) of a modal structure under linear forces at its interface, by increasing |lambda|. With
+  /// displacements q of the modes and u of the loaded static shapes
+  ///   q'' + C q' + omega^2 q = S^T f,   u + relaxation u' = G f,   f as in LinearisedForces, z = S q + u,
   /// and the tractions of friction's delays.
   /// Eigenvalues more than 1e10 times the smallest are left out, and -1 / relaxation, at which f = 0. Throws AnalysisError if
   /// LAPACK fails or the structure under these forces has a static mode, lambda = 0, exactly.
-  std::vector<StructureMode> modal_vibrations(const ModalData &data, const PortPerturbation &forces);
+  std::vector<StructureMode> modal_vibrations(const ModalData &data, const LinearisedForces &forces);
 } // namespace sprag

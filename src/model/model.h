@@ -3,7 +3,7 @@
 
 #include "base/archive.h"
 #include "model/contact_point.h"
-#include "model/port_forces.h"
+#include "model/interface_forces.h"
 #include "results/columns.h"
 #include "results/result_file.h"
 #include "scene/drive.h"
@@ -20,28 +20,28 @@ namespace sprag
   struct State
   {
     DrivePoint drive;
-    dealii::Vector<double> coordinates;            ///< generalised coordinates of the model
-    std::vector<ContactMemory> contact;            ///< of the contact points, as the model keeps them
-    PortLoads forces{};                            ///< on the ports of a meshed lever, which its displacements follow from
-    std::vector<PointMemory<2>> surface_contact{}; ///< of the contact points of a surface
+    dealii::Vector<double> coordinates;             ///< generalised coordinates of the model
+    std::vector<ContactHistory> contact;            ///< of the contact points, as the model keeps them
+    DofLoads forces{};                              ///< at the interface of a meshed lever, which its displacements follow from
+    std::vector<PointHistory<2>> surface_contact{}; ///< of the contact points of a surface
   };
 
   /// A step without inertia from an accepted state.
   struct Step
   {
-    State trial;                  ///< at its end; at first a guess
-    DrivePoint start;             ///< of the drive
-    PortLoads forces;             ///< where it begins
-    dealii::Vector<double> ports; ///< displacements of the ports where it begins
-    PortSelection near; ///< ports that the contact may reach and those of the forces, of a model that looks at some alone
+    State trial;                          ///< at its end; at first a guess
+    DrivePoint start;                     ///< of the drive
+    DofLoads forces;                      ///< where it begins
+    dealii::Vector<double> displacements; ///< interface displacements where it begins
+    DofSelection near;                    ///< candidate dofs and those of the forces, of a model that looks at some alone
   };
 
   /// The equilibrium of a trial state, as one evaluation found it.
   struct Evaluation
   {
-    double residual = 0.;  ///< falls to round-off at equilibrium; unit of the model's choice, for the line search alone
-    double overlap  = 0.;  ///< largest p / penalty over the contact points [mm]
-    std::any model_data{}; ///< contacts and forces in the model's own terms
+    double residual    = 0.; ///< falls to round-off at equilibrium; unit of the model's choice, for the line search alone
+    double penetration = 0.; ///< largest p / penalty over the contact points [mm]
+    std::any model_data{};   ///< contacts and forces in the model's own terms
   };
 
   /// Quasi-static mechanics of a scene at one fidelity. Analyses know nothing of bodies, meshes and dimensions.
@@ -55,8 +55,8 @@ namespace sprag
     /// Returns the step from an accepted state to `end`, with a first guess of the state there.
     virtual Step begin_step(const State &accepted, const DrivePoint &end) = 0;
 
-    /// Evaluates the equilibrium of the step's trial state and sets the forces of that. Where the contact reaches beyond the
-    /// ports that the step looks at, it looks at more from then on.
+    /// Evaluates the equilibrium of the step's trial state and sets the forces of that. Where the contact reaches beyond the dofs
+    /// that the step looks at, it looks at more from then on.
     virtual Evaluation evaluate(Step &step, FrictionMode mode) = 0;
 
     /// Solves the linearised equilibrium for the change of the coordinates. Throws AnalysisError if the factorisation fails.
@@ -68,7 +68,7 @@ namespace sprag
     /// Returns the size of the scene, against which positions are rounded off [mm].
     virtual double length_scale() const = 0;
 
-    /// Returns the largest overlap of body and obstacle, or what of it the next augmentation removes [mm].
+    /// Returns the largest penetration of body and counterface, or what of it the next augmentation removes [mm].
     virtual double penetration(const Evaluation &found) const = 0;
 
     /// Returns why an equilibrium is beyond what the model can tell; empty if it is not.
@@ -77,8 +77,8 @@ namespace sprag
     /// Gives a state the multipliers of the next augmentation.
     virtual void augment(const Evaluation &found, State &trial) const = 0;
 
-    /// Gives a state the memory of the contact points at the end of its step.
-    virtual void remember(const Evaluation &found, State &state) const = 0;
+    /// Stores in a state the history of the contact points at the end of its step.
+    virtual void store_history(const Evaluation &found, State &state) const = 0;
 
     /// Fills the columns of mechanics.
     virtual void observe(const State &state, const Evaluation &found, Row &row) const = 0;
@@ -89,8 +89,8 @@ namespace sprag
     /// Returns the tractions at these points.
     virtual FaceState face_state(const State &state, const Evaluation &found) const = 0;
 
-    /// Visits what later steps depend on, to the last bit, beside the state that they begin with: what was found on the way and
-    /// is kept. A model that takes it from an archive goes on as the one it is of.
-    virtual void visit_history(Archive &archive) = 0;
+    /// Serialises what later steps depend on, to the last bit, beside the state that they begin with: what was found on the way
+    /// and is kept. A model that takes it from an archive goes on as the one it is of.
+    virtual void serialise_history(Archive &archive) = 0;
   };
 } // namespace sprag

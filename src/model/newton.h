@@ -7,7 +7,7 @@
 
 namespace sprag
 {
-  /// Tolerance over the overlap, see solve_by_newton().
+  /// Tolerance over the penetration, see solve_by_newton().
   constexpr double relative_tolerance = 1e-7;
 
   struct NewtonResult
@@ -24,10 +24,10 @@ namespace sprag
   };
 
   /// Newton's method with a line search that halves the correction until the residual falls, from the guess in `x`:
-  ///   evaluate(x)       returns `residual`, its size, and `overlap`, the largest p / penalty over the contact points [mm],
+  ///   evaluate(x)       returns `residual`, its size, and `penetration`, the largest p / penalty over the contact points [mm],
   ///   correction(found) the change of x that removes the residual of an evaluation in the linearised equations,
   ///   movement(dx)      the largest movement of a material point that a change means [mm].
-  /// Converged when a full correction moves no point by more than 1e-7 of the overlap and `round_off` [mm]: as convergence is
+  /// Converged when a full correction moves no point by more than 1e-7 of the penetration and `round_off` [mm]: as convergence is
   /// quadratic, what is left is round-off. With a share left_out > 0 also where the residual that a full correction leaves would
   /// move no point by more than this share of that, if a unit of it moves what one did at most before; this saves the last
   /// correction.
@@ -47,7 +47,7 @@ namespace sprag
       const auto change     = correction(found);
       const double moved    = movement(change);
       const double residual = found.residual;
-      const auto negligible = [&] { return relative_tolerance * found.overlap + round_off; };
+      const auto negligible = [&] { return relative_tolerance * found.penetration + round_off; };
       if (moved <= negligible())
       {
         x += change;

@@ -42,37 +42,37 @@ namespace sprag
   };
 
   /// Two elements around the point across from the circle's centre: the contact stays between their ends for a step.
-  unsigned int PointContact::window_at(const Vector<double> &ports, const double x) const
+  unsigned int PointContact::window_at(const Vector<double> &z, const double x) const
   {
     const auto &mesh = properties.mesh;
     if (mesh.elements == 0)
       return 0;
-    const Local q       = coordinates(0, ports, x);
+    const Local q       = coordinates(0, z, x);
     const double xi     = cylinder_centre(properties.geometry, q[x_index], q[theta_index]).xi;
     const double before = std::round(xi / mesh.element_length()) - 1.;
     return static_cast<unsigned int>(std::clamp(before, 0., mesh.elements - 2.));
   }
 
-  PointContact::Local PointContact::coordinates(const unsigned int window, const Vector<double> &ports, const double x) const
+  PointContact::Local PointContact::coordinates(const unsigned int window, const Vector<double> &z, const double x) const
   {
-    Local q = rates(window, ports, x);
+    Local q = rates(window, z, x);
     q[theta_index] += properties.rest_inclination;
     return q;
   }
 
-  PointContact::Local PointContact::rates(const unsigned int window, const Vector<double> &port_rates, const double v) const
+  PointContact::Local PointContact::rates(const unsigned int window, const Vector<double> &interface_rates, const double v) const
   {
     Local q;
     if (properties.mesh.elements > 0)
       for (unsigned int i = 0; i < n_nodal; ++i)
         if (window + i / 2 > 0)
-          q[i] = port_rates[2 * window + i - 2];
-    q[theta_index] = port_rates[properties.ports.rotation()];
-    q[x_index]     = v - (properties.ports.sprung ? port_rates[properties.ports.support()] : 0.);
+          q[i] = interface_rates[2 * window + i - 2];
+    q[theta_index] = interface_rates[properties.layout.rotation()];
+    q[x_index]     = v - (properties.layout.sprung ? interface_rates[properties.layout.support()] : 0.);
     return q;
   }
 
-  unsigned int PointContact::first_element_port(const unsigned int window, const double xi) const
+  unsigned int PointContact::first_element_dof(const unsigned int window, const double xi) const
   {
     return properties.mesh.elements > 0 && xi >= (window + 1) * properties.mesh.element_length() ? 2 : 0;
   }
@@ -88,7 +88,7 @@ namespace sprag
     if (mesh.elements > 0)
     {
       const double h = mesh.element_length();
-      const HermiteShapes<N> shapes(h, 1. / h * xi - (window + first_element_port(window, value(xi)) / 2));
+      const HermiteShapes<N> shapes(h, 1. / h * xi - (window + first_element_dof(window, value(xi)) / 2));
       for (unsigned int a = 0; a < n_element_dofs; ++a)
       {
         at.shape[a] = shapes.shape[a];
@@ -113,7 +113,7 @@ namespace sprag
     Closest result{ c.xi, 1. };
     for (unsigned int i = 0; i < 20 && properties.mesh.elements > 0; ++i)
     {
-      const auto *const nodal = &q[first_element_port(window, result.xi)];
+      const auto *const nodal = &q[first_element_dof(window, result.xi)];
       const auto at           = surface(window, nodal, variable<N>(result.xi, 0));
       const N slope           = (at.xi - c.xi) * at.tangent[0] + (at.eta - c.eta) * at.tangent[1];
       const double change     = slope.v / slope.d[0];
@@ -128,7 +128,7 @@ namespace sprag
   double PointContact::gap(const unsigned int window, const Local &q) const
   {
     const double xi = closest(window, q).xi;
-    const auto at   = surface(window, &q[first_element_port(window, xi)], xi);
+    const auto at   = surface(window, &q[first_element_dof(window, xi)], xi);
     const auto c    = cylinder_centre(properties.geometry, q[x_index], q[theta_index]);
     return std::hypot(at.xi - c.xi, at.eta - c.eta) - properties.geometry.cylinder_radius;
   }
@@ -138,7 +138,7 @@ namespace sprag
     constexpr int n_used = n_element_dofs + 2; // coordinates of the element, theta, x
     using N              = Dual<double, n_used>;
     const auto foot      = closest(window, q);
-    const auto first     = first_element_port(window, foot.xi);
+    const auto first     = first_element_dof(window, foot.xi);
     const auto circle    = placed_circle(properties.geometry, variable<N>(q[x_index], 5), variable<N>(q[theta_index], 4));
     Several<N, n_element_dofs> nodal;
     for (unsigned int a = 0; a < n_element_dofs; ++a)
@@ -177,9 +177,9 @@ namespace sprag
     return result;
   }
 
-  double PointContact::gap_change(const Evaluation &found, const Vector<double> &port_change, unsigned int) const
+  double PointContact::gap_change(const Evaluation &found, const Vector<double> &change, unsigned int) const
   {
-    return found.end.gap_row * rates(found.window, port_change, 0.);
+    return found.end.gap_row * rates(found.window, change, 0.);
   }
 
   double PointContact::mean_slip(const Evaluation &found, const Vector<double> &from, const double from_x,
@@ -203,10 +203,10 @@ namespace sprag
       double w     = 0.;
       double slope = 0.;
       for (unsigned int a = 0; a < 4; ++a)
-        if (const unsigned int port = 2 * element + a; port >= 2)
+        if (const unsigned int dof = 2 * element + a; dof >= 2)
         {
-          w += shapes.shape[a] * displacements[port - 2];
-          slope += shapes.slope[a] * displacements[port - 2];
+          w += shapes.shape[a] * displacements[dof - 2];
+          slope += shapes.slope[a] * displacements[dof - 2];
         }
       shape.xi.push_back(i * mesh.element_length() / parts);
       shape.across.push_back(w);
@@ -217,11 +217,11 @@ namespace sprag
 
   PointContact::PointContact(PointContactProperties point_properties)
       : properties(std::move(point_properties))
-      , all(all_ports(properties.ports.size()))
+      , all(all_dofs(properties.layout.size()))
   {
   }
 
-  StepKinematics<PointContact::n> PointContact::step_kinematics(const PortStep &step, const Local &end_rates,
+  StepKinematics<PointContact::n> PointContact::step_kinematics(const InterfaceStep &step, const Local &end_rates,
                                                                 Evaluation &found) const
   {
     const Local q_0    = coordinates(found.window, step.begin.position, step.from.x);
@@ -245,7 +245,7 @@ namespace sprag
     return k;
   }
 
-  void PointContact::evaluate(const PortStep &step, Evaluation &found) const
+  void PointContact::evaluate(const InterfaceStep &step, Evaluation &found) const
   {
     found.window          = window_at(step.begin.position, step.from.x);
     const Local end_rates = rates(found.window, step.end_rate, step.to.v);
@@ -258,7 +258,7 @@ namespace sprag
     law.slip                = slip_law(step_friction(properties.friction, step.to.v), properties.tangential);
     law.weights             = step.weights;
     auto &response          = found.response;
-    response                = step_response(kinematics, step.memory.front(), law);
+    response                = step_response(kinematics, step.history.front(), law);
     found.slip_rate         = found.end.slip_row * end_rates + surface / step.weights.dt;
     const double drive_work = -response.force[x_index] * (step.to.x - step.from.x) + response.mean_traction[0] * surface;
     found.works             = { drive_work, response.friction, response.damping, response.algorithmic, response.creep };
@@ -268,8 +268,8 @@ namespace sprag
   void PointContact::evaluate_sliding(const SlidingState &state, Evaluation &found) const
   {
     const bool slides = state.friction == ContactFriction::sliding;
-    found.window      = window_at(state.ports, state.drive.x);
-    const auto &end = found.end = configure(found.window, coordinates(found.window, state.ports, state.drive.x));
+    found.window      = window_at(state.displacements, state.drive.x);
+    const auto &end = found.end = configure(found.window, coordinates(found.window, state.displacements, state.drive.x));
     const Local rate            = state.rates == nullptr ? Local() : rates(found.window, *state.rates, 0.);
     const auto law              = slide_friction(properties.friction, state);
     using N                     = Dual<double, 2>; // of the gap and its rate
@@ -282,16 +282,16 @@ namespace sprag
     found.d_pressure            = pressure.d[0] * end.gap_row;
     found.d_pressure_rate       = pressure.d[1] * end.gap_row;
 
-    auto &response                = found.response;
-    response                      = {};
-    response.mu                   = std::abs(found.sliding.coefficient);
-    response.pressure             = pressure.v;
-    response.traction[0]          = found.sliding.coefficient * response.pressure;
-    response.slipping             = slides;
-    response.memory.traction      = response.traction;
-    response.memory.damping       = dashpot.v;
-    response.memory.slip_speed[0] = state.speed;
-    const double stretched        = law.regularisation_speed > 0. ? 0. : response.traction[0];
+    auto &response                 = found.response;
+    response                       = {};
+    response.mu                    = std::abs(found.sliding.coefficient);
+    response.pressure              = pressure.v;
+    response.traction[0]           = found.sliding.coefficient * response.pressure;
+    response.slipping              = slides;
+    response.history.traction      = response.traction;
+    response.history.damping       = dashpot.v;
+    response.history.slip_speed[0] = state.speed;
+    const double stretched         = law.regularisation_speed > 0. ? 0. : response.traction[0];
     response.energy  = spring_energy(properties.normal, end.gap) + 0.5 * stretched * stretched / properties.tangential;
     response.force   = response.pressure * end.gap_row - response.traction[0] * end.slip_row;
     response.tangent = pressure_tangent(found) + friction_tangent(state.friction, found);
@@ -313,22 +313,22 @@ namespace sprag
            found.response.traction[0] * found.end.slip_curvature;
   }
 
-  PortPerturbation PointContact::linearise(const SlidingState &state, Evaluation &found) const
+  LinearisedForces PointContact::linearise(const SlidingState &state, Evaluation &found) const
   {
     evaluate_sliding(state, found);
-    const auto places           = ports(found.window);
+    const auto places           = interface_coordinates(found.window);
     const Local d_traction_rate = found.sliding.coefficient * found.d_pressure_rate +
                                   found.sliding.derivative * found.response.pressure * found.end.slip_row;
-    PortPerturbation result(found.forces.ports);
-    result.pressure      = matrix_on_ports(places, pressure_tangent(found));
-    result.friction      = matrix_on_ports(places, friction_tangent(state.friction, found));
-    result.pressure_rate = matrix_on_ports(places, outer_product(found.end.gap_row, found.d_pressure_rate));
-    result.friction_rate = matrix_on_ports(places, -1. * outer_product(found.end.slip_row, d_traction_rate));
+    LinearisedForces result(found.forces.dofs);
+    result.pressure      = matrix_on_dofs(places, pressure_tangent(found));
+    result.friction      = matrix_on_dofs(places, friction_tangent(state.friction, found));
+    result.pressure_rate = matrix_on_dofs(places, outer_product(found.end.gap_row, found.d_pressure_rate));
+    result.friction_rate = matrix_on_dofs(places, -1. * outer_product(found.end.slip_row, d_traction_rate));
     result.delays        = friction_delays(places, slide_friction(properties.friction, state), found);
     return result;
   }
 
-  std::vector<FrictionDelay> PointContact::friction_delays(const PortCoordinates &places, const FrictionLaw &law,
+  std::vector<FrictionDelay> PointContact::friction_delays(const InterfaceCoordinates &places, const FrictionLaw &law,
                                                            const Evaluation &found) const
   {
     const double slope    = found.sliding.derivative * found.response.pressure;
@@ -336,44 +336,44 @@ namespace sprag
     const double friction = lag.pressure * found.sliding.coefficient;
     if (!(lag.time > 0.))
       return {};
-    return { { lag.time, row_on_ports(places, -1. * found.end.slip_row), row_on_ports(places, friction * found.d_pressure),
-               row_on_ports(places, friction * found.d_pressure_rate + slope * found.end.slip_row) } };
+    return { { lag.time, row_on_dofs(places, -1. * found.end.slip_row), row_on_dofs(places, friction * found.d_pressure),
+               row_on_dofs(places, friction * found.d_pressure_rate + slope * found.end.slip_row) } };
   }
 
-  /// Returns the local coordinates that are ports.
-  PortCoordinates PointContact::ports(const unsigned int window) const
+  /// Returns the local coordinates that are dofs of the interface.
+  InterfaceCoordinates PointContact::interface_coordinates(const unsigned int window) const
   {
-    PortCoordinates result;
+    InterfaceCoordinates result;
     result.reserve(n);
     for (unsigned int i = 0; i < n_nodal && properties.mesh.elements > 0; ++i)
       if (window + i / 2 > 0)
         result.push_back({ i, 2 * window + i - 2, 1. });
-    add_frame(properties.ports, theta_index, x_index, result);
+    add_frame(properties.layout, theta_index, x_index, result);
     return result;
   }
 
   void PointContact::sum_forces(Evaluation &found) const
   {
-    const auto places = ports(found.window);
+    const auto places = interface_coordinates(found.window);
     auto &forces      = found.forces;
-    forces.values     = row_on_ports(places, found.response.force);
-    forces.tangent    = matrix_on_ports(places, found.response.tangent);
-    forces.ports.clear();
+    forces.values     = row_on_dofs(places, found.response.force);
+    forces.tangent    = matrix_on_dofs(places, found.response.tangent);
+    forces.dofs.clear();
     for (const auto &place : places)
-      forces.ports.push_back(place.port);
+      forces.dofs.push_back(place.dof);
   }
 
-  const PortSelection &PointContact::reachable_ports(double, const PerLever &) const
+  const DofSelection &PointContact::candidate_dofs(double, const PerLever &) const
   {
     return all;
   }
 
-  std::vector<ContactMemory> PointContact::touch(const Vector<double> &ports, const DrivePoint &drive, Evaluation &found) const
+  std::vector<ContactHistory> PointContact::touch(const Vector<double> &z, const DrivePoint &drive, Evaluation &found) const
   {
-    found.window   = window_at(ports, drive.x);
-    found.end      = configure(found.window, coordinates(found.window, ports, drive.x));
+    found.window   = window_at(z, drive.x);
+    found.end      = configure(found.window, coordinates(found.window, z, drive.x));
     found.response = {};
-    return { ContactMemory{} };
+    return { ContactHistory{} };
   }
 
   double PointContact::drive_force(const Evaluation &found) const
@@ -392,7 +392,7 @@ namespace sprag
     row[Column::normal_resultant]   = response.pressure;
     row[Column::friction_resultant] = response.traction[0];
     row[Column::friction_power]     = response.traction[0] * found.slip_rate;
-    row[Column::indentation]        = found.overlap();
+    row[Column::indentation]        = found.penetration();
     row[Column::penetration]        = 0.;
     row[Column::active_points]      = end.gap < 0. ? 1. : 0.;
     row[Column::elastic_slip]       = 0.;

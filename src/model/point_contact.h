@@ -4,9 +4,9 @@
 #include "model/beam.h"
 #include "model/circle.h"
 #include "model/contact_step.h"
+#include "model/interface_coordinates.h"
+#include "model/interface_step.h"
 #include "model/linearisation.h"
-#include "model/port_coordinates.h"
-#include "model/port_step.h"
 
 #include <algorithm>
 
@@ -17,7 +17,7 @@ namespace sprag
   {
     Geometry geometry;
     BeamMesh mesh;
-    PortLayout ports;
+    InterfaceLayout layout;
     double rest_inclination    = 0.; ///< theta without moment [rad]
     double neutral_axis_offset = 0.; ///< e_a [mm]
     NormalLaw normal;                ///< [N/mm^n]
@@ -59,13 +59,13 @@ namespace sprag
     class Evaluation
     {
     public:
-      static constexpr bool within_reach = true; ///< all ports are
+      static constexpr bool within_reach = true; ///< all dofs are
 
-      PortForces forces;
+      InterfaceForces forces;
 
-      std::vector<ContactMemory> memory() const
+      std::vector<ContactHistory> history() const
       {
-        return { response.memory };
+        return { response.history };
       }
       const StepWork &work() const
       {
@@ -75,7 +75,7 @@ namespace sprag
       {
         return response.energy;
       }
-      double overlap() const
+      double penetration() const
       {
         return std::max(0., -end.gap);
       }
@@ -96,23 +96,23 @@ namespace sprag
     explicit PointContact(PointContactProperties properties);
 
     /// Evaluates a step in time.
-    void evaluate(const PortStep &step, Evaluation &found) const;
+    void evaluate(const InterfaceStep &step, Evaluation &found) const;
 
     /// Evaluates steady sliding.
     void evaluate_sliding(const SlidingState &state, Evaluation &found) const;
 
-    /// Evaluates steady sliding and linearises its forces on their ports.
-    PortPerturbation linearise(const SlidingState &state, Evaluation &found) const;
+    /// Evaluates steady sliding and linearises its interface forces.
+    LinearisedForces linearise(const SlidingState &state, Evaluation &found) const;
 
-    /// Returns the ports that the contact may reach: all.
-    const PortSelection &reachable_ports(double x, const PerLever &theta) const;
+    /// Returns the dofs that the contact may reach: all.
+    const DofSelection &candidate_dofs(double x, const PerLever &theta) const;
     void widen_reach()
     {
     }
     /// Evaluates the contact at rest without force.
-    std::vector<ContactMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive, Evaluation &found) const;
-    /// Returns by how much a small change of the ports changes the gap [mm].
-    double gap_change(const Evaluation &found, const dealii::Vector<double> &port_change, unsigned int lever = 0) const;
+    std::vector<ContactHistory> touch(const dealii::Vector<double> &z, const DrivePoint &drive, Evaluation &found) const;
+    /// Returns by how much a small change of the displacements changes the gap [mm].
+    double gap_change(const Evaluation &found, const dealii::Vector<double> &change, unsigned int lever = 0) const;
 
     /// Returns the slip from one configuration to another [mm].
     double mean_slip(const Evaluation &found, const dealii::Vector<double> &from, double from_x, const dealii::Vector<double> &to,
@@ -123,7 +123,7 @@ namespace sprag
     /// Returns Q at the end of the step [N].
     double drive_force(const Evaluation &found) const;
 
-    /// Returns the displacements of the lever's surface that go with those of the ports.
+    /// Returns the displacements of the lever's surface that go with those of the interface.
     SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
 
     /// There is no friction face.
@@ -137,7 +137,7 @@ namespace sprag
     }
 
     /// There is none.
-    void visit_history(Archive &)
+    void serialise_history(Archive &)
     {
     }
 
@@ -151,25 +151,25 @@ namespace sprag
       double xi, d_slope;
     };
 
-    unsigned int window_at(const dealii::Vector<double> &ports, double x) const;
-    Local coordinates(unsigned int window, const dealii::Vector<double> &ports, double x) const;
-    Local rates(unsigned int window, const dealii::Vector<double> &port_rates, double v) const;
-    unsigned int first_element_port(unsigned int window, double xi) const;
+    unsigned int window_at(const dealii::Vector<double> &z, double x) const;
+    Local coordinates(unsigned int window, const dealii::Vector<double> &z, double x) const;
+    Local rates(unsigned int window, const dealii::Vector<double> &interface_rates, double v) const;
+    unsigned int first_element_dof(unsigned int window, double xi) const;
     template <class N, class Nodal>
     Surface<N> surface(unsigned int window, const Nodal &nodal, const N &xi) const;
     Closest closest(unsigned int window, const Local &q) const;
     double gap(unsigned int window, const Local &q) const;
     Configuration configure(unsigned int window, const Local &q) const;
-    StepKinematics<n> step_kinematics(const PortStep &step, const Local &end_rates, Evaluation &found) const;
+    StepKinematics<n> step_kinematics(const InterfaceStep &step, const Local &end_rates, Evaluation &found) const;
     void sum_forces(Evaluation &found) const;
     static LocalMatrix pressure_tangent(const Evaluation &found);
     LocalMatrix friction_tangent(ContactFriction friction, const Evaluation &found) const;
 
-    PortCoordinates ports(unsigned int window) const;
-    std::vector<FrictionDelay> friction_delays(const PortCoordinates &places, const FrictionLaw &law,
+    InterfaceCoordinates interface_coordinates(unsigned int window) const;
+    std::vector<FrictionDelay> friction_delays(const InterfaceCoordinates &places, const FrictionLaw &law,
                                                const Evaluation &found) const;
 
     const PointContactProperties properties;
-    const PortSelection all;
+    const DofSelection all;
   };
 } // namespace sprag

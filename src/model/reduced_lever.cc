@@ -11,7 +11,7 @@ namespace sprag
 {
   namespace
   {
-    std::unique_ptr<PointContact> make_contact(const Device &device, const BeamMesh &mesh, const PortLayout &ports,
+    std::unique_ptr<PointContact> make_contact(const Device &device, const BeamMesh &mesh, const InterfaceLayout &layout,
                                                const unsigned int lever)
     {
       const auto reference = contact_reference(device);
@@ -19,7 +19,7 @@ namespace sprag
       PointContactProperties properties;
       properties.geometry            = own.geometry;
       properties.mesh                = mesh;
-      properties.ports               = ports;
+      properties.layout              = layout;
       properties.rest_inclination    = rest_inclination(device);
       properties.neutral_axis_offset = neutral_axis_offset(device);
       properties.normal              = { device.contact.stiffness, device.contact.exponent };
@@ -35,12 +35,12 @@ namespace sprag
     const BeamMesh mesh  = { device.analysis.model == ModelType::beam ? elements : 0, device.lever.length };
     const auto assembled = [&](auto structure)
     {
-      const PortLayout ports = structure->ports();
-      LeverFrame frame       = lever_frame(device, ports, carried_mass(device));
-      for (unsigned int lever = 0; lever < ports.levers; ++lever)
-        for (unsigned int slope = 1; slope < mesh.ports(); slope += 2)
-          frame.lengths[ports.first(lever) + slope] = mesh.element_length();
-      const auto contact = [&](const unsigned int lever) { return make_contact(device, mesh, ports.single_lever(), lever); };
+      const InterfaceLayout layout = structure->layout();
+      LeverFrame frame             = lever_frame(device, layout, carried_mass(device));
+      for (unsigned int lever = 0; lever < layout.levers; ++lever)
+        for (unsigned int slope = 1; slope < mesh.n_dofs(); slope += 2)
+          frame.lengths[layout.first(lever) + slope] = mesh.element_length();
+      const auto contact = [&](const unsigned int lever) { return make_contact(device, mesh, layout.single_lever(), lever); };
       return assemble_lever(std::move(structure), std::move(frame), contact, 1);
     };
     const auto make_modal = [&](const Device &single) { return std::make_unique<ModalStructure>(beam_modes(single, mesh)); };

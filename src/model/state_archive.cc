@@ -7,7 +7,7 @@
 
 namespace sprag
 {
-  void visit(Archive &archive, dealii::Vector<double> &vector)
+  void serialise(Archive &archive, dealii::Vector<double> &vector)
   {
     std::vector<double> values(vector.begin(), vector.end());
     archive(values);
@@ -17,7 +17,7 @@ namespace sprag
     std::copy(values.begin(), values.end(), vector.begin());
   }
 
-  void visit(Archive &archive, dealii::FullMatrix<double> &matrix)
+  void serialise(Archive &archive, dealii::FullMatrix<double> &matrix)
   {
     std::size_t rows = matrix.m(), columns = matrix.n();
     archive(rows, columns);
@@ -28,31 +28,31 @@ namespace sprag
         archive(matrix(i, j));
   }
 
-  void visit(Archive &archive, Kinematic &coordinates)
+  void serialise(Archive &archive, Kinematic &coordinates)
   {
     auto &[position, velocity, acceleration] = coordinates;
     archive(position, velocity, acceleration);
   }
 
-  void visit(Archive &archive, PortLoads &loads)
+  void serialise(Archive &archive, DofLoads &loads)
   {
-    auto &[ports, values] = loads;
-    archive(ports, values);
+    auto &[dofs, values] = loads;
+    archive(dofs, values);
   }
 
-  void visit(Archive &archive, PortForces &forces)
+  void serialise(Archive &archive, InterfaceForces &forces)
   {
-    auto &[ports, values, tangent, has_tangent] = forces;
-    archive(ports, values, tangent, has_tangent);
+    auto &[dofs, values, tangent, has_tangent] = forces;
+    archive(dofs, values, tangent, has_tangent);
   }
 
-  void visit(Archive &archive, Motion &motion)
+  void serialise(Archive &archive, Motion &motion)
   {
     auto &[drive, coordinates, face_force, contact, forces, surface_contact, tangent] = motion;
     archive(drive, coordinates, face_force, contact, forces, surface_contact, tangent);
   }
 
-  void visit(Archive &archive, State &state)
+  void serialise(Archive &archive, State &state)
   {
     auto &[drive, coordinates, contact, forces, surface_contact] = state;
     archive(drive, coordinates, contact, forces, surface_contact);

@@ -7,11 +7,11 @@
 
 namespace sprag
 {
-  void visit(Archive &archive, dealii::Vector<double> &vector);
-  void visit(Archive &archive, dealii::FullMatrix<double> &matrix);
-  void visit(Archive &archive, Kinematic &coordinates);
-  void visit(Archive &archive, PortLoads &loads);
-  void visit(Archive &archive, PortForces &forces);
-  void visit(Archive &archive, Motion &motion);
-  void visit(Archive &archive, State &state);
+  void serialise(Archive &archive, dealii::Vector<double> &vector);
+  void serialise(Archive &archive, dealii::FullMatrix<double> &matrix);
+  void serialise(Archive &archive, Kinematic &coordinates);
+  void serialise(Archive &archive, DofLoads &loads);
+  void serialise(Archive &archive, InterfaceForces &forces);
+  void serialise(Archive &archive, Motion &motion);
+  void serialise(Archive &archive, State &state);
 } // namespace sprag

@@ -5,11 +5,11 @@
 #include "model/contact_of_levers.h"
 #include "model/force_history.h"
 #include "model/hub_spring.h"
-#include "model/joined_ports.h"
+#include "model/interface_step.h"
+#include "model/joined_interfaces.h"
 #include "model/lever_frame.h"
 #include "model/linearisation.h"
 #include "model/modified_newton.h"
-#include "model/port_step.h"
 #include "model/state_archive.h"
 #include "scene/closed_form.h"
 
@@ -36,8 +36,8 @@ namespace sprag
   public:
     struct Equilibrium
     {
-      dealii::Vector<double> ports;
-      PortLoads forces;
+      dealii::Vector<double> displacements;
+      DofLoads forces;
       PerLever ideal{}; ///< inclinations of the levers in ideal contact
     };
 
@@ -52,11 +52,11 @@ namespace sprag
     {
     }
 
-    /// Finds the equilibrium of steady sliding at a ratio of speeds, see speed_ratio(). Returns its forces, for which
-    /// the contact was evaluated last, and null where none is found. `round_off`: displacements that the ports have besides.
-    const PortForces *solve(const DrivePoint &drive, const double ratio,
-                            const ContactFriction friction          = ContactFriction::sliding,
-                            const dealii::Vector<double> *round_off = nullptr)
+    /// Finds the equilibrium of steady sliding at a ratio of speeds, see speed_ratio(). Returns its forces, for which the contact
+    /// was evaluated last, and null where none is found. `round_off`: displacements that the interface has besides.
+    const InterfaceForces *solve(const DrivePoint &drive, const double ratio,
+                                 const ContactFriction friction          = ContactFriction::sliding,
+                                 const dealii::Vector<double> *round_off = nullptr)
     {
       if (const auto *forces = solve_from_last(drive, ratio, friction, round_off))
         return forces;
@@ -70,14 +70,14 @@ namespace sprag
     }
 
     /// Does as solve() with a share of the friction, 0 to 1, from the last equilibrium alone.
-    const PortForces *solve_with_share(const DrivePoint &drive, const double share)
+    const InterfaceForces *solve_with_share(const DrivePoint &drive, const double share)
     {
       return solve_from_last(drive, 1., ContactFriction::sliding, nullptr, share);
     }
 
     /// Does as solve() for one drive after another: to what a step in time leaves out, from a kept tangent where the contact
     /// keeps one.
-    const PortForces *follow(const DrivePoint &drive)
+    const InterfaceForces *follow(const DrivePoint &drive)
     {
       if constexpr (Contact::keeps_tangent)
       {
@@ -85,7 +85,7 @@ namespace sprag
         if (forces == nullptr)
           forces = solve(drive, 1.);
         if (forces != nullptr)
-          followed.accept_at({ forces->ports, forces->values }, drive.x, goes_on(drive));
+          followed.accept_at({ forces->dofs, forces->values }, drive.x, goes_on(drive));
         followed_speed = drive.v;
         return forces;
       }
@@ -97,11 +97,11 @@ namespace sprag
     double speed_ratio(const DrivePoint &drive, const double h)
     {
       const bool before = solve(moved(drive, -h), 1.) != nullptr;
-      const auto from   = last.ports;
+      const auto from   = last.displacements;
       const bool after  = solve(moved(drive, h), 1.) != nullptr;
       if (!before || !after)
         return 1.;
-      const double slip = contact.mean_slip(found, from, drive.x - h, last.ports, drive.x + h);
+      const double slip = contact.mean_slip(found, from, drive.x - h, last.displacements, drive.x + h);
       return slip / (2. * h * sliding_speed(frame.geometries.front(), drive.x, 1.));
     }
 
@@ -116,11 +116,11 @@ namespace sprag
       last = std::move(equilibrium);
     }
 
-    /// Visits the equilibrium from which the next one is sought.
-    void visit_history(Archive &archive)
+    /// Serialises the equilibrium from which the next one is sought.
+    void serialise_history(Archive &archive)
     {
-      archive(last.ports, last.forces, last.ideal, followed, followed_speed);
-      visit(archive, kept);
+      archive(last.displacements, last.forces, last.ideal, followed, followed_speed);
+      serialise(archive, kept);
     }
 
   private:
@@ -144,33 +144,34 @@ namespace sprag
     /// A turn of the hub, from the last equilibrium with the change of ideal contact.
     double guessed_turn(const unsigned int lever, const PerLever &ideal) const
     {
-      const unsigned int hub = frame.ports.rotation(lever);
-      return (last.ports.size() > 0 ? last.ports[hub] - last.ideal[lever] : -frame.rest_inclination) + ideal[lever];
+      const unsigned int hub = frame.layout.rotation(lever);
+      return (last.displacements.size() > 0 ? last.displacements[hub] - last.ideal[lever] : -frame.rest_inclination) +
+             ideal[lever];
     }
 
-    /// Evaluates the contact at displacements of the ports.
-    PortEvaluation evaluate(const SlidingState &state)
+    /// Evaluates the contact at interface displacements.
+    InterfaceEvaluation evaluate(const SlidingState &state)
     {
       contact.evaluate_sliding(state, found);
-      hub_spring.add_forces(lever_rotations(frame.ports, state.ports), true, found.forces);
-      return { &found.forces, found.overlap() };
+      hub_spring.add_forces(lever_rotations(frame.layout, state.displacements), true, found.forces);
+      return { &found.forces, found.penetration() };
     }
 
     /// See follow(). Null where that does not converge.
-    const PortForces *solve_with_stored_jacobian(const DrivePoint &drive)
+    const InterfaceForces *solve_with_stored_jacobian(const DrivePoint &drive)
     {
-      if (last.forces.ports.empty())
+      if (last.forces.dofs.empty())
         return nullptr;
       structure.use_statics();
       const auto ideal                  = ideal_inclinations(drive.x);
-      const auto &near                  = contact.reachable_ports(drive.x, ideal);
-      const dealii::Vector<double> free = structure.port_positions(structure.rest(), near);
+      const auto &near                  = contact.candidate_dofs(drive.x, ideal);
+      const dealii::Vector<double> free = structure.positions(structure.rest(), near);
       const bool in_line                = goes_on(drive) && followed.size() > 1;
-      const PortLoads guess             = in_line ? followed.guess_at(drive.x) : turned_forces(free, near, ideal);
+      const DofLoads guess              = in_line ? followed.guess_at(drive.x) : turned_forces(free, near, ideal);
       dealii::Vector<double> z          = free;
       const double speed                = sliding_speed(frame.geometries.front(), drive.x, drive.v);
-      const auto at                     = [&](const dealii::Vector<double> &ports, const Request request) {
-        return evaluate({ ports, drive, speed, nullptr, ContactFriction::sliding, request });
+      const auto at                     = [&](const dealii::Vector<double> &displacements, const Request request) {
+        return evaluate({ displacements, drive, speed, nullptr, ContactFriction::sliding, request });
       };
       const auto solved = ModifiedNewton({ structure.compliance(), free, frame.lengths, near }, at, StepWeights{}, factors)
                               .solve(guess, kept, z, left_out_in_time);
@@ -184,47 +185,47 @@ namespace sprag
     }
 
     /// The last forces, those of each lever as much larger as its hub turns.
-    PortLoads turned_forces(const dealii::Vector<double> &free, const PortSelection &near, const PerLever &ideal) const
+    DofLoads turned_forces(const dealii::Vector<double> &free, const DofSelection &near, const PerLever &ideal) const
     {
       dealii::Vector<double> z(free.size());
-      add_response(structure.compliance(), last.forces.ports, last.forces.values, near, z);
+      add_response(structure.compliance(), last.forces.dofs, last.forces.values, near, z);
       PerLever growth{ { 1., 1. } };
-      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
-        if (const unsigned int hub = frame.ports.rotation(lever); z[hub] != 0.)
+      for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
+        if (const unsigned int hub = frame.layout.rotation(lever); z[hub] != 0.)
           growth[lever] = (guessed_turn(lever, ideal) - free[hub]) / z[hub];
-      PortLoads result = last.forces;
-      for (unsigned int i = 0; i < result.ports.size(); ++i)
-        result.values[i] *= growth[std::min(frame.ports.port_lever(result.ports[i]), frame.ports.levers - 1)];
+      DofLoads result = last.forces;
+      for (unsigned int i = 0; i < result.dofs.size(); ++i)
+        result.values[i] *= growth[std::min(frame.layout.lever_index(result.dofs[i]), frame.layout.levers - 1)];
       return result;
     }
 
-    const PortForces *accept(const dealii::Vector<double> &z, const PerLever &ideal, const PortForces &forces)
+    const InterfaceForces *accept(const dealii::Vector<double> &z, const PerLever &ideal, const InterfaceForces &forces)
     {
-      last = { z, { forces.ports, forces.values }, ideal };
+      last = { z, { forces.dofs, forces.values }, ideal };
       return &forces;
     }
 
     /// See solve(), from the last equilibrium.
-    const PortForces *solve_from_last(const DrivePoint &drive, const double ratio, const ContactFriction friction,
-                                      const dealii::Vector<double> *round_off, const double share = 1.)
+    const InterfaceForces *solve_from_last(const DrivePoint &drive, const double ratio, const ContactFriction friction,
+                                           const dealii::Vector<double> *round_off, const double share = 1.)
     {
       structure.use_statics();
       const auto ideal            = ideal_inclinations(drive.x);
-      const auto &near            = contact.reachable_ports(drive.x, ideal);
-      dealii::Vector<double> free = structure.port_positions(structure.rest(), near);
+      const auto &near            = contact.candidate_dofs(drive.x, ideal);
+      dealii::Vector<double> free = structure.positions(structure.rest(), near);
       if (round_off != nullptr)
-        for (const unsigned int port : near)
-          free[port] += (*round_off)[port];
+        for (const unsigned int dof : near)
+          free[dof] += (*round_off)[dof];
       dealii::Vector<double> z = free;
-      add_response(structure.compliance(), last.forces.ports, last.forces.values, near, z);
-      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
-        z[frame.ports.rotation(lever)] = guessed_turn(lever, ideal);
+      add_response(structure.compliance(), last.forces.dofs, last.forces.values, near, z);
+      for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
+        z[frame.layout.rotation(lever)] = guessed_turn(lever, ideal);
 
       const double speed = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
-      const auto at      = [&](const dealii::Vector<double> &ports) {
-        return evaluate({ ports, drive, speed, nullptr, friction, Request::with_tangent, share });
+      const auto at      = [&](const dealii::Vector<double> &displacements) {
+        return evaluate({ displacements, drive, speed, nullptr, friction, Request::with_tangent, share });
       };
-      const auto solved = solve_ports({ structure.compliance(), free, frame.lengths, near }, at, z);
+      const auto solved = solve_interface({ structure.compliance(), free, frame.lengths, near }, at, z);
       if (!solved.newton.converged)
         return nullptr;
       if (!found.within_reach)
@@ -239,7 +240,7 @@ namespace sprag
     PerLever ideal_inclinations(const double x) const
     {
       PerLever result{};
-      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
+      for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
         result[lever] = kinematics(frame.geometries[lever], x).theta;
       return result;
     }

@@ -7,19 +7,19 @@ namespace sprag
 {
   using namespace dealii;
 
-  void visit(Archive &archive, std::shared_ptr<const StoredJacobian> &kept)
+  void serialise(Archive &archive, std::shared_ptr<const StoredJacobian> &kept)
   {
     bool there = kept != nullptr;
     archive(there);
     StoredJacobian tangent;
     if (there && !archive.reads())
       tangent = *kept;
-    archive(tangent.ports, tangent.matrix);
+    archive(tangent.dofs, tangent.matrix);
     if (archive.reads())
       kept = there ? std::make_shared<const StoredJacobian>(std::move(tangent)) : nullptr;
   }
 
-  bool JacobianFactors::use(std::shared_ptr<const StoredJacobian> kept, const PortCompliance &compliance,
+  bool JacobianFactors::use(std::shared_ptr<const StoredJacobian> kept, const InterfaceCompliance &compliance,
                             const StepWeights &weights)
   {
     if (factors && stored == kept && dt == weights.dt && alpha_f == weights.alpha_f)
@@ -30,7 +30,7 @@ namespace sprag
     alpha_f = weights.alpha_f;
     try
     {
-      factors.emplace(compliance, stored->ports, stored->matrix);
+      factors.emplace(compliance, stored->dofs, stored->matrix);
       return true;
     }
     catch (const ExceptionBase &)

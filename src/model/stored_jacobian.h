@@ -3,23 +3,23 @@
 
 #include "base/archive.h"
 #include "model/generalised_alpha.h"
-#include "model/port_factors.h"
-#include "model/port_forces.h"
+#include "model/interface_factors.h"
+#include "model/interface_forces.h"
 
 #include <memory>
 #include <optional>
 
 namespace sprag
 {
-  /// Derivative of the contact's forces by displacements of their ports that steps in time take from one to the next: a contact
+  /// Derivative of the contact's forces by interface displacements that steps in time take from one to the next: a contact
   /// wanders little in a step, so that it serves the corrections of several.
   struct StoredJacobian
   {
-    std::vector<unsigned int> ports; ///< increasing
+    std::vector<unsigned int> dofs; ///< increasing
     dealii::FullMatrix<double> matrix;
   };
 
-  void visit(Archive &archive, std::shared_ptr<const StoredJacobian> &kept);
+  void serialise(Archive &archive, std::shared_ptr<const StoredJacobian> &kept);
 
   /// Factors of 1 - G A of the kept tangent A used last, with the compliance G of steps of one length.
   class JacobianFactors
@@ -27,17 +27,17 @@ namespace sprag
   public:
     /// Makes the factors of a tangent with the compliance of a step with these weights, unless they are there. Returns whether
     /// there are any: none where the matrix is singular.
-    bool use(std::shared_ptr<const StoredJacobian> kept, const PortCompliance &compliance, const StepWeights &weights);
+    bool use(std::shared_ptr<const StoredJacobian> kept, const InterfaceCompliance &compliance, const StepWeights &weights);
 
     const StoredJacobian &tangent() const;
 
-    /// Returns PortFactors::reaction() of the tangent.
+    /// Returns InterfaceFactors::reaction() of the tangent.
     dealii::Vector<double> reaction(const dealii::Vector<double> &displacements) const;
 
   private:
     std::shared_ptr<const StoredJacobian> stored;
     double dt      = 0.;
     double alpha_f = 0.;
-    std::optional<PortFactors> factors;
+    std::optional<InterfaceFactors> factors;
   };
 } // namespace sprag

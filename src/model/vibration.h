@@ -53,13 +53,13 @@ namespace sprag
   /// A vibration about a held slide.
   struct Eigenmode
   {
-    StructureMode mode;  ///< of modal mass phi^H M phi = 1 t
-    ComplexVector ports; ///< displacements, in lever axes; the rotation's real and positive where there is one
+    StructureMode mode;          ///< of modal mass phi^H M phi = 1 t
+    ComplexVector displacements; ///< displacements, in lever axes; the rotation's real and positive where there is one
     GrowthShares growth;
     EnergyShares energy;
 
-    /// In a pair 1 where the levers mirror each other, -1 where the second does the opposite and both swing the same way.
-    double mirroring = std::numeric_limits<double>::quiet_NaN();
+    /// In a pair 1 of a symmetric mode, -1 of an antisymmetric one, where both levers swing the same way.
+    double symmetry = std::numeric_limits<double>::quiet_NaN();
 
     /// In three dimensions the shares of the kinetic energy that lie in motion as in a plane, in twisting and in motion along the
     /// cylinder's axis; NaN else.

@@ -48,12 +48,12 @@ namespace sprag
     }
   } // namespace
 
-  RowJournal::RowJournal(std::string file_path)
+  RowLog::RowLog(std::string file_path)
       : path(std::move(file_path))
   {
   }
 
-  std::optional<std::string> RowJournal::take_up(const std::size_t size)
+  std::optional<std::string> RowLog::take_up(const std::size_t size)
   {
     std::ifstream input(path, std::ios::binary);
     std::string blocks{ std::istreambuf_iterator<char>(input), {} };
@@ -70,7 +70,7 @@ namespace sprag
     return result;
   }
 
-  void RowJournal::write_block()
+  void RowLog::write_block()
   {
     if (!file.is_open())
       file = OpenFile(path, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND);
@@ -85,14 +85,14 @@ namespace sprag
     pending.clear();
   }
 
-  void RowJournal::write()
+  void RowLog::write()
   {
     write_block();
     if (!file.synchronise())
       fail();
   }
 
-  void RowJournal::fail()
+  void RowLog::fail()
   {
     const int reason = errno;
     file.truncate(written);
@@ -114,11 +114,11 @@ namespace sprag
       std::string format = "sprag checkpoint";
       std::string parameters; ///< fingerprint of their text, which no choice of settings changes
       std::string key;
-      std::size_t rows = 0; ///< size of their journal [bytes]
+      std::size_t rows = 0; ///< size of their results log [bytes]
       std::string progress;
     };
 
-    void visit(Archive &archive, Content &content)
+    void serialise(Archive &archive, Content &content)
     {
       auto &[format, parameters, key, rows, progress] = content;
       archive(format, parameters, key, rows, progress);
@@ -167,7 +167,7 @@ namespace sprag
       , parameters(is_kept ? checkpoint_parameters(scene) : "")
       , own_scene_key(is_kept ? scene_key(scene) : "")
       , interval(seconds_between())
-      , journal(folder + '/' + row_journal_name)
+      , row_log(folder + '/' + row_log_name)
       , next(Clock::now() + std::chrono::duration_cast<Clock::duration>(interval))
   {
     if (is_kept)
@@ -199,7 +199,7 @@ namespace sprag
         return drop("damaged");
       if (content->key != key())
         return drop("of another scene, of input files that held something else, or of another build of sprag");
-      auto rows = journal.take_up(content->rows);
+      auto rows = row_log.take_up(content->rows);
       if (!rows)
         return drop("its rows are damaged");
       progress_found = std::move(content->progress);
@@ -213,32 +213,32 @@ namespace sprag
       std::cout << "Begins anew:  the result in the folder is unfinished and has no checkpoint\n" << std::flush;
   }
 
-  void Checkpoint::visit_all(const ProgressVisit &progress, Archive &archive) const
+  void Checkpoint::serialise_all(const ProgressSerialiser &progress, Archive &archive) const
   {
     progress(archive);
     for (const auto &part : parts)
       part(archive);
   }
 
-  bool Checkpoint::take_up(const ProgressVisit &progress)
+  bool Checkpoint::take_up(const ProgressSerialiser &progress)
   {
     if (!resumes())
       return false;
     Archive archive(std::move(progress_found));
-    visit_all(progress, archive);
+    serialise_all(progress, archive);
     return true;
   }
 
-  void Checkpoint::accept_step(const ProgressVisit &progress)
+  void Checkpoint::accept_step(const ProgressSerialiser &progress)
   {
     if (is_kept && (interrupted() || Clock::now() >= next))
       try_to([&] { write(progress); });
     end_if_interrupted();
   }
 
-  void Checkpoint::end_steps(const ProgressVisit &progress)
+  void Checkpoint::end_steps(const ProgressSerialiser &progress)
   {
-    const bool is_long = journal.size() > 0;
+    const bool is_long = row_log.size() > 0;
     if (is_kept && is_long)
       try_to([&] { write(progress); });
   }
@@ -249,8 +249,8 @@ namespace sprag
         [&]
         {
           if (records)
-            records(journal);
-          journal.write();
+            records(row_log);
+          row_log.write();
         });
   }
 
@@ -268,18 +268,18 @@ namespace sprag
     }
   }
 
-  void Checkpoint::write(const ProgressVisit &progress)
+  void Checkpoint::write(const ProgressSerialiser &progress)
   {
     const auto begin = Clock::now();
     if (records)
-      records(journal);
-    journal.write();
+      records(row_log);
+    row_log.write();
     Archive archive;
-    visit_all(progress, archive);
+    serialise_all(progress, archive);
     Content content;
     content.parameters = parameters;
     content.key        = key();
-    content.rows       = journal.size();
+    content.rows       = row_log.size();
     content.progress   = archive.bytes();
     Archive whole;
     whole(content);

@@ -16,12 +16,12 @@ namespace sprag
 {
   struct Scene;
 
-  /// Journal of a run's records: a file to which blocks with checksums are appended, so that a checkpoint need not hold them.
-  class RowJournal
+  /// Results log of a run's records: a file to which blocks with checksums are appended, so that a checkpoint need not hold them.
+  class RowLog
   {
   public:
     /// Nothing is read or written yet.
-    explicit RowJournal(std::string path);
+    explicit RowLog(std::string path);
 
     /// Begins with the first `size` bytes of the file, drops what follows and returns the records in them; none where they are
     /// not as they were written.
@@ -88,8 +88,8 @@ namespace sprag
       return Archive(std::move(rows_found));
     }
 
-    /// Sets what adds to the journal of rows all that the run has recorded since its last call.
-    void set_records(std::function<void(RowJournal &)> add_records)
+    /// Sets what adds to the results log of rows all that the run has recorded since its last call.
+    void set_records(std::function<void(RowLog &)> add_records)
     {
       records = std::move(add_records);
     }
@@ -97,15 +97,15 @@ namespace sprag
     /// Writes what was recorded, where a run cannot keep that much until the next checkpoint.
     void write_records();
 
-    /// Adds something to the progress, to be visited behind that of the analysis. To be called before the analysis begins.
-    void add_part(ProgressVisit part)
+    /// Adds something to the progress, to be serialised after that of the analysis. To be called before the analysis begins.
+    void add_part(ProgressSerialiser part)
     {
       parts.push_back(std::move(part));
     }
 
-    bool take_up(const ProgressVisit &progress) override;
-    void accept_step(const ProgressVisit &progress) override;
-    void end_steps(const ProgressVisit &progress) override;
+    bool take_up(const ProgressSerialiser &progress) override;
+    void accept_step(const ProgressSerialiser &progress) override;
+    void end_steps(const ProgressSerialiser &progress) override;
 
     /// Hands a step on. Where that fails, as on a full disk, the run is worth going on with once there is space.
     template <class Work>
@@ -140,9 +140,9 @@ namespace sprag
     const std::string folder;
     const std::string parameters, own_scene_key;
     const std::chrono::duration<double> interval;
-    RowJournal journal;
-    std::function<void(RowJournal &)> records;
-    std::vector<ProgressVisit> parts;
+    RowLog row_log;
+    std::function<void(RowLog &)> records;
+    std::vector<ProgressSerialiser> parts;
     bool goes_on = false;
     std::string progress_found, rows_found;
     Clock::time_point next;
@@ -152,8 +152,8 @@ namespace sprag
     std::string key() const;
     void find();
     void remove() const;
-    void visit_all(const ProgressVisit &progress, Archive &archive) const;
+    void serialise_all(const ProgressSerialiser &progress, Archive &archive) const;
     void try_to(const std::function<void()> &write);
-    void write(const ProgressVisit &progress);
+    void write(const ProgressSerialiser &progress);
   };
 } // namespace sprag

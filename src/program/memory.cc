@@ -163,18 +163,18 @@ namespace sprag
     /// Matrices of plate and bar over those of the plate.
     constexpr double bar_behind_plate = 1.5;
 
-    /// Matrices of the ports that a lever in three dimensions keeps: a few, and one for each duration of its steps.
-    constexpr double port_matrices = 20.;
+    /// Matrices of the interface that a lever in three dimensions keeps: a few, and one for each duration of its steps.
+    constexpr double interface_matrices = 20.;
 
     /// Modes, and matrices of the part of the face that a contact in three dimensions can reach.
-    double solid_mode_bytes(const Scene &scene, const double displacements, const double ports)
+    double solid_mode_bytes(const Scene &scene, const double displacements, const double n_interface)
     {
       if (scene.analysis.type == AnalysisType::quasi_static)
         return 0.;
       const auto [begin, end] = reachable_contact(scene);
-      const double reached    = ports * std::min(1., (end - begin) / scene.mesh.face_size / elements_along_face(scene));
+      const double reached    = n_interface * std::min(1., (end - begin) / scene.mesh.face_size / elements_along_face(scene));
       const bool has_two      = scene.analysis.type == AnalysisType::isolation || scene.pair.type == PairType::full;
-      const double kept       = (has_two ? 2. : 1.) * port_matrices;
+      const double kept       = (has_two ? 2. : 1.) * interface_matrices;
       const double sought_in  = 2. * most_columns(scene.condensed.modes); // these and their inertia
       return 8. * (sought_in * displacements + kept * reached * reached);
     }
@@ -192,13 +192,13 @@ namespace sprag
 
     double matrix_bytes(const Scene &scene)
     {
-      const auto [displacements, ports] = expected_size(scene);
+      const auto [displacements, n_interface] = expected_size(scene);
       if (scene.analysis.dimension == 3)
-        return solid_bytes * std::pow(displacements, 4. / 3.) + solid_mode_bytes(scene, displacements, ports);
+        return solid_bytes * std::pow(displacements, 4. / 3.) + solid_mode_bytes(scene, displacements, n_interface);
       const double levers       = scene.pair.type == PairType::full && !is_factorised_once(scene) ? 2. : 1.;
       const auto [each, copies] = compute_cost(scene);
       const double bar          = scene.plate.type == PlateType::none ? 1. : bar_behind_plate;
-      return levers * bar * (each * displacements + copies * 8. * ports * ports);
+      return levers * bar * (each * displacements + copies * 8. * n_interface * n_interface);
     }
 
     // Files with factors have these sizes and limits.
@@ -244,11 +244,11 @@ namespace sprag
 
   namespace
   {
-    /// The judges by condensed finite elements keep the model of the slides beside that in time.
+    /// The check models of condensed finite elements keep the model of the slides beside that in time.
     double design_memory(Scene scene)
     {
-      const auto &judges      = scene.design.judged_by;
-      const bool is_condensed = std::count(judges.begin(), judges.end(), DesignJudge::condensed) > 0;
+      const auto &checks      = scene.design.check_models;
+      const bool is_condensed = std::count(checks.begin(), checks.end(), CheckModel::condensed) > 0;
       scene.analysis.type     = AnalysisType::stability;
       scene.analysis.model    = is_condensed ? ModelType::condensed : ModelType::beam;
       return library_memory(scene) + 2. * matrix_bytes(scene);

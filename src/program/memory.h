@@ -13,7 +13,7 @@ namespace sprag
   struct ExpectedSize
   {
     double displacements = 0.; ///< degrees of freedom
-    double ports         = 0.; ///< the degrees of freedom on the friction face, which the contact acts on
+    double n_interface   = 0.; ///< the degrees of freedom on the friction face, which the contact acts on
   };
 
   /// Estimates the size of one lever, bar or frame, with an elastic cylinder, as meshes/ makes them. Both numbers are 0 where

@@ -36,7 +36,7 @@ namespace sprag
       face
     };
 
-    /// In memory until they are in a journal.
+    /// In memory until they are in a results log.
     constexpr std::size_t most_face_bytes = 64 * 1024 * 1024;
   } // namespace
 
@@ -53,17 +53,17 @@ namespace sprag
       return;
     if (checkpoint->resumes())
       take_over();
-    checkpoint->set_records([this](RowJournal &journal) { add_records(journal); });
+    checkpoint->set_records([this](RowLog &row_log) { add_records(row_log); });
   }
 
-  void Recorder::add_records(RowJournal &journal)
+  void Recorder::add_records(RowLog &row_log)
   {
     // Whatever append() throws, it has what it was given.
     for (;;)
       if (faces_kept < faces_to_keep.size() && faces_to_keep[faces_kept].first == rows_kept)
-        journal.append(RecordKind::face, faces_to_keep[faces_kept++].second);
+        row_log.append(RecordKind::face, faces_to_keep[faces_kept++].second);
       else if (rows_kept < rows.size())
-        journal.append(RecordKind::row, rows[rows_kept++]);
+        row_log.append(RecordKind::row, rows[rows_kept++]);
       else
         break;
     faces_to_keep.clear();

@@ -64,14 +64,14 @@ namespace sprag
 
     Checkpoint *const checkpoint; ///< null without
     std::size_t taken_over = 0;
-    std::size_t rows_kept  = 0;                                     ///< in the checkpoint's journal
+    std::size_t rows_kept  = 0;                                     ///< in the checkpoint's results log
     std::vector<std::pair<std::size_t, std::string>> faces_to_keep; ///< as bytes, with the number of rows before them
     std::size_t faces_kept         = 0;                             ///< of these
     std::size_t face_bytes_to_keep = 0;
 
     void add(Row row);
     void take_over();
-    void add_records(RowJournal &journal);
+    void add_records(RowLog &row_log);
   };
 
   /// Returns the length of the drive's path [mm].

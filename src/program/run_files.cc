@@ -22,7 +22,7 @@ namespace sprag
     }
   } // namespace
 
-  std::string journal_header(const std::string &what, const std::string &scene_key)
+  std::string results_log_header(const std::string &what, const std::string &scene_key)
   {
     Fingerprint key;
     key.add(program_fingerprint());
@@ -33,15 +33,15 @@ namespace sprag
   bool has_progress(const std::string &folder, const Scene &scene)
   {
     if (scene.analysis.type == AnalysisType::map)
-      return begins_with(journal_header("map", scene_key(scene)), folder + '/' + map_journal_name);
+      return begins_with(results_log_header("map", scene_key(scene)), folder + '/' + map_log_name);
     if (scene.analysis.type == AnalysisType::study)
-      return begins_with(journal_header("study", scene_key(scene)), folder + '/' + study_journal_name);
+      return begins_with(results_log_header("study", scene_key(scene)), folder + '/' + study_log_name);
     return has_checkpoint(folder, scene);
   }
 
   void remove_checkpoint(const std::string &folder)
   {
-    for (const char *name : { checkpoint_name, next_checkpoint_name, row_journal_name })
+    for (const char *name : { checkpoint_name, next_checkpoint_name, row_log_name })
       ::unlink((folder + '/' + name).c_str());
   }
 } // namespace sprag

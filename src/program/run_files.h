@@ -12,13 +12,13 @@ namespace sprag
   inline constexpr char log_name[]             = "run.log";
   inline constexpr char checkpoint_name[]      = "run.checkpoint";
   inline constexpr char next_checkpoint_name[] = "run.checkpoint.new"; ///< while it is written
-  inline constexpr char row_journal_name[]     = "run.journal";
-  inline constexpr char map_journal_name[]     = "map.journal";
-  inline constexpr char study_journal_name[]   = "study.journal";
+  inline constexpr char row_log_name[]         = "run.journal";
+  inline constexpr char map_log_name[]         = "map.journal";
+  inline constexpr char study_log_name[]       = "study.journal";
 
-  /// Returns the first line of the journal of an analysis, "map", whose pieces depend on the scene with this key and on the build
-  /// of the program.
-  std::string journal_header(const std::string &what, const std::string &scene_key);
+  /// Returns the first line of the results log of an analysis, "map", whose pieces depend on the scene with this key and on the
+  /// build of the program.
+  std::string results_log_header(const std::string &what, const std::string &scene_key);
 
   /// Returns whether there is something in a folder that the run of this scene goes on from. A checkpoint counts by the scene's
   /// parameters, whatever the files hold that they name.

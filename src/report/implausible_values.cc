@@ -12,7 +12,7 @@ namespace sprag
   namespace
   {
     /// A value, what it can be with room, and units that are used by mistake in place of its own.
-    struct JudgedValue
+    struct CheckedValue
     {
       std::string parameter;
       double value;
@@ -29,33 +29,33 @@ namespace sprag
     };
 
     /// Levers are made a thousand times stiffer than metal on purpose, so that they do not bend.
-    JudgedValue young_modulus(const std::string &section, const double value, const double low, const double high,
-                              const std::string &softest)
+    CheckedValue young_modulus(const std::string &section, const double value, const double low, const double high,
+                               const std::string &softest)
     {
       return {
         section + "/Young's modulus", value, low, high, "MPa", "diamond has 1.2e6 MPa, " + softest, { "Pa", "kPa", "GPa" }
       };
     }
 
-    JudgedValue metal(const std::string &section, const double value)
+    CheckedValue metal(const std::string &section, const double value)
     {
       return young_modulus(section, value, 300., 1e9, "PTFE 500");
     }
 
-    JudgedValue density(const std::string &section, const double value)
+    CheckedValue density(const std::string &section, const double value)
     {
       return { section + "/Density",          value, 1e-11, 3e-8, "t/mm3", "osmium has 2.3e-8 t/mm3, foams 2e-11",
                { "kg/m3", "g/cm3", "kg/mm3" } };
     }
 
-    JudgedValue length(const std::string &parameter, const double value)
+    CheckedValue length(const std::string &parameter, const double value)
     {
       return { parameter, value, 0.5, 1e5, "mm", "parts of such devices measure a millimetre to some metres", { "m", "inch" } };
     }
 
     /// Its lever of the dimensions given would be lighter than balsa or, with as much again in a hub, ten times as heavy as
     /// osmium.
-    JudgedValue inertia(const Lever &lever)
+    CheckedValue inertia(const Lever &lever)
     {
       const double volume_moment = lever.depth * lever.width * std::pow(lever.length, 3) / 3.;
       return { "Lever/Moment of inertia",
@@ -68,7 +68,7 @@ namespace sprag
     }
 
     /// Turned by a radian, it would press with less than 10 N at the pivot's distance, of which levers turn a tenth.
-    JudgedValue spring(const Scene &scene)
+    CheckedValue spring(const Scene &scene)
     {
       const double distance = scene.geometry.pivot_distance;
       return { "Rotational spring/Stiffness",
@@ -80,7 +80,7 @@ namespace sprag
                { "N m/rad", "N mm/deg", "N m/deg" } };
     }
 
-    std::vector<JudgedValue> judged_values(const Scene &scene)
+    std::vector<CheckedValue> checked_values(const Scene &scene)
     {
       return { metal("Lever", scene.lever.young_modulus),
                metal("Friction plate", scene.plate.young_modulus),
@@ -103,13 +103,13 @@ namespace sprag
     }
 
     /// "2700 kg/m3, which is 2.7e-09 t/mm3", of the first unit in which the value is plausible; empty where it is in none.
-    std::string meant(const JudgedValue &judged)
+    std::string meant(const CheckedValue &checked)
     {
       try
       {
-        for (const auto &unit : judged.mistaken)
-          if (const double value = judged.value * unit_factor(unit, judged.unit); judged.is_plausible(value))
-            return rounded_text(judged.value) + ' ' + unit + ", which is " + rounded_text(value) + ' ' + judged.unit;
+        for (const auto &unit : checked.mistaken)
+          if (const double value = checked.value * unit_factor(unit, checked.unit); checked.is_plausible(value))
+            return rounded_text(checked.value) + ' ' + unit + ", which is " + rounded_text(value) + ' ' + checked.unit;
       }
       catch (const InputError &)
       {
@@ -122,16 +122,16 @@ namespace sprag
   Warnings implausible_values(const Scene &scene)
   {
     std::string found, remedy;
-    for (const auto &judged : judged_values(scene))
+    for (const auto &checked : checked_values(scene))
     {
-      if (scene.specified.count(judged.parameter) == 0 || judged.is_plausible(judged.value))
+      if (scene.specified.count(checked.parameter) == 0 || checked.is_plausible(checked.value))
         continue;
-      const bool is_small = judged.value < judged.low;
-      found += (found.empty() ? "" : " ") + judged.parameter + " = " + rounded_text(judged.value) + ' ' + judged.unit + " is " +
-               (is_small ? "less" : "more") + " than " + rounded_text(is_small ? judged.low : judged.high) + ' ' + judged.unit +
-               ": " + judged.known + '.';
-      if (const auto likely = meant(judged); !likely.empty())
-        remedy += judged.parameter + " may be meant as " + likely + ". ";
+      const bool is_small = checked.value < checked.low;
+      found += (found.empty() ? "" : " ") + checked.parameter + " = " + rounded_text(checked.value) + ' ' + checked.unit +
+               " is " + (is_small ? "less" : "more") + " than " + rounded_text(is_small ? checked.low : checked.high) + ' ' +
+               checked.unit + ": " + checked.known + '.';
+      if (const auto likely = meant(checked); !likely.empty())
+        remedy += checked.parameter + " may be meant as " + likely + ". ";
     }
     Warnings warnings;
     if (!found.empty())

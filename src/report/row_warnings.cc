@@ -19,10 +19,10 @@ namespace sprag
 {
   namespace
   {
-    // With the overlap a fifth of the approach the largest pressure of model A is 7 % low and its contact 12 % wide.
+    // With the penetration a fifth of the approach the largest pressure of model A is 7 % low and its contact 12 % wide.
     constexpr double largest_approach_penetration = 0.2;
 
-    // The lever is turned less by the overlap: with a tenth of the layer P of model A is 3 % low.
+    // The lever is turned less by the penetration: with a tenth of the layer P of model A is 3 % low.
     constexpr double largest_layer_penetration = 0.1;
 
     // Deflection over distance from the pivot. At finite strain P of model A with levers of 1, 2 and 4 mm is lower by 2.1, 0.7
@@ -63,19 +63,19 @@ namespace sprag
       return "at x = " + mm(row[Column::x]) + ' ' + way(row);
     }
 
-    /// The rows have overlap of a mesh and compression both.
-    void add_overlap(const Scene &scene, const std::vector<Row> &rows, const Row &peak, Warnings &warnings)
+    /// The rows have penetration of a mesh and compression of the layer both.
+    void add_penetration(const Scene &scene, const std::vector<Row> &rows, const Row &peak, Warnings &warnings)
     {
       const double thickness = scene.layer.thickness;
       const Row *deepest     = find_largest_row(rows, [](const Row &row) { return row[Column::penetration]; });
       if (deepest == nullptr)
         return;
       const std::string remedy = "Leave Contact/Penalty at auto, or give ten times as much.";
-      const double overlap     = (*deepest)[Column::penetration];
-      if (thickness > 0. && overlap > largest_layer_penetration * thickness)
+      const double penetration = (*deepest)[Column::penetration];
+      if (thickness > 0. && penetration > largest_layer_penetration * thickness)
         warnings.push_back({ "overlap_of_layer",
-                             "Cylinder and friction face overlap by " + mm(overlap) + ' ' + place(*deepest) + ", " +
-                                 per_cent(overlap / thickness) + " of the layer's thickness; admitted are " +
+                             "Cylinder and friction face overlap by " + mm(penetration) + ' ' + place(*deepest) + ", " +
+                                 per_cent(penetration / thickness) + " of the layer's thickness; admitted are " +
                                  per_cent(largest_layer_penetration) + '.',
                              "The lever is opened by that much less than the cylinder asks for: P, Q, work and theta are too "
                              "small, and pressures and contact width are those of a soft spring, not of the layer.",
@@ -153,7 +153,7 @@ namespace sprag
       return std::isfinite(value) ? value : 0.;
     }
 
-    /// A deformable lever in contact is turned less than a rigid one: by compression and overlap, and by its deflection.
+    /// A deformable lever in contact is turned less than a rigid one: by compression and penetration, and by its deflection.
     double deflection_over_length(const Row &row)
     {
       if (!(row[Column::P] > 0.))
@@ -223,7 +223,7 @@ namespace sprag
     }
 
     /// Quasi-static alone: in time Analysis/Maximum energy residual looks at the whole ledger. The springs of the penalties,
-    /// which no column counts there, hold no more than force times overlap and slip.
+    /// which no column counts there, hold no more than force times penetration and slip.
     void add_energy(const Scene &scene, const std::vector<Row> &rows, Warnings &warnings)
     {
       if (scene.analysis.type != AnalysisType::quasi_static || scene.analysis.model != ModelType::finite_element)
@@ -309,7 +309,7 @@ namespace sprag
       return warnings;
     if (is_meshed(scene.analysis.model))
     {
-      add_overlap(scene, rows, *peak, warnings);
+      add_penetration(scene, rows, *peak, warnings);
       append(warnings, coarse_contact_warnings(scene, rows));
       add_peaks(scene, rows, (*peak)[Column::P], warnings);
       add_tangential(*peak, warnings);

@@ -327,7 +327,7 @@ namespace sprag
     }
 
     /// Slides are held at one speed, and friction over the speeds between a turn and that may do otherwise.
-    void add_speed_of_slides(const Scene &scene, Warnings &warnings)
+    void add_largest_speed(const Scene &scene, Warnings &warnings)
     {
       const auto profile   = scene.drive.profile();
       const bool is_varied = profile == DriveProfile::harmonic || profile == DriveProfile::table;
@@ -393,7 +393,7 @@ namespace sprag
     add_opening(scene, warnings);
     add_locking(scene, warnings);
     add_shaking(scene, warnings);
-    add_speed_of_slides(scene, warnings);
+    add_largest_speed(scene, warnings);
     append(warnings, implausible_values(scene));
     add_unused_columns(scene, warnings);
     return warnings;

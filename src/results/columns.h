@@ -154,7 +154,7 @@ namespace sprag
     double lateral_force() const;
 
   private:
-    friend void visit(Archive &archive, Row &row);
+    friend void serialise(Archive &archive, Row &row);
 
     std::array<double, n_columns> values;
     std::vector<double> second_values;

@@ -145,7 +145,7 @@ namespace sprag
     return name + formatted("-%04u.h5", frame);
   }
 
-  void FieldFiles::visit_progress(Archive &archive)
+  void FieldFiles::serialise_progress(Archive &archive)
   {
     archive(n_frames);
     for (auto &index : indices)

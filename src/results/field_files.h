@@ -62,9 +62,9 @@ namespace sprag
     /// Adds a frame: fields of each mesh, in the order of the meshes. `time` [s] differs from those of the frames before.
     void write(double time, const std::vector<std::vector<Field>> &fields, const std::vector<FrameFact> &facts = {});
 
-    /// Visits what says which frames there are. Taken from an archive, later frames are removed; throws AnalysisError where one
-    /// of them is gone. To be used with FrameStorage::files.
-    void visit_progress(Archive &archive);
+    /// Serialises what says which frames there are. Taken from an archive, later frames are removed; throws AnalysisError where
+    /// one of them is gone. To be used with FrameStorage::files.
+    void serialise_progress(Archive &archive);
 
   private:
     struct Index

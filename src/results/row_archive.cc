@@ -14,7 +14,7 @@ namespace sprag
       std::vector<double> &values;
     };
 
-    void visit(Archive &archive, const Sparse sparse)
+    void serialise(Archive &archive, const Sparse sparse)
     {
       auto &values          = sparse.values;
       const auto is_nothing = [](const double value) { return value == 0. && !std::signbit(value); };
@@ -30,17 +30,17 @@ namespace sprag
     }
   } // namespace
 
-  void visit(Archive &archive, Row &row)
+  void serialise(Archive &archive, Row &row)
   {
     auto &[sensor_forces, across, values, second_values] = row;
     archive(sensor_forces, across, values, second_values);
   }
 
-  void visit(Archive &archive, FaceState &face)
+  void serialise(Archive &archive, FaceState &face)
   {
     auto &[time, x, pressure, traction, traction_across, pressure_2, traction_2, traction_across_2] = face;
     archive(time, x);
     for (auto *const values : { &pressure, &traction, &traction_across, &pressure_2, &traction_2, &traction_across_2 })
-      visit(archive, Sparse{ *values });
+      serialise(archive, Sparse{ *values });
   }
 } // namespace sprag

@@ -7,6 +7,6 @@
 
 namespace sprag
 {
-  void visit(Archive &archive, Row &row);
-  void visit(Archive &archive, FaceState &face);
+  void serialise(Archive &archive, Row &row);
+  void serialise(Archive &archive, FaceState &face);
 } // namespace sprag

@@ -28,7 +28,7 @@ namespace sprag
       std::vector<DatasetRows> datasets;
     };
 
-    void visit(Archive &archive, Plan &plan)
+    void serialise(Archive &archive, Plan &plan)
     {
       archive(plan.path, plan.datasets);
     }
@@ -117,7 +117,7 @@ namespace sprag
     }
   } // namespace
 
-  void visit(Archive &archive, DatasetRows &rows)
+  void serialise(Archive &archive, DatasetRows &rows)
   {
     archive(rows.dataset, rows.rows, rows.row_size);
   }
@@ -128,7 +128,7 @@ namespace sprag
       writers.call_others();
     Plan plan{ path, all };
     Archive archive;
-    visit(archive, plan);
+    serialise(archive, plan);
     broadcast_bytes(writers.ranks, archive.bytes());
     write_shares(plan, writers.ranks);
   }
@@ -137,7 +137,7 @@ namespace sprag
   {
     Plan plan;
     Archive archive(broadcast_bytes(ranks, std::string()));
-    visit(archive, plan);
+    serialise(archive, plan);
     write_shares(plan, ranks);
   }
 } // namespace sprag

@@ -28,8 +28,8 @@ namespace sprag
     const void *values;   ///< of the first process
   };
 
-  /// Visits what all processes know of them.
-  void visit(Archive &archive, DatasetRows &rows);
+  /// Serialises what all processes know of them.
+  void serialise(Archive &archive, DatasetRows &rows);
 
   /// Writes the rows of datasets of a file that is closed: each process compresses and writes some chunks of each. To be called
   /// by the first. Throws AnalysisError where any of the processes cannot open the file; what fails later in one of several ends

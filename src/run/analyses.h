@@ -27,16 +27,16 @@ namespace sprag
   /// Fits the contact law of the reduced models to an indentation by finite elements.
   void run_contact_law(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
-  /// Finds the vibrations of the slide at one x, undamped (modal) or judged (stability).
+  /// Finds the vibrations of the slide at one x, undamped (modal) or checked (stability).
   void run_vibrations(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
-  /// Judges the scene's slides both ways over a grid of two parameters and finds the boundaries between kinds. All ranks of MPI
+  /// Checks the scene's slides both ways over a grid of two parameters and finds the boundaries between kinds. All ranks of MPI
   /// call it, and it throws on all of them. Until the map is complete its cells are in `map.journal`, from which the same scene
   /// goes on when started again; result.h5 is written at the end.
   void run_map(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
-  /// Finds the lever that meets the scene's demands and is best by its aim, asks the judges, and writes the lever's scene. Throws
-  /// AnalysisError too where no lever meets all demands, by the closed form or a judge.
+  /// Finds the lever that meets the scene's demands and is best by its aim, asks the check models, and writes the lever's scene.
+  /// Throws AnalysisError too where no lever meets all demands, by the closed form or a check model.
   void run_design(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
   /// Runs the scene's Study/Type at other values of its parameters. All ranks of MPI call it, and it throws on all of them. Until

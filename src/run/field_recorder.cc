@@ -152,19 +152,19 @@ namespace sprag
     written.push_back(kept.row[Column::time]);
   }
 
-  void visit(Archive &archive, FieldSource &source)
+  void serialise(Archive &archive, FieldSource &source)
   {
     auto &[coordinates, forces, face_force] = source;
     archive(coordinates, forces, face_force);
   }
 
-  void visit(Archive &archive, FieldRecorder::Kept &kept)
+  void serialise(Archive &archive, FieldRecorder::Kept &kept)
   {
     auto &[row, face, direction, source] = kept;
     archive(row, face, direction, source);
   }
 
-  void visit(Archive &archive, FieldRecorder::Best &best)
+  void serialise(Archive &archive, FieldRecorder::Best &best)
   {
     auto &[value, state] = best;
     bool has_state       = state != nullptr;
@@ -176,12 +176,12 @@ namespace sprag
     archive(*state);
   }
 
-  void FieldRecorder::visit_progress(Archive &archive)
+  void FieldRecorder::serialise_progress(Archive &archive)
   {
     archive(travelled, last_frame, last_x, peak_force, direction, turned, written, samples, best);
-    peaks.visit_progress(archive);
+    peaks.serialise_progress(archive);
     if (frames)
-      frames->visit_progress(archive);
+      frames->serialise_progress(archive);
   }
 
   std::vector<Entry> FieldRecorder::finish()

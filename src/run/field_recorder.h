@@ -5,7 +5,7 @@
 #include "estimate/stress_sample.h"
 #include "fe/fields/field_frames.h"
 #include "fe/fields/stress_peaks.h"
-#include "model/port_forces.h"
+#include "model/interface_forces.h"
 
 #include <functional>
 #include <map>
@@ -20,7 +20,7 @@ namespace sprag
   struct FieldSource
   {
     dealii::Vector<double> coordinates;
-    PortLoads forces;
+    DofLoads forces;
     dealii::Vector<double> face_force;
   };
 
@@ -46,8 +46,8 @@ namespace sprag
     /// Looks at an accepted step and returns whether it was written as a frame. `source` makes what its fields follow from.
     bool record(const Row &row, const FaceState &face, const std::function<FieldSource()> &source);
 
-    /// Visits what was looked at so far.
-    void visit_progress(Archive &archive);
+    /// Serialises what was looked at so far.
+    void serialise_progress(Archive &archive);
 
     /// Finds the fields that are still to be found. Returns the peaks of stress for /summary.
     std::vector<Entry> finish();
@@ -66,7 +66,7 @@ namespace sprag
       int direction = 0;
       FieldSource source;
     };
-    friend void visit(Archive &archive, Kept &kept);
+    friend void serialise(Archive &archive, Kept &kept);
 
     enum class Estimate
     {
@@ -104,7 +104,7 @@ namespace sprag
       double value = 0.;
       std::shared_ptr<Kept> state;
     };
-    friend void visit(Archive &archive, Best &best);
+    friend void serialise(Archive &archive, Best &best);
     std::map<std::pair<Estimate, int>, Best> best; ///< of the estimates, each way
   };
 } // namespace sprag

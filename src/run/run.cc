@@ -105,7 +105,7 @@ namespace sprag
   namespace
   {
     /// That of a run with what choosing its settings has taken since the process had used so much CPU time [s].
-    ExpectedCost cost_with_probes(const Scene &scene, const double since)
+    ExpectedCost cost_with_trials(const Scene &scene, const double since)
     {
       const double spent = PhaseTimer::cpu_seconds() - since;
       auto cost          = expected_cost(scene);
@@ -113,28 +113,28 @@ namespace sprag
       return cost;
     }
 
-    bool print_probe(const std::string &sentence, double)
+    bool print_trial(const std::string &sentence, double)
     {
       std::cout << sentence << '\n' << std::flush;
       return true;
     }
 
     /// Leaves out what a check of a scene should not wait for.
-    bool print_short_probe(const std::string &sentence, const double seconds)
+    bool print_short_trial(const std::string &sentence, const double seconds)
     {
       constexpr double most = 10.; // [s]
       const bool is_short   = seconds <= most;
-      return print_probe(sentence + (is_short ? "" : ", solved in the run alone"), seconds) && is_short;
+      return print_trial(sentence + (is_short ? "" : ", solved in the run alone"), seconds) && is_short;
     }
   } // namespace
 
   void print_expectations(const Scene &original, const unsigned int processes, const std::string &folder)
   {
     const double since         = PhaseTimer::cpu_seconds();
-    const auto [scene, choice] = resolved(original, print_short_probe);
+    const auto [scene, choice] = resolved(original, print_short_trial);
     if (choice)
       print_choice(std::cout, original, *choice);
-    print_cost(std::cout, cost_with_probes(scene, since));
+    print_cost(std::cout, cost_with_trials(scene, since));
     print_processes(std::cout, scene, processes);
     if (const auto files = factor_files(scene, processes, folder))
       std::cout << "Memory:       " << to_text(*files) << '\n';
@@ -146,7 +146,7 @@ namespace sprag
       require_writable(options.folder);
     const bool is_quiet        = options.quiet || !options.is_first;
     const double since         = PhaseTimer::cpu_seconds();
-    const auto [scene, choice] = is_quiet ? resolved(original) : resolved(original, print_probe);
+    const auto [scene, choice] = is_quiet ? resolved(original) : resolved(original, print_trial);
     RunOptions telling         = options;
     if (choice)
     {
@@ -154,7 +154,7 @@ namespace sprag
       if (!is_quiet)
       {
         print_choice(std::cout, original, *choice);
-        print_cost(std::cout, cost_with_probes(scene, since));
+        print_cost(std::cout, cost_with_trials(scene, since));
       }
       require_memory(scene, options.processes, options.in_memory == nullptr ? options.folder : "");
     }

@@ -8,7 +8,7 @@
 #include "program/result_writer.h"
 #include "results/result_file.h"
 #include "run/analyses.h"
-#include "run/design_judges.h"
+#include "run/design_checks.h"
 #include "scene/read.h"
 #include "scene/scene.h"
 
@@ -35,7 +35,7 @@ namespace sprag
       std::vector<StoppingDemand> stopping;
       bool each_left_out = false;  ///< whether `stopping` is known
       std::vector<Proposal> front; ///< of two aims
-      std::vector<Judgement> judgements;
+      std::vector<ModelCheck> checks;
       std::string unmet;            ///< why there is no lever, sentences; empty: there is one
       std::size_t evaluations = 0;  ///< of the closed form
       double search_seconds   = 0.; ///< CPU time of all searches
@@ -52,14 +52,14 @@ namespace sprag
                                                         : design_quantity_info(term.quantity).unit;
     }
 
-    /// Value by the last judge that computes the quantity, or by the closed form if none does.
+    /// Value by the last check model that computes the quantity, or by the closed form if none does.
     double best_known(const DesignTerm &term, const Proposal &lever, const DesignFindings &findings)
     {
       double value = term_value(term, lever);
       if (term.quantity != DesignQuantity::parameter)
-        for (const auto &judgement : findings.judgements)
-          if (judgement.lever.parameters == lever.parameters && !std::isnan(judgement.found[term.quantity]))
-            value = judgement.found[term.quantity];
+        for (const auto &check : findings.checks)
+          if (check.lever.parameters == lever.parameters && !std::isnan(check.found[term.quantity]))
+            value = check.found[term.quantity];
       return value;
     }
 
@@ -91,34 +91,34 @@ namespace sprag
       return missed;
     }
 
-    Group judgement_group(const DesignSettings &design, const std::vector<Judgement> &judgements)
+    Group check_group(const DesignSettings &design, const std::vector<ModelCheck> &checks)
     {
       Group group{ "judgements", {}, {} };
       const auto add = [&](const ColumnInfo &info, const auto &value)
-      { group.datasets.push_back(make_dataset(judgements, info, value)); };
-      add({ "round", "1", "of this judge" }, [](const Judgement &judgement) { return static_cast<double>(judgement.round); });
+      { group.datasets.push_back(make_dataset(checks, info, value)); };
+      add({ "round", "1", "of this judge" }, [](const ModelCheck &check) { return static_cast<double>(check.round); });
       add({ "passes", "1", "1: it meets what is demanded of what the judge tells" },
-          [&](const Judgement &judgement) { return judgement.passes(design.demanded) ? 1. : 0.; });
+          [&](const ModelCheck &check) { return check.passes(design.demanded) ? 1. : 0.; });
       add({ "in_time", "1", "1: the drive was followed in time as well" },
-          [](const Judgement &judgement) { return judgement.in_time ? 1. : 0.; });
-      add({ "cpu_time", "s", "of the judge" }, [](const Judgement &judgement) { return judgement.cpu_seconds; });
+          [](const ModelCheck &check) { return check.in_time ? 1. : 0.; });
+      add({ "cpu_time", "s", "of the judge" }, [](const ModelCheck &check) { return check.cpu_seconds; });
       for (std::size_t i = 0; i < design.free_parameters.size(); ++i)
         add({ to_identifier(design.free_parameters[i].name), design.free_parameters[i].unit, design.free_parameters[i].name },
-            [i](const Judgement &judgement) { return judgement.lever.parameters[i]; });
+            [i](const ModelCheck &check) { return check.lever.parameters[i]; });
       for (const auto &info : design_quantities())
       {
         add({ to_identifier(info.name), info.unit, info.definition + ", by the judge" },
-            [&](const Judgement &judgement) { return judgement.found[info.quantity]; });
+            [&](const ModelCheck &check) { return check.found[info.quantity]; });
         add({ "expected_" + to_identifier(info.name), info.unit, "as it was proposed, corrections included" },
-            [&](const Judgement &judgement) { return judgement.lever.quantities[info.quantity]; });
+            [&](const ModelCheck &check) { return check.lever.quantities[info.quantity]; });
       }
-      TextDataset judge{ "judge", "which", {} }, failure{ "failure", "why it tells nothing", {} };
-      for (const auto &judgement : judgements)
+      TextDataset check_model{ "judge", "which", {} }, failure{ "failure", "why it tells nothing", {} };
+      for (const auto &check : checks)
       {
-        judge.values.push_back(judge_name(judgement.judge));
-        failure.values.push_back(judgement.failure);
+        check_model.values.push_back(model_name(check.check_model));
+        failure.values.push_back(check.failure);
       }
-      group.texts = { judge, failure };
+      group.texts = { check_model, failure };
       return group;
     }
 
@@ -153,25 +153,25 @@ namespace sprag
              std::any_of(design.aims.begin(), design.aims.end(), is_it);
     }
 
-    void print_judgements(std::ostream &stream, const DesignSettings &design, const std::vector<Judgement> &judgements)
+    void print_checks(std::ostream &stream, const DesignSettings &design, const std::vector<ModelCheck> &checks)
     {
-      for (const auto &judgement : judgements)
+      for (const auto &check : checks)
       {
-        const bool passes = judgement.passes(design.demanded);
-        stream << "\nJudged by " << judge_name(judgement.judge) << (judgement.in_time ? ", in time as well" : "") << ", round "
-               << judgement.round << ", " << formatted("%.3g", judgement.cpu_seconds) << " CPU s: "
-               << (passes                      ? "passes"
-                   : judgement.failure.empty() ? "does not pass"
-                                               : judgement.failure)
+        const bool passes = check.passes(design.demanded);
+        stream << "\nJudged by " << model_name(check.check_model) << (check.in_time ? ", in time as well" : "") << ", round "
+               << check.round << ", " << formatted("%.3g", check.cpu_seconds) << " CPU s: "
+               << (passes                  ? "passes"
+                   : check.failure.empty() ? "does not pass"
+                                           : check.failure)
                << '\n';
         if (!passes)
-          stream << "  " << lever_text(design, judgement.lever) << '\n';
+          stream << "  " << lever_text(design, check.lever) << '\n';
         for (const auto &info : design_quantities())
-          if (!std::isnan(judgement.found[info.quantity]) && is_asked_for(design, info.quantity))
-            stream << "  " << padded(info.name, 34) << padded(rounded_text(judgement.found[info.quantity]), 14)
-                   << (std::isnan(judgement.lever.quantities[info.quantity])
+          if (!std::isnan(check.found[info.quantity]) && is_asked_for(design, info.quantity))
+            stream << "  " << padded(info.name, 34) << padded(rounded_text(check.found[info.quantity]), 14)
+                   << (std::isnan(check.lever.quantities[info.quantity])
                            ? std::string()
-                           : "expected " + rounded_text(judgement.lever.quantities[info.quantity]) + unit_text(info.unit))
+                           : "expected " + rounded_text(check.lever.quantities[info.quantity]) + unit_text(info.unit))
                    << '\n';
       }
     }
@@ -220,18 +220,18 @@ namespace sprag
                                { "evaluations", static_cast<double>(findings.evaluations) },
                                { "cpu_time_search", findings.search_seconds },
                                { "front_points", static_cast<double>(findings.front.size()) },
-                               { "judgements", static_cast<double>(findings.judgements.size()) } });
+                               { "judgements", static_cast<double>(findings.checks.size()) } });
       return entries;
     }
 
-    /// Returns the groups /judgements, a row for each lever proposed to a judge, and /demands.
+    /// Returns the groups /judgements, a row for each lever proposed to a check model, and /demands.
     std::vector<Group> design_groups(const DesignSettings &design, const DesignFindings &findings)
     {
       std::vector<Group> groups;
       if (findings.found && !design.demanded.empty())
         groups.push_back(demand_group(design, findings));
-      if (!findings.judgements.empty())
-        groups.push_back(judgement_group(design, findings.judgements));
+      if (!findings.checks.empty())
+        groups.push_back(check_group(design, findings.checks));
       return groups;
     }
 
@@ -239,8 +239,9 @@ namespace sprag
     std::string unmet_text(const DesignSettings &design, const DesignFindings &findings)
     {
       std::string text = "No lever within the bounds meets all demands";
-      if (!findings.judgements.empty())
-        text += " when the closed form is corrected by what the judge " + judge_name(findings.judgements.back().judge) + " found";
+      if (!findings.checks.empty())
+        text +=
+            " when the closed form is corrected by what the judge " + model_name(findings.checks.back().check_model) + " found";
       text += ". ";
       if (findings.stopping.empty() && !(findings.found->lever.rule.violation < 0.))
         text += "Every lever breaks the rule that " + findings.found->lever.rule.text + ". ";
@@ -261,16 +262,16 @@ namespace sprag
       return text;
     }
 
-    /// Tells in a sentence how far a lever that a judge saw misses what is demanded.
-    std::string missed_text(const DesignSettings &design, const Judgement &judgement)
+    /// Tells in a sentence how far a lever that a check model saw misses what is demanded.
+    std::string missed_text(const DesignSettings &design, const ModelCheck &check)
     {
-      const std::string by = "by the judge " + judge_name(judgement.judge);
-      if (!judgement.failure.empty())
-        return "The lever proposed cannot be followed " + by + ": " + judgement.failure;
+      const std::string by = "by the judge " + model_name(check.check_model);
+      if (!check.failure.empty())
+        return "The lever proposed cannot be followed " + by + ": " + check.failure;
       std::string text = "No lever proposed meets all demands " + by + "; of the last one";
       for (const auto &demand : design.demanded)
         if (demand.term.quantity != DesignQuantity::parameter)
-          if (const double value = judgement.found[demand.term.quantity]; demand_violation(demand, value) > 0.)
+          if (const double value = check.found[demand.term.quantity]; demand_violation(demand, value) > 0.)
             text += " '" + demand.text + "' becomes " + rounded_text(value) + unit_text(term_unit(design, demand.term)) + ';';
       text.pop_back();
       return text + ". More Design/Rounds may help";
@@ -297,12 +298,12 @@ namespace sprag
       }
       if (!findings.front.empty())
         stream << "  front of both aims: " << findings.front.size() << " levers\n";
-      print_judgements(stream, design, findings.judgements);
+      print_checks(stream, design, findings.checks);
     }
 
     constexpr double correction_margin = 1e-3; ///< as they are known to first order, and of a mesh with its ripple
 
-    /// Proposes by the closed form and asks the judges.
+    /// Proposes by the closed form and asks the check models.
     class DesignRun
     {
     public:
@@ -311,7 +312,7 @@ namespace sprag
           , design(scene.design)
           , findings(found)
           , problem(scene)
-          , judges(scene)
+          , checks(scene)
       {
       }
 
@@ -321,8 +322,8 @@ namespace sprag
         require_lever();
         if (design.aims.size() > 1)
           search([&] { findings.front = pareto_front(problem); });
-        for (const auto judge : design.judged_by)
-          ask(judge);
+        for (const auto check_model : design.check_models)
+          ask(check_model);
       }
 
     private:
@@ -330,7 +331,7 @@ namespace sprag
       const DesignSettings &design;
       DesignFindings &findings;
       DesignProblem problem;
-      DesignJudges judges;
+      DesignChecks checks;
       DesignQuantities overshoot; ///< in time, of the last lever that was followed; NaN: none
 
       template <class Search>
@@ -354,74 +355,74 @@ namespace sprag
         throw AnalysisError(findings.unmet);
       }
 
-      bool is_timed(const DesignJudge judge) const
+      bool is_timed(const CheckModel check_model) const
       {
-        return design.judges_in_time && judge != DesignJudge::table && judge == design.judged_by.back();
+        return design.checks_in_time && check_model != CheckModel::table && check_model == design.check_models.back();
       }
 
-      void ask(const DesignJudge judge)
+      void ask(const CheckModel check_model)
       {
         for (unsigned int round = 1;; ++round)
         {
-          auto judgement  = judges.judge(judge, findings.found->lever, is_timed(judge));
-          judgement.round = round;
-          findings.judgements.push_back(judgement);
+          auto check  = checks.check(check_model, findings.found->lever, is_timed(check_model));
+          check.round = round;
+          findings.checks.push_back(check);
           end_if_interrupted();
-          if (judgement.passes(design.demanded))
+          if (check.passes(design.demanded))
             return;
           const bool is_last = round == design.rounds;
-          if (is_last || (!judgement.failure.empty() && !misses_growth(judgement)))
+          if (is_last || (!check.failure.empty() && !misses_growth(check)))
           {
-            findings.unmet = missed_text(design, judgement);
+            findings.unmet = missed_text(design, check);
             throw AnalysisError(findings.unmet);
           }
-          learn(judgement);
+          learn(check);
           propose_again();
         }
       }
 
       /// A lever less stable than demanded, or jamming; where the demand is kept or there is none a search cannot help.
-      bool misses_growth(const Judgement &judgement) const
+      bool misses_growth(const ModelCheck &check) const
       {
-        const double growth = judgement.found[DesignQuantity::growth_rate];
+        const double growth = check.found[DesignQuantity::growth_rate];
         return std::any_of(design.demanded.begin(), design.demanded.end(),
                            [&](const Demand &demand) {
                              return demand.term.quantity == DesignQuantity::growth_rate && demand_violation(demand, growth) > 0.;
                            });
       }
 
-      /// From now on the closed form is corrected by what the judge found above it.
-      void learn(const Judgement &judgement)
+      /// From now on the closed form is corrected by what the check model found above it.
+      void learn(const ModelCheck &check)
       {
         problem.room = correction_margin;
         for (const auto &[quantity, name, unit, definition] : design_quantities())
-          if (quantity != DesignQuantity::growth_rate && !std::isnan(judgement.found[quantity]))
-            problem.correct(quantity, problem.uncorrected(quantity, judgement.lever.quantities[quantity]),
-                            in_time(quantity, judgement));
-        if (misses_growth(judgement) || problem.dear)
-          learn_growth(judgement);
+          if (quantity != DesignQuantity::growth_rate && !std::isnan(check.found[quantity]))
+            problem.correct(quantity, problem.uncorrected(quantity, check.lever.quantities[quantity]), in_time(quantity, check));
+        if (misses_growth(check) || problem.dear)
+          learn_growth(check);
       }
 
-      /// The judge's value, scaled by the overshoot in time known from other levers if this one was not followed in time.
-      double in_time(const DesignQuantity quantity, const Judgement &judgement)
+      /// The check model's value, scaled by the overshoot in time known from other levers if this one was not followed in time.
+      double in_time(const DesignQuantity quantity, const ModelCheck &check)
       {
-        if (judgement.in_time)
-          overshoot[quantity] = judgement.overshoot[quantity];
-        const bool is_known = !judgement.in_time && !std::isnan(overshoot[quantity]);
-        return judgement.found[quantity] * (is_known ? overshoot[quantity] : 1.);
+        if (check.in_time)
+          overshoot[quantity] = check.overshoot[quantity];
+        const bool is_known = !check.in_time && !std::isnan(overshoot[quantity]);
+        return check.found[quantity] * (is_known ? overshoot[quantity] : 1.);
       }
 
-      /// The closed form knows no growth: the beam is asked about every lever, corrected by what a dearer judge found above it.
-      void learn_growth(const Judgement &judgement)
+      /// The closed form knows no growth: the beam is asked about every lever, corrected by what a dearer check model found above
+      /// it.
+      void learn_growth(const ModelCheck &check)
       {
-        if (judgement.judge != DesignJudge::beam)
+        if (check.check_model != CheckModel::beam)
         {
-          const double beam_rate = judges.beam_growth(problem.scene_at(judgement.lever.parameters));
-          if (std::isfinite(beam_rate) && std::isfinite(judgement.found[DesignQuantity::growth_rate]))
-            problem.correct(DesignQuantity::growth_rate, beam_rate, judgement.found[DesignQuantity::growth_rate]);
+          const double beam_rate = checks.beam_growth(problem.scene_at(check.lever.parameters));
+          if (std::isfinite(beam_rate) && std::isfinite(check.found[DesignQuantity::growth_rate]))
+            problem.correct(DesignQuantity::growth_rate, beam_rate, check.found[DesignQuantity::growth_rate]);
         }
         problem.dear = [this](const Scene &lever, DesignQuantities &quantities)
-        { quantities[DesignQuantity::growth_rate] = judges.beam_growth(lever); };
+        { quantities[DesignQuantity::growth_rate] = checks.beam_growth(lever); };
       }
 
       void propose_again()

@@ -40,7 +40,7 @@ namespace sprag
       Checkpoint &checkpoint;
       ResultWriter writer;
       Progress progress;
-      std::vector<std::vector<double>> to_keep; ///< rows for the checkpoint's journal
+      std::vector<std::vector<double>> to_keep; ///< rows for the checkpoint's results log
       std::size_t kept = 0;                     ///< of these, there already
 
       void take_over(bool quiet);
@@ -60,11 +60,11 @@ namespace sprag
       if (checkpoint.resumes())
         take_over(options.quiet);
       checkpoint.set_records(
-          [this](RowJournal &journal)
+          [this](RowLog &row_log)
           {
             // Whatever append() throws, it has what it was given.
             while (kept < to_keep.size())
-              journal.append(RecordKind::row, to_keep[kept++]);
+              row_log.append(RecordKind::row, to_keep[kept++]);
             to_keep.clear();
             kept = 0;
           });
@@ -128,7 +128,7 @@ namespace sprag
     unsigned long steps_taken_over = 0;
     const TableKeeper keeper{ checkpoint, [&](Archive &archive)
                               {
-                                visit(archive, *table);
+                                serialise(archive, *table);
                                 if (archive.reads())
                                   steps_taken_over = table->step_count();
                               } };

@@ -36,7 +36,7 @@ namespace sprag
           std::cerr << text << std::endl;
       }
 
-      void judged(const std::size_t done, const std::size_t total)
+      void checked(const std::size_t done, const std::size_t total)
       {
         if (!bar)
           bar.emplace(std::cerr, style, static_cast<double>(total));
@@ -50,12 +50,12 @@ namespace sprag
       std::vector<BoundaryPoint> boundary = {};
     };
 
-    void judge_all(const Scene &scene, MapFarm &farm, MapProgress &progress, StabilityMap &map)
+    void check_all(const Scene &scene, MapFarm &farm, MapProgress &progress, StabilityMap &map)
     {
       for (auto sites = map.grid.next_sites(); !sites.empty(); sites = map.grid.next_sites())
       {
         progress.say("grid: " + std::to_string(sites.size()) + " cells");
-        farm.judge(sites);
+        farm.check(sites);
         map.grid.learn(farm.kinds());
       }
       BoundarySearch search(map.grid, scene.map.bisections);
@@ -63,7 +63,7 @@ namespace sprag
       for (auto sites = search.next_sites(); !sites.empty(); sites = search.next_sites())
       {
         progress.say("boundaries: " + std::to_string(sites.size()) + " cells");
-        farm.judge(sites);
+        farm.check(sites);
         search.learn(farm.kinds());
         map.boundary = search.points();
       }
@@ -143,13 +143,13 @@ namespace sprag
       return static_cast<double>(counted) / static_cast<double>(found->values.size());
     }
 
-    std::vector<Entry> map_summary(const StabilityMap &map, const Group &group, const std::size_t judged)
+    std::vector<Entry> map_summary(const StabilityMap &map, const Group &group, const std::size_t checked)
     {
       const auto [n_first, n_second] = map.grid.points();
       const auto on_grid             = std::count(group.datasets[2].values.begin(), group.datasets[2].values.end(), 1.);
       std::vector<Entry> summary     = { { "grid_points", static_cast<double>(n_first) * n_second },
                                          { "grid_cells_judged", static_cast<double>(on_grid) },
-                                         { "cells_judged", static_cast<double>(judged) },
+                                         { "cells_judged", static_cast<double>(checked) },
                                          { "boundary_points", static_cast<double>(map.boundary.size()) } };
       for (const std::string way : { "forward", "backward" })
         append<Entry>(summary, { { "unstable_" + way, find_share(group, "kind_" + way, { 1., 2. }) },
@@ -173,20 +173,20 @@ namespace sprag
                    const std::string &status, const std::vector<Entry> &meta, Warnings &warnings)
     {
       const Group group = map_group(scene, map.grid, farm.cells());
-      ResultWriter writer(scene, options, farm.cell_judge().timer(), boundary_columns(scene.map));
+      ResultWriter writer(scene, options, farm.cell_check().timer(), boundary_columns(scene.map));
       for (const auto &point : map.boundary)
         writer.append(boundary_row(scene.map, point));
       writer.finish(status, { map_summary(map, group, farm.cells().size()), meta, { group } }, warnings);
     }
 
-    void announce(const Journal &journal, MapProgress &progress)
+    void announce(const ResultsLog &results_log, MapProgress &progress)
     {
-      if (journal.dropped())
+      if (results_log.dropped())
         progress.say("map.journal is of another scene or build: begun anew");
-      if (const auto damaged = journal.damaged_lines(); damaged > 0)
+      if (const auto damaged = results_log.damaged_lines(); damaged > 0)
         std::cerr << "map.journal: damaged lines dropped, their cells are judged again: " << damaged << std::endl;
-      if (!journal.lines().empty())
-        progress.say("map.journal: " + std::to_string(journal.lines().size()) + " cells taken over");
+      if (!results_log.lines().empty())
+        progress.say("map.journal: " + std::to_string(results_log.lines().size()) + " cells taken over");
     }
   } // namespace
 
@@ -194,18 +194,18 @@ namespace sprag
   {
     const auto begin = std::chrono::steady_clock::now();
     MapProgress progress{ progress_style(options.quiet || !is_first_rank()) };
-    std::optional<Journal> journal;
+    std::optional<ResultsLog> results_log;
     on_first_rank(
         [&]
         {
           prepare_folder(scene, options);
-          journal.emplace(options.folder + '/' + map_journal_name, "map", scene_key(scene));
-          announce(*journal, progress);
+          results_log.emplace(options.folder + '/' + map_log_name, "map", scene_key(scene));
+          announce(*results_log, progress);
         });
-    MapFarm farm(scene, journal ? &*journal : nullptr,
-                 [&](const std::size_t done, const std::size_t total) { progress.judged(done, total); });
+    MapFarm farm(scene, results_log ? &*results_log : nullptr,
+                 [&](const std::size_t done, const std::size_t total) { progress.checked(done, total); });
     StabilityMap map{ MapGrid(scene.map.first.points, scene.map.second.points, scene.map.coarsest) };
-    finish_in_any_case([&] { judge_all(scene, farm, progress, map); },
+    finish_in_any_case([&] { check_all(scene, farm, progress, map); },
                        [&](const std::string &status)
                        {
                          progress.bar.reset();
@@ -214,6 +214,6 @@ namespace sprag
                          const auto meta                             = map_cost(farm, seconds.count());
                          on_first_rank([&] { write_map(scene, options, map, farm, status, meta, warnings); });
                        });
-    on_first_rank([&] { journal->remove(); });
+    on_first_rank([&] { results_log->remove(); });
   }
 } // namespace sprag

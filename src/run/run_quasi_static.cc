@@ -72,7 +72,7 @@ namespace sprag
       {
         travel += std::abs(state.drive.x - last_x);
         last_x = state.drive.x;
-        if (travel < next || state.forces.ports.empty())
+        if (travel < next || state.forces.dofs.empty())
           return;
         next = travel + interval;
         append(face_samples, std::get<SolidStructure>(lever.structure()).samples(state.coordinates, state.forces));
@@ -88,7 +88,7 @@ namespace sprag
       }
 
     private:
-      friend void visit(Archive &archive, Samples &samples)
+      friend void serialise(Archive &archive, Samples &samples)
       {
         archive(samples.next, samples.travel, samples.last_x, samples.face_samples);
       }
@@ -100,17 +100,17 @@ namespace sprag
       std::vector<FaceSample> face_samples;
     };
 
-    /// Runs a lever or a pair. `make_probes`(rows, settings, stresses) makes the probes of its accuracy.
-    template <class Lever, class MakeProbes>
+    /// Runs a lever or a pair. `make_trial_runs`(rows, settings, stresses) makes the trial runs of its accuracy.
+    template <class Lever, class MakeTrialRuns>
     void drive_levers(const Scene &scene, const RunOptions &options, PhaseTimer &timer, Lever &levers,
-                      const MakeProbes &make_probes, Warnings &warnings)
+                      const MakeTrialRuns &make_trial_runs, Warnings &warnings)
     {
       Checkpoint checkpoint(scene, options);
       Recorder recorder(scene, options, timer, levers.face_points(), &checkpoint);
       if (!options.quiet)
         print_model(scene, levers);
       Samples samples(path_length(scene.drive));
-      checkpoint.add_part([&](Archive &archive) { visit(archive, samples); });
+      checkpoint.add_part([&](Archive &archive) { serialise(archive, samples); });
       const bool has_frames    = scene.output.fields != FieldOutput::none;
       const auto displacements = [&levers](const FieldSource &source)
       { return levers.body_displacements(source.coordinates, source.forces); };
@@ -121,7 +121,7 @@ namespace sprag
               fields.emplace(scene, BodyFields(levers.body()), displacements,
                              has_frames ? std::optional(options.folder) : std::nullopt, timer);
             });
-      checkpoint.add_part([&](Archive &archive) { fields->visit_progress(archive); });
+      checkpoint.add_part([&](Archive &archive) { fields->serialise_progress(archive); });
 
       const auto write = [&](const State &state, const Row &row, const Evaluation &found)
       {
@@ -153,8 +153,8 @@ namespace sprag
             if (status == "completed" && estimates_errors(options))
             {
               const PhaseTimer::Scope scope(timer, "accuracy");
-              const auto probes = [&] { return make_probes(recorder.recorded(), settings, fields->stress_samples()); };
-              recorder.set_accuracy(quasi_static_accuracy(scene, recorder.recorded(), probes));
+              const auto trial_runs = [&] { return make_trial_runs(recorder.recorded(), settings, fields->stress_samples()); };
+              recorder.set_accuracy(quasi_static_accuracy(scene, recorder.recorded(), trial_runs));
             }
             meta.push_back({ "stick_stiffness", stick });
             const auto ending = status_at_end(status);
@@ -207,16 +207,16 @@ namespace sprag
     {
       std::optional<StaticLever<2>> levers;
       timed(timer, "model", [&] { levers.emplace(*mesh, scene); });
-      const auto probes = [&](const auto &...arguments) { return plane_probes(scene, *levers, arguments...); };
-      return drive_levers(scene, options, timer, *levers, probes, warnings);
+      const auto trial_runs = [&](const auto &...arguments) { return plane_trial_runs(scene, *levers, arguments...); };
+      return drive_levers(scene, options, timer, *levers, trial_runs, warnings);
     }
     const auto files = options.in_memory ? nullptr : folder_for_factors(scene, options);
     std::optional<SolidBody> body;
     timed(timer, "body", [&] { body.emplace(scene, *mesh, files ? files->folder : ""); });
     std::optional<StaticLever<3>> levers;
     timed(timer, "model", [&] { levers.emplace(*body, scene); });
-    const auto probes = [&](const auto &rows, const auto &settings, const auto &)
-    { return solid_probes(scene, *body, *levers, rows, settings); };
-    drive_levers(scene, options, timer, *levers, probes, warnings);
+    const auto trial_runs = [&](const auto &rows, const auto &settings, const auto &)
+    { return solid_trial_runs(scene, *body, *levers, rows, settings); };
+    drive_levers(scene, options, timer, *levers, trial_runs, warnings);
   }
 } // namespace sprag

@@ -253,7 +253,7 @@ namespace sprag
         const auto &slide = *found.slide.slide;
         run.use_spectral_radius(scene.time.spectral_radius);
         if (found.slide.kind == SlideKind::stable)
-          run.begin(model.perturbed(slide, watched_mode(found.slide), Continuation::large_kick * slide.overlap));
+          run.begin(model.perturbed(slide, watched_mode(found.slide), Continuation::large_kick * slide.penetration));
         rows.begin(std::max(1u, settings.steps_per_period / approach_rows),
                    static_cast<std::size_t>(shown_periods * settings.steps_per_period));
         found.settled       = settle(run, slide, { period(), settings.settling, longest() }, std::ref(rows));
@@ -263,7 +263,7 @@ namespace sprag
 
       void continue_along()
       {
-        Continuation continuation(model, run, held_drive(scene), period(), judged_modes(scene), settings);
+        Continuation continuation(model, run, held_drive(scene), period(), checked_modes(scene), settings);
         const double turn = settings.turn.value_or(scene.drive.minimum());
         const auto note   = [&]
         {
@@ -322,7 +322,7 @@ namespace sprag
         {
           const PhaseTimer::Scope scope(maker.timer(), "steps_and_output");
           const auto drive = held_drive(scene);
-          found.slide      = judge(dynamics.model(), drive, judged_modes(scene));
+          found.slide      = check_slide(dynamics.model(), drive, checked_modes(scene));
           require_slide(found, drive.x);
           Study{ scene, dynamics.model(), writer, progress, found, warnings }.carry_out();
           check_ledger(scene, found.ledger);

@@ -442,16 +442,16 @@ namespace sprag
 
     namespace MPI = dealii::Utilities::MPI;
 
-    void announce(const Journal &journal, const std::size_t runs, const ProgressStyle style)
+    void announce(const ResultsLog &results_log, const std::size_t runs, const ProgressStyle style)
     {
-      if (const auto damaged = journal.damaged_lines(); damaged > 0)
+      if (const auto damaged = results_log.damaged_lines(); damaged > 0)
         std::cerr << "study.journal: damaged lines dropped, their runs are made again: " << damaged << std::endl;
       if (style == ProgressStyle::quiet)
         return;
-      if (journal.dropped())
+      if (results_log.dropped())
         std::cerr << "study.journal is of another scene or build: begun anew" << std::endl;
-      if (!journal.lines().empty())
-        std::cerr << "study.journal: " << journal.lines().size() << " runs taken over" << std::endl;
+      if (!results_log.lines().empty())
+        std::cerr << "study.journal: " << results_log.lines().size() << " runs taken over" << std::endl;
       std::cerr << "study: " << runs << " runs" << std::endl;
     }
 
@@ -514,14 +514,14 @@ namespace sprag
     const double begin = monotonic_seconds();
     const auto style   = progress_style(options.quiet || !is_first_rank());
     StudyRuns runs(scene);
-    std::optional<Journal> journal;
+    std::optional<ResultsLog> results_log;
     on_first_rank(
         [&]
         {
           require_possible_runs(scene);
           prepare_folder(scene, options);
-          journal.emplace(options.folder + '/' + study_journal_name, "study", scene_key(scene));
-          announce(*journal, runs.size(), style);
+          results_log.emplace(options.folder + '/' + study_log_name, "study", scene_key(scene));
+          announce(*results_log, runs.size(), style);
         });
     std::optional<Progress> progress;
     const auto report = [&](const std::size_t done, const std::size_t total)
@@ -530,7 +530,7 @@ namespace sprag
         progress.emplace(std::cerr, style, static_cast<double>(total));
       progress->update(static_cast<double>(done), {});
     };
-    TaskFarm farm({ "study", unchanged_inputs(scene, "study"), report }, journal ? &*journal : nullptr);
+    TaskFarm farm({ "study", unchanged_inputs(scene, "study"), report }, results_log ? &*results_log : nullptr);
     StudyRecords records;
     const auto learn = [&](const std::string &line)
     {
@@ -553,6 +553,6 @@ namespace sprag
           const auto meta = study_cost(taken_over, monotonic_seconds() - begin);
           on_first_rank([&] { write_study(scene, options, runs, records, status, meta, warnings); });
         });
-    on_first_rank([&] { journal->remove(); });
+    on_first_rank([&] { results_log->remove(); });
   }
 } // namespace sprag

@@ -115,7 +115,7 @@ namespace sprag
     if (is_meshed && scene.output.fields != FieldOutput::none)
     {
       fields.emplace(scene, shown_body(scene, dynamics), recovery(dynamics.meshed, count_levers(scene)), options.folder, timer);
-      checkpoint.add_part([&](Archive &archive) { fields->visit_progress(archive); });
+      checkpoint.add_part([&](Archive &archive) { fields->serialise_progress(archive); });
     }
     else if (is_meshed)
       recorder.set_stress(no_stress_peaks("Output/Fields = none"));

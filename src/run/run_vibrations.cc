@@ -42,7 +42,7 @@ namespace sprag
     }
 
     /// The scene as its worst slide has it.
-    Scene slide_scene(const Scene &scene, const JudgedSlide &slide)
+    Scene slide_scene(const Scene &scene, const CheckedSlide &slide)
     {
       Scene result               = slide.constants.empty() ? scene : prepared(variant(scene, slide.constants));
       result.stability.position  = slide.drive.x;
@@ -80,9 +80,9 @@ namespace sprag
     }
 
     /// Finds over which Contact/Damping the verdict stays what it is, where a search from the scene's own to none and to a large
-    /// one first meets another kind, or a value that cannot be judged. That damping is seldom measured, and more of it can make a
-    /// slide grow as well as die out. `verdict`: that with the scene's own.
-    DampingRange damping_range(const Scene &scene, const JudgedSlide &verdict, DynamicsMaker &maker)
+    /// one first meets another kind, or a value that cannot be checked. That damping is seldom measured, and more of it can make
+    /// a slide grow as well as die out. `verdict`: that with the scene's own.
+    DampingRange damping_range(const Scene &scene, const CheckedSlide &verdict, DynamicsMaker &maker)
     {
       constexpr double largest      = 0.2;
       constexpr double accuracy     = 1e-3; ///< of an end, over the range
@@ -90,7 +90,7 @@ namespace sprag
       const double own = scene.contact.damping;
       const double end = std::max(largest, own);
       DampingRange result{ 0., end, std::nan(""), 0. };
-      const auto judge_at = [&](const double damping)
+      const auto check_at = [&](const double damping)
       {
         if (damping == own)
           return verdict;
@@ -104,10 +104,10 @@ namespace sprag
       const auto range_ends = [&](const double from, const double to)
       {
         std::vector<double> ends;
-        const auto search = search_kinds({ "Contact/Damping", from, to, points }, { accuracy, island_steps }, judge_at);
+        const auto search = search_kinds({ "Contact/Damping", from, to, points }, { accuracy, island_steps }, check_at);
         for (const auto &change : search.changes)
           ends.push_back(change.value);
-        ends.insert(ends.end(), search.not_judged.begin(), search.not_judged.end());
+        ends.insert(ends.end(), search.not_checked.begin(), search.not_checked.end());
         return ends;
       };
       if (own > 0.)
@@ -127,8 +127,8 @@ namespace sprag
       return result;
     }
 
-    /// Judges with a spring of stick ten times as soft as it is, and rigid. The mesh of a meshed lever has the layer's own shear:
-    /// its stick is judged rigid alone.
+    /// Checks with a spring of stick ten times as soft as it is, and rigid. The mesh of a meshed lever has the layer's own shear:
+    /// its stick is checked rigid alone.
     StickLimits stick_limits(const Scene &scene, DynamicsMaker &maker)
     {
       constexpr double soft = 0.1, rigid = 1e6;
@@ -254,9 +254,9 @@ namespace sprag
       {
         const Scene held    = held_scene(scene);
         const auto dynamics = maker.make(held);
-        found               = timed(maker, [&] { return judge(dynamics.model(), held_drive(scene), judged_modes(scene)); });
-        result.meta         = meshed_entries(dynamics);
-        auto modes          = reported(found.modes, scene.stability.modes);
+        found       = timed(maker, [&] { return check_slide(dynamics.model(), held_drive(scene), checked_modes(scene)); });
+        result.meta = meshed_entries(dynamics);
+        auto modes  = reported(found.modes, scene.stability.modes);
         if (dynamics.solid)
           tell_motion(structure_modes(*dynamics.solid, count_levers(held)), modes);
         result.groups = { mode_group(modes, dynamics) };

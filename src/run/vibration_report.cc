@@ -97,7 +97,7 @@ namespace sprag
       stream << cell(mode_frequency(mode), 16);
       for (const auto &column : columns)
         stream << cell(std::round(1000. * mode.energy.*column.share) / 10., 13);
-      stream << (is_pair(modes) ? cell(mode.mirroring, 17) : "") << (is_solid(modes) ? "  " + describe_motion(mode.across) : "")
+      stream << (is_pair(modes) ? cell(mode.symmetry, 17) : "") << (is_solid(modes) ? "  " + describe_motion(mode.across) : "")
              << '\n';
     }
   }
@@ -141,7 +141,7 @@ namespace sprag
     stream << "  Critical values of " << (is_worst ? "the worst slide" : "this slide") << ", all else as it is"
            << (scene.stability.ranges == "none" ? " (Stability/Ranges looks at ranges of damping and friction)" : "")
            << "; narrow islands between the values tried may be missed:\n";
-    for (const auto &[range, first, changes, worst, not_judged, reason, spacing, more_values, has_effect] : searches)
+    for (const auto &[range, first, changes, worst, not_checked, reason, spacing, more_values, has_effect] : searches)
     {
       const auto unit = parameter_unit(range.name);
       stream << "    " << range.name << " from " << four_digits(range.from) << " to " << with_unit(range.to, unit) << ": "
@@ -157,11 +157,11 @@ namespace sprag
                  << " at x = " << with_unit(critical.worse.drive.x, "mm") << ")";
       }
       stream << (first && changes.empty() ? " throughout" : "") << (has_effect ? "" : ", without effect");
-      if (first && !not_judged.empty())
+      if (first && !not_checked.empty())
       {
-        const auto [least, most] = std::minmax_element(not_judged.begin(), not_judged.end());
+        const auto [least, most] = std::minmax_element(not_checked.begin(), not_checked.end());
         stream << "; cannot be judged at " << (*least < *most ? four_digits(*least) + " to " : "") << with_unit(*most, unit)
-               << (*least < *most ? " (" + std::to_string(not_judged.size()) + " values)" : "");
+               << (*least < *most ? " (" + std::to_string(not_checked.size()) + " values)" : "");
       }
       if (with_spacing)
         stream << "; tried every " << with_unit(spacing, unit);
@@ -189,7 +189,7 @@ namespace sprag
 
       if (is_pair(modes))
         add({ "mirroring", "1", "1 where the levers of a pair mirror each other, -1 where both swing the same way" },
-            [](const auto &mode) { return mode.mirroring; });
+            [](const auto &mode) { return mode.symmetry; });
 
       const auto across = [&](const std::string &name, double Eigenmode::AcrossShares::*share, const std::string &what)
       {
@@ -290,7 +290,7 @@ namespace sprag
       return result;
     }
 
-    /// Joins stretches of several sets of constants that overlap, by increasing x.
+    /// Joins stretches of several sets of constants that share places, by increasing x.
     std::vector<UnstableStretch> joined(std::vector<UnstableStretch> stretches)
     {
       for (auto &stretch : stretches)
@@ -342,7 +342,7 @@ namespace sprag
 
   bool is_pair(const std::vector<Eigenmode> &modes)
   {
-    return !modes.empty() && !std::isnan(modes.front().mirroring);
+    return !modes.empty() && !std::isnan(modes.front().symmetry);
   }
 
   bool is_solid(const std::vector<Eigenmode> &modes)

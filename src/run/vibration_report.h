@@ -30,7 +30,7 @@ namespace sprag
   /// Returns true if a mode grows by more than round-off.
   bool grows(const Eigenmode &mode);
 
-  /// Judges a mode: stable, flutter or divergence.
+  /// Checks a mode: stable, flutter or divergence.
   SlideKind classify(const Eigenmode &mode);
 
   /// Returns whether they are of a lever in three dimensions.

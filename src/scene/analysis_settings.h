@@ -39,7 +39,7 @@ namespace sprag
     return model == ModelType::condensed || model == ModelType::finite_element;
   }
 
-  /// Returns whether the model has a few coordinates and no mesh, so that it is judged in no time.
+  /// Returns whether the model has a few coordinates and no mesh, so that it is checked in no time.
   inline bool is_reduced(const ModelType model)
   {
     return model == ModelType::rigid || model == ModelType::beam;

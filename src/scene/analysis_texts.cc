@@ -63,8 +63,8 @@ namespace sprag
         if (!settings.second_aim.empty())
           read_aim(single_spaced(settings.second_aim));
         reading = "Judges";
-        read_judges();
-        check_judges();
+        read_models();
+        check_models();
       }
 
       /// A number, with or without a unit, in that of a quantity; not a number where the text is another. None where the unit
@@ -186,24 +186,24 @@ namespace sprag
           settings.aims.push_back({ *term, way == "maximise", text });
       }
 
-      void read_judges()
+      void read_models()
       {
-        const std::vector<std::pair<std::string, DesignJudge>> words = { { "table", DesignJudge::table },
-                                                                         { "beam", DesignJudge::beam },
-                                                                         { "condensed", DesignJudge::condensed } };
-        std::vector<std::string> names                               = { "none", "table", "beam", "condensed" };
-        const auto listed                                            = split(settings.judges, ',');
+        const std::vector<std::pair<std::string, CheckModel>> words = { { "table", CheckModel::table },
+                                                                        { "beam", CheckModel::beam },
+                                                                        { "condensed", CheckModel::condensed } };
+        std::vector<std::string> names                              = { "none", "table", "beam", "condensed" };
+        const auto listed                                           = split(settings.checks, ',');
         if (listed == std::vector<std::string>{ "none" })
           return;
-        for (const auto &[word, judge] : words)
+        for (const auto &[word, check_model] : words)
           if (std::find(listed.begin(), listed.end(), word) != listed.end())
-            settings.judged_by.push_back(judge);
+            settings.check_models.push_back(check_model);
         for (const auto &word : listed)
           if (word == "none" || std::find(names.begin(), names.end(), word) == names.end())
             mistake("'" + word + "' is no judge beside others" + did_you_mean(nearest(word, { names.begin() + 1, names.end() })));
       }
 
-      void check_judges() const
+      void check_models() const
       {
         const auto asks = [&](const DesignQuantity quantity)
         {
@@ -211,21 +211,23 @@ namespace sprag
           return std::any_of(settings.demanded.begin(), settings.demanded.end(), is_it) ||
                  std::any_of(settings.aims.begin(), settings.aims.end(), is_it);
         };
-        const auto has = [&](const DesignJudge judge)
-        { return std::find(settings.judged_by.begin(), settings.judged_by.end(), judge) != settings.judged_by.end(); };
+        const auto has = [&](const CheckModel check_model) {
+          return std::find(settings.check_models.begin(), settings.check_models.end(), check_model) !=
+                 settings.check_models.end();
+        };
         for (const auto &aim : settings.aims)
           if (aim.term.quantity == DesignQuantity::growth_rate)
             report(&aim == &settings.aims.front() ? "Design/Aim" : "Design/Second aim",
                    "can be any quantity but the growth rate, which can be demanded");
-        if (asks(DesignQuantity::growth_rate) && !has(DesignJudge::beam))
+        if (asks(DesignQuantity::growth_rate) && !has(CheckModel::beam))
           mistake("must have beam where a growth rate is asked for, which the closed form does not know");
-        if (has(DesignJudge::table) && !asks(DesignQuantity::transmissibility) && !asks(DesignQuantity::relative_amplitude))
+        if (has(CheckModel::table) && !asks(DesignQuantity::transmissibility) && !asks(DesignQuantity::relative_amplitude))
           mistake("table counts only where transmissibility or relative amplitude is asked for");
       }
     };
 
-    /// Reads the texts of the settings into free parameters, demands, aims and judges, and reports what is wrong with them. Free
-    /// are numbers of the lever, its contact and the isolated table; the drive says what is asked of the lever and stays.
+    /// Reads the texts of the settings into free parameters, demands, aims and check models, and reports what is wrong with them.
+    /// Free are numbers of the lever, its contact and the isolated table; the drive says what is asked of the lever and stays.
     void read_design(DesignSettings &settings, const std::vector<Parameter> &declared, const ReportMistake &report)
     {
       DesignReader{ settings, declared, report }.read();

@@ -37,11 +37,11 @@ namespace sprag
            scene.analysis.model != ModelType::closed_form;
   }
 
-  bool is_judged_by_mesh(const Scene &scene)
+  bool is_checked_by_mesh(const Scene &scene)
   {
-    const auto &judges = scene.design.judged_by;
+    const auto &checks = scene.design.check_models;
     return scene.analysis.type == AnalysisType::design &&
-           std::find(judges.begin(), judges.end(), DesignJudge::condensed) != judges.end();
+           std::find(checks.begin(), checks.end(), CheckModel::condensed) != checks.end();
   }
 
   bool identifies_by_model(const Scene &scene)

@@ -22,8 +22,8 @@ namespace sprag
   /// Returns whether the table of an isolation system works against levers of a model in time.
   bool isolates_by_model(const Scene &scene);
 
-  /// Returns whether levers that a design proposes are meshed for a judge.
-  bool is_judged_by_mesh(const Scene &scene);
+  /// Returns whether levers that a design proposes are meshed for a check model.
+  bool is_checked_by_mesh(const Scene &scene);
 
   /// Returns whether a model corrects the closed form by which a measured stroke is identified.
   bool identifies_by_model(const Scene &scene);

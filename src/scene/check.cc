@@ -85,12 +85,13 @@ namespace sprag
       const double x            = scene.drive.maximum();
       const double P            = closed_form(scene, x, scene.drive.peak_speed()).P;
       const double width        = estimated_contact_width(scene, std::max(0., P));
-      const double overlap      = width * width / (8. * scene.geometry.cylinder_radius);
+      const double penetration  = width * width / (8. * scene.geometry.cylinder_radius);
       const bool is_set = scene.spring.type == SpringType::torsional && scene.specified.count("Rotational spring/Stiffness") > 0;
-      rules.need(!is_set || !(P > 0.) || overlap > rounding * scene.geometry.cylinder_radius, "Rotational spring/Stiffness",
+      rules.need(!is_set || !(P > 0.) || penetration > rounding * scene.geometry.cylinder_radius, "Rotational spring/Stiffness",
                  joined(shape, { "Drive/Start", "Drive/Profile", "Drive/Table" }),
                  "must press harder: P = " + rounded_text(P) + " N at x = " + mm(x) + " compresses the contact by " +
-                     mm(overlap) + ", less than rounding leaves of lengths; Analysis/Model = closed form needs no compression");
+                     mm(penetration) +
+                     ", less than rounding leaves of lengths; Analysis/Model = closed form needs no compression");
     }
 
     void tip(const Scene &scene, Rules &rules)

@@ -22,7 +22,7 @@ namespace sprag
     Enforcement enforcement = Enforcement::penalty;
     std::optional<double> penalty;             ///< [N/mm^3], > 0; none: chosen from mesh and layer
     std::optional<double> tangential_penalty;  ///< [N/mm^3], > 0; none: equal to the normal one
-    double penetration_tolerance       = 1e-6; ///< augmented Lagrangian: largest overlap left [mm], > 0
+    double penetration_tolerance       = 1e-6; ///< augmented Lagrangian: largest penetration left [mm], > 0
     unsigned int maximum_augmentations = 20;
 
     // Contact of the reduced models (rigid, beam): P = k delta^n + c delta'.

@@ -74,7 +74,7 @@ namespace sprag
   };
 
   /// Model that computes a proposed lever again. Each is dearer than the one before it.
-  enum class DesignJudge
+  enum class CheckModel
   {
     table, ///< the isolated table in time on levers of the closed form
     beam,
@@ -87,11 +87,11 @@ namespace sprag
     std::string demands = "damping slope = 0.1 +- 0.001";
     std::string aim     = "minimise largest force";
     std::string second_aim; ///< empty: none
-    std::string judges        = "none";
+    std::string checks        = "none";
     unsigned int front_points = 11;   ///< of the front of two aims
-    unsigned int positions    = 5;    ///< x at which beam and condensed judge the slide, each both ways
-    bool judges_in_time       = true; ///< whether the last of beam and condensed follows the drive in time
-    unsigned int rounds       = 6;    ///< of proposals to a judge
+    unsigned int positions    = 5;    ///< x at which beam and condensed check the slide, each both ways
+    bool checks_in_time       = true; ///< whether the last of beam and condensed follows the drive in time
+    unsigned int rounds       = 6;    ///< of proposals to a check model
     unsigned int evaluations  = 4000; ///< of the closed form in the global search
     unsigned int seed         = 1;
 
@@ -99,6 +99,6 @@ namespace sprag
     std::vector<FreeParameter> free_parameters;
     std::vector<Demand> demanded;
     std::vector<DesignAim> aims;
-    std::vector<DesignJudge> judged_by;
+    std::vector<CheckModel> check_models;
   };
 } // namespace sprag

@@ -17,11 +17,11 @@ namespace sprag
     section.text("Aim", settings.aim, "Aim of the search: minimise QUANTITY or maximise QUANTITY");
     section.text("Second aim", settings.second_aim, "Second aim in the same form, for the front of both; empty: none");
     section.integer("Front points", settings.front_points, { 3., 200. }, "Points of the front, both ends included");
-    section.text("Judges", settings.judges,
+    section.text("Judges", settings.checks,
                  "Models that check the lever found: list of table (its levers' table in time), beam, condensed; or none");
     section.integer("Positions", settings.positions, { 2., 200. },
                     "Number of x at which beam and condensed judge the slide both ways, equally apart up to the drive's largest");
-    section.choice("Judge in time", settings.judges_in_time, { { "on", true }, { "off", false } },
+    section.choice("Judge in time", settings.checks_in_time, { { "on", true }, { "off", false } },
                    "on: the last of beam and condensed also follows the drive in time");
     section.integer("Rounds", settings.rounds, { 1., 20. },
                     "Levers proposed to each judge; from the second on the closed form is corrected by the judge's result");

@@ -112,7 +112,7 @@ namespace sprag
 
   const std::set<std::string> &spared_sections()
   {
-    // Friction acts on the face, and the others say which slide is judged and what else is tried.
+    // Friction acts on the face, and the others say which slide is checked and what else is tried.
     static const std::set<std::string> all = { "Friction",  "Stability",      "Map",    "Sprag slip", "Study",
                                                "Isolation", "Identification", "Design", "Accuracy" };
     return all;

@@ -56,7 +56,7 @@ namespace sprag
     std::optional<double> faces_in_contact;                            ///< none: by the analysis
     std::optional<Enforcement> enforcement;                            ///< none: by the analysis
     std::optional<ModelType> model        = ModelType::finite_element; ///< none: by the accuracy asked for
-    std::optional<unsigned int> dimension = 2;                         ///< none: by what a probe tells
+    std::optional<unsigned int> dimension = 2;                         ///< none: by what a trial run tells
   };
 
   /// Returns the word for a type of analysis, "quasi-static".

@@ -54,7 +54,7 @@ namespace sprag
   /// Perturbation of a held slide in time, and its limit cycles up and down the stroke.
   struct SpragSlipSettings
   {
-    double initial                = 1e-6; ///< amplitude over the mean overlap, > 0
+    double initial                = 1e-6; ///< amplitude over the mean penetration, > 0
     double final                  = 1e-3; ///< up to which growth is fitted; a stable slide begins there
     unsigned int steps_per_period = 128;
     double longest_growth         = 2.;  ///< [s]

@@ -136,7 +136,7 @@ TEST(CriticalValues, ThinLeverFluttersThickOneDoesNot)
   EXPECT_EQ(found.changes.front().below, SlideKind::flutter);
   EXPECT_EQ(found.changes.front().above, SlideKind::stable);
   const auto kind_at = [&](const double depth)
-  { return judge(variant(scene, { override_text("Lever/Depth", depth) }), maker).kind; };
+  { return check_slide(variant(scene, { override_text("Lever/Depth", depth) }), maker).kind; };
   EXPECT_EQ(kind_at(found.changes.front().value - 1e-3), SlideKind::flutter);
   EXPECT_EQ(kind_at(found.changes.front().value + 1e-3), SlideKind::stable);
 }
@@ -161,9 +161,9 @@ TEST(CriticalValues, TellTheMotionOfAPair)
   // A held joint leaves the levers nothing in common.
   const Scene scene = from_params("pair-stability-a.prm", { "Mirrored pair/Joint=held", "Support/Type=rigid" });
   DynamicsMaker maker;
-  const auto present = judge(scene, maker);
+  const auto present = check_slide(scene, maker);
   EXPECT_EQ(present.motion(), "either");
-  EXPECT_NEAR(present.worst_mode().mirroring, 1., 1e-9);
+  EXPECT_NEAR(present.worst_mode().symmetry, 1., 1e-9);
   const auto found = critical_values(scene, { "Lever/Depth", 5., 21., 5 }, 1e-6, maker);
   ASSERT_EQ(found.changes.size(), 1u);
   EXPECT_EQ(found.changes.front().worse.motion, "either");
@@ -172,7 +172,7 @@ TEST(CriticalValues, TellTheMotionOfAPair)
       std::find_if(found_roles.begin(), found_roles.end(), [](const Role &role) { return role.name == "without_damping"; });
   ASSERT_NE(without_damping, found_roles.end());
   EXPECT_EQ(without_damping->motion, "either");
-  const auto free = judge(variant(scene, { "Mirrored pair/Joint=free" }), maker);
+  const auto free = check_slide(variant(scene, { "Mirrored pair/Joint=free" }), maker);
   EXPECT_TRUE(free.motion() == "swinging" || free.motion() == "mirroring") << free.motion();
 }
 
@@ -187,7 +187,7 @@ TEST(Roles, FlexureMakesTheSpragSlip)
 {
   const Scene scene = from_params("stability-a.prm", {});
   DynamicsMaker maker;
-  const auto present = judge(scene, maker);
+  const auto present = check_slide(scene, maker);
   ASSERT_EQ(present.kind, SlideKind::flutter);
   std::map<std::string, Role> found_roles;
   for (const auto &role : roles(scene, present, maker))
@@ -203,8 +203,8 @@ TEST(Roles, SupportIsLeftOutWhereThereIsOne)
 {
   const Scene scene = from_params("stability-a.prm", { "Support/Type=sprung" });
   DynamicsMaker maker;
-  const auto present = judge(scene, maker);
-  const auto fixed   = judge(variant(scene, { "Support/Type=rigid" }), maker);
+  const auto present = check_slide(scene, maker);
+  const auto fixed   = check_slide(variant(scene, { "Support/Type=rigid" }), maker);
   for (const auto &role : roles(scene, present, maker))
     if (role.name == "without_support")
     {

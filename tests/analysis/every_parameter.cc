@@ -224,7 +224,7 @@ namespace
     std::string result;
     try
     {
-      const auto found = judge(dynamics.model(), held_drive(scene), judged_modes(scene));
+      const auto found = check_slide(dynamics.model(), held_drive(scene), checked_modes(scene));
       if (found.slide)
         result = number_text(found.slide->forces.P);
       for (const auto &mode : found.modes)

@@ -21,7 +21,7 @@ namespace
     std::size_t on_grid = 0;
   };
 
-  void judge(const std::vector<MapSite> &sites, const Kind &forward, const Kind &backward, KnownKinds &known)
+  void check(const std::vector<MapSite> &sites, const Kind &forward, const Kind &backward, KnownKinds &known)
   {
     for (const auto &[first, second] : sites)
     {
@@ -36,7 +36,7 @@ namespace
     Found found{ MapGrid(points[0], points[1], coarsest), {}, {}, 0 };
     for (auto sites = found.grid.next_sites(); !sites.empty(); sites = found.grid.next_sites())
     {
-      judge(sites, forward, backward, found.known);
+      check(sites, forward, backward, found.known);
       found.grid.learn(found.known);
     }
     found.on_grid = found.known.size();
@@ -110,7 +110,7 @@ TEST(MapGrid, CircleWithinTheLastBracket)
     EXPECT_LE(std::abs(std::hypot(point.site.first - 31.3, point.site.second - 28.7) - 17.4), 0.5 * bracket);
   }
   expect_all_kinds(found, 0, circle);
-  // 4225 points; the boundary is 109 intervals long, a band of some five points about it and the coarse grid are judged.
+  // 4225 points; the boundary is 109 intervals long, a band of some five points about it and the coarse grid are checked.
   EXPECT_LT(found.on_grid, 900u);
 }
 
@@ -126,7 +126,7 @@ TEST(MapGrid, TwoIslandsOneForEachDirection)
   EXPECT_LT(found.on_grid, 1300u);
 }
 
-// The points first judged are alike on both sides of the tongue wherever it is narrow: only its mouth betrays it.
+// The points first checked are alike on both sides of the tongue wherever it is narrow: only its mouth betrays it.
 TEST(MapGrid, FollowsATongueNarrowerThanTheCoarseQuads)
 {
   const Kind tongue = [](const double first, const double second)

@@ -39,7 +39,7 @@ TEST(Newton, EndsAtRoundOff)
   model.equation         = [](const double q, const double x) { return ToyModel::Value{ x - q * q * q, -3. * q * q }; };
   const auto [result, q] = solve(model, 1., 8.);
   EXPECT_TRUE(result.converged);
-  // The last correction was below 1e-7 of the overlap, 1 here: its square is left.
+  // The last correction was below 1e-7 of the penetration, 1 here: its square is left.
   EXPECT_NEAR(q, 2., 1e-13);
 }
 
@@ -76,7 +76,7 @@ TEST(Newton, LeavesOutALastCorrection)
     struct Cube
     {
       double residual;
-      double overlap;
+      double penetration;
     };
     const auto evaluate   = [](const dealii::Vector<double> &at) { return Cube{ std::abs(8. - at[0] * at[0] * at[0]), 1. }; };
     const auto correction = [&q](const Cube &)

@@ -53,10 +53,10 @@ namespace
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Plain)) == 0);
   }
 
-  std::vector<ContactMemory> make_history(const double first)
+  std::vector<ContactHistory> make_history(const double first)
   {
-    std::vector<ContactMemory> result(2);
-    std::memset(static_cast<void *>(result.data()), 0, 2 * sizeof(ContactMemory)); // padding is compared as well
+    std::vector<ContactHistory> result(2);
+    std::memset(static_cast<void *>(result.data()), 0, 2 * sizeof(ContactHistory)); // padding is compared as well
     for (unsigned int i = 0; i < 2; ++i)
     {
       auto &[multiplier, traction, damping, slip_speed, speed, step, point] = result[i];
@@ -71,7 +71,7 @@ namespace
     return result;
   }
 
-  PortLoads make_loads(const double first)
+  DofLoads make_loads(const double first)
   {
     return { { 3, 7 }, make_vector({ first, -first }) };
   }
@@ -118,7 +118,7 @@ namespace
     std::string kept;
     unsigned int steps_left = 0;
 
-    bool take_up(const ProgressVisit &progress) override
+    bool take_up(const ProgressSerialiser &progress) override
     {
       if (kept.empty())
         return false;
@@ -128,7 +128,7 @@ namespace
       return true;
     }
 
-    void accept_step(const ProgressVisit &progress) override
+    void accept_step(const ProgressSerialiser &progress) override
     {
       Archive archive;
       progress(archive);
@@ -137,7 +137,7 @@ namespace
         throw Killed();
     }
 
-    void end_steps(const ProgressVisit &progress) override
+    void end_steps(const ProgressSerialiser &progress) override
     {
       Archive archive;
       progress(archive);
@@ -166,23 +166,23 @@ namespace
 
 TEST(Archive, KeepsEveryField)
 {
-  const auto loads  = make_loads(2.);
-  const auto memory = make_history(100.);
-  PointMemory<2> on_surface;
+  const auto loads   = make_loads(2.);
+  const auto history = make_history(100.);
+  PointHistory<2> on_surface;
   on_surface.traction = dealii::Tensor<1, 2>({ 0.1, -0.2 });
   on_surface.point    = 7;
   const dealii::FullMatrix<double> matrix(1, 1, std::array<double, 1>{ { -3. } }.data());
   const Motion motion{ make_drive_point(1.),
                        { make_vector({ 1., 2. }), make_vector({ 3. }), make_vector({ 4., 5., 6. }) },
                        make_vector({ 7., 8. }),
-                       memory,
+                       history,
                        loads,
                        { on_surface },
                        std::make_shared<const StoredJacobian>(StoredJacobian{ { 5 }, matrix }) };
   {
     const auto &[drive, coordinates, face_force, contact, forces, surface_contact, tangent] = restored(motion);
     ASSERT_NE(tangent, nullptr);
-    EXPECT_EQ(tangent->ports, std::vector<unsigned int>{ 5 });
+    EXPECT_EQ(tangent->dofs, std::vector<unsigned int>{ 5 });
     EXPECT_EQ(tangent->matrix, matrix);
     EXPECT_EQ(restored(Motion()).tangent, nullptr);
     EXPECT_TRUE(same_bytes(drive, motion.drive));
@@ -190,13 +190,13 @@ TEST(Archive, KeepsEveryField)
     EXPECT_EQ(coordinates.velocity, motion.coordinates.velocity);
     EXPECT_EQ(coordinates.acceleration, motion.coordinates.acceleration);
     EXPECT_EQ(face_force, motion.face_force);
-    EXPECT_TRUE(same_bytes(contact, memory));
-    EXPECT_EQ(forces.ports, loads.ports);
+    EXPECT_TRUE(same_bytes(contact, history));
+    EXPECT_EQ(forces.dofs, loads.dofs);
     EXPECT_EQ(forces.values, loads.values);
     ASSERT_EQ(surface_contact.size(), 1u);
     EXPECT_EQ(surface_contact[0].traction, on_surface.traction);
   }
-  const State state{ make_drive_point(3.), make_vector({ 9., -0. }), memory, loads, { on_surface } };
+  const State state{ make_drive_point(3.), make_vector({ 9., -0. }), history, loads, { on_surface } };
   {
     const auto &[drive, coordinates, contact, forces, surface_contact] = restored(state);
     ASSERT_EQ(surface_contact.size(), 1u);
@@ -205,7 +205,7 @@ TEST(Archive, KeepsEveryField)
     EXPECT_TRUE(same_bytes(drive, state.drive));
     EXPECT_EQ(coordinates, state.coordinates);
     EXPECT_TRUE(std::signbit(coordinates[1]));
-    EXPECT_TRUE(same_bytes(contact, memory));
+    EXPECT_TRUE(same_bytes(contact, history));
     EXPECT_EQ(forces.values, loads.values);
   }
   const FaceState face{ 1., 2., { 3., 4. }, { 5. }, { 10., 0. }, { 6., 7., 8. }, { 9. }, { 0., 11. } };
@@ -220,13 +220,13 @@ TEST(Archive, KeepsEveryField)
     EXPECT_EQ(traction_2, face.traction_2);
     EXPECT_EQ(traction_across_2, face.traction_across_2);
   }
-  PortForces forces{ { 1, 4 }, make_vector({ 2., 3. }), dealii::FullMatrix<double>(2, 2) };
+  InterfaceForces forces{ { 1, 4 }, make_vector({ 2., 3. }), dealii::FullMatrix<double>(2, 2) };
   forces.tangent(0, 1) = 5.;
   forces.tangent(1, 0) = -6.;
   {
-    const auto &[ports, values, tangent, has_tangent] = restored(forces);
+    const auto &[dofs, values, tangent, has_tangent] = restored(forces);
     EXPECT_TRUE(has_tangent);
-    EXPECT_EQ(ports, forces.ports);
+    EXPECT_EQ(dofs, forces.dofs);
     EXPECT_EQ(values, forces.values);
     EXPECT_TRUE(tangent == forces.tangent);
   }

@@ -74,7 +74,7 @@ namespace sprag
     {
     }
 
-    void remember(const Evaluation &evaluation, State &state) const override
+    void store_history(const Evaluation &evaluation, State &state) const override
     {
       state.contact.assign(1, {});
       state.contact[0].traction[0] = found_in(evaluation).x;

@@ -81,9 +81,9 @@ namespace
     {
       return inner->face_state(motion);
     }
-    void visit_history(Archive &archive) override
+    void serialise_history(Archive &archive) override
     {
-      inner->visit_history(archive);
+      inner->serialise_history(archive);
     }
 
   private:
@@ -386,11 +386,11 @@ TEST(RejectedStep, LeavesTheRunWhereTheAcceptedStepsAloneLead)
       ASSERT_EQ(motion.coordinates.velocity, expected.coordinates.velocity) << i;
       ASSERT_EQ(motion.coordinates.acceleration, expected.coordinates.acceleration) << i;
       // History is that of accepted steps.
-      const auto &memory = expected.contact.front();
-      ASSERT_EQ(motion.contact.front().traction, memory.traction) << i;
-      ASSERT_EQ(motion.contact.front().slip_speed, memory.slip_speed) << i;
-      ASSERT_EQ(motion.contact.front().damping, memory.damping) << i;
-      ASSERT_TRUE(memory.step == 0. || memory.step == durations[i]) << i;
+      const auto &history = expected.contact.front();
+      ASSERT_EQ(motion.contact.front().traction, history.traction) << i;
+      ASSERT_EQ(motion.contact.front().slip_speed, history.slip_speed) << i;
+      ASSERT_EQ(motion.contact.front().damping, history.damping) << i;
+      ASSERT_TRUE(history.step == 0. || history.step == durations[i]) << i;
     }
   }
 }

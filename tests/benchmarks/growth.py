@@ -14,12 +14,12 @@ WIDTHS = (34, 26, 10, 10, 0)
 # Scene, what is common, what is varied, a measure of size from it, and of the parts in /meta the power of that size that theory gives.
 SERIES = [
     # A plane mesh graded away from the face has N ~ 1/h displacements down to about 0.1 mm and N ~ 1/h^2 further on; nested dissection
-    # factorises in N^1.5, substitution costs N log N for each of the contact's ports in the window, ~ 1/h.
+    # factorises in N^1.5, substitution costs N log N for each of the contact's dofs in the window, ~ 1/h.
     ("model-a", {}, "Mesh/Face size", (0.5, 0.25, 0.125, 0.0625, 0.03125), "displacements",
      {"mesh": 1, "model": 1.5, "steps_and_output": 1.5, "fields": 1.5, "accuracy": 1.5}),
     ("model-a", {"Output/Fields": "none"}, "Analysis/Step", (0.8, 0.4, 0.2, 0.1), "steps", {"steps_and_output": 1, "output": 1, "model": 0}),
     ("model-a", {"Output/Fields": "none"}, "Drive/Cycles", (2, 4, 8, 16), "steps", {"steps_and_output": 1, "output": 1, "accuracy": 0}),
-    # The basis: N^1.5 for factors and as many substitutions as ports, ~ N; steps: dense in the ports in contact.
+    # The basis: N^1.5 for factors and as many substitutions as dofs, ~ N; steps: dense in the dofs in contact.
     ("reversal-a", {"Analysis/Model": "condensed", "Output/Fields": "none"}, "Mesh/Face size", (1, 0.5, 0.25, 0.125), "displacements",
      {"basis": 1.5, "steps_and_output": 1.5}),
     ("reversal-a", {"Analysis/Model": "condensed", "Output/Fields": "none", "Time/Step": 1e-4}, "Condensed/Modes", (10, 20, 40, 80), "modes",

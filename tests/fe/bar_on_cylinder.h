@@ -3,7 +3,7 @@
 
 #include "bar.h"
 #include "fe/contact/face_contact.h"
-#include "fe/dynamics/lever_ports.h"
+#include "fe/dynamics/lever_interface.h"
 
 #include <cmath>
 
@@ -31,7 +31,7 @@ namespace sprag
   {
     FaceContactProperties result;
     set_cylinder(cylinder_below_bar(), result);
-    result.ports            = { static_cast<unsigned int>(surface_dofs(body).size()), sprung };
+    result.layout           = { static_cast<unsigned int>(surface_dofs(body).size()), sprung };
     result.rest_inclination = rest_inclination;
     result.penalties        = { 240., 120. };
     result.friction         = { CorkOnAluminium{}, FrictionSpeed::sliding, regularisation_speed };

@@ -41,28 +41,28 @@ namespace sprag
       properties.constants    = { { material_id::lever, { 1., 0. } } };
       face                    = find_friction_face(dealii::MappingQ1<3>(), dofs, dealii::AffineConstraints<double>(), properties,
                                                    boundary_id::friction_face);
-      ports                   = { 3 * static_cast<unsigned int>(face.nodes.size()), false };
-      ports.has_inertia       = false;
-      ports.slopes            = cylinder.has_free_axis() ? 2 : 0;
+      layout                  = { 3 * static_cast<unsigned int>(face.nodes.size()), false };
+      layout.has_inertia      = false;
+      layout.slopes           = cylinder.has_free_axis() ? 2 : 0;
       const Geometry geometry = model_a().geometry;
       contact = std::make_unique<SurfaceContact>(face, SurfaceContactProperties{ RigidCylinder(geometry, cylinder),
                                                                                  [geometry](const double at, const double theta)
                                                                                  { return cylinder_centre(geometry, at, theta); },
                                                                                  geometry.cylinder_radius,
-                                                                                 ports,
+                                                                                 layout,
                                                                                  0.,
                                                                                  { stiffness, stiffness },
                                                                                  false,
                                                                                  friction });
     }
 
-    /// Ports at rest and an inclination at which the cylinder overlaps by so much in the middle [mm].
-    dealii::Vector<double> pressed(const double overlap) const
+    /// Returns displacements at rest and an inclination at which the cylinder penetrates by so much in the middle [mm].
+    dealii::Vector<double> pressed(const double penetration) const
     {
       const auto geometry = model_a().geometry;
-      dealii::Vector<double> result(ports.size());
-      result[ports.rotation()] =
-          std::asin((geometry.cylinder_radius - overlap - geometry.interface_offset) / (geometry.pivot_distance - x));
+      dealii::Vector<double> result(layout.size());
+      result[layout.rotation()] =
+          std::asin((geometry.cylinder_radius - penetration - geometry.interface_offset) / (geometry.pivot_distance - x));
       return result;
     }
 
@@ -91,17 +91,17 @@ namespace sprag
       return face.points;
     }
 
-    /// The length that makes a movement of a unit of a port, see PortWindow [mm].
-    double unit_length(const unsigned int port) const
+    /// The length that makes a movement of a unit of a dof, see StaticInterface [mm].
+    double unit_length(const unsigned int dof) const
     {
-      return ports.is_slope(port) ? 0.5 * width : 1.;
+      return layout.is_slope(dof) ? 0.5 * width : 1.;
     }
 
     /// Force and moment on the lever of an evaluation about the cylinder's middle, in the axes of the world.
     std::array<dealii::Tensor<1, 3>, 2> resultant(const FaceEvaluation<3> &found) const
     {
       const auto geometry = model_a().geometry;
-      const double theta  = found.displacement[ports.rotation()];
+      const double theta  = found.displacement[layout.rotation()];
       const double c = std::cos(theta), s = std::sin(theta);
       std::array<dealii::Tensor<1, 3>, 2> result;
       for (const auto &point : found.points)
@@ -120,9 +120,9 @@ namespace sprag
     }
 
     /// Force along eta and its moment about the middle of the width.
-    std::array<double, 2> pressed_by(const double overlap)
+    std::array<double, 2> pressed_by(const double penetration)
     {
-      const auto at    = pressed(overlap);
+      const auto at    = pressed(penetration);
       const auto found = evaluated(at, x, at, 0.);
       std::array<double, 2> result{};
       for (const auto &point : found.points)
@@ -135,7 +135,7 @@ namespace sprag
     }
 
     static constexpr double x = 64.;
-    PortLayout ports;
+    InterfaceLayout layout;
 
   private:
     dealii::Triangulation<3> triangulation;

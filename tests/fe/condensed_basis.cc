@@ -26,19 +26,19 @@ namespace
     return { modes, bar_spring, bar_inertia(1e-3, 1e-7), cache, {} };
   }
 
-  PortForces forces_on(const PortLayout &ports)
+  InterfaceForces forces_on(const InterfaceLayout &layout)
   {
-    PortForces forces;
-    forces.ports = { 2, 5, 6, ports.rotation() };
-    if (ports.sprung)
-      forces.ports.push_back(ports.support());
-    forces.values.reinit(static_cast<unsigned int>(forces.ports.size()));
+    InterfaceForces forces;
+    forces.dofs = { 2, 5, 6, layout.rotation() };
+    if (layout.sprung)
+      forces.dofs.push_back(layout.support());
+    forces.values.reinit(static_cast<unsigned int>(forces.dofs.size()));
     for (unsigned int i = 0; i < forces.values.size(); ++i)
       forces.values[i] = std::cos(1. + i);
     return forces;
   }
 
-  /// Displacements of the ports after steps under growing forces.
+  /// Returns the interface displacements after steps under growing forces.
   template <class Structure>
   Vector stepped(Structure &structure)
   {
@@ -46,12 +46,12 @@ namespace
     structure.use_step(generalised_alpha(0.8, 2e-5));
     for (unsigned int i = 0; i < 5; ++i)
     {
-      auto forces = forces_on(structure.ports());
+      auto forces = forces_on(structure.layout());
       forces.values *= 1. + i;
-      structure.free_ports(motion, all_ports(structure.ports().size()));
+      structure.free_displacements(motion, all_dofs(structure.layout().size()));
       motion = structure.advance(motion, forces, {});
     }
-    return structure.port_positions(motion);
+    return structure.positions(motion);
   }
 
   std::string only_file(const std::string &folder)
@@ -95,9 +95,9 @@ TEST(CondensedBasis, WithFewModesHasTheStaticsOfTheFiniteElements)
     ModalStructure condensed(modal_data(make_basis(*bar, make_settings(modes)), damped_dynamics(false)));
     whole.use_statics();
     condensed.use_statics();
-    const auto forces   = forces_on(whole.ports());
-    const auto expected = whole.port_positions(whole.deform(forces));
-    Vector difference   = condensed.port_positions(condensed.deform(forces));
+    const auto forces   = forces_on(whole.layout());
+    const auto expected = whole.positions(whole.deform(forces));
+    Vector difference   = condensed.positions(condensed.deform(forces));
     difference -= expected;
     EXPECT_LE(difference.linfty_norm(), 1e-9 * expected.linfty_norm()) << modes;
   }
@@ -155,7 +155,7 @@ TEST(CondensedBasis, ItsElasticDisplacementIsThatOfTheFiniteElements)
   ModalStructure condensed(modal_data(basis, damped_dynamics(false)));
   whole.use_statics();
   condensed.use_statics();
-  const auto forces   = forces_on(whole.ports());
+  const auto forces   = forces_on(whole.layout());
   const auto expected = whole.elastic_displacement(whole.deform(forces));
   Vector difference   = condensed_displacement(*bar, basis, surface_dofs(*bar), make_response(*bar), condensed.deform(forces));
   difference -= expected;

@@ -184,7 +184,7 @@ TEST(ElasticBody, PointsOfTheFaceStandForItsAreaAndAreOrdered)
     }
     EXPECT_NEAR(area, 4. * width, 1e-13 * area);
     EXPECT_EQ(face.nodes.size(), 4 * degree + 1);
-    EXPECT_EQ(face.patches.size(), 4u);
+    EXPECT_EQ(face.elements.size(), 4u);
     EXPECT_DOUBLE_EQ(face.depth, 1.);
     EXPECT_EQ(face.young_modulus, 20.);
   }
@@ -258,7 +258,7 @@ TEST(ElasticBody, CellsOfTheHubDoNotMove)
   const ElasticBody<2> body(triangulation, soft_solid(1, MaterialModel::linear, 0.3));
   // Of the four nodes on the lower side the hub holds the first two.
   EXPECT_EQ(body.friction_face().nodes.size(), 2u);
-  EXPECT_EQ(body.friction_face().patches.size(), 2u);
+  EXPECT_EQ(body.friction_face().elements.size(), 2u);
   Matrix matrix;
   body.reinit(matrix);
   Vector forces(body.n_dofs());

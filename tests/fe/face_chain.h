@@ -40,7 +40,7 @@ namespace sprag
         face.points.push_back(
             { curve(vertices[i - 1] + at * (vertices[i] - vertices[i - 1])), width * length / (2. * parts), {}, {} });
       }
-      face.patches.push_back({ begin, begin + 2 * parts, length });
+      face.elements.push_back({ begin, begin + 2 * parts, length });
       face.edges.push_back(edge);
     }
     return face;

@@ -3,7 +3,7 @@
 
 #include "bar_on_cylinder.h"
 #include "mpi_environment.h"
-#include "support/port_differences.h"
+#include "support/interface_differences.h"
 
 #include <gtest/gtest.h>
 
@@ -15,15 +15,15 @@ namespace
   using Full   = dealii::FullMatrix<double>;
 
   /// The face moved down by `depth` [mm], uneven by micrometres.
-  Vector pressed(const PortLayout &ports, const double depth)
+  Vector pressed(const InterfaceLayout &layout, const double depth)
   {
-    Vector result(ports.size());
-    for (unsigned int i = 0; i < ports.surface; ++i)
+    Vector result(layout.size());
+    for (unsigned int i = 0; i < layout.surface; ++i)
       result[i] = 1e-3 * std::sin(1.7 * i) - (i % 2 == 1 ? depth : 0.);
     return result;
   }
 
-  PortForces compute_forces(const FaceContact &contact, const SlidingState &state)
+  InterfaceForces compute_forces(const FaceContact &contact, const SlidingState &state)
   {
     FaceEvaluation<2> found;
     contact.evaluate_sliding(state, found);
@@ -43,25 +43,25 @@ TEST(FaceLinearisation, RatesAreTheDerivativeOfTheForcesByVelocities)
         const auto properties = make_properties(*bar, sprung, regularisation);
         FaceContact contact(*bar, properties);
         FaceEvaluation<2> found;
-        const Vector ports = pressed(properties.ports, 0.01);
+        const Vector displacements = pressed(properties.layout, 0.01);
         const DrivePoint drive{ 0., 0., speed, 0. };
         const auto with_rates = [&](const Vector &rates) {
-          return compute_forces(contact, { ports, drive, speed, &rates, ContactFriction::sliding });
+          return compute_forces(contact, { displacements, drive, speed, &rates, ContactFriction::sliding });
         };
-        const auto exact = contact.linearise({ ports, drive, speed }, found);
-        ASSERT_FALSE(exact.ports.empty());
+        const auto exact = contact.linearise({ displacements, drive, speed }, found);
+        ASSERT_FALSE(exact.dofs.empty());
         EXPECT_EQ(exact.pressure_rate.linfty_norm(), 0.);
         const double largest = exact.friction_rate.linfty_norm();
         EXPECT_GT(largest, 1e-4);
-        for (unsigned int j = 0; j < exact.ports.size(); ++j)
+        for (unsigned int j = 0; j < exact.dofs.size(); ++j)
         {
           const double h = 0.01;
-          Vector rates(ports.size());
-          rates[exact.ports[j]] = h;
-          const auto right      = with_rates(rates).values;
+          Vector rates(displacements.size());
+          rates[exact.dofs[j]] = h;
+          const auto right     = with_rates(rates).values;
           rates *= -1.;
           const auto left = with_rates(rates).values;
-          for (unsigned int i = 0; i < exact.ports.size(); ++i)
+          for (unsigned int i = 0; i < exact.dofs.size(); ++i)
             EXPECT_NEAR(exact.friction_rate(i, j), (right[i] - left[i]) / (2. * h), 1e-6 * largest) << sprung << i << " " << j;
         }
       }
@@ -79,11 +79,11 @@ TEST(FaceLinearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
         const auto properties = make_properties(*bar, sprung, 0.);
         FaceContact contact(*bar, properties);
         FaceEvaluation<2> found;
-        const Vector at   = pressed(properties.ports, 0.01);
+        const Vector at   = pressed(properties.layout, 0.01);
         const auto linear = contact.linearise({ at, { 0., 0., speed, 0. }, speed }, found);
         ASSERT_GT(linear.delays.size(), 10u);
         Motion accepted;
-        accepted.contact = found.memory();
+        accepted.contact = found.history();
         Full exact       = linear.immediate_stiffness();
         exact.add(1. / dt, linear.immediate_damping());
         double longest = 0.;
@@ -98,22 +98,23 @@ TEST(FaceLinearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
         const Vector rest(at.size());
         const Kinematic begin{ at, rest, rest };
         const DrivePoint to{ dt, 0., 0., 0., speed * dt };
-        const auto moved = [&](const unsigned int port, const double by)
+        const auto moved = [&](const unsigned int dof, const double by)
         {
           Vector end = at, rate(at.size());
-          end[port] += by;
-          rate[port] = by / dt;
-          contact.evaluate(PortStep{ accepted.drive, accepted.contact, to, begin, end, rate, { dt, 0., 0., 0.25, 0.5 } }, found);
+          end[dof] += by;
+          rate[dof] = by / dt;
+          contact.evaluate(InterfaceStep{ accepted.drive, accepted.contact, to, begin, end, rate, { dt, 0., 0., 0.25, 0.5 } },
+                           found);
           return found.forces;
         };
         const double largest = exact.linfty_norm();
-        for (unsigned int j = 0; j < linear.ports.size(); ++j)
+        for (unsigned int j = 0; j < linear.dofs.size(); ++j)
         {
-          const double h   = 2e-6 / (linear.ports[j] == properties.ports.rotation() ? 12. : 1.);
-          const auto right = moved(linear.ports[j], h);
-          const auto left  = moved(linear.ports[j], -h);
-          ASSERT_EQ(right.ports, linear.ports);
-          for (unsigned int i = 0; i < linear.ports.size(); ++i)
+          const double h   = 2e-6 / (linear.dofs[j] == properties.layout.rotation() ? 12. : 1.);
+          const auto right = moved(linear.dofs[j], h);
+          const auto left  = moved(linear.dofs[j], -h);
+          ASSERT_EQ(right.dofs, linear.dofs);
+          for (unsigned int i = 0; i < linear.dofs.size(); ++i)
             EXPECT_NEAR(exact(i, j), (right.values[i] - left.values[i]) / (2. * h), 1e-5 * largest) << sprung << i << " " << j;
         }
       }
@@ -128,15 +129,17 @@ TEST(FaceLinearisation, StuckIsTheTangentOfAStepInStick)
     const auto properties = make_properties(*bar, sprung, 0.);
     FaceContact contact(*bar, properties);
     FaceEvaluation<2> found;
-    const Vector ports = pressed(properties.ports, 0.01);
+    const Vector displacements = pressed(properties.layout, 0.01);
     const DrivePoint drive{ 0., 0., 0., 0. };
-    const auto linear = compute_forces(contact, { ports, drive, 100., nullptr, ContactFriction::stuck });
-    const Vector rest(ports.size());
+    const auto linear = compute_forces(contact, { displacements, drive, 100., nullptr, ContactFriction::stuck });
+    const Vector rest(displacements.size());
     const StepWeights weights{ 1e-5, 0., 0., 0.25, 0.5 };
     Motion accepted;
     accepted.drive = drive;
-    contact.evaluate(PortStep{ accepted.drive, accepted.contact, drive, { ports, rest, rest }, ports, rest, weights }, found);
-    ASSERT_EQ(found.forces.ports, linear.ports);
+    contact.evaluate(
+        InterfaceStep{ accepted.drive, accepted.contact, drive, { displacements, rest, rest }, displacements, rest, weights },
+        found);
+    ASSERT_EQ(found.forces.dofs, linear.dofs);
     Full difference = found.forces.tangent;
     difference.add(-1., linear.tangent);
     EXPECT_LT(difference.frobenius_norm(), 1e-12 * linear.tangent.frobenius_norm());
@@ -150,10 +153,10 @@ TEST(FaceLinearisation, IsNothingOutOfContact)
   const auto properties = make_properties(*bar, true, 0.);
   FaceContact contact(*bar, properties);
   FaceEvaluation<2> found;
-  const Vector ports = pressed(properties.ports, -0.1);
+  const Vector displacements = pressed(properties.layout, -0.1);
   const DrivePoint drive{ 0., 0., 100., 0. };
-  EXPECT_TRUE(compute_forces(contact, { ports, drive, 100. }).ports.empty());
-  EXPECT_TRUE(contact.linearise({ ports, drive, 100. }, found).ports.empty());
+  EXPECT_TRUE(compute_forces(contact, { displacements, drive, 100. }).dofs.empty());
+  EXPECT_TRUE(contact.linearise({ displacements, drive, 100. }, found).dofs.empty());
 }
 
 TEST(FaceLinearisation, PartsAddUpToTheTangentAndPressureIsSymmetric)
@@ -161,5 +164,5 @@ TEST(FaceLinearisation, PartsAddUpToTheTangentAndPressureIsSymmetric)
   const MeshedBar bar(bar_on_cylinder());
   const auto properties = make_properties(*bar, true, 0.);
   FaceContact contact(*bar, properties);
-  expect_tangent_parts(contact, pressed(properties.ports, 0.01), 1e-14);
+  expect_tangent_parts(contact, pressed(properties.layout, 0.01), 1e-14);
 }

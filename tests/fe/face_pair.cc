@@ -56,18 +56,18 @@ namespace
     return faces.pair.configuration({ &q, q[n], q[n + 1], cylinder_centre(geometry, q[n + 1], q[n]) });
   }
 
-  /// Patches of the lever within reach of the cylinder.
+  /// Returns the elements of the lever within reach of the cylinder.
   std::vector<unsigned int> near(const Faces &faces, const PairConfiguration &at)
   {
     PairPlace place;
     std::vector<unsigned int> result;
-    for (unsigned int patch = 0; patch < faces.lever.patches.size(); ++patch)
-      if (faces.pair.reach(patch, at, place) < 0.)
-        result.push_back(patch);
+    for (unsigned int element = 0; element < faces.lever.elements.size(); ++element)
+      if (faces.pair.reach(element, at, place) < 0.)
+        result.push_back(element);
     return result;
   }
 
-  /// Index among q of a coordinate of a patch.
+  /// Index among q of a coordinate of an element.
   unsigned int index(const Faces &faces, const PairCoordinates &coordinates, const unsigned int i)
   {
     return i < coordinates.theta() ? 2 * coordinates.nodes[i / 2] + i % 2 : 2 * faces.n_nodes() + i - coordinates.theta();
@@ -83,40 +83,40 @@ TEST(FacePair, RowsAndCurvaturesAreDerivatives)
   unsigned int crossings = 0;
   for (const double theta : { 0.015, 0.02 })
   {
-    Vector q           = smooth(faces, theta, 0.3);
-    const auto at      = configuration(faces, q);
-    const auto patches = near(faces, at);
-    ASSERT_GT(patches.size(), 1u);
-    for (const unsigned int patch : patches)
+    Vector q            = smooth(faces, theta, 0.3);
+    const auto at       = configuration(faces, q);
+    const auto elements = near(faces, at);
+    ASSERT_GT(elements.size(), 1u);
+    for (const unsigned int element : elements)
     {
-      PatchFacets patch_facets, other;
-      faces.pair.find_facets(patch, at, patch_facets);
-      const auto coordinates = faces.pair.coordinates(patch, { &patch_facets });
-      for (unsigned int f = 0; f < patch_facets.facets.size(); ++f)
+      ElementFacets element_facets, other;
+      faces.pair.find_facets(element, at, element_facets);
+      const auto coordinates = faces.pair.coordinates(element, { &element_facets });
+      for (unsigned int f = 0; f < element_facets.facets.size(); ++f)
       {
-        if (!patch_facets.facets[f].opposed)
+        if (!element_facets.facets[f].opposed)
           continue;
-        const bool crosses = patch_facets.facets[f].end - patch_facets.facets[f].begin > 2;
+        const bool crosses = element_facets.facets[f].end - element_facets.facets[f].begin > 2;
         crossings += crosses ? 1 : 0;
         const double gap_tolerance  = crosses ? 3e-5 : 3e-6;
         const double slip_tolerance = crosses ? 3e-3 : 3e-6;
         FacetRows rows, moved;
-        find_rows(patch_facets, patch_facets.facets[f], at, coordinates, R, rows);
+        find_rows(element_facets, element_facets.facets[f], at, coordinates, R, rows);
         Full gap_curvature(coordinates.size(), coordinates.size()), slip_gradient(coordinates.size(), coordinates.size());
-        add_curvature(patch_facets, patch_facets.facets[f], at, coordinates, R, 1., 0., gap_curvature);
-        add_curvature(patch_facets, patch_facets.facets[f], at, coordinates, R, 0., 1., slip_gradient);
+        add_curvature(element_facets, element_facets.facets[f], at, coordinates, R, 1., 0., gap_curvature);
+        add_curvature(element_facets, element_facets.facets[f], at, coordinates, R, 0., 1., slip_gradient);
         for (unsigned int j = 0; j < coordinates.size(); ++j)
         {
-          const unsigned int port = index(faces, coordinates, j);
-          const double from       = q[port];
-          const double h          = 2e-6;
+          const unsigned int dof = index(faces, coordinates, j);
+          const double from      = q[dof];
+          const double h         = 2e-6;
           Facet difference;
           std::vector<Vector> by_row(2);
           for (const double sign : { 1., -1. })
           {
-            q[port]          = from + sign * h;
+            q[dof]           = from + sign * h;
             const auto there = configuration(faces, q);
-            faces.pair.find_facets(patch, there, other);
+            faces.pair.find_facets(element, there, other);
             find_rows(other, other.facets[f], there, coordinates, R, moved);
             difference.gap += sign / (2. * h) * other.facets[f].gap;
             difference.arc += sign / (2. * h) * other.facets[f].arc;
@@ -129,7 +129,7 @@ TEST(FacePair, RowsAndCurvaturesAreDerivatives)
               by_row[1] -= moved.slip;
             }
           }
-          q[port] = from;
+          q[dof] = from;
           EXPECT_NEAR(rows.gap[j], difference.gap, 3e-8) << f << " " << j;
           EXPECT_NEAR(rows.arc[j], difference.arc, 3e-8) << f << " " << j;
           EXPECT_NEAR(rows.stretch[j], difference.weight, gap_tolerance) << f << " " << j;
@@ -147,7 +147,7 @@ TEST(FacePair, RowsAndCurvaturesAreDerivatives)
 
 namespace
 {
-  /// Sum and moment about the origin of forces that a row is on the nodes of a patch, of the lever (first) or the cylinder.
+  /// Sum and moment about the origin of forces that a row is on the nodes of an element, of the lever (first) or the cylinder.
   dealii::Tensor<1, 3> resultant(const Vector &row, const Faces &faces, const PairCoordinates &coordinates, const Vector &q,
                                  const PairConfiguration &at, const bool moves_lever)
   {
@@ -175,15 +175,15 @@ TEST(FacePair, ForcesAreEqualAndOppositeWithTheirMoments)
   const Vector q = smooth(faces, 0.02, 0.3);
   const auto at  = configuration(faces, q);
   double deepest = 0.;
-  for (const unsigned int patch : near(faces, at))
+  for (const unsigned int element : near(faces, at))
   {
-    PatchFacets patch_facets;
-    faces.pair.find_facets(patch, at, patch_facets);
-    const auto coordinates = faces.pair.coordinates(patch, { &patch_facets });
-    for (const auto &facet : patch_facets.facets)
+    ElementFacets element_facets;
+    faces.pair.find_facets(element, at, element_facets);
+    const auto coordinates = faces.pair.coordinates(element, { &element_facets });
+    for (const auto &facet : element_facets.facets)
     {
       FacetRows rows;
-      find_rows(patch_facets, facet, at, coordinates, geometry.cylinder_radius, rows);
+      find_rows(element_facets, facet, at, coordinates, geometry.cylinder_radius, rows);
       deepest = std::min(deepest, facet.gap);
       for (const auto *const row : { &rows.gap, &rows.slip })
       {
@@ -210,18 +210,18 @@ TEST(FacePair, UniformTractionsGiveExactNodalForcesOnFacesThatDoNotMatch)
   const auto at = pair.configuration({ &none, 0., 0., { 0., 0. } });
   Vector forces(2 * n);
   const double normal = 2., along = -0.7;
-  for (unsigned int patch = 0; patch < upper.patches.size(); ++patch)
+  for (unsigned int element = 0; element < upper.elements.size(); ++element)
   {
-    PatchFacets patch_facets;
-    pair.find_facets(patch, at, patch_facets);
-    const auto coordinates = pair.coordinates(patch, { &patch_facets });
-    for (const auto &facet : patch_facets.facets)
+    ElementFacets element_facets;
+    pair.find_facets(element, at, element_facets);
+    const auto coordinates = pair.coordinates(element, { &element_facets });
+    for (const auto &facet : element_facets.facets)
     {
       ASSERT_TRUE(facet.opposed);
       EXPECT_NEAR(facet.gap, 0., 1e-14);
       EXPECT_NEAR(facet.stretch, 1., 1e-14);
       FacetRows rows;
-      find_rows(patch_facets, facet, at, coordinates, 0., rows);
+      find_rows(element_facets, facet, at, coordinates, 0., rows);
       for (unsigned int i = 0; i < coordinates.theta(); ++i)
         forces[2 * coordinates.nodes[i / 2] + i % 2] += facet.weight * (normal * rows.gap[i] + along * rows.slip[i]);
     }
@@ -269,16 +269,16 @@ TEST(FacePair, AnUndeformedCylinderIsTheRigidCircle)
   const auto at    = configuration(faces, q);
   double first_arc = 0., first_slip = 0.;
   bool is_first = true;
-  for (const unsigned int patch : near(faces, at))
+  for (const unsigned int element : near(faces, at))
   {
-    PatchFacets patch_facets;
-    faces.pair.find_facets(patch, at, patch_facets);
-    const auto coordinates = faces.pair.coordinates(patch, { &patch_facets });
-    const auto &nodes      = faces.lever.edges[patch].nodes;
-    for (unsigned int f = 0; f < patch_facets.facets.size(); ++f)
+    ElementFacets element_facets;
+    faces.pair.find_facets(element, at, element_facets);
+    const auto coordinates = faces.pair.coordinates(element, { &element_facets });
+    const auto &nodes      = faces.lever.edges[element].nodes;
+    for (unsigned int f = 0; f < element_facets.facets.size(); ++f)
     {
       FacetRows rows;
-      find_rows(patch_facets, patch_facets.facets[f], at, coordinates, R, rows);
+      find_rows(element_facets, element_facets.facets[f], at, coordinates, R, rows);
       ContactKinematics<4> mean{};
       for (const auto &[part, weight] : { std::pair{ 0., 1. / 6. }, { 0.5, 4. / 6. }, { 1., 1. / 6. } })
       {
@@ -295,8 +295,8 @@ TEST(FacePair, AnUndeformedCylinderIsTheRigidCircle)
         mean.gap_row += weight * contact.gap_row;
         mean.slip_row += weight * contact.slip_row;
       }
-      EXPECT_NEAR(patch_facets.facets[f].gap, mean.gap, R * std::pow(a, 4) / 16.);
-      const unsigned int port[] = { coordinates.theta(), coordinates.x() };
+      EXPECT_NEAR(element_facets.facets[f].gap, mean.gap, R * std::pow(a, 4) / 16.);
+      const unsigned int dof[] = { coordinates.theta(), coordinates.x() };
       for (unsigned int d = 0; d < 2; ++d)
       {
         // Of the lever's nodes those of a force; the arms of theta are some 12 mm.
@@ -308,17 +308,17 @@ TEST(FacePair, AnUndeformedCylinderIsTheRigidCircle)
         }
         EXPECT_NEAR(across, mean.gap_row[d], std::pow(a, 3));
         EXPECT_NEAR(along, mean.slip_row[d], std::pow(a, 3));
-        EXPECT_NEAR(rows.gap[port[d]], mean.gap_row[2 + d], 12. * std::pow(a, 3));
-        EXPECT_NEAR(rows.slip[port[d]], mean.slip_row[2 + d], 12. * std::pow(a, 3));
+        EXPECT_NEAR(rows.gap[dof[d]], mean.gap_row[2 + d], 12. * std::pow(a, 3));
+        EXPECT_NEAR(rows.slip[dof[d]], mean.slip_row[2 + d], 12. * std::pow(a, 3));
       }
       if (is_first)
       {
-        first_arc  = patch_facets.facets[f].arc;
+        first_arc  = element_facets.facets[f].arc;
         first_slip = mean.slip;
         is_first   = false;
       }
       // Over the whole face, to what the length of its edges is off the circle's.
-      EXPECT_NEAR(patch_facets.facets[f].arc - first_arc, mean.slip - first_slip, R * a * std::pow(a, 3));
+      EXPECT_NEAR(element_facets.facets[f].arc - first_arc, mean.slip - first_slip, R * a * std::pow(a, 3));
     }
   }
 }
@@ -330,17 +330,17 @@ TEST(FacePair, FacetsBesideTheCylindersFaceAreNotOpposed)
   const FacePair pair(upper, lower);
   const Vector none(2 * static_cast<unsigned int>(upper.nodes.size() + lower.nodes.size()));
   const auto at = pair.configuration({ &none, 0., 0., { 0., 0. } });
-  for (unsigned int patch = 0; patch < upper.patches.size(); ++patch)
+  for (unsigned int element = 0; element < upper.elements.size(); ++element)
   {
-    PatchFacets patch_facets;
-    pair.find_facets(patch, at, patch_facets);
-    for (unsigned int f = 0; f < patch_facets.facets.size(); ++f)
+    ElementFacets element_facets;
+    pair.find_facets(element, at, element_facets);
+    for (unsigned int f = 0; f < element_facets.facets.size(); ++f)
     {
-      const double begin = 0.5 * patch + 0.0625 * f;
+      const double begin = 0.5 * element + 0.0625 * f;
       const bool above   = begin > 1. - 1e-9 && begin + 0.0625 < 2.2 + 1e-9;
-      EXPECT_EQ(patch_facets.facets[f].opposed, above) << begin;
-      EXPECT_GT(patch_facets.facets[f].gap, 0.);
-      EXPECT_EQ(patch_facets.facets[f].weight > 0., above);
+      EXPECT_EQ(element_facets.facets[f].opposed, above) << begin;
+      EXPECT_GT(element_facets.facets[f].gap, 0.);
+      EXPECT_EQ(element_facets.facets[f].weight > 0., above);
     }
   }
 }

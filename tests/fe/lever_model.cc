@@ -52,7 +52,7 @@ namespace
     return { x / 112., x, 112. };
   }
 
-  /// Equilibrium of a step from the accepted state, memory not yet committed.
+  /// Equilibrium of a step from the accepted state, history not yet stored.
   Solved solved(Model &model, const State &accepted, const DrivePoint &drive)
   {
     Step step         = model.begin_step(accepted, drive);
@@ -175,7 +175,7 @@ TEST(LeverModel, ATriedStepLeavesTheNextStepAsItWas)
   const auto accepted = slid(model);
   const auto direct   = solved(model, accepted, forward_to(21.));
   State first         = direct.state;
-  model.remember(direct.found, first);
+  model.store_history(direct.found, first);
 
   // A trial far from any equilibrium, given up.
   Step step   = model.begin_step(accepted, back_by(9.));
@@ -187,7 +187,7 @@ TEST(LeverModel, ATriedStepLeavesTheNextStepAsItWas)
 
   const auto again = solved(model, accepted, forward_to(21.));
   State second     = again.state;
-  model.remember(again.found, second);
+  model.store_history(again.found, second);
   EXPECT_GT(direct.state.forces.values.l2_norm(), 0.);
   EXPECT_TRUE(again.state.forces.values == direct.state.forces.values);
   EXPECT_EQ(again.state.coordinates[model.rotation()], direct.state.coordinates[model.rotation()]);

@@ -20,10 +20,10 @@ namespace
   using Vector = dealii::Vector<double>;
 
   /// On some nodes of the friction face, growing.
-  PortForces step_forces(const unsigned int step)
+  InterfaceForces step_forces(const unsigned int step)
   {
-    PortForces forces;
-    forces.ports  = { 10, 11, 24, 25 };
+    InterfaceForces forces;
+    forces.dofs   = { 10, 11, 24, 25 };
     forces.values = Vector(4);
     for (unsigned int i = 0; i < 4; ++i)
       forces.values[i] = (1. + step) * std::cos(0.4 + i);
@@ -39,7 +39,7 @@ namespace
     for (unsigned int step = 0; step < 12; ++step)
     {
       const auto forces = step_forces(step);
-      structure.free_ports(motion, all_ports(structure.ports().size()));
+      structure.free_displacements(motion, all_dofs(structure.layout().size()));
       const auto before = motion;
       motion            = structure.advance(motion, forces, {});
       look(before, motion, forces, weights);
@@ -69,11 +69,11 @@ namespace
     return row;
   }
 
-  double sensor_sum(const PlateOnBar &scene, const Vector &ports, const PortLayout &layout)
+  double sensor_sum(const PlateOnBar &scene, const Vector &displacements, const InterfaceLayout &layout)
   {
     double sum = 0.;
     for (unsigned int i = 0; i < layout.sensors; ++i)
-      sum += scene.sensor_stiffness * ports[layout.sensor(i)];
+      sum += scene.sensor_stiffness * displacements[layout.sensor(i)];
     return sum;
   }
 } // namespace
@@ -83,16 +83,16 @@ TEST(PlateInTime, ContactLessSensorsIsThePlatesInertia)
   const PlateOnBar scene;
   const MeshedPlate plate(scene);
   auto structure     = sparse_structure(*plate, plate_inertia(), 4, undamped_dynamics(false));
-  const auto &layout = structure.ports();
+  const auto &layout = structure.layout();
   ASSERT_EQ(layout.sensors, 2u);
   const auto momentum = plate_momentum(*plate, plate_inertia());
   double largest      = 0.;
   march(structure,
-        [&](const Motion &before, const Motion &after, const PortForces &forces, const StepWeights &w)
+        [&](const Motion &before, const Motion &after, const InterfaceForces &forces, const StepWeights &w)
         {
           // Forces and accelerations of a step of the generalised-alpha method are weighted means of its ends.
-          const double sensors = (1. - w.alpha_f) * sensor_sum(scene, structure.port_positions(after), layout) +
-                                 w.alpha_f * sensor_sum(scene, structure.port_positions(before), layout);
+          const double sensors = (1. - w.alpha_f) * sensor_sum(scene, structure.positions(after), layout) +
+                                 w.alpha_f * sensor_sum(scene, structure.positions(before), layout);
           const double inertia = (1. - w.alpha_m) * (momentum * after.coordinates.acceleration) +
                                  w.alpha_m * (momentum * before.coordinates.acceleration);
           const double contact = forces.values[1] + forces.values[3];
@@ -102,32 +102,32 @@ TEST(PlateInTime, ContactLessSensorsIsThePlatesInertia)
   EXPECT_GT(largest, 0.05);
 }
 
-TEST(PlateInTime, SensorsAreOnlyReadButAnswerAsPorts)
+TEST(PlateInTime, SensorsAreOnlyReadButAnswerAsTheInterface)
 {
   const PlateOnBar scene;
   const MeshedPlate plate(scene);
   for (const bool sprung : { false, true })
   {
     auto structure     = sparse_structure(*plate, plate_inertia(), 4, undamped_dynamics(sprung));
-    const auto &layout = structure.ports();
+    const auto &layout = structure.layout();
     structure.use_statics();
-    const auto forces = step_forces(0);
-    const auto motion = structure.deform(forces);
-    const auto ports  = structure.port_positions(motion);
+    const auto forces        = step_forces(0);
+    const auto motion        = structure.deform(forces);
+    const auto displacements = structure.positions(motion);
     for (unsigned int i = 0; i < layout.sensors; ++i)
     {
-      const unsigned int port = layout.sensor(i);
-      EXPECT_NEAR(structure.port_state(motion, port).position, ports[port], 1e-15);
+      const unsigned int dof = layout.sensor(i);
+      EXPECT_NEAR(structure.dof_state(motion, dof).position, displacements[dof], 1e-15);
       double by_compliance = 0.;
       for (unsigned int a = 0; a < 4; ++a)
       {
-        EXPECT_EQ(structure.compliance()(port, forces.ports[a]), structure.compliance()(forces.ports[a], port));
-        by_compliance += structure.compliance()(port, forces.ports[a]) * forces.values[a];
+        EXPECT_EQ(structure.compliance()(dof, forces.dofs[a]), structure.compliance()(forces.dofs[a], dof));
+        by_compliance += structure.compliance()(dof, forces.dofs[a]) * forces.values[a];
       }
-      EXPECT_NEAR(by_compliance, ports[port], 1e-9 * std::abs(ports[port]));
+      EXPECT_NEAR(by_compliance, displacements[dof], 1e-9 * std::abs(displacements[dof]));
     }
     // At rest the sensors carry what is laid on.
-    EXPECT_NEAR(sensor_sum(scene, ports, layout), forces.values[1] + forces.values[3], 1e-8);
+    EXPECT_NEAR(sensor_sum(scene, displacements, layout), forces.values[1] + forces.values[3], 1e-8);
   }
 }
 
@@ -139,12 +139,12 @@ TEST(PlateInTime, CondensedSensorsAreThoseOfTheFiniteElements)
   for (const bool sprung : { false, true })
   {
     auto whole         = sparse_structure(*plate, plate_inertia(), 4, undamped_dynamics(sprung));
-    const auto layout  = whole.ports();
+    const auto layout  = whole.layout();
     const auto sensors = [&](auto &structure)
     {
       std::vector<double> history;
-      march(structure, [&](const Motion &, const Motion &after, const PortForces &, const StepWeights &)
-            { history.push_back(sensor_sum(scene, structure.port_positions(after), layout)); });
+      march(structure, [&](const Motion &, const Motion &after, const InterfaceForces &, const StepWeights &)
+            { history.push_back(sensor_sum(scene, structure.positions(after), layout)); });
       return history;
     };
     const auto expected = sensors(whole);
@@ -152,8 +152,8 @@ TEST(PlateInTime, CondensedSensorsAreThoseOfTheFiniteElements)
     {
       const auto basis = make_basis(*plate, { modes, bar_spring, plate_inertia(), {}, {} });
       ModalStructure condensed(modal_data(basis, undamped_dynamics(sprung)));
-      EXPECT_EQ(condensed.ports().sensors, 2u);
-      EXPECT_EQ(condensed.ports().rotation(), layout.rotation());
+      EXPECT_EQ(condensed.layout().sensors, 2u);
+      EXPECT_EQ(condensed.layout().rotation(), layout.rotation());
       const auto found = sensors(condensed);
       double largest   = 0.;
       for (std::size_t i = 0; i < found.size(); ++i)
@@ -174,7 +174,7 @@ TEST(PlateInTime, CondensedStaticsAreExactWithAnyNumberOfModes)
   const auto basis = make_basis(*plate, { 3, bar_spring, plate_inertia(), {}, {} });
   ModalStructure condensed(modal_data(basis, undamped_dynamics(false)));
   condensed.use_statics();
-  const auto forces = step_forces(0);
-  const auto ports  = condensed.port_positions(condensed.deform(forces));
-  EXPECT_NEAR(sensor_sum(scene, ports, condensed.ports()), forces.values[1] + forces.values[3], 1e-8);
+  const auto forces        = step_forces(0);
+  const auto displacements = condensed.positions(condensed.deform(forces));
+  EXPECT_NEAR(sensor_sum(scene, displacements, condensed.layout()), forces.values[1] + forces.values[3], 1e-8);
 }

@@ -59,15 +59,15 @@ namespace
     return motion;
   }
 
-  /// On three of the face's ports and all others.
-  PortForces random_forces(const PortLayout &ports)
+  /// Forces on three of the face's dofs and all others.
+  InterfaceForces random_forces(const InterfaceLayout &layout)
   {
-    PortForces forces;
-    forces.ports = { 2, 5, 6, ports.rotation() };
-    if (ports.sprung)
-      for (unsigned int port = ports.momentum_eta(); port < ports.size(); ++port)
-        forces.ports.push_back(port);
-    forces.values = random_vector(static_cast<unsigned int>(forces.ports.size()), 5., 4);
+    InterfaceForces forces;
+    forces.dofs = { 2, 5, 6, layout.rotation() };
+    if (layout.sprung)
+      for (unsigned int dof = layout.momentum_eta(); dof < layout.size(); ++dof)
+        forces.dofs.push_back(dof);
+    forces.values = random_vector(static_cast<unsigned int>(forces.dofs.size()), 5., 4);
     return forces;
   }
 
@@ -109,28 +109,28 @@ namespace
         damping(n_lever, n_lever)   = c.support_damping;
         stiffness(n_lever, n_lever) = c.support_stiffness;
       }
-      ports.reinit(lever.structure.ports().size(), n);
+      on_interface.reinit(lever.structure.layout().size(), n);
       for (unsigned int j = 0; j < n; ++j)
       {
         Motion unit                  = lever.structure.rest();
         unit.coordinates.position[j] = 1.;
-        const auto displacements     = lever.structure.port_positions(unit);
-        for (unsigned int i = 0; i < ports.m(); ++i)
-          ports(i, j) = displacements[i];
+        const auto displacements     = lever.structure.positions(unit);
+        for (unsigned int i = 0; i < on_interface.m(); ++i)
+          on_interface(i, j) = displacements[i];
       }
     }
 
-    Vector load(const PortForces &forces) const
+    Vector load(const InterfaceForces &forces) const
     {
       Vector result(static_cast<unsigned int>(mass.m()));
-      for (unsigned int a = 0; a < forces.ports.size(); ++a)
+      for (unsigned int a = 0; a < forces.dofs.size(); ++a)
         for (unsigned int j = 0; j < result.size(); ++j)
-          result[j] += ports(forces.ports[a], j) * forces.values[a];
+          result[j] += on_interface(forces.dofs[a], j) * forces.values[a];
       return result;
     }
 
     /// M a_m + C v_f + K q_f - f.
-    Vector residual(const Kinematic &q_0, const Kinematic &q_1, const StepWeights &w, const PortForces &forces) const
+    Vector residual(const Kinematic &q_0, const Kinematic &q_1, const StepWeights &w, const InterfaceForces &forces) const
     {
       const auto mean = [](const Vector &begin, const Vector &end, const double alpha)
       {
@@ -146,13 +146,13 @@ namespace
       return result;
     }
 
-    Full mass, damping, stiffness, ports;
+    Full mass, damping, stiffness, on_interface;
   };
 
   struct OneStep
   {
     Motion begin;
-    PortForces forces;
+    InterfaceForces forces;
     StepWeights weights;
     Vector free;
     Motion end;
@@ -162,10 +162,10 @@ namespace
   {
     OneStep step;
     step.begin   = random_motion(lever.structure);
-    step.forces  = random_forces(lever.structure.ports());
+    step.forces  = random_forces(lever.structure.layout());
     step.weights = generalised_alpha(0.8, dt);
     lever.structure.use_step(step.weights);
-    step.free = lever.structure.free_ports(step.begin, all_ports(lever.structure.ports().size()));
+    step.free = lever.structure.free_displacements(step.begin, all_dofs(lever.structure.layout().size()));
     step.end  = lever.structure.advance(step.begin, step.forces, {});
     return step;
   }
@@ -196,21 +196,21 @@ TEST(SparseStructure, AStepFulfilsTheEquationsOfMotion)
   }
 }
 
-TEST(SparseStructure, ItsComplianceIsWhatForcesDoToThePorts)
+TEST(SparseStructure, ItsComplianceIsWhatForcesDoToTheInterface)
 {
   for (const bool sprung : { false, true })
   {
     SmallLever lever(sprung);
     const auto step  = one_step(lever, 1e-4);
     Vector predicted = step.free;
-    add_response(lever.structure.compliance(), step.forces.ports, step.forces.values, all_ports(predicted.size()), predicted);
-    predicted -= lever.structure.port_positions(step.end);
+    add_response(lever.structure.compliance(), step.forces.dofs, step.forces.values, all_dofs(predicted.size()), predicted);
+    predicted -= lever.structure.positions(step.end);
     EXPECT_LE(predicted.linfty_norm(), 1e-10 * step.free.linfty_norm()) << sprung;
 
     lever.structure.use_statics();
-    const auto deformed = lever.structure.port_positions(lever.structure.deform(step.forces));
+    const auto deformed = lever.structure.positions(lever.structure.deform(step.forces));
     Vector expected(deformed.size());
-    add_response(lever.structure.compliance(), step.forces.ports, step.forces.values, all_ports(expected.size()), expected);
+    add_response(lever.structure.compliance(), step.forces.dofs, step.forces.values, all_dofs(expected.size()), expected);
     expected -= deformed;
     EXPECT_LE(expected.linfty_norm(), 1e-10 * deformed.linfty_norm()) << sprung;
   }
@@ -228,11 +228,11 @@ TEST(SparseStructure, WorksBalance)
       const auto begin  = lever.structure.stored_energy(step.begin);
       const auto end    = lever.structure.stored_energy(step.end);
       const auto sum    = [](const StoredEnergy &e) { return e.kinetic + e.spring + e.elastic + e.support; };
-      const auto from   = lever.structure.port_positions(step.begin);
-      const auto to     = lever.structure.port_positions(step.end);
+      const auto from   = lever.structure.positions(step.begin);
+      const auto to     = lever.structure.positions(step.end);
       double force_work = 0.;
-      for (unsigned int a = 0; a < step.forces.ports.size(); ++a)
-        force_work += step.forces.values[a] * (to[step.forces.ports[a]] - from[step.forces.ports[a]]);
+      for (unsigned int a = 0; a < step.forces.dofs.size(); ++a)
+        force_work += step.forces.values[a] * (to[step.forces.dofs[a]] - from[step.forces.dofs[a]]);
       StepWork work;
       lever.structure.add_work(step.begin, step.end, work);
       const double size = sum(begin) + sum(end) + std::abs(work.damping) + std::abs(work.algorithmic);
@@ -256,8 +256,8 @@ TEST(SparseStructure, HighFrequenciesDecayByTheSpectralRadius)
   std::vector<double> sizes;
   for (unsigned int i = 0; i < 60; ++i)
   {
-    lever.structure.free_ports(motion, all_ports(lever.structure.ports().size()));
-    motion = lever.structure.advance(motion, PortForces(), {});
+    lever.structure.free_displacements(motion, all_dofs(lever.structure.layout().size()));
+    motion = lever.structure.advance(motion, InterfaceForces(), {});
     sizes.push_back(motion.coordinates.position.l2_norm());
   }
   EXPECT_NEAR(std::pow(sizes[59] / sizes[29], 1. / 30.), radius, 0.03);
@@ -276,11 +276,11 @@ TEST(SparseStructure, TellsTheLocalErrorOfAMode)
   structure.use_step(w);
   Motion begin               = structure.rest();
   begin.coordinates.velocity = lever.shape(0);
-  structure.free_ports(begin, all_ports(structure.ports().size()));
-  const Motion end       = structure.advance(begin, PortForces(), {});
-  const auto error       = structure.port_error(begin, end);
-  const auto rate        = structure.port_kinematics(begin).velocity;
-  const unsigned int hub = structure.ports().rotation();
+  structure.free_displacements(begin, all_dofs(structure.layout().size()));
+  const Motion end       = structure.advance(begin, InterfaceForces(), {});
+  const auto error       = structure.local_error(begin, end);
+  const auto rate        = structure.kinematics(begin).velocity;
+  const unsigned int hub = structure.layout().rotation();
   const double expected  = -dt * dt * dt * (w.beta - 1. / 6.) * omega * omega * rate[hub];
   EXPECT_NEAR(error[hub], expected, 0.02 * std::abs(expected));
 }

@@ -55,7 +55,7 @@ namespace
     MeshedLever(const LeverDynamics &lever_constants, const unsigned int n_modes)
         : constants(lever_constants)
         , matrices(std::make_shared<InertialMatrices>(*bar, bar_inertia(1e-3, 1e-7)))
-        , ports(*bar, *matrices, constants.sprung)
+        , interface(*bar, *matrices, constants.sprung)
         , modes(modes_on_spring(*bar, bar_inertia(1e-3, 1e-7), n_modes, spring_stiffness))
         , structure(*bar, matrices, modes, constants)
     {
@@ -82,7 +82,7 @@ namespace
 
     unsigned int n() const
     {
-      return ports.n_coordinates();
+      return interface.n_coordinates();
     }
 
   private:
@@ -100,16 +100,16 @@ namespace
   public:
     const LeverDynamics constants;
     const std::shared_ptr<const InertialMatrices> matrices;
-    const LeverPorts ports;
+    const LeverInterface interface;
     const LeverModes modes;
     SparseStructure structure;
     Full mass, damping, stiffness;
   };
 
-  /// Friction along the node's first port that a spring of 500 N/mm delays; what it is without delay goes to the forces.
-  void add_delay(const double time, const unsigned int node, PortPerturbation &forces)
+  /// Friction along the node's first dof that a spring of 500 N/mm delays; what it is without delay goes to the forces.
+  void add_delay(const double time, const unsigned int node, LinearisedForces &forces)
   {
-    const auto n = static_cast<unsigned int>(forces.ports.size());
+    const auto n = static_cast<unsigned int>(forces.dofs.size());
     FrictionDelay delay{ time, Vector(n), Vector(n), Vector(n) };
     delay.force[2 * node]             = -1.;
     delay.stiffness_row[2 * node + 1] = -580.;
@@ -124,16 +124,16 @@ namespace
   }
 
   /// Stiff springs and dashpots beside friction that is a fifth of them, on two nodes, the rotation and the support.
-  PortPerturbation contact_on(const PortLayout &layout, const double friction)
+  LinearisedForces contact_on(const InterfaceLayout &layout, const double friction)
   {
     std::mt19937 generator(3);
     std::uniform_real_distribution<double> uniform(-1., 1.);
-    PortPerturbation forces;
-    forces.ports = { 12, 13, 14, 15, layout.rotation() };
+    LinearisedForces forces;
+    forces.dofs = { 12, 13, 14, 15, layout.rotation() };
     if (layout.sprung)
-      for (unsigned int port = layout.momentum_eta(); port < layout.size(); ++port)
-        forces.ports.push_back(port);
-    const auto n = static_cast<unsigned int>(forces.ports.size());
+      for (unsigned int dof = layout.momentum_eta(); dof < layout.size(); ++dof)
+        forces.dofs.push_back(dof);
+    const auto n = static_cast<unsigned int>(forces.dofs.size());
     for (auto *const matrix :
          { &forces.pressure, &forces.friction, &forces.pressure_rate, &forces.friction_rate, &forces.inertia })
       matrix->reinit(n, n);
@@ -158,9 +158,9 @@ namespace
     return forces;
   }
 
-  /// Adds factor B^T A B, B the displacements of the ports.
-  void add_ports(const LeverPorts &ports, const std::vector<unsigned int> &chosen, const Full &matrix, const double factor,
-                 Full &sum)
+  /// Adds factor B^T A B, B the interface displacements.
+  void add_on_interface(const LeverInterface &interface, const std::vector<unsigned int> &chosen, const Full &matrix,
+                        const double factor, Full &sum)
   {
     const auto m = static_cast<unsigned int>(chosen.size());
     const auto n = static_cast<unsigned int>(sum.m());
@@ -168,7 +168,7 @@ namespace
     for (unsigned int a = 0; a < m; ++a)
     {
       Vector row(n);
-      ports.add_force(chosen[a], 1., row);
+      interface.add_force(chosen[a], 1., row);
       for (unsigned int j = 0; j < n; ++j)
         rows(a, j) = row[j];
     }
@@ -190,12 +190,12 @@ namespace
 
   /// By increasing size, of the linearised problem in all coordinates, rates and delayed tractions: of A^-1 E in
   ///   q' = v,   M v' = -K q - C v + B^T F tau,   time tau' = (stiffness_row + rate_row d/dt) B q - tau
-  std::vector<Complex> dense_eigenvalues(const MeshedLever &lever, const PortPerturbation &forces)
+  std::vector<Complex> dense_eigenvalues(const MeshedLever &lever, const LinearisedForces &forces)
   {
     Full m = lever.mass, c = lever.damping, k = lever.stiffness;
-    add_ports(lever.ports, forces.ports, forces.immediate_stiffness(), -1., k);
-    add_ports(lever.ports, forces.ports, forces.immediate_damping(), -1., c);
-    add_ports(lever.ports, forces.ports, forces.inertia, 1., m);
+    add_on_interface(lever.interface, forces.dofs, forces.immediate_stiffness(), -1., k);
+    add_on_interface(lever.interface, forces.dofs, forces.immediate_damping(), -1., c);
+    add_on_interface(lever.interface, forces.dofs, forces.inertia, 1., m);
     const unsigned int n       = lever.n();
     const auto n_delays        = static_cast<unsigned int>(forces.delays.size());
     constexpr double frequency = 1e4; // of rates and tractions, so that all parts are of one size
@@ -216,11 +216,11 @@ namespace
     {
       const auto &delay         = forces.delays[d];
       const unsigned int at     = 2 * n + d;
-      const auto in_coordinates = [&](const Vector &port_values)
+      const auto in_coordinates = [&](const Vector &dof_values)
       {
         Vector result(n);
-        for (unsigned int port = 0; port < port_values.size(); ++port)
-          lever.ports.add_force(forces.ports[port], port_values[port], result);
+        for (unsigned int dof = 0; dof < dof_values.size(); ++dof)
+          lever.interface.add_force(forces.dofs[dof], dof_values[dof], result);
         return result;
       };
       const Vector force = in_coordinates(delay.force), by_position = in_coordinates(delay.stiffness_row),
@@ -259,7 +259,7 @@ TEST(SparseVibration, IsThatOfTheDenseMatrices)
     for (const bool in_contact : { true, false })
     {
       MeshedLever lever(make_dynamics(sprung, true), 5);
-      auto forces = contact_on(lever.structure.ports(), 1.);
+      auto forces = contact_on(lever.structure.layout(), 1.);
       if (!in_contact)
         for (auto *const matrix : { &forces.pressure, &forces.friction, &forces.pressure_rate, &forces.friction_rate })
           *matrix = 0.;
@@ -282,18 +282,18 @@ TEST(SparseVibration, IsThatOfTheDenseMatrices)
 TEST(SparseVibration, WithoutFrictionIsThatOfTheSymmetricProblem)
 {
   MeshedLever lever(make_dynamics(false, false), 5);
-  const auto forces = contact_on(lever.structure.ports(), 0.);
+  const auto forces = contact_on(lever.structure.layout(), 0.);
   for (const bool in_contact : { true, false })
   {
     Full k = lever.stiffness;
     if (in_contact)
-      add_ports(lever.ports, forces.ports, forces.pressure, -1., k);
+      add_on_interface(lever.interface, forces.dofs, forces.pressure, -1., k);
     dealii::LAPACKFullMatrix<double> stiffness(lever.n()), mass(lever.n());
     stiffness = k;
     mass      = lever.mass;
     std::vector<Vector> vectors(lever.n());
     stiffness.compute_generalized_eigenvalues_symmetric(mass, vectors);
-    const auto found = lever.structure.vibrations(in_contact ? forces : PortPerturbation(), 10);
+    const auto found = lever.structure.vibrations(in_contact ? forces : LinearisedForces(), 10);
     for (unsigned int i = 0; i < 10; ++i)
     {
       const double omega = std::sqrt(stiffness.eigenvalue(i).real());
@@ -316,7 +316,7 @@ TEST(SparseVibration, IsThatOfAllModes)
     constants.modal_damping = 0.02;
     const unsigned int all  = MeshedLever(constants, 1).matrices->coordinates.size();
     MeshedLever lever(constants, all);
-    const auto forces    = contact_on(lever.structure.ports(), 1.);
+    const auto forces    = contact_on(lever.structure.layout(), 1.);
     const auto found     = lever.structure.vibrations(forces, 8);
     const auto condensed = lever.condensed(all).vibrations(forces, 8);
     for (unsigned int i = 0; i < 8; ++i)
@@ -328,7 +328,7 @@ TEST(SparseVibration, IsThatOfAllModes)
 TEST(SparseVibration, OfFewModesWithStaticShapesComesNear)
 {
   MeshedLever lever(make_dynamics(false, false), 41);
-  auto forces          = contact_on(lever.structure.ports(), 1.);
+  auto forces          = contact_on(lever.structure.layout(), 1.);
   forces.friction_rate = 0.;
   forces.delays.clear();
   forces.pressure_rate = 0.;
@@ -351,10 +351,10 @@ TEST(SparseVibration, MassDampingTakesHalfOfItsFactorOffEveryVibration)
   auto constants         = make_dynamics(false, false);
   constants.mass_damping = 34.;
   MeshedLever lever(constants, 5);
-  const auto forces = contact_on(lever.structure.ports(), 0.);
+  const auto forces = contact_on(lever.structure.layout(), 0.);
   for (const bool in_contact : { true, false })
   {
-    const auto &on = in_contact ? forces : PortPerturbation();
+    const auto &on = in_contact ? forces : LinearisedForces();
     for (const auto &mode : lever.structure.vibrations(on, 10))
       EXPECT_NEAR(mode.eigenvalue.real(), -17., 1e-9 * std::abs(mode.eigenvalue));
     unsigned int vibrations = 0;

@@ -2,8 +2,8 @@
 #include "fe/statics/static_structure.h"
 
 #include "fe/meshed.h"
+#include "fe/statics/joint_springs.h"
 #include "fe/statics/lever_properties.h"
-#include "fe/statics/port_springs.h"
 #include "mpi_environment.h"
 #include "scene/scene.h"
 #include "scenes.h"
@@ -50,15 +50,15 @@ TEST(SurfaceCompliance, IsThatOfSolvesWithUnitForces)
   ASSERT_GT(dofs.size(), 400u);
 
   // From the far end backwards, then across: tiles are found beside those that are known, below and above them.
-  for (const PortSelection &ports : { PortSelection{ 300, 399 }, PortSelection{ 140 }, PortSelection{ 5, 150, 399 } })
+  for (const DofSelection &surface_dofs : { DofSelection{ 300, 399 }, DofSelection{ 140 }, DofSelection{ 5, 150, 399 } })
   {
-    const auto blocks = compliance.whole_blocks(ports);
+    const auto blocks = compliance.whole_blocks(surface_dofs);
     const auto matrix = compliance.among(blocks);
-    for (const unsigned int port : ports)
+    for (const unsigned int surface_dof : surface_dofs)
     {
-      const unsigned int column = find_index(port, blocks);
+      const unsigned int column = find_index(surface_dof, blocks);
       Vector force(lever.body->n_dofs()), response;
-      force[dofs[port]] = 1.;
+      force[dofs[surface_dof]] = 1.;
       lu.solve(force, response);
       for (unsigned int i = 0; i < blocks.size(); ++i)
       {

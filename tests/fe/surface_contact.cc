@@ -20,7 +20,7 @@ TEST(SurfaceContact, ATiltedCylinderOnABedOfSpringsIsKnown)
                                                        { 8e-4, 48.4187, 377.345 },
                                                        { 1.2e-3, 51.8459, 555.492 },
                                                        { 2.4e-3, 71.4353, 1020.50 } };
-  const double inclination                         = 0.08552; // at which the cylinder overlaps by d_0
+  const double inclination                         = 0.08552; // at which the cylinder penetrates by d_0
   for (const auto &[tilt, P, M] : known)
   {
     const auto [force, moment] = Bed(tilted(tilt / std::cos(inclination)), 12.5).pressed_by(0.03);
@@ -39,14 +39,14 @@ TEST(SurfaceContact, TheForcesOnTheSlopesAreMomentsOfTheTractions)
 {
   Bed bed(skewed(true), 12.5, 6);
   auto end                  = bed.pressed(0.03);
-  end[bed.ports.slope(0)]   = 2e-4;
-  end[bed.ports.slope(1)]   = 0.03;
+  end[bed.layout.slope(0)]  = 2e-4;
+  end[bed.layout.slope(1)]  = 0.03;
   const auto begin          = bed.pressed(0.02);
   const auto found          = bed.evaluated(begin, Bed::x - 0.7, end, 0.4);
   const auto moment         = -1. * bed.resultant(found)[1]; // on the cylinder
   const auto [tilts, skews] = turns_by_slopes(8e-4, 0.032);
   const auto force          = [&](const unsigned int slope)
-  { return found.forces.values[find_index(bed.ports.slope(slope), found.forces.ports)]; };
+  { return found.forces.values[find_index(bed.layout.slope(slope), found.forces.dofs)]; };
   EXPECT_GT(std::abs(force(0)), 10.);
   EXPECT_NEAR(force(0), tilts * moment, 1e-10 * moment.norm());
   EXPECT_NEAR(force(1), skews * moment, 1e-10 * moment.norm());
@@ -79,13 +79,13 @@ TEST(SurfaceContact, AShaftOnABedOfSpringsYieldsAsKnown)
     for (unsigned int i = 0; i < 6; ++i)
     {
       const auto found         = bed.evaluated(at, Bed::x - 0.7, at, 0.); // slides, so that nothing sticks at no force
-      const unsigned int place = find_index(bed.ports.slope(0), found.forces.ports);
-      const double residual    = found.forces.values[place] - stiffness * at[bed.ports.slope(0)];
-      at[bed.ports.slope(0)] += residual / (stiffness - found.forces.tangent(place, place));
+      const unsigned int place = find_index(bed.layout.slope(0), found.forces.dofs);
+      const double residual    = found.forces.values[place] - stiffness * at[bed.layout.slope(0)];
+      at[bed.layout.slope(0)] += residual / (stiffness - found.forces.tangent(place, place));
     }
     // As far as a parabola is a circle, and as the closed form's moment is off, see above.
     const double approximation = 2. * (d_0 + 0.5 * width * Tilt) / 56. + 2.5 * 0.5 * 56. * Tilt * Tilt / d_0;
-    const double tilt          = Tilt + at[bed.ports.slope(0)];
+    const double tilt          = Tilt + at[bed.layout.slope(0)];
     EXPECT_NEAR(tilt, low, approximation * std::min(low, Tilt - low) + 1e-8) << stiffness;
     if (stiffness <= 1e5)
     {
@@ -114,10 +114,10 @@ TEST(SurfaceContact, FrictionOpposesTheSlipWhicheverWayItGoes)
   Bed bed({}, 12.5);
   const auto end = bed.pressed(0.03);
   auto begin     = end;
-  for (unsigned int port = 0; port < bed.ports.surface; port += 3)
+  for (unsigned int dof = 0; dof < bed.layout.surface; dof += 3)
   {
-    begin[port] -= 0.3; // the points come along xi by 0.3 and along zeta by 0.4
-    begin[port + 2] -= 0.4;
+    begin[dof] -= 0.3; // the points come along xi by 0.3 and along zeta by 0.4
+    begin[dof + 2] -= 0.4;
   }
   const auto found = bed.evaluated(begin, Bed::x, end, 0.5);
   double closed    = 0.;
@@ -136,47 +136,47 @@ TEST(SurfaceContact, FrictionOpposesTheSlipWhicheverWayItGoes)
 
 namespace
 {
-  /// A change of all ports by movements of up to 1 mm.
+  /// A change of all displacements by movements of up to 1 mm.
   dealii::Vector<double> any_change(const Bed &bed)
   {
-    auto result = random_vector(bed.ports.size(), 1., 1);
-    for (unsigned int port = 0; port < result.size(); ++port)
-      result[port] /= bed.unit_length(port);
+    auto result = random_vector(bed.layout.size(), 1., 1);
+    for (unsigned int dof = 0; dof < result.size(); ++dof)
+      result[dof] /= bed.unit_length(dof);
     return result;
   }
 
   /// Makes forces of the moments on the slopes.
-  void weigh(const Bed &bed, const std::vector<unsigned int> &ports, dealii::Vector<double> &forces)
+  void weigh(const Bed &bed, const DofSelection &dofs, dealii::Vector<double> &forces)
   {
-    for (unsigned int i = 0; i < ports.size(); ++i)
-      forces[i] /= bed.unit_length(ports[i]);
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      forces[i] /= bed.unit_length(dofs[i]);
   }
 
-  /// Compares the tangent at some ports with differences of the forces that `evaluated(ports)` finds. Points at the edge of the
-  /// contact change their state on the way.
+  /// Compares the tangent at some displacements with differences of the forces that `evaluated(displacements)` finds. Points at
+  /// the edge of the contact change their state on the way.
   template <class Evaluated>
-  void expect_tangent(const Bed &bed, const dealii::Vector<double> &ports, const Evaluated &evaluated, const double friction,
-                      const double tolerance = 1.5e-4)
+  void expect_tangent(const Bed &bed, const dealii::Vector<double> &displacements, const Evaluated &evaluated,
+                      const double friction, const double tolerance = 1.5e-4)
   {
-    const FaceEvaluation<3> found = evaluated(ports);
+    const FaceEvaluation<3> found = evaluated(displacements);
     const auto change             = any_change(bed);
     const double step             = 1e-7;
-    auto before = ports, after = ports;
+    auto before = displacements, after = displacements;
     before.add(-step, change);
     after.add(step, change);
     const FaceEvaluation<3> low = evaluated(before), high = evaluated(after);
-    ASSERT_EQ(low.forces.ports, found.forces.ports);
-    ASSERT_EQ(high.forces.ports, found.forces.ports);
-    dealii::Vector<double> port_values(static_cast<unsigned int>(found.forces.ports.size())), slope(port_values.size());
-    for (unsigned int i = 0; i < port_values.size(); ++i)
-      port_values[i] = change[found.forces.ports[i]];
-    found.forces.tangent.vmult(slope, port_values);
+    ASSERT_EQ(low.forces.dofs, found.forces.dofs);
+    ASSERT_EQ(high.forces.dofs, found.forces.dofs);
+    dealii::Vector<double> dof_values(static_cast<unsigned int>(found.forces.dofs.size())), slope(dof_values.size());
+    for (unsigned int i = 0; i < dof_values.size(); ++i)
+      dof_values[i] = change[found.forces.dofs[i]];
+    found.forces.tangent.vmult(slope, dof_values);
     auto difference = high.forces.values;
     difference -= low.forces.values;
     difference /= 2. * step;
     difference -= slope;
-    weigh(bed, found.forces.ports, difference);
-    weigh(bed, found.forces.ports, slope);
+    weigh(bed, found.forces.dofs, difference);
+    weigh(bed, found.forces.dofs, slope);
     EXPECT_LT(difference.l2_norm(), tolerance * slope.l2_norm()) << friction;
   }
 } // namespace
@@ -195,8 +195,8 @@ TEST_P(SurfaceContactOfAnAxis, TheTangentIsTheDerivativeOfTheForces)
   for (const double friction : { 0.4, 50. }) // slips, sticks
   {
     auto end = bed.pressed(0.03);
-    for (unsigned int port = 0; port < bed.ports.surface; ++port)
-      end[port] += 1e-3 * std::sin(1.3 * port);
+    for (unsigned int dof = 0; dof < bed.layout.surface; ++dof)
+      end[dof] += 1e-3 * std::sin(1.3 * dof);
     expect_tangent(
         bed, end, [&](const dealii::Vector<double> &at) { return bed.evaluated(begin, Bed::x - 0.7, at, friction); }, friction);
   }
@@ -209,9 +209,9 @@ TEST_P(SurfaceContactOfAnAxis, TheTangentKnowsTheSpeedOfAContactThatTravels)
   Bed bed(skewed(GetParam()), 12.5, 6);
   const auto begin = bed.pressed(0.02);
   auto end         = bed.pressed(0.03);
-  for (unsigned int port = 0; port < bed.ports.surface; ++port)
-    end[port] += 1e-3 * std::sin(1.3 * port);
-  const auto memory = bed.evaluated(begin, Bed::x - 1.4, begin, 0.4).memory();
+  for (unsigned int dof = 0; dof < bed.layout.surface; ++dof)
+    end[dof] += 1e-3 * std::sin(1.3 * dof);
+  const auto history = bed.evaluated(begin, Bed::x - 1.4, begin, 0.4).history();
   for (const auto &[kinetic, viscous] : { std::pair(0.18, 0.), std::pair(0.9, 1e-2) }) // falls, rises
   {
     StaticTerms terms{ { StribeckFriction{ 0.6, kinetic, 100., 1., viscous } }, 6e-3 };
@@ -220,7 +220,7 @@ TEST_P(SurfaceContactOfAnAxis, TheTangentKnowsTheSpeedOfAContactThatTravels)
     {
       FaceEvaluation<3> found;
       bed.surface().begin_step({ begin, Bed::x - 0.7 });
-      bed.surface().evaluate({ at, Bed::x }, memory, 0.3, terms, found);
+      bed.surface().evaluate({ at, Bed::x }, history, 0.3, terms, found);
       return found;
     };
     expect_tangent(bed, end, evaluate, kinetic, 1e-8);
@@ -233,42 +233,42 @@ TEST_P(SurfaceContactOfAnAxis, SlidingIsLinearisedByDisplacementsAndVelocities)
 {
   const FrictionLaw friction{ StribeckFriction{ 0.9, 0.6, 30., 1., 1e-3 } };
   Bed bed(skewed(GetParam()), 12.5, 6, friction);
-  auto ports = bed.pressed(0.03);
-  for (unsigned int port = 0; port < bed.ports.surface; ++port)
-    ports[port] += 1e-3 * std::sin(1.3 * port);
-  auto rates = random_vector(bed.ports.size(), 20., 3);
-  for (unsigned int port = 0; port < rates.size(); ++port)
-    rates[port] /= bed.unit_length(port);
+  auto displacements = bed.pressed(0.03);
+  for (unsigned int dof = 0; dof < bed.layout.surface; ++dof)
+    displacements[dof] += 1e-3 * std::sin(1.3 * dof);
+  auto rates = random_vector(bed.layout.size(), 20., 3);
+  for (unsigned int dof = 0; dof < rates.size(); ++dof)
+    rates[dof] /= bed.unit_length(dof);
   const DrivePoint drive{ 0., Bed::x, 112., 0. };
   const double speed = 100.;
   const auto change  = any_change(bed);
   for (const bool by_rates : { false, true })
   {
-    const auto at_rest = dealii::Vector<double>(bed.ports.size());
+    const auto at_rest = dealii::Vector<double>(bed.layout.size());
     const auto &moving = by_rates ? rates : at_rest;
     FaceEvaluation<3> found;
-    const auto linear = bed.surface().linearise({ ports, drive, speed, &moving, ContactFriction::sliding }, found);
+    const auto linear = bed.surface().linearise({ displacements, drive, speed, &moving, ContactFriction::sliding }, found);
     const double step = by_rates ? 1e-3 : 1e-7;
     const auto forces = [&](const double side)
     {
-      auto at = ports, with = moving;
+      auto at = displacements, with = moving;
       (by_rates ? with : at).add(side * step, change);
       FaceEvaluation<3> result;
       bed.surface().evaluate_sliding({ at, drive, speed, &with, ContactFriction::sliding }, result);
-      EXPECT_EQ(result.forces.ports, linear.ports);
+      EXPECT_EQ(result.forces.dofs, linear.dofs);
       return result.forces.values;
     };
-    dealii::Vector<double> port_values(static_cast<unsigned int>(linear.ports.size())), slope(port_values.size());
-    for (unsigned int i = 0; i < port_values.size(); ++i)
-      port_values[i] = change[linear.ports[i]];
-    (by_rates ? linear.damping() : linear.stiffness()).vmult(slope, port_values);
+    dealii::Vector<double> dof_values(static_cast<unsigned int>(linear.dofs.size())), slope(dof_values.size());
+    for (unsigned int i = 0; i < dof_values.size(); ++i)
+      dof_values[i] = change[linear.dofs[i]];
+    (by_rates ? linear.damping() : linear.stiffness()).vmult(slope, dof_values);
     EXPECT_GT(slope.l2_norm(), 0.);
     auto difference = forces(1.);
     difference -= forces(-1.);
     difference /= 2. * step;
     difference -= slope;
-    weigh(bed, linear.ports, difference);
-    weigh(bed, linear.ports, slope);
+    weigh(bed, linear.dofs, difference);
+    weigh(bed, linear.dofs, slope);
     EXPECT_LT(difference.l2_norm(), (by_rates ? 1e-7 : 1e-4) * slope.l2_norm()) << by_rates;
   }
 }
@@ -285,13 +285,13 @@ TEST_P(SurfaceContactOfAnAxis, AStepInTimeHasItsTangent)
     const auto evaluated = [&](const dealii::Vector<double> &end)
     {
       FaceEvaluation<3> found;
-      const std::vector<ContactMemory> none;
-      bed.surface().evaluate(PortStep{ from, none, to, { begin, {}, {} }, end, {}, weights }, found);
+      const std::vector<ContactHistory> none;
+      bed.surface().evaluate(InterfaceStep{ from, none, to, { begin, {}, {} }, end, {}, weights }, found);
       return found;
     };
     auto end = bed.pressed(0.03);
-    for (unsigned int port = 0; port < bed.ports.surface; ++port)
-      end[port] += 1e-3 * std::sin(1.3 * port);
+    for (unsigned int dof = 0; dof < bed.layout.surface; ++dof)
+      end[dof] += 1e-3 * std::sin(1.3 * dof);
     expect_tangent(bed, end, evaluated, friction);
   }
 }
@@ -303,14 +303,14 @@ TEST(SurfaceContact, ALongStepReachesWhereItBeginsAndEnds)
   const auto reached = [&](const double travel)
   {
     Bed bed(Cylinder(), 12.5, 2);
-    const auto &ports = bed.surface().reachable_ports(Bed::x - 0.5 * travel, { { theta } }, travel);
-    return [nodes = bed.friction_face().nodes, ports](const double xi)
+    const auto &dofs = bed.surface().candidate_dofs(Bed::x - 0.5 * travel, { { theta } }, travel);
+    return [nodes = bed.friction_face().nodes, dofs](const double xi)
     {
       return std::any_of(nodes.begin(), nodes.end(),
                          [&](const auto &node)
                          {
-                           const auto port = 3 * static_cast<unsigned int>(&node - nodes.data());
-                           return std::abs(node.position[0] - xi) < 0.5 && std::binary_search(ports.begin(), ports.end(), port);
+                           const auto dof = 3 * static_cast<unsigned int>(&node - nodes.data());
+                           return std::abs(node.position[0] - xi) < 0.5 && std::binary_search(dofs.begin(), dofs.end(), dof);
                          });
     };
   };

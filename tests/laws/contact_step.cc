@@ -97,7 +97,7 @@ TEST(MeanNormalForce, TimesTheChangeOfTheGapIsTheChangeOfTheEnergy)
           const double end  = begin + sign * change;
           const auto normal = mean_normal_force(law, begin, end);
           const double work = -normal.mean * (end - begin);
-          // Simpson's rule over a change below 1e-3 of the overlap: 1e-12 / 2880 of its fourth derivative.
+          // Simpson's rule over a change below 1e-3 of the penetration: 1e-12 / 2880 of its fourth derivative.
           EXPECT_NEAR(work, energy(law, end) - energy(law, begin),
                       4. * epsilon * (energy(law, begin) + energy(law, end)) + 4. * epsilon * normal.mean * change)
               << "gap " << begin << " to " << end;
@@ -140,8 +140,8 @@ TEST(MeanNormalForce, IsTheForceItselfWhereTheGapDoesNotChange)
 
 TEST(MeanNormalForce, DerivativesAgreeWithFiniteDifferencesHoweverSmallTheChange)
 {
-  // Central differences over h, 1e-4 of the overlap: h^2/6 of the third derivative is 1e-9 of the stiffness; round-off 4 epsilon
-  // of force over h 1e-11 of it, over the change of the gap where that is what the quotient divides by.
+  // Central differences over h, 1e-4 of the penetration: h^2/6 of the third derivative is 1e-9 of the stiffness; round-off 4
+  // epsilon of force over h 1e-11 of it, over the change of the gap where that is what the quotient divides by.
   for (const auto &law : { linear, curved })
     for (const double end : { -0.02, -0.003 })
       for (const double begin : { 0.02, -0.001, -0.018, end - 1e-4, end * (1. - 5e-3), end * (1. + 5e-4), end })
@@ -303,7 +303,7 @@ TEST(EndFriction, ClosesItsOwnLedger)
 }
 
 // dw/dt = |v| (v - w) / L, by Runge-Kutta, along a speed v = 100 mm/s + 4e5 mm/s^2 t. A step takes v at its end, which makes w
-// too large by half of what v grows by in it. Before, it sticks for some 50 steps and remembers nothing.
+// too large by half of what v grows by in it. Before, it sticks for some 50 steps and forgets its speed.
 TEST(EndFriction, FallingFrictionFollowsTheSpeedOfTheFacesOverTheMemoryLength)
 {
   const FrictionLaw falling{ StribeckFriction{ 0.9, 0.5, 60. } };

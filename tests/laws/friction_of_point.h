@@ -97,16 +97,16 @@ namespace sprag::test
                                   const double dt)
   {
     using N = Dual<double, slips + 1>;
-    SlipMemory<double, slips> memory;
-    memory.step  = history.step;
-    memory.speed = history.speed;
+    SlipHistory<double, slips> slip_history;
+    slip_history.step  = history.step;
+    slip_history.speed = history.speed;
     for (int i = 0; i < slips; ++i)
     {
-      memory.traction[i]   = history.traction[i];
-      memory.slip_speed[i] = history.slip_speed[i];
+      slip_history.traction[i]   = history.traction[i];
+      slip_history.slip_speed[i] = history.slip_speed[i];
     }
     const auto found =
-        sprag::end_friction(slip_law(law, stiffness), memory, variables<N>(slip, 0), variable<N>(pressure, slips), dt);
+        sprag::end_friction(slip_law(law, stiffness), slip_history, variables<N>(slip, 0), variable<N>(pressure, slips), dt);
     return { values(found.traction),
              derivatives(found.traction, 0),
              derivative(found.traction, slips),

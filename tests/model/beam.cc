@@ -184,11 +184,11 @@ TEST(BeamMass, MeetsTheMomentOfInertiaExactly)
       scene.lever.young_modulus = 7e10;
       const auto data           = beam_modes(scene, make_beam_mesh(scene));
       EXPECT_NEAR(data.stiffness[0], 7.4e4 / 6.45, 1e-7 * data.stiffness[0]);
-      const double turn = data.shapes(data.ports.rotation(), 0);
+      const double turn = data.shapes(data.layout.rotation(), 0);
       EXPECT_NEAR(1. / (turn * turn), 6.45, 1e-6);
       const double mass = mass_per_length(scene) * L + tip_mass;
-      EXPECT_NEAR(data.shapes(data.ports.momentum_eta(), 0) / turn, 0.5 * mass_per_length(scene) * L * L + tip_mass * L, 1e-7);
-      EXPECT_NEAR(data.shapes(data.ports.momentum_xi(), 0) / turn, -arm * mass, 1e-9);
+      EXPECT_NEAR(data.shapes(data.layout.momentum_eta(), 0) / turn, 0.5 * mass_per_length(scene) * L * L + tip_mass * L, 1e-7);
+      EXPECT_NEAR(data.shapes(data.layout.momentum_xi(), 0) / turn, -arm * mass, 1e-9);
     }
 }
 
@@ -201,7 +201,7 @@ TEST(BeamStatics, DeflectsAndTurnsAsBeamTheorySays)
   ModalStructure structure(beam_modes(scene, make_beam_mesh(scene)));
   structure.use_statics();
   const auto &compliance = structure.compliance();
-  const unsigned int tip = 2 * elements - 2, hub = structure.ports().rotation();
+  const unsigned int tip = 2 * elements - 2, hub = structure.layout().rotation();
   EXPECT_NEAR(compliance(tip, tip) / (L * L * L / (3. * EI)), 1., 1e-9);
   EXPECT_NEAR(compliance(tip + 1, tip) / (L * L / (2. * EI)), 1., 1e-9);
   EXPECT_NEAR(compliance(tip + 1, tip + 1) / (L / EI), 1., 1e-9);
@@ -243,7 +243,7 @@ TEST(BeamDamping, OfRayleighLeavesTheSpringOut)
   for (unsigned int i = 0; i < 4; ++i)
     for (unsigned int j = 0; j < 4; ++j)
     {
-      const double turns    = data.shapes(data.ports.rotation(), i) * data.shapes(data.ports.rotation(), j);
+      const double turns    = data.shapes(data.layout.rotation(), i) * data.shapes(data.layout.rotation(), j);
       const double expected = (i == j ? 3. + 1e-5 * data.stiffness[i] : 0.) - 1e-5 * 7.4e4 * turns;
       EXPECT_NEAR(data.damping(i, j), expected, 1e-12 * std::abs(expected) + 1e-13);
     }
@@ -261,7 +261,7 @@ TEST(BeamSupport, IsOneMoreModeOfFrameAndLeverOnTheirSpring)
   ASSERT_EQ(data.support, data.stiffness.size() - 1);
   EXPECT_NEAR(data.stiffness[data.support], 5000. / mass, 1e-9 * 5000. / mass);
   EXPECT_NEAR(data.damping(data.support, data.support), 2. * 0.02 * std::sqrt(5000. / mass), 1e-9);
-  EXPECT_NEAR(data.shapes(data.ports.support(), data.support), 1. / std::sqrt(mass), 1e-9);
+  EXPECT_NEAR(data.shapes(data.layout.support(), data.support), 1. / std::sqrt(mass), 1e-9);
   for (unsigned int i = 0; i < data.support; ++i)
-    EXPECT_EQ(data.shapes(data.ports.support(), i), 0.);
+    EXPECT_EQ(data.shapes(data.layout.support(), i), 0.);
 }

@@ -95,7 +95,7 @@ TEST(Circle, IdealContactTouchesAtTheClosedFormsPoint)
     }
 }
 
-// The slip coordinate of the point under the ideal contact grows as the obstacle slides along the lever: v cos th - e dth/dt,
+// The slip coordinate of the point under the ideal contact grows as the counterface slides along the lever: v cos th - e dth/dt,
 // positive towards the pivot while x grows. Central differences over h = 1e-3 mm: h^2 / 6 of a third derivative below 1e-4.
 TEST(Circle, SlipGrowsAtTheSlidingSpeedOfTheClosedForm)
 {

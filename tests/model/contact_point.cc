@@ -28,7 +28,7 @@ namespace
   struct Case
   {
     double gap;
-    ContactMemory memory;
+    ContactHistory history;
     StepContactLaw law;
     double slip_begin = 0.;
 
@@ -42,7 +42,7 @@ namespace
     {
       StepContactLaw in_mode = law;
       in_mode.mode           = mode;
-      return step_response(step_to(kinematics(q), slip_begin), memory, in_mode);
+      return step_response(step_to(kinematics(q), slip_begin), history, in_mode);
     }
   };
 
@@ -53,14 +53,14 @@ namespace
   Case make_case(const double multiplier, const double slip, const double traction, const FrictionLaw &friction)
   {
     Case result{ (multiplier - 2.) / 500., {}, {} };
-    result.memory.normal_multiplier = multiplier;
-    result.memory.traction[0]       = traction;
-    result.law.normal               = { 500., 1. };
-    result.law.slip.stiffness       = 300.;
-    result.law.slip.friction        = friction;
-    result.law.weights.dt           = 1. / 112.;
-    result.law.balance              = ForceBalance::end;
-    result.slip_begin               = result.kinematics().slip - slip;
+    result.history.normal_multiplier = multiplier;
+    result.history.traction[0]       = traction;
+    result.law.normal                = { 500., 1. };
+    result.law.slip.stiffness        = 300.;
+    result.law.slip.friction         = friction;
+    result.law.weights.dt            = 1. / 112.;
+    result.law.balance               = ForceBalance::end;
+    result.slip_begin                = result.kinematics().slip - slip;
     return result;
   }
 
@@ -218,10 +218,10 @@ TEST(ContactPoint, OnASurfaceTheTangentIsTheDerivativeOfTheForce)
         law.weights        = generalised_alpha(0.8, 2e-3);
         law.weights.dt     = 2e-3;
         law.balance        = balance;
-        const PointMemory<2> memory{ 0.1, dealii::Tensor<1, 2>({ 0.5, 0.2 }), 0., dealii::Tensor<1, 2>({ 90., 40. }), 1e-3 };
+        const PointHistory<2> history{ 0.1, dealii::Tensor<1, 2>({ 0.5, 0.2 }), 0., dealii::Tensor<1, 2>({ 90., 40. }), 1e-3 };
         const Place from({ 0.1, -0.2, -0.02 });
         const Place to   = from + Place({ slip, -0.7 * slip, -0.0007 });
-        const auto at    = [&](const Place &q) { return step_response(surface_step(from, q), memory, law); };
+        const auto at    = [&](const Place &q) { return step_response(surface_step(from, q), history, law); };
         const auto exact = at(to);
         EXPECT_EQ(exact.slipping, slip > 1e-3);
         EXPECT_LE(exact.traction.norm(), exact.mu * exact.pressure * (1. + 1e-12));

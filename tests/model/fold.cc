@@ -5,14 +5,14 @@
 
 using namespace sprag;
 
-// Near a fold the share is a parabola over the overlap, 1 - (1 - d)^2, here 1e-4 away at d = 0.99; at its last points the overlap
-// is off by 1e-7, as where an element comes into contact.
+// Near a fold the share is a parabola over the penetration, 1 - (1 - d)^2, here 1e-4 away at d = 0.99; at its last points the
+// penetration is off by 1e-7, as where an element comes into contact.
 TEST(DistanceToFold, IsThatOfAParabolaWhateverTheLastStepsAre)
 {
   std::vector<BranchPoint> branch;
   for (const double d : { 0., 0.2, 0.5, 0.7, 0.85, 0.95, 0.98, 0.99 - 1e-6, 0.99 - 5e-7, 0.99 })
     branch.push_back({ 1. - (1. - d) * (1. - d), d });
-  branch[8].overlap += 1e-7;
+  branch[8].penetration += 1e-7;
   EXPECT_NEAR(distance_to_fold(branch), 1e-4, 1e-6);
 }
 

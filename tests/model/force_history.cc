@@ -7,14 +7,14 @@ using namespace sprag;
 
 namespace
 {
-  PortLoads loads(const std::vector<unsigned int> &ports, const std::vector<double> &values)
+  DofLoads loads(const std::vector<unsigned int> &dofs, const std::vector<double> &values)
   {
-    return { ports, dealii::Vector<double>(values.begin(), values.end()) };
+    return { dofs, dealii::Vector<double>(values.begin(), values.end()) };
   }
 
-  PortLoads guessed(const ForceHistory &history, const double duration)
+  DofLoads guessed(const ForceHistory &history, const double duration)
   {
-    PortLoads result;
+    DofLoads result;
     history.guess(duration, result);
     return result;
   }
@@ -32,14 +32,14 @@ TEST(ForceHistory, FollowsALineThroughStepsOfDifferentLength)
   EXPECT_DOUBLE_EQ(guessed(history, 4.).values[0], 17.);
 }
 
-TEST(ForceHistory, HasThePortsOfTheLastForces)
+TEST(ForceHistory, HasTheDofsOfTheLastForces)
 {
   ForceHistory history;
   history.begin(loads({ 1, 2 }, { 1., 1. }));
   history.accept(loads({ 1, 2 }, { 1., 1. }), 1.);
   history.accept(loads({ 2, 7 }, { 2., 5. }), 1.);
   const auto found = guessed(history, 1.);
-  EXPECT_EQ(found.ports, (std::vector<unsigned int>{ 2, 7 }));
+  EXPECT_EQ(found.dofs, (std::vector<unsigned int>{ 2, 7 }));
   EXPECT_DOUBLE_EQ(found.values[0], 13. / 3.);
   EXPECT_DOUBLE_EQ(found.values[1], 5.);
 }

@@ -11,12 +11,12 @@ namespace
   using Vector = dealii::Vector<double>;
   using Full   = dealii::FullMatrix<double>;
 
-  const PortLayout layout      = { 2, true };
+  const InterfaceLayout layout = { 2, true };
   constexpr double rest        = 0.056;
   constexpr double step        = 1e-3;
   const unsigned int coupled[] = { layout.rotation(), layout.momentum_eta(), layout.momentum_xi(), layout.support() };
 
-  Vector ports(const double rotation, const double eta, const double xi, const double support)
+  Vector interface_vector(const double rotation, const double eta, const double xi, const double support)
   {
     Vector result(layout.size());
     result[layout.rotation()]     = rotation;
@@ -28,7 +28,7 @@ namespace
 
   Kinematic begin()
   {
-    return { ports(0.3, 0.7, -0.2, 0.4), ports(1.1, -0.6, 0.9, 0.8), ports(-2., 1.5, 0.4, 3.) };
+    return { interface_vector(0.3, 0.7, -0.2, 0.4), interface_vector(1.1, -0.6, 0.9, 0.8), interface_vector(-2., 1.5, 0.4, 3.) };
   }
 
   /// A place to which the step may lead, with rates and accelerations of the order of 1.
@@ -58,24 +58,24 @@ namespace
   }
 
   /// By a rate: the energy is linear in each.
-  double momentum(Kinematic at, const unsigned int port)
+  double momentum(Kinematic at, const unsigned int dof)
   {
-    at.velocity[port] += 0.5;
+    at.velocity[dof] += 0.5;
     const double more = kinetic_energy(at);
-    at.velocity[port] -= 1.;
+    at.velocity[dof] -= 1.;
     return more - kinetic_energy(at);
   }
 
-  double by_position(Kinematic at, const unsigned int port, const double h)
+  double by_position(Kinematic at, const unsigned int dof, const double h)
   {
-    at.position[port] += h;
+    at.position[dof] += h;
     const double more = kinetic_energy(at);
-    at.position[port] -= 2. * h;
+    at.position[dof] -= 2. * h;
     return (more - kinetic_energy(at)) / (2. * h);
   }
 
-  PortForces with(const FrameCoupling &coupling, PortForces forces, const Kinematic &begin, const Vector &end,
-                  const StepWeights &weights)
+  InterfaceForces with(const FrameCoupling &coupling, InterfaceForces forces, const Kinematic &begin, const Vector &end,
+                       const StepWeights &weights)
   {
     coupling.add_forces(begin, end, weights, forces);
     return forces;
@@ -87,8 +87,8 @@ TEST(FrameCoupling, ForcesAreLagrangesOfTheKineticEnergy)
   FrameCoupling coupling(layout, rest);
   Kinematic at = unaccelerated(begin(), implicit());
   set_position(at, end(), implicit());
-  const auto &forces = with(coupling, PortForces(), begin(), end(), implicit());
-  ASSERT_EQ(forces.ports.size(), 4u);
+  const auto &forces = with(coupling, InterfaceForces(), begin(), end(), implicit());
+  ASSERT_EQ(forces.dofs.size(), 4u);
   for (unsigned int i = 0; i < 4; ++i)
   {
     // Central differences over 1e-5 of numbers of the order of 1: 1e-10 of truncation, 1e-11 of round-off; a step's rates and
@@ -105,17 +105,17 @@ TEST(FrameCoupling, TangentIsTheDerivativeOfTheForces)
   FrameCoupling coupling(layout, rest);
   for (const double radius : { 1., 0.8, 0. })
   {
-    const auto weights     = generalised_alpha(radius, step);
-    const PortForces exact = with(coupling, PortForces(), begin(), end(), weights);
+    const auto weights          = generalised_alpha(radius, step);
+    const InterfaceForces exact = with(coupling, InterfaceForces(), begin(), end(), weights);
     for (unsigned int j = 0; j < 4; ++j)
     {
       // Movements of 1e-6 change accelerations by 1: h^2 of the third derivative, mass() times 1, is 1e-5; round-off 1e-10 of it.
       const double h = 1e-6;
       Vector z       = end();
       z[coupled[j]] += h;
-      const Vector right = with(coupling, PortForces(), begin(), z, weights).values;
+      const Vector right = with(coupling, InterfaceForces(), begin(), z, weights).values;
       z[coupled[j]] -= 2. * h;
-      const Vector left = with(coupling, PortForces(), begin(), z, weights).values;
+      const Vector left = with(coupling, InterfaceForces(), begin(), z, weights).values;
       for (unsigned int i = 0; i < 4; ++i)
         EXPECT_NEAR(exact.tangent(i, j), (right[i] - left[i]) / (2. * h), 1e-9 * weights.mass()) << i << j << ", " << radius;
     }
@@ -124,8 +124,8 @@ TEST(FrameCoupling, TangentIsTheDerivativeOfTheForces)
 
 TEST(FrameCoupling, AddsToTheForcesOfTheContact)
 {
-  PortForces contact;
-  contact.ports  = { 1, layout.rotation(), layout.support() };
+  InterfaceForces contact;
+  contact.dofs   = { 1, layout.rotation(), layout.support() };
   contact.values = Vector(3);
   contact.tangent.reinit(3, 3);
   for (unsigned int i = 0; i < 3; ++i)
@@ -135,9 +135,9 @@ TEST(FrameCoupling, AddsToTheForcesOfTheContact)
       contact.tangent(i, j) = 10. * i + j;
   }
   FrameCoupling coupling(layout, rest);
-  const PortForces alone = with(coupling, PortForces(), begin(), end(), implicit());
-  const PortForces both  = with(coupling, contact, begin(), end(), implicit());
-  ASSERT_EQ(both.ports, (std::vector<unsigned int>{ 1, 2, 3, 4, 5 }));
+  const InterfaceForces alone = with(coupling, InterfaceForces(), begin(), end(), implicit());
+  const InterfaceForces both  = with(coupling, contact, begin(), end(), implicit());
+  ASSERT_EQ(both.dofs, (std::vector<unsigned int>{ 1, 2, 3, 4, 5 }));
   const unsigned int place[] = { 0, 1, 4 };
   for (unsigned int i = 0; i < 5; ++i)
   {
@@ -158,14 +158,14 @@ TEST(FrameCoupling, AddsToTheForcesOfTheContact)
 
 TEST(FrameCoupling, DoesNothingOnARigidSupport)
 {
-  const PortLayout rigid = { 2, false };
+  const InterfaceLayout rigid = { 2, false };
   FrameCoupling coupling(rigid, rest);
-  PortForces contact;
-  contact.ports  = { 2 };
+  InterfaceForces contact;
+  contact.dofs   = { 2 };
   contact.values = Vector(1);
   contact.tangent.reinit(1, 1);
   const auto both = with(coupling, contact, {}, Vector(3), implicit());
-  EXPECT_EQ(both.ports, contact.ports);
+  EXPECT_EQ(both.dofs, contact.dofs);
   EXPECT_EQ(both.values, contact.values);
   EXPECT_EQ(both.tangent, contact.tangent);
 }
@@ -186,10 +186,10 @@ TEST(FrameCoupling, WorkOfItsForcesIsTheKineticEnergyButForTheSchemesDissipation
       set_position(after, z, weights);
       Vector moved = z;
       moved -= begin().position;
-      const auto &forces = with(coupling, PortForces(), begin(), z, weights);
+      const auto &forces = with(coupling, InterfaceForces(), begin(), z, weights);
       double taken       = 0.;
-      for (unsigned int a = 0; a < forces.ports.size(); ++a)
-        taken += forces.values[a] * moved[forces.ports[a]];
+      for (unsigned int a = 0; a < forces.dofs.size(); ++a)
+        taken += forces.values[a] * moved[forces.dofs[a]];
       StepWork work;
       coupling.add_work(begin(), z, weights, work);
       return std::abs(-taken - (kinetic_energy(after) - kinetic_energy(begin())) - work.algorithmic);
@@ -201,17 +201,17 @@ TEST(FrameCoupling, WorkOfItsForcesIsTheKineticEnergyButForTheSchemesDissipation
 
 TEST(FrameCoupling, EachLeverOfAPairCouplesAsASingleOne)
 {
-  PortLayout pair = layout;
-  pair.levers     = 2;
-  const auto part = [&](const Vector &pair_vector, const unsigned int lever)
+  InterfaceLayout pair = layout;
+  pair.levers          = 2;
+  const auto part      = [&](const Vector &pair_vector, const unsigned int lever)
   {
-    return ports(pair_vector[pair.rotation(lever)], pair_vector[pair.momentum_eta(lever)], pair_vector[pair.momentum_xi(lever)],
-                 pair_vector[pair.support()]);
+    return interface_vector(pair_vector[pair.rotation(lever)], pair_vector[pair.momentum_eta(lever)],
+                            pair_vector[pair.momentum_xi(lever)], pair_vector[pair.support()]);
   };
   const auto joined = [&](const Vector &first, const Vector &second)
   {
     Vector result(pair.size());
-    for (unsigned int i = 0; i < pair.ports_per_lever(); ++i)
+    for (unsigned int i = 0; i < pair.dofs_per_lever(); ++i)
     {
       result[pair.first(0) + i] = first[i];
       result[pair.first(1) + i] = second[i];
@@ -219,13 +219,14 @@ TEST(FrameCoupling, EachLeverOfAPairCouplesAsASingleOne)
     result[pair.support()] = first[layout.support()];
     return result;
   };
-  const Kinematic at{ joined(begin().position, ports(-0.2, 0.3, 0.5, 0.)), joined(begin().velocity, ports(0.4, -1.2, 0.3, 0.)),
-                      joined(begin().acceleration, ports(1., 2., -0.7, 0.)) };
+  const Kinematic at{ joined(begin().position, interface_vector(-0.2, 0.3, 0.5, 0.)),
+                      joined(begin().velocity, interface_vector(0.4, -1.2, 0.3, 0.)),
+                      joined(begin().acceleration, interface_vector(1., 2., -0.7, 0.)) };
   Vector z = at.position;
   z.add(step, at.velocity, 0.3 * step * step, at.acceleration);
 
   FrameCoupling coupling(pair, rest), single(layout, rest);
-  const PortForces both = with(coupling, PortForces(), at, z, implicit());
+  const InterfaceForces both = with(coupling, InterfaceForces(), at, z, implicit());
   StepWork work, single_work;
   coupling.add_work(at, z, implicit(), work);
   double energy = 0.;
@@ -234,24 +235,23 @@ TEST(FrameCoupling, EachLeverOfAPairCouplesAsASingleOne)
   for (unsigned int lever = 0; lever < 2; ++lever)
   {
     const Kinematic own{ part(at.position, lever), part(at.velocity, lever), part(at.acceleration, lever) };
-    const auto &forces = with(single, PortForces(), own, part(z, lever), implicit());
-    const auto place   = [&](const unsigned int port)
-    { return port == layout.support() ? pair.support() : pair.first(lever) + port; };
+    const auto &forces = with(single, InterfaceForces(), own, part(z, lever), implicit());
+    const auto place = [&](const unsigned int dof) { return dof == layout.support() ? pair.support() : pair.first(lever) + dof; };
     for (unsigned int i = 0; i < 4; ++i)
     {
-      values[place(forces.ports[i])] += forces.values[i];
+      values[place(forces.dofs[i])] += forces.values[i];
       for (unsigned int j = 0; j < 4; ++j)
-        tangent(place(forces.ports[i]), place(forces.ports[j])) += forces.tangent(i, j);
+        tangent(place(forces.dofs[i]), place(forces.dofs[j])) += forces.tangent(i, j);
     }
     single.add_work(own, part(z, lever), implicit(), single_work);
     energy += single.kinetic_energy(own);
   }
-  ASSERT_EQ(both.ports, coupling.coupled_ports());
-  for (unsigned int i = 0; i < both.ports.size(); ++i)
+  ASSERT_EQ(both.dofs, coupling.coupled_dofs());
+  for (unsigned int i = 0; i < both.dofs.size(); ++i)
   {
-    EXPECT_NEAR(both.values[i], values[both.ports[i]], 1e-14 * values.linfty_norm());
-    for (unsigned int j = 0; j < both.ports.size(); ++j)
-      EXPECT_NEAR(both.tangent(i, j), tangent(both.ports[i], both.ports[j]), 1e-14 * tangent.linfty_norm());
+    EXPECT_NEAR(both.values[i], values[both.dofs[i]], 1e-14 * values.linfty_norm());
+    for (unsigned int j = 0; j < both.dofs.size(); ++j)
+      EXPECT_NEAR(both.tangent(i, j), tangent(both.dofs[i], both.dofs[j]), 1e-14 * tangent.linfty_norm());
   }
   EXPECT_NEAR(work.algorithmic, single_work.algorithmic, 1e-14);
   EXPECT_NEAR(coupling.kinetic_energy(at), energy, 1e-14);

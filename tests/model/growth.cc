@@ -196,14 +196,14 @@ TEST(HeldSlide, OfARigidLeverIsTheEquilibriumOfMoments)
     for (const double direction : { 1., -1. })
     {
       const auto slide   = held(*model, drive(x, direction));
-      const double delta = slide.overlap;
-      const double theta = rest + slide.ports[0];
+      const double delta = slide.penetration;
+      const double theta = rest + slide.displacements[0];
       const double s     = (scene.geometry.pivot_distance - x) * std::cos(theta);
       const double share = direction * slide.mu * e;
       const double P     = stiffness * delta;
-      // The overlap has the round-off of the gap, 3e-14 mm.
+      // The penetration has the round-off of the gap, 3e-14 mm.
       EXPECT_NEAR(delta, R - e - (scene.geometry.pivot_distance - x) * std::sin(theta), 1e-13);
-      EXPECT_NEAR(k * slide.ports[0], P * (s + share * R / (R - delta)), 1e-8 * k * slide.ports[0]);
+      EXPECT_NEAR(k * slide.displacements[0], P * (s + share * R / (R - delta)), 1e-8 * k * slide.displacements[0]);
 
       const double slope_normal   = -stiffness * s * s - P * (R - e - delta);
       const double slope_friction = -share * (stiffness * s * R / (R - delta) + P * s * R / ((R - delta) * (R - delta)));
@@ -214,7 +214,7 @@ TEST(HeldSlide, OfARigidLeverIsTheEquilibriumOfMoments)
     }
 }
 
-// The forces at its ports are those that hold it there.
+// The forces at its interface are those that hold it there.
 TEST(HeldSlide, OfABeamIsInEquilibrium)
 {
   for (const bool sprung : { false, true })
@@ -226,11 +226,11 @@ TEST(HeldSlide, OfABeamIsInEquilibrium)
       for (const auto friction : { ContactFriction::sliding, ContactFriction::none, ContactFriction::stuck })
       {
         const auto slide = held(*model, drive(65., direction), friction);
-        PortForces forces;
-        forces.ports  = slide.motion.forces.ports;
+        InterfaceForces forces;
+        forces.dofs   = slide.motion.forces.dofs;
         forces.values = slide.motion.forces.values;
-        auto position = structure.port_positions(structure.deform(forces));
-        position -= slide.ports;
+        auto position = structure.positions(structure.deform(forces));
+        position -= slide.displacements;
         // Forces of 25 N moved by 1e-14 of 200 mm of the contact's 2000 N/mm, on a compliance of 0.2 mm/N.
         EXPECT_LT(position.linfty_norm(), 1e-10);
         EXPECT_GT(slide.forces.P, 10.);
@@ -279,7 +279,7 @@ TEST(HeldSlide, PerturbedFollowsItsEigenvalue)
       const auto slide                    = held(*model, drive(65., -1.));
       const auto mode                     = model->vibrations(slide, true, 1).front();
       const auto lambda                   = mode.mode.eigenvalue;
-      const auto start                    = model->perturbed(slide, mode, 1e-4 * slide.overlap);
+      const auto start                    = model->perturbed(slide, mode, 1e-4 * slide.penetration);
       const double T                      = 2. * M_PI / lambda.imag();
       constexpr unsigned int steps        = 400;
       const auto w                        = generalised_alpha(1., T / steps);
@@ -294,7 +294,7 @@ TEST(HeldSlide, PerturbedFollowsItsEigenvalue)
       {
         Row row;
         model->observe(at, row);
-        return row[Column::theta] - kinematics(scene.geometry, 0.).theta - slide.ports[slide.ports.size() - 1];
+        return row[Column::theta] - kinematics(scene.geometry, 0.).theta - slide.displacements[slide.displacements.size() - 1];
       };
       // The phase of the steps, (omega dt)^2 / 12 a radian, is 1.3e-4 over the period; the amplitude of 1e-4 bends the law by as
       // much.

@@ -28,10 +28,10 @@ namespace
   }
 
   /// On the rotation, 4, and on others.
-  PortForces contact_forces(const std::vector<unsigned int> &ports)
+  InterfaceForces contact_forces(const DofSelection &dofs)
   {
-    const auto n = static_cast<unsigned int>(ports.size());
-    PortForces forces{ ports, dealii::Vector<double>(n), dealii::FullMatrix<double>(n, n) };
+    const auto n = static_cast<unsigned int>(dofs.size());
+    InterfaceForces forces{ dofs, dealii::Vector<double>(n), dealii::FullMatrix<double>(n, n) };
     for (unsigned int i = 0; i < n; ++i)
     {
       forces.values[i] = 1. + i;
@@ -41,24 +41,24 @@ namespace
     return forces;
   }
 
-  const PortLayout layout{ 4, false };
+  const InterfaceLayout layout{ 4, false };
 
-  PortForces with(const HubSpringExcess &spring, PortForces forces, const PerLever &turns)
+  InterfaceForces with(const HubSpringExcess &spring, InterfaceForces forces, const PerLever &turns)
   {
     spring.add_forces(turns, true, forces);
     return forces;
   }
 
-  PortForces with(const HubSpringExcess &spring, PortForces forces, const PerLever &begin, const PerLever &end,
-                  const StepWeights &weights)
+  InterfaceForces with(const HubSpringExcess &spring, InterfaceForces forces, const PerLever &begin, const PerLever &end,
+                       const StepWeights &weights)
   {
     spring.add_forces(begin, end, weights, forces);
     return forces;
   }
 
-  void expect_same(const PortForces &found, const PortForces &expected)
+  void expect_same(const InterfaceForces &found, const InterfaceForces &expected)
   {
-    EXPECT_EQ(found.ports, expected.ports);
+    EXPECT_EQ(found.dofs, expected.dofs);
     EXPECT_EQ(found.values, expected.values);
     EXPECT_EQ(found.tangent, expected.tangent);
   }
@@ -70,7 +70,7 @@ TEST(HubSpring, ALinearOneAddsNothing)
   const auto forces = contact_forces({ 1, 2 });
   expect_same(with(spring, forces, PerLever{ { 0.03 } }), forces);
   expect_same(with(spring, forces, PerLever{ { 0.01 } }, PerLever{ { 0.03 } }, generalised_alpha(1., 1e-4)), forces);
-  EXPECT_TRUE(spring.loaded_ports().empty());
+  EXPECT_TRUE(spring.loaded_dofs().empty());
 }
 
 TEST(HubSpring, ActsOnTheRotationBesidesTheContact)
@@ -79,7 +79,7 @@ TEST(HubSpring, ActsOnTheRotationBesidesTheContact)
   const double turn  = 0.023;
   const double force = -c * std::pow(turn, 3);
   const auto apart   = with(spring, contact_forces({ 1, 2 }), PerLever{ { turn } });
-  EXPECT_EQ(apart.ports, (std::vector<unsigned int>{ 1, 2, 4 }));
+  EXPECT_EQ(apart.dofs, (std::vector<unsigned int>{ 1, 2, 4 }));
   EXPECT_EQ(apart.values[1], 2.);
   EXPECT_EQ(apart.tangent(1, 0), 10.);
   EXPECT_EQ(apart.tangent(2, 0), 0.);
@@ -87,7 +87,7 @@ TEST(HubSpring, ActsOnTheRotationBesidesTheContact)
   EXPECT_NEAR(apart.tangent(2, 2), -3. * c * turn * turn, 1e-12 * k);
 
   const auto together = with(spring, contact_forces({ 1, 4 }), PerLever{ { turn } });
-  EXPECT_EQ(together.ports, (std::vector<unsigned int>{ 1, 4 }));
+  EXPECT_EQ(together.dofs, (std::vector<unsigned int>{ 1, 4 }));
   EXPECT_NEAR(together.values[1], 2. + force, 1e-12 * k);
   EXPECT_NEAR(together.tangent(1, 1), 11. - 3. * c * turn * turn, 1e-12 * k);
 }
@@ -148,7 +148,7 @@ TEST(HubSpring, ALeafsVibrationCouplesWithTheRotation)
 
 namespace
 {
-  const PortLayout pair_layout{ 4, false, 0, 2 };
+  const InterfaceLayout pair_layout{ 4, false, 0, 2 };
 
   /// What is stored beyond k phi^2 / 2 of each hub: 2 W of the mean opening, less swinging's share but for a millionth.
   double joined_energy(const PerLever &turns)
@@ -164,7 +164,7 @@ TEST(HubSpring, JoinedOnesOpenAgainstTheirMeanTurnAndSwingFreely)
   HubSpringExcess spring(pair_layout, hardening(), true);
   const PerLever turns{ { 0.05, 0.01 } };
   const auto forces = with(spring, contact_forces({}), turns);
-  ASSERT_EQ(forces.ports, (std::vector<unsigned int>{ 4, 9 }));
+  ASSERT_EQ(forces.dofs, (std::vector<unsigned int>{ 4, 9 }));
   // Both hubs feel the same moment, that of the mean turn: k phi_i of the structure and this together.
   const double moment = k * 0.03 + c * std::pow(0.03, 3);
   for (unsigned int i = 0; i < 2; ++i)

@@ -11,48 +11,48 @@ namespace
 {
   constexpr unsigned int n = 40;
 
-  /// A row of ports, which feel each other the less the further they are apart, and one of a block of its own.
-  PortCompliance port_chain()
+  /// A row of dofs, which feel each other the less the further they are apart, and one of a block of its own.
+  InterfaceCompliance interface_chain()
   {
     dealii::FullMatrix<double> matrix(n);
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
         matrix(i, j) = std::exp(-0.3 * std::abs(static_cast<double>(i) - j));
-    PortCompliance result;
+    InterfaceCompliance result;
     result.append(std::move(matrix));
     result.append(0.5);
     return result;
   }
 
-  /// Springs that a ball touches from above at some place of the row, and rubs: only ports that touch carry forces.
+  /// Springs that a ball touches from above at some place of the row, and rubs: only dofs that touch carry forces.
   struct Ball
   {
     double place;
     double stiffness         = 5.;
     double mu                = 0.3;
     unsigned int evaluations = 0, tangents = 0;
-    double deepest    = 0.;
-    PortForces forces = PortForces();
+    double deepest         = 0.;
+    InterfaceForces forces = InterfaceForces();
 
-    PortEvaluation operator()(const Vector &z, const Request request = Request::with_tangent)
+    InterfaceEvaluation operator()(const Vector &z, const Request request = Request::with_tangent)
     {
       const bool with_tangent = request != Request::forces;
       ++evaluations;
       tangents += with_tangent ? 1 : 0;
-      forces  = PortForces();
+      forces  = InterfaceForces();
       deepest = 0.;
       for (unsigned int i = 0; i < n; ++i)
-        if (overlap(z, i) > 0.)
-          forces.ports.push_back(i);
-      if (!forces.ports.empty())
-        forces.ports.push_back(n);
-      const auto m = static_cast<unsigned int>(forces.ports.size());
+        if (penetration(z, i) > 0.)
+          forces.dofs.push_back(i);
+      if (!forces.dofs.empty())
+        forces.dofs.push_back(n);
+      const auto m = static_cast<unsigned int>(forces.dofs.size());
       forces.values.reinit(m);
       if (with_tangent)
         forces.tangent.reinit(m, m);
       for (unsigned int a = 0; a + 1 < m; ++a)
       {
-        const double depth = overlap(z, forces.ports[a]);
+        const double depth = penetration(z, forces.dofs[a]);
         deepest            = std::max(deepest, depth);
         forces.values[a]   = -stiffness * depth * (1. + 0.1 * std::sin(z[n]));
         forces.values[m - 1] += mu * stiffness * depth;
@@ -65,7 +65,7 @@ namespace
       return { &forces, deepest };
     }
 
-    double overlap(const Vector &z, const unsigned int i) const
+    double penetration(const Vector &z, const unsigned int i) const
     {
       const double aside = i - place;
       return z[i] - 0.01 * aside * aside;
@@ -74,20 +74,20 @@ namespace
 
   struct Solved
   {
-    PortSolution solution;
+    InterfaceSolution solution;
     Vector z;
     Ball ball;
   };
 
-  const PortCompliance compliance = port_chain();
-  const Vector lengths            = []
+  const InterfaceCompliance compliance = interface_chain();
+  const Vector lengths                 = []
   {
     Vector result(n + 1);
     result    = 1.;
     result[n] = 3.;
     return result;
   }();
-  const PortSelection selected = all_ports(n + 1);
+  const DofSelection selected = all_dofs(n + 1);
 
   Vector pressed_by(const double amount)
   {
@@ -101,22 +101,22 @@ namespace
   {
     Solved result{ {}, pressed_by(amount), { place } };
     const Vector free = result.z;
-    result.solution   = solve_ports(
+    result.solution   = solve_interface(
           { compliance, free, lengths, selected }, [&](const Vector &z) { return result.ball(z); }, result.z);
     return result;
   }
 
-  PortLoads solved_loads(const Solved &solved)
+  DofLoads solved_loads(const Solved &solved)
   {
-    return { solved.ball.forces.ports, solved.ball.forces.values };
+    return { solved.ball.forces.dofs, solved.ball.forces.values };
   }
 
-  Solved by_stored_jacobian(const double place, const double amount, const PortLoads &guess, JacobianFactors &factors,
+  Solved by_stored_jacobian(const double place, const double amount, const DofLoads &guess, JacobianFactors &factors,
                             std::shared_ptr<const StoredJacobian> &kept)
   {
     Solved result{ {}, pressed_by(amount), { place } };
     const Vector free = result.z;
-    const PortEquations equations{ compliance, free, lengths, selected };
+    const InterfaceEquations equations{ compliance, free, lengths, selected };
     const auto weights = generalised_alpha(0.8, 1e-3);
     auto &ball         = result.ball;
     const auto forces  = [&](const Vector &z, const Request request) { return ball(z, request); };
@@ -125,7 +125,7 @@ namespace
   }
 } // namespace
 
-// What is left out moves no point by more than 1e-8 of the overlap; a few times as much is allowed.
+// What is left out moves no point by more than 1e-8 of the penetration; a few times as much is allowed.
 TEST(KeptIteration, FindsWhatNewtonsMethodFinds)
 {
   JacobianFactors factors;
@@ -146,9 +146,9 @@ TEST(KeptIteration, FindsWhatNewtonsMethodFinds)
       guess = solved_loads(expected);
       continue;
     }
-    EXPECT_EQ(found.ball.forces.ports, expected.ball.forces.ports);
+    EXPECT_EQ(found.ball.forces.dofs, expected.ball.forces.dofs);
     for (unsigned int i = 0; i <= n; ++i)
-      EXPECT_NEAR(found.z[i], expected.z[i], 5e-8 * expected.ball.deepest) << "step " << step << ", port " << i;
+      EXPECT_NEAR(found.z[i], expected.z[i], 5e-8 * expected.ball.deepest) << "step " << step << ", dof " << i;
     guess = solved_loads(found);
     tangents += found.ball.tangents;
     ASSERT_NE(kept, nullptr);
@@ -166,10 +166,10 @@ TEST(KeptIteration, GoesOnFromARestoredTangentToTheLastBit)
 
   JacobianFactors others;
   Archive written;
-  visit(written, kept);
+  serialise(written, kept);
   Archive read(written.bytes());
   std::shared_ptr<const StoredJacobian> restored;
-  visit(read, restored);
+  serialise(read, restored);
   const auto next  = by_stored_jacobian(12.1, 0.51, guess, factors, kept),
              again = by_stored_jacobian(12.1, 0.51, guess, others, restored);
   EXPECT_EQ(next.z, again.z);
@@ -184,7 +184,7 @@ TEST(KeptIteration, LetsGoOfWhatItHeld)
   guess           = solved_loads(by_stored_jacobian(12., 0.5, guess, factors, kept));
   const auto open = by_stored_jacobian(12., -1., guess, factors, kept);
   ASSERT_TRUE(open.solution.newton.converged);
-  EXPECT_TRUE(open.ball.forces.ports.empty());
+  EXPECT_TRUE(open.ball.forces.dofs.empty());
   for (unsigned int i = 0; i < n; ++i)
     EXPECT_NEAR(open.z[i], -1., 1e-12);
   const auto again = by_stored_jacobian(12., -1., {}, factors, kept);
@@ -199,7 +199,7 @@ TEST(KeptIteration, SaysWhereItDoesNotConverge)
   // Springs that pull: no correction makes the unbalance fall.
   Solved result{ {}, pressed_by(0.5), { 12., -30. } };
   const Vector free = result.z;
-  const PortEquations equations{ compliance, free, lengths, selected };
+  const InterfaceEquations equations{ compliance, free, lengths, selected };
   const auto forces = [&](const Vector &z, const Request request) { return result.ball(z, request); };
   const auto found  = ModifiedNewton(equations, forces, generalised_alpha(0.8, 1e-3), factors).solve({}, kept, result.z, 0.1);
   EXPECT_FALSE(found.newton.converged);

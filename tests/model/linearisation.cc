@@ -16,10 +16,10 @@ namespace
   using Vector = dealii::Vector<double>;
   using Full   = dealii::FullMatrix<double>;
 
-  const Geometry geometry  = { 56., 45.6, 185.5, 0. };
-  constexpr double length  = 210.;
-  constexpr double place   = 44.3; ///< of the cylinder [mm]
-  constexpr double overlap = 0.012;
+  const Geometry geometry      = { 56., 45.6, 185.5, 0. };
+  constexpr double length      = 210.;
+  constexpr double place       = 44.3; ///< of the cylinder [mm]
+  constexpr double penetration = 0.012;
 
   /// A slide of a lever that is bent, and on a sprung support.
   struct Slide
@@ -38,38 +38,38 @@ namespace
       return direction * 108.;
     }
 
-    /// What a unit of the port moves at the contact [mm].
-    double arm(const unsigned int port) const
+    /// Returns the movement of the contact by a unit of the dof [mm].
+    double arm(const unsigned int dof) const
     {
-      if (port == contact.ports.rotation())
+      if (dof == contact.layout.rotation())
         return 120.;
-      return port < contact.ports.surface && port % 2 == 1 ? length / 8. : 1.;
+      return dof < contact.layout.surface && dof % 2 == 1 ? length / 8. : 1.;
     }
 
-    /// Displacements at which the contact has the overlap, which may be negative.
+    /// Displacements at which the contact has the penetration, which may be negative.
     Vector position(const double target_gap) const
     {
-      Vector z(contact.ports.size());
-      for (unsigned int i = 0; i < contact.ports.surface; i += 2)
+      Vector z(contact.layout.size());
+      for (unsigned int i = 0; i < contact.layout.surface; i += 2)
       {
         const double xi = (i / 2 + 1) / 8.;
         z[i]            = 4e-3 * xi * xi - 3e-3 * std::sin(3. * xi);
         z[i + 1]        = (8e-3 * xi - 9e-3 * std::cos(3. * xi)) / length;
       }
-      if (contact.ports.sprung)
-        z[contact.ports.support()] = 0.02;
+      if (contact.layout.sprung)
+        z[contact.layout.support()] = 0.02;
       PointContact point(contact);
       PointContact::Evaluation found;
       Vector turn(z.size());
-      turn[contact.ports.rotation()] = 1.;
-      z[contact.ports.rotation()]    = kinematics(geometry, place).theta - contact.rest_inclination - 1e-3;
-      const double closed            = std::abs(target_gap);
+      turn[contact.layout.rotation()] = 1.;
+      z[contact.layout.rotation()]    = kinematics(geometry, place).theta - contact.rest_inclination - 1e-3;
+      const double closed             = std::abs(target_gap);
       for (unsigned int i = 0; i < 8; ++i)
       {
         point.touch(z, drive(), found);
-        z[contact.ports.rotation()] += (found.overlap() - closed) / point.gap_change(found, turn);
+        z[contact.layout.rotation()] += (found.penetration() - closed) / point.gap_change(found, turn);
       }
-      z[contact.ports.rotation()] += (closed - target_gap) / point.gap_change(found, turn);
+      z[contact.layout.rotation()] += (closed - target_gap) / point.gap_change(found, turn);
       return z;
     }
   };
@@ -97,7 +97,7 @@ namespace
               auto &contact               = slide.contact;
               contact.geometry            = geometry;
               contact.mesh                = { elements, length };
-              contact.ports               = { contact.mesh.ports(), sprung };
+              contact.layout              = { contact.mesh.n_dofs(), sprung };
               contact.rest_inclination    = kinematics(geometry, 0.).theta;
               contact.neutral_axis_offset = axis;
               contact.normal              = { 10451., 1.4726 };
@@ -112,19 +112,20 @@ namespace
     return result;
   }
 
-  PortForces forces(const Slide &slide, const Vector &ports, const Vector *rates = nullptr,
-                    const ContactFriction friction = ContactFriction::sliding)
+  InterfaceForces forces(const Slide &slide, const Vector &displacements, const Vector *rates = nullptr,
+                         const ContactFriction friction = ContactFriction::sliding)
   {
     PointContact contact(slide.contact);
     PointContact::Evaluation found;
-    contact.evaluate_sliding({ ports, slide.drive(), slide.speed(), rates, friction }, found);
+    contact.evaluate_sliding({ displacements, slide.drive(), slide.speed(), rates, friction }, found);
     return found.forces;
   }
 
-  PortPerturbation linearised(const Slide &slide, const Vector &ports, const ContactFriction friction = ContactFriction::sliding)
+  LinearisedForces linearised(const Slide &slide, const Vector &displacements,
+                              const ContactFriction friction = ContactFriction::sliding)
   {
     PointContact::Evaluation found;
-    return PointContact(slide.contact).linearise({ ports, slide.drive(), slide.speed(), nullptr, friction }, found);
+    return PointContact(slide.contact).linearise({ displacements, slide.drive(), slide.speed(), nullptr, friction }, found);
   }
 
   double distance(const Full &a, const Full &b)
@@ -139,18 +140,18 @@ namespace
   void expect_derivative(const Slide &slide, const Full &exact, const Evaluate &evaluate, const double width,
                          const double tolerance)
   {
-    const auto ports = evaluate(Vector(slide.contact.ports.size())).ports;
-    for (unsigned int j = 0; j < ports.size(); ++j)
+    const auto dofs = evaluate(Vector(slide.contact.layout.size())).dofs;
+    for (unsigned int j = 0; j < dofs.size(); ++j)
     {
-      Vector change(slide.contact.ports.size());
-      change[ports[j]]   = width / slide.arm(ports[j]);
+      Vector change(slide.contact.layout.size());
+      change[dofs[j]]    = width / slide.arm(dofs[j]);
       const Vector right = evaluate(change).values;
       change *= -1.;
       const Vector left = evaluate(change).values;
-      for (unsigned int i = 0; i < ports.size(); ++i)
-        EXPECT_NEAR(exact(i, j), (left[i] - right[i]) / (2. * change[ports[j]]),
-                    tolerance * slide.arm(ports[i]) * slide.arm(ports[j]))
-            << slide.name << ", force on port " << ports[i] << " by port " << ports[j];
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        EXPECT_NEAR(exact(i, j), (left[i] - right[i]) / (2. * change[dofs[j]]),
+                    tolerance * slide.arm(dofs[i]) * slide.arm(dofs[j]))
+            << slide.name << ", force on dof " << dofs[i] << " by dof " << dofs[j];
     }
   }
 } // namespace
@@ -161,7 +162,7 @@ TEST(Linearisation, PressureAndFrictionAreTheDerivativeOfTheForcesByDisplacement
 {
   for (const auto &slide : slides(0.05))
   {
-    const Vector at = slide.position(overlap);
+    const Vector at = slide.position(penetration);
     const Full both = linearised(slide, at).stiffness();
     EXPECT_EQ(distance(both, forces(slide, at).tangent), 0.) << slide.name;
     expect_derivative(
@@ -181,7 +182,7 @@ TEST(Linearisation, RatesAreTheDerivativeOfTheForcesByVelocities)
 {
   for (const auto &slide : slides(0.05))
   {
-    const Vector at = slide.position(overlap);
+    const Vector at = slide.position(penetration);
     const Full both = linearised(slide, at).damping();
     EXPECT_GT(both.linfty_norm(), 0.01);
     expect_derivative(
@@ -200,13 +201,13 @@ TEST(Linearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
     {
       if (slide.contact.friction.regularisation_speed > 0.)
         continue;
-      const Vector at = slide.position(overlap);
+      const Vector at = slide.position(penetration);
       PointContact contact(slide.contact);
       PointContact::Evaluation found;
       const auto linear = contact.linearise({ at, slide.drive(), slide.speed() }, found);
       Motion accepted;
       accepted.drive   = { 0., place, 0., 0. };
-      accepted.contact = found.memory();
+      accepted.contact = found.history();
       ASSERT_EQ(linear.delays.size(), std::holds_alternative<CorkOnAluminium>(slide.contact.friction.law) ? 1u : 0u);
 
       Full exact = linear.immediate_stiffness();
@@ -229,7 +230,7 @@ TEST(Linearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
             Vector end = at, rate = change;
             end += change;
             rate /= dt;
-            contact.evaluate(PortStep{ accepted.drive, accepted.contact, to, begin, end, rate, { dt, 0., 0., 0.25, 0.5 } },
+            contact.evaluate(InterfaceStep{ accepted.drive, accepted.contact, to, begin, end, rate, { dt, 0., 0., 0.25, 0.5 } },
                              found);
             return found.forces;
           },
@@ -242,7 +243,7 @@ TEST(Linearisation, PartsByPressureAreSymmetricAndFrictionIsNot)
 {
   for (const auto &slide : slides(0.05))
   {
-    const auto linear           = linearised(slide, slide.position(overlap));
+    const auto linear           = linearised(slide, slide.position(penetration));
     const auto compute_skewness = [&](const Full &matrix)
     {
       Full skew = matrix;
@@ -251,8 +252,8 @@ TEST(Linearisation, PartsByPressureAreSymmetricAndFrictionIsNot)
     };
     EXPECT_LT(compute_skewness(linear.pressure), 1e-14) << slide.name;
     EXPECT_LT(compute_skewness(linear.pressure_rate), 1e-14) << slide.name;
-    // A rigid lever on a rigid support has one port. With the axis at the pivot bending and rotation slip as little.
-    if (slide.contact.ports.size() > 1)
+    // A rigid lever on a rigid support has one dof. With the axis at the pivot bending and rotation slip as little.
+    if (slide.contact.layout.size() > 1)
     {
       EXPECT_GT(compute_skewness(linear.friction), 1e-3) << slide.name;
     }
@@ -266,16 +267,17 @@ TEST(Linearisation, StuckIsTheTangentOfAStepInStick)
   {
     if (slide.contact.friction.regularisation_speed > 0.)
       continue;
-    const Vector at   = slide.position(overlap);
+    const Vector at   = slide.position(penetration);
     const Full linear = linearised(slide, at, ContactFriction::stuck).stiffness();
     const StepWeights weights{ 1e-5, 0., 0., 0.25, 0.5 };
     const Vector rest(at.size());
     Motion accepted;
     accepted.drive   = { 0., place, 0., 0. };
-    accepted.contact = { ContactMemory{} };
+    accepted.contact = { ContactHistory{} };
     PointContact contact(slide.contact);
     PointContact::Evaluation found;
-    contact.evaluate(PortStep{ accepted.drive, accepted.contact, accepted.drive, { at, rest, rest }, at, rest, weights }, found);
+    contact.evaluate(InterfaceStep{ accepted.drive, accepted.contact, accepted.drive, { at, rest, rest }, at, rest, weights },
+                     found);
     EXPECT_LT(distance(found.forces.tangent, linear), 1e-12 * linear.frobenius_norm()) << slide.name;
   }
 }
@@ -284,7 +286,7 @@ TEST(Linearisation, IsNothingOutOfContact)
 {
   for (const auto &slide : slides(0.05))
   {
-    const Vector at = slide.position(-overlap);
+    const Vector at = slide.position(-penetration);
     for (const auto friction : { ContactFriction::sliding, ContactFriction::none })
     {
       EXPECT_EQ(forces(slide, at, nullptr, friction).values.linfty_norm(), 0.) << slide.name;
@@ -297,9 +299,9 @@ TEST(Linearisation, IsNothingOutOfContact)
 }
 
 // As of a lever that is held out of contact: matrices without rows, which libraries' assertions do not take everywhere.
-TEST(Linearisation, WithoutPortsIsEmpty)
+TEST(Linearisation, WithoutDofsIsEmpty)
 {
-  const PortPerturbation open;
+  const LinearisedForces open;
   for (const Full &sum : { open.stiffness(), open.damping(), open.immediate_stiffness(), open.immediate_damping() })
     EXPECT_TRUE(sum.empty());
   EXPECT_TRUE(open.forces({ -1., 20. }, {}).empty());
@@ -307,26 +309,26 @@ TEST(Linearisation, WithoutPortsIsEmpty)
 
 TEST(Linearisation, InertiaOfTheCouplingIsTheDerivativeOfItsForcesByAccelerations)
 {
-  const PortLayout layout{ 4, true };
+  const InterfaceLayout layout{ 4, true };
   const double rest = 0.056;
   const StepWeights weights{ 1e-3, 0., 0., 0.25, 0.5 };
   FrameCoupling coupling(layout, rest);
   Kinematic begin{ Vector(layout.size()), Vector(layout.size()), Vector(layout.size()) };
   begin.position[layout.rotation()] = 0.07;
   begin.position[layout.support()]  = 0.3;
-  const auto ports                  = coupling.coupled_ports();
+  const auto dofs                   = coupling.coupled_dofs();
   Full inertia(4, 4);
-  coupling.add_inertia(ports, { { rest + 0.07 } }, inertia);
+  coupling.add_inertia(dofs, { { rest + 0.07 } }, inertia);
   for (unsigned int j = 0; j < 4; ++j)
   {
-    // Over an acceleration of 10 the ports move by 2.5e-6, of which 5e-17 is round-off; what is not linear is even.
+    // Over an acceleration of 10 the interface moves by 2.5e-6, of which 5e-17 is round-off; what is not linear is even.
     const double a = 10.;
     Vector values[2];
     for (const double sign : { 1., -1. })
     {
       Vector end = begin.position;
-      end[ports[j]] += sign * a * weights.beta * weights.dt * weights.dt;
-      PortForces forces;
+      end[dofs[j]] += sign * a * weights.beta * weights.dt * weights.dt;
+      InterfaceForces forces;
       coupling.add_forces(begin, end, weights, forces);
       values[sign > 0. ? 0 : 1] = forces.values;
     }

@@ -14,7 +14,7 @@ using Vector = dealii::Vector<double>;
 
 namespace
 {
-  constexpr unsigned int n_ports = 3; ///< of a lever
+  constexpr unsigned int n_interface = 3; ///< of a lever
 
   std::unique_ptr<ModalStructure> lever(const bool with_statics)
   {
@@ -26,10 +26,10 @@ namespace
     return MirroredStructure<ModalStructure>(lever(with_statics), lever(with_statics), true);
   }
 
-  /// A contact's forces on ports 0 and 1, with friction that delays.
-  PortPerturbation contact_forces(const double size)
+  /// A contact's forces on dofs 0 and 1, with friction that delays.
+  LinearisedForces contact_forces(const double size)
   {
-    PortPerturbation forces({ 0, 1 });
+    LinearisedForces forces({ 0, 1 });
     forces.pressure(0, 0)      = -30. * size;
     forces.pressure(1, 1)      = -70. * size;
     forces.friction(0, 1)      = 25. * size;
@@ -43,15 +43,15 @@ namespace
     return forces;
   }
 
-  /// Both levers' forces on the ports of the pair.
-  PortPerturbation on_pair(const double first, const double second)
+  /// Both levers' forces on the dofs of the pair.
+  LinearisedForces on_pair(const double first, const double second)
   {
-    PortPerturbation result({ 0, 1, n_ports, n_ports + 1 });
+    LinearisedForces result({ 0, 1, n_interface, n_interface + 1 });
     for (unsigned int i = 0; i < 2; ++i)
     {
       auto lever_forces = contact_forces(i == 0 ? first : second);
-      for (auto &port : lever_forces.ports)
-        port += i * n_ports;
+      for (auto &dof : lever_forces.dofs)
+        dof += i * n_interface;
       result.add(lever_forces);
     }
     return result;
@@ -103,33 +103,33 @@ TEST(MirroredStructure, StepsAreThoseOfEachLeverAlone)
       alone[i]->use_step(weights);
       motions[i] = alone[i]->rest();
     }
-    const auto all = all_ports(2 * n_ports);
+    const auto all = all_dofs(2 * n_interface);
     for (unsigned int step = 0; step < 20; ++step)
     {
-      // On all ports of the first lever and two of the second.
-      PortForces forces{ { 0, 1, 2, 3, 5 }, Vector(5), dealii::FullMatrix<double>() };
+      // Forces on all dofs of the first lever and two of the second.
+      InterfaceForces forces{ { 0, 1, 2, 3, 5 }, Vector(5), dealii::FullMatrix<double>() };
       for (unsigned int a = 0; a < 5; ++a)
         forces.values[a] = std::sin(1. + a + 0.3 * step);
-      Vector predicted = both.free_ports(motion, all);
-      add_response(both.compliance(), forces.ports, forces.values, all, predicted);
+      Vector predicted = both.free_displacements(motion, all);
+      add_response(both.compliance(), forces.dofs, forces.values, all, predicted);
       motion = both.advance(motion, forces, {});
       for (unsigned int i = 0; i < 2; ++i)
       {
-        PortForces own;
+        InterfaceForces own;
         for (unsigned int a = 0; a < 5; ++a)
-          if (forces.ports[a] / n_ports == i)
-            own.ports.push_back(forces.ports[a] % n_ports);
-        own.values.reinit(static_cast<unsigned int>(own.ports.size()));
-        std::copy_n(forces.values.begin() + (i == 0 ? 0 : 3), own.ports.size(), own.values.begin());
-        alone[i]->free_ports(motions[i], all_ports(n_ports));
+          if (forces.dofs[a] / n_interface == i)
+            own.dofs.push_back(forces.dofs[a] % n_interface);
+        own.values.reinit(static_cast<unsigned int>(own.dofs.size()));
+        std::copy_n(forces.values.begin() + (i == 0 ? 0 : 3), own.dofs.size(), own.values.begin());
+        alone[i]->free_displacements(motions[i], all_dofs(n_interface));
         motions[i]          = alone[i]->advance(motions[i], own, {});
-        const auto expected = alone[i]->port_positions(motions[i]);
-        const auto found    = both.port_positions(motion);
-        for (unsigned int port = 0; port < n_ports; ++port)
+        const auto expected = alone[i]->positions(motions[i]);
+        const auto found    = both.positions(motion);
+        for (unsigned int dof = 0; dof < n_interface; ++dof)
         {
-          EXPECT_NEAR(found[i * n_ports + port], expected[port], 1e-12) << step;
-          EXPECT_NEAR(predicted[i * n_ports + port], expected[port], 1e-12) << step;
-          EXPECT_NEAR(both.port_state(motion, i * n_ports + port).velocity, alone[i]->port_state(motions[i], port).velocity,
+          EXPECT_NEAR(found[i * n_interface + dof], expected[dof], 1e-12) << step;
+          EXPECT_NEAR(predicted[i * n_interface + dof], expected[dof], 1e-12) << step;
+          EXPECT_NEAR(both.dof_state(motion, i * n_interface + dof).velocity, alone[i]->dof_state(motions[i], dof).velocity,
                       1e-10);
         }
       }

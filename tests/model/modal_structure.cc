@@ -12,13 +12,13 @@ namespace
 {
   using Vector = dealii::Vector<double>;
 
-  PortForces forces_on(const std::vector<double> &values)
+  InterfaceForces forces_on(const std::vector<double> &values)
   {
-    PortForces forces;
+    InterfaceForces forces;
     forces.values.reinit(static_cast<unsigned int>(values.size()));
     for (unsigned int a = 0; a < values.size(); ++a)
     {
-      forces.ports.push_back(a);
+      forces.dofs.push_back(a);
       forces.values[a] = values[a];
     }
     return forces;
@@ -29,11 +29,11 @@ namespace
     return energy.kinetic + energy.spring + energy.elastic + energy.support;
   }
 
-  /// One mode of frequency omega and that damping, its port its displacement.
+  /// One mode of frequency omega and that damping, its dof its displacement.
   ModalData oscillator(const double omega, const double damping)
   {
     ModalData data;
-    data.ports     = { 0, false };
+    data.layout    = { 0, false };
     data.stiffness = { omega * omega };
     data.damping.reinit(1, 1);
     data.damping(0, 0) = damping;
@@ -42,10 +42,10 @@ namespace
     return data;
   }
 
-  Motion step(ModalStructure &structure, const Motion &motion, const PortForces &forces, const StepWeights &weights)
+  Motion step(ModalStructure &structure, const Motion &motion, const InterfaceForces &forces, const StepWeights &weights)
   {
     structure.use_step(weights);
-    structure.free_ports(motion, all_ports(structure.ports().size()));
+    structure.free_displacements(motion, all_dofs(structure.layout().size()));
     return structure.advance(motion, forces, {});
   }
 
@@ -60,7 +60,7 @@ namespace
       motion.coordinates.position[0]     = j == 0 ? 1. : 0.;
       motion.coordinates.velocity[0]     = j == 1 ? scale[1] : 0.;
       motion.coordinates.acceleration[0] = j == 2 ? scale[2] : 0.;
-      const Motion after                 = step(structure, motion, PortForces(), weights);
+      const Motion after                 = step(structure, motion, InterfaceForces(), weights);
       m[0][j]                            = after.coordinates.position[0];
       m[1][j]                            = after.coordinates.velocity[0] / scale[1];
       m[2][j]                            = after.coordinates.acceleration[0] / scale[2];
@@ -89,7 +89,7 @@ namespace
     Motion motion        = structure.rest();
     motion.face_force[0] = 1.;
     for (unsigned int i = 0; i < 10; ++i)
-      motion = step(structure, motion, PortForces(), weights);
+      motion = step(structure, motion, InterfaceForces(), weights);
     return std::pow(std::abs(motion.face_force[0]), 0.1);
   }
 } // namespace
@@ -104,7 +104,7 @@ TEST(ModalStructure, ComplianceIsTheAnswerToUnitForcesAtRest)
     {
       std::vector<double> unit(3, 0.);
       unit[a]           = 1.;
-      const auto answer = structure.port_positions(structure.deform(forces_on(unit)));
+      const auto answer = structure.positions(structure.deform(forces_on(unit)));
       for (unsigned int b = 0; b < 3; ++b)
         EXPECT_NEAR(structure.compliance()(b, a), answer[b], 1e-14) << a << b;
     }
@@ -127,15 +127,15 @@ TEST(ModalStructure, ComplianceOfAStepIsTheChangeOfItsEndByUnitForces)
         motion.coordinates.acceleration[1] = -7.;
         const auto weights                 = generalised_alpha(radius, dt);
         structure.use_step(weights);
-        const Vector free = structure.free_ports(motion, all_ports(3));
-        const Vector none = structure.port_positions(structure.advance(motion, PortForces(), {}));
+        const Vector free = structure.free_displacements(motion, all_dofs(3));
+        const Vector none = structure.positions(structure.advance(motion, InterfaceForces(), {}));
         for (unsigned int b = 0; b < 3; ++b)
           EXPECT_NEAR(free[b], none[b], 1e-13);
         for (unsigned int a = 0; a < 3; ++a)
         {
           std::vector<double> unit(3, 0.);
           unit[a]             = 1.;
-          const Vector loaded = structure.port_positions(structure.advance(motion, forces_on(unit), {}));
+          const Vector loaded = structure.positions(structure.advance(motion, forces_on(unit), {}));
           for (unsigned int b = 0; b < 3; ++b)
             EXPECT_NEAR(structure.compliance()(b, a), loaded[b] - free[b], 1e-13) << a << b;
         }
@@ -155,8 +155,8 @@ TEST(ModalStructure, EnergyDampingAndAlgorithmicWorkMakeUpTheWorkOfTheForces)
       {
         const auto forces = forces_on({ std::sin(0.7 * i), 2. - 0.1 * i, 5. * std::cos(2.3 * i) });
         const Motion next = step(structure, motion, forces, all_weights[i % 7 < 4 ? 0 : 1]);
-        Vector moved      = structure.port_positions(next);
-        moved -= structure.port_positions(motion);
+        Vector moved      = structure.positions(next);
+        moved -= structure.positions(motion);
         StepWork work;
         structure.add_work(motion, next, work);
         const double before = total(structure.stored_energy(motion));
@@ -180,11 +180,11 @@ TEST(ModalStructure, TellsTheSpringsAndTheSupportsPartOfTheEnergy)
   structure.use_statics();
   const Motion motion = structure.deform(forces_on({ 1., -2., 30. }));
   const auto energy   = structure.stored_energy(motion);
-  const double theta  = structure.port_positions(motion)[2];
+  const double theta  = structure.positions(motion)[2];
   EXPECT_NEAR(energy.spring, 0.5 * 50. * theta * theta, 1e-14);
   EXPECT_NEAR(energy.support, 0.5 * 4e6 * motion.coordinates.position[2] * motion.coordinates.position[2], 1e-14);
   // All of it is half of the forces' work.
-  const Vector moved = structure.port_positions(motion);
+  const Vector moved = structure.positions(motion);
   EXPECT_NEAR(total(energy), 0.5 * (moved[0] - 2. * moved[1] + 30. * moved[2]), 1e-12);
 }
 
@@ -227,7 +227,7 @@ TEST(ModalStructure, StaticShapesForgetTheirForceWithTheRelaxationTime)
   Motion motion        = structure.rest();
   motion.face_force[0] = 1.;
   for (unsigned int i = 0; i < 40; ++i)
-    motion = step(structure, motion, PortForces(), generalised_alpha(1., dt));
+    motion = step(structure, motion, InterfaceForces(), generalised_alpha(1., dt));
   EXPECT_NEAR(motion.face_force[0], std::exp(-40. * dt / 2e-4), 1e-3);
 }
 
@@ -247,7 +247,7 @@ TEST(ModalStructure, OrderIsTwoOnADampedOscillator)
       motion.coordinates.position[0]     = 1.;
       motion.coordinates.acceleration[0] = -omega * omega;
       for (unsigned int i = 0; i < steps; ++i)
-        motion = step(structure, motion, PortForces(), generalised_alpha(radius, end / steps));
+        motion = step(structure, motion, InterfaceForces(), generalised_alpha(radius, end / steps));
       const double damped = omega * std::sqrt(1. - zeta * zeta);
       const double exact =
           std::exp(-zeta * omega * end) * (std::cos(damped * end) + zeta * omega / damped * std::sin(damped * end));
@@ -276,8 +276,8 @@ TEST(ModalStructure, LocalErrorIsOfThirdOrder)
         return motion;
       };
       const Motion from      = at(0.01);
-      const Motion to        = step(structure, from, PortForces(), generalised_alpha(radius, dt));
-      const double predicted = std::abs(structure.port_error(from, to)[0]);
+      const Motion to        = step(structure, from, InterfaceForces(), generalised_alpha(radius, dt));
+      const double predicted = std::abs(structure.local_error(from, to)[0]);
       const double is        = std::abs(to.coordinates.position[0] - std::sin(omega * (0.01 + dt)));
       EXPECT_LT(is, 3. * predicted) << radius;
       EXPECT_GT(is, 0.1 * predicted) << radius;
@@ -291,7 +291,7 @@ TEST(ModalStructure, ManyDurationsInARowDoNotSpoilEachOther)
 {
   ModalStructure structure(three_modes(false));
   structure.use_step(generalised_alpha(0.8, 1e-3));
-  const PortCompliance before = structure.compliance();
+  const InterfaceCompliance before = structure.compliance();
   for (unsigned int i = 1; i < 40; ++i)
     structure.use_step(generalised_alpha(0.8, 1e-3 / i));
   structure.use_step(generalised_alpha(0.5, 1e-3));

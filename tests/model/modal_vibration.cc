@@ -13,11 +13,11 @@ namespace
   using Complex = std::complex<double>;
   using Full    = dealii::FullMatrix<double>;
 
-  /// Two modes of mass 1 seen by two ports, one each.
+  /// Two modes of mass 1 with one dof each.
   ModalData two_modes(const double first, const double second)
   {
     ModalData data;
-    data.ports     = { 2, false };
+    data.layout    = { 2, false };
     data.stiffness = { first, second };
     data.damping.reinit(2, 2);
     data.shapes.reinit(3, 2);
@@ -26,18 +26,18 @@ namespace
     return data;
   }
 
-  PortPerturbation no_forces(const std::vector<unsigned int> &ports)
+  LinearisedForces no_forces(const DofSelection &dofs)
   {
-    PortPerturbation forces;
-    forces.ports = ports;
-    const auto n = static_cast<unsigned int>(ports.size());
+    LinearisedForces forces;
+    forces.dofs  = dofs;
+    const auto n = static_cast<unsigned int>(dofs.size());
     for (auto *const matrix :
          { &forces.pressure, &forces.friction, &forces.pressure_rate, &forces.friction_rate, &forces.inertia })
       matrix->reinit(n, n);
     return forces;
   }
 
-  std::vector<Complex> eigenvalues(const ModalData &data, const PortPerturbation &forces)
+  std::vector<Complex> eigenvalues(const ModalData &data, const LinearisedForces &forces)
   {
     std::vector<Complex> result;
     for (const auto &mode : modal_vibrations(data, forces))
@@ -54,10 +54,10 @@ namespace
     EXPECT_LE(std::abs(found - expected), tolerance) << found << " " << expected;
   }
 
-  /// det(1 - G(lambda) A) of the displacements of the ports, in complex arithmetic: 0 at an eigenvalue.
-  Complex port_determinant_at(const ModalData &data, const PortPerturbation &forces, const Complex lambda)
+  /// Returns det(1 - G(lambda) A) of the interface displacements, in complex arithmetic: 0 at an eigenvalue.
+  Complex interface_determinant_at(const ModalData &data, const LinearisedForces &forces, const Complex lambda)
   {
-    const auto n = static_cast<unsigned int>(forces.ports.size());
+    const auto n = static_cast<unsigned int>(forces.dofs.size());
     std::vector<std::vector<Complex>> m(n, std::vector<Complex>(n));
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
@@ -65,8 +65,8 @@ namespace
         m[i][j] = i == j ? 1. : 0.;
         for (unsigned int k = 0; k < n; ++k)
         {
-          const unsigned int a = forces.ports[i];
-          const unsigned int b = forces.ports[k];
+          const unsigned int a = forces.dofs[i];
+          const unsigned int b = forces.dofs[k];
           Complex compliance;
           for (unsigned int q = 0; q < data.stiffness.size(); ++q)
             compliance +=
@@ -94,14 +94,14 @@ namespace
   }
 
   /// A root of the determinant near `from`, by the secant method.
-  Complex root_near(const ModalData &data, const PortPerturbation &forces, const Complex from)
+  Complex root_near(const ModalData &data, const LinearisedForces &forces, const Complex from)
   {
     Complex a   = from * 1.0001;
     Complex b   = from * Complex(1., 1e-4);
-    Complex f_a = port_determinant_at(data, forces, a);
+    Complex f_a = interface_determinant_at(data, forces, a);
     for (unsigned int i = 0; i < 50; ++i)
     {
-      const Complex f_b = port_determinant_at(data, forces, b);
+      const Complex f_b = interface_determinant_at(data, forces, b);
       if (f_b == f_a || std::abs(b - a) < 1e-15 * std::abs(b))
         break;
       const Complex next = b - f_b * (b - a) / (f_b - f_a);
@@ -149,15 +149,15 @@ TEST(ModalVibration, ItsVectorsBelongToItsEigenvalues)
 }
 
 // Static shapes with relaxation, forces by displacements, rates and accelerations, all unsymmetric: against roots of the
-// determinant in the ports alone, where neither modes nor states appear.
-TEST(ModalVibration, FulfilsTheEquationOfThePorts)
+// determinant at the interface alone, where neither modes nor states appear.
+TEST(ModalVibration, FulfilsTheEquationOfTheInterface)
 {
   std::mt19937 generator(1);
   std::uniform_real_distribution<double> uniform(-1., 1.);
   for (const double relaxation : { 0., 0.01 })
   {
     ModalData data;
-    data.ports      = { 2, true };
+    data.layout     = { 2, true };
     data.stiffness  = { 3., 20., 70. };
     data.relaxation = relaxation;
     data.damping.reinit(3, 3);
@@ -167,8 +167,8 @@ TEST(ModalVibration, FulfilsTheEquationOfThePorts)
     {
       data.damping(i, i)         = 0.1 * (1. + i);
       data.face_compliance(i, i) = 0.02;
-      for (unsigned int port = 0; port < 6; ++port)
-        data.shapes(port, i) = uniform(generator);
+      for (unsigned int dof = 0; dof < 6; ++dof)
+        data.shapes(dof, i) = uniform(generator);
     }
     auto forces = no_forces({ 0, 1, 2, 5 });
     for (unsigned int i = 0; i < 4; ++i)
@@ -178,7 +178,7 @@ TEST(ModalVibration, FulfilsTheEquationOfThePorts)
         forces.friction(i, j)      = uniform(generator);
         forces.pressure_rate(i, j) = i == j ? -0.05 : 0.;
         forces.friction_rate(i, j) = 0.02 * uniform(generator);
-        // The static shapes have no mass: no inertia on their ports.
+        // The static shapes have no mass: no inertia on their dofs.
         forces.inertia(i, j) = i == 3 && j == 3 ? 0.3 : 0.;
       }
     unsigned int roots = 0;
@@ -215,7 +215,7 @@ TEST(ModalVibration, CreepWithoutAForceIsNoMode)
   }
 }
 
-TEST(ModalVibration, MassOnAPortLowersTheFrequency)
+TEST(ModalVibration, MassOnTheInterfaceLowersTheFrequency)
 {
   const auto data      = two_modes(10., 400.);
   auto forces          = no_forces({ 0 });

@@ -31,18 +31,18 @@ namespace
     NormalLaw normal = { 2000., 1. };
     double damping   = 0.;
     FrictionLaw friction;
-    double overlap_begin = 0.01; ///< [mm]
-    double overlap_end   = 0.0102;
-    ContactMemory memory = { 0., Slip({ 14. }), 0., Slip({ 110. }), step_length };
-    double x             = 44.3;
-    double direction     = 1.;
+    double penetration_begin = 0.01; ///< [mm]
+    double penetration_end   = 0.0102;
+    ContactHistory history   = { 0., Slip({ 14. }), 0., Slip({ 110. }), step_length };
+    double x                 = 44.3;
+    double direction         = 1.;
 
     PointContactProperties properties() const
     {
       PointContactProperties result;
       result.geometry            = geometry;
       result.mesh                = { bends ? 8u : 0u, length };
-      result.ports               = { result.mesh.ports(), sprung };
+      result.layout              = { result.mesh.n_dofs(), sprung };
       result.rest_inclination    = kinematics(geometry, 0.).theta;
       result.neutral_axis_offset = neutral_axis;
       result.normal              = normal;
@@ -52,9 +52,9 @@ namespace
       return result;
     }
 
-    PortLayout ports() const
+    InterfaceLayout layout() const
     {
-      return properties().ports;
+      return properties().layout;
     }
 
     DrivePoint drive(const double time) const
@@ -62,11 +62,12 @@ namespace
       return { time, x + direction * v * time, direction * v, 0. };
     }
 
-    /// Ports at which the contact has the overlap; the lever is bent as by some tenths of a newton and more at the time 1.
-    Vector position(const double time, const double overlap) const
+    /// Returns displacements at which the contact has the penetration; the lever is bent as by some tenths of a newton and more
+    /// at the time 1.
+    Vector position(const double time, const double penetration) const
     {
-      Vector z(ports().size());
-      for (unsigned int i = 0; i < ports().surface; i += 2)
+      Vector z(layout().size());
+      for (unsigned int i = 0; i < layout().surface; i += 2)
       {
         const double xi = (i / 2 + 1) / 8.;
         z[i]            = (1. + 20. * time) * (4e-3 * xi * xi - 3e-3 * std::sin(3. * xi));
@@ -74,22 +75,22 @@ namespace
       }
       if (sprung)
       {
-        z[ports().momentum_eta()] = 3e-4;
-        z[ports().support()]      = 0.02 + 3. * time;
+        z[layout().momentum_eta()] = 3e-4;
+        z[layout().support()]      = 0.02 + 3. * time;
       }
-      // Turned in by 0.1 mm and back until the overlap is there; from that on, open gaps too, along the derivative.
+      // Turned in by 0.1 mm and back until the penetration is there; from that on, open gaps too, along the derivative.
       PointContact contact(properties());
       PointContact::Evaluation found;
       Vector turn(z.size());
-      turn[ports().rotation()] = 1.;
-      z[ports().rotation()] += kinematics(geometry, x).theta - properties().rest_inclination - 1e-3;
-      const double closed = std::max(overlap, 1e-3);
+      turn[layout().rotation()] = 1.;
+      z[layout().rotation()] += kinematics(geometry, x).theta - properties().rest_inclination - 1e-3;
+      const double closed = std::max(penetration, 1e-3);
       for (unsigned int i = 0; i < 8; ++i)
       {
         contact.touch(z, drive(time), found);
-        z[ports().rotation()] += (found.overlap() - closed) / contact.gap_change(found, turn);
+        z[layout().rotation()] += (found.penetration() - closed) / contact.gap_change(found, turn);
       }
-      z[ports().rotation()] += (closed - overlap) / contact.gap_change(found, turn);
+      z[layout().rotation()] += (closed - penetration) / contact.gap_change(found, turn);
       return z;
     }
   };
@@ -109,22 +110,23 @@ namespace
         , contact(chosen.properties())
         , weights(generalised_alpha(spectral_radius, step_length))
     {
-      begin.position = tested.position(0., tested.overlap_begin);
-      begin.velocity = tested.position(step_length, tested.overlap_end);
+      begin.position = tested.position(0., tested.penetration_begin);
+      begin.velocity = tested.position(step_length, tested.penetration_end);
       begin.velocity -= begin.position;
       begin.velocity *= 1. / step_length;
       begin.acceleration = Vector(begin.position.size());
       accepted.drive     = tested.drive(0.);
-      accepted.contact   = { tested.memory };
-      end                = tested.position(step_length, tested.overlap_end);
+      accepted.contact   = { tested.history };
+      end                = tested.position(step_length, tested.penetration_end);
     }
 
-    const PortForces &forces(const Vector &at)
+    const InterfaceForces &forces(const Vector &at)
     {
       const auto drifted = unaccelerated(begin, weights);
       Vector rate        = drifted.velocity;
       rate.add(weights.rate(), at, -weights.rate(), drifted.position);
-      contact.evaluate(PortStep{ accepted.drive, accepted.contact, tested.drive(step_length), begin, at, rate, weights }, found);
+      contact.evaluate(InterfaceStep{ accepted.drive, accepted.contact, tested.drive(step_length), begin, at, rate, weights },
+                       found);
       return found.forces;
     }
 
@@ -137,12 +139,12 @@ namespace
     Vector end;
   };
 
-  /// What a unit of the port moves at the contact [mm].
-  double arm(const Case &tested, const unsigned int port)
+  /// Returns the movement of the contact by a unit of the dof [mm].
+  double arm(const Case &tested, const unsigned int dof)
   {
-    if (port == tested.ports().rotation())
+    if (dof == tested.layout().rotation())
       return 120.;
-    return port < tested.ports().surface && port % 2 == 1 ? length / 8. : 1.;
+    return dof < tested.layout().surface && dof % 2 == 1 ? length / 8. : 1.;
   }
 
   // Central differences over h = 2e-6 mm: h^2/6 of the third derivative, 3 k mu'' (dv/dq)^2 = 4e8 N/mm^3 in a step of mu(v), less
@@ -154,28 +156,28 @@ namespace
   template <class Evaluate>
   void expect_tangent(const Case &tested, const Vector &at, const Evaluate &evaluate)
   {
-    const PortForces exact = evaluate(at);
-    ASSERT_FALSE(exact.ports.empty());
-    for (unsigned int j = 0; j < exact.ports.size(); ++j)
+    const InterfaceForces exact = evaluate(at);
+    ASSERT_FALSE(exact.dofs.empty());
+    for (unsigned int j = 0; j < exact.dofs.size(); ++j)
     {
-      const double h = width / arm(tested, exact.ports[j]);
+      const double h = width / arm(tested, exact.dofs[j]);
       Vector moved   = at;
-      moved[exact.ports[j]] += h;
+      moved[exact.dofs[j]] += h;
       const Vector right = evaluate(moved).values;
-      moved[exact.ports[j]] -= 2. * h;
+      moved[exact.dofs[j]] -= 2. * h;
       const Vector left = evaluate(moved).values;
-      for (unsigned int i = 0; i < exact.ports.size(); ++i)
+      for (unsigned int i = 0; i < exact.dofs.size(); ++i)
         EXPECT_NEAR(exact.tangent(i, j), (right[i] - left[i]) / (2. * h),
-                    tolerance * arm(tested, exact.ports[i]) * arm(tested, exact.ports[j]))
-            << tested.name << ", force on port " << exact.ports[i] << " by port " << exact.ports[j];
+                    tolerance * arm(tested, exact.dofs[i]) * arm(tested, exact.dofs[j]))
+            << tested.name << ", force on dof " << exact.dofs[i] << " by dof " << exact.dofs[j];
     }
   }
 
-  Vector on_all_ports(const Case &tested, const PortForces &forces)
+  Vector on_all_dofs(const Case &tested, const InterfaceForces &forces)
   {
-    Vector result(tested.ports().size());
-    for (unsigned int a = 0; a < forces.ports.size(); ++a)
-      result[forces.ports[a]] = forces.values[a];
+    Vector result(tested.layout().size());
+    for (unsigned int a = 0; a < forces.dofs.size(); ++a)
+      result[forces.dofs[a]] = forces.values[a];
     return result;
   }
 
@@ -201,10 +203,10 @@ namespace
   /// Slipping under mu(v), damped, curved law, bending, sprung: everything at once.
   Case full_case()
   {
-    Case result           = levers(cork)[10];
-    result.normal         = { 10451., 1.4726 };
-    result.damping        = 0.05;
-    result.memory.damping = 0.3;
+    Case result            = levers(cork)[10];
+    result.normal          = { 10451., 1.4726 };
+    result.damping         = 0.05;
+    result.history.damping = 0.3;
     return result;
   }
 } // namespace
@@ -220,20 +222,20 @@ TEST(PointContact, ForceOfTheSpringIsMinusTheDerivativeOfItsEnergy)
       contact.evaluate_sliding({ z, lever.drive(0.), v }, found);
       return found.energy();
     };
-    const Vector at = lever.position(0., lever.overlap_begin);
+    const Vector at = lever.position(0., lever.penetration_begin);
     energy(at);
-    const PortForces exact = found.forces;
-    for (unsigned int i = 0; i < exact.ports.size(); ++i)
+    const InterfaceForces exact = found.forces;
+    for (unsigned int i = 0; i < exact.dofs.size(); ++i)
     {
       // The third derivative of the energy is that of the distance, k delta / R^2 and less: 1e-12 N. Round-off of the energy,
       // 20 N 2e-14 mm, over h is 1e-7 N.
-      const double h = 4e-6 / arm(lever, exact.ports[i]);
+      const double h = 4e-6 / arm(lever, exact.dofs[i]);
       Vector moved   = at;
-      moved[exact.ports[i]] += h;
+      moved[exact.dofs[i]] += h;
       const double right = energy(moved);
-      moved[exact.ports[i]] -= 2. * h;
+      moved[exact.dofs[i]] -= 2. * h;
       const double left = energy(moved);
-      EXPECT_NEAR(exact.values[i], -(right - left) / (2. * h), 1e-6 * arm(lever, exact.ports[i])) << lever.name << ", port " << i;
+      EXPECT_NEAR(exact.values[i], -(right - left) / (2. * h), 1e-6 * arm(lever, exact.dofs[i])) << lever.name << ", dof " << i;
     }
   }
 }
@@ -253,7 +255,7 @@ TEST(PointContact, MomentInSlidingIsThatOfTheClosedForm)
     const double P     = stiffness * 0.01;
     const double theta = lever.properties().rest_inclination + at[0];
     const double s     = cylinder_centre(geometry, lever.x, theta).xi;
-    ASSERT_EQ(found.forces.ports.size(), 1u);
+    ASSERT_EQ(found.forces.dofs.size(), 1u);
     // k times the round-off of the gap, 1e-13 mm after it was solved for, times the arm.
     EXPECT_NEAR(found.forces.values[0], P * (s + direction * 0.73 * geometry.interface_offset * 56. / 55.99), 1e-7);
   }
@@ -294,7 +296,7 @@ TEST(PointContact, TangentOfAStepInStickIsTheDerivativeOfTheForce)
 {
   for (auto lever : levers(cork))
   {
-    lever.memory = { 0., Slip({ -3. }), 0., Slip(), step_length };
+    lever.history = { 0., Slip({ -3. }), 0., Slip(), step_length };
     Stepped stepped(lever);
     expect_tangent(lever, stepped.end, [&](const Vector &z) { return stepped.forces(z); });
     Row row;
@@ -307,9 +309,9 @@ TEST(PointContact, TangentOfAStepCountsDampingAndACurvedLaw)
 {
   for (auto lever : levers(cork))
   {
-    lever.normal         = { 10451., 1.4726 };
-    lever.damping        = 0.05;
-    lever.memory.damping = 0.3;
+    lever.normal          = { 10451., 1.4726 };
+    lever.damping         = 0.05;
+    lever.history.damping = 0.3;
     for (const double radius : { 1., 0.8, 0. })
     {
       Stepped stepped(lever, radius);
@@ -323,9 +325,9 @@ TEST(PointContact, TangentOfAStepThatOpensOrClosesIsTheDerivativeOfTheForce)
   for (auto lever : levers(coulomb))
     for (const bool opens : { true, false })
     {
-      lever.overlap_begin = opens ? 0.003 : -0.003;
-      lever.overlap_end   = opens ? -0.004 : 0.004;
-      lever.memory        = opens ? ContactMemory{ 0., Slip({ 4. }), 0., Slip({ 110. }), step_length } : ContactMemory{};
+      lever.penetration_begin = opens ? 0.003 : -0.003;
+      lever.penetration_end   = opens ? -0.004 : 0.004;
+      lever.history           = opens ? ContactHistory{ 0., Slip({ 4. }), 0., Slip({ 110. }), step_length } : ContactHistory{};
       Stepped stepped(lever);
       expect_tangent(lever, stepped.end, [&](const Vector &z) { return stepped.forces(z); });
     }
@@ -333,14 +335,14 @@ TEST(PointContact, TangentOfAStepThatOpensOrClosesIsTheDerivativeOfTheForce)
 
 TEST(PointContact, CarriesNothingWhileOpen)
 {
-  Case lever          = full_case();
-  lever.overlap_begin = -0.01;
-  lever.overlap_end   = -0.02;
-  lever.memory        = {};
+  Case lever              = full_case();
+  lever.penetration_begin = -0.01;
+  lever.penetration_end   = -0.02;
+  lever.history           = {};
   Stepped stepped(lever);
   EXPECT_EQ(stepped.forces(stepped.end).values.linfty_norm(), 0.);
   EXPECT_EQ(stepped.found.energy(), 0.);
-  EXPECT_EQ(stepped.found.overlap(), 0.);
+  EXPECT_EQ(stepped.found.penetration(), 0.);
 }
 
 TEST(PointContact, DriveGivesWhatLeverTakesAndContactStoresOrDissipates)
@@ -352,14 +354,15 @@ TEST(PointContact, DriveGivesWhatLeverTakesAndContactStoresOrDissipates)
   PointContact contact(lever.properties());
   PointContact::Evaluation found;
   contact.touch(from, lever.drive(0.), found);
-  const double begin_energy = spring_energy(lever.normal, -found.overlap()) + 0.5 * lever.memory.traction.norm_square() / 1000.;
+  const double begin_energy =
+      spring_energy(lever.normal, -found.penetration()) + 0.5 * lever.history.traction.norm_square() / 1000.;
 
   // What a share of the way from one place to the other leaves open.
   const auto open = [&](const double share)
   {
     Motion accepted;
     accepted.drive   = lever.drive(0.);
-    accepted.contact = { lever.memory };
+    accepted.contact = { lever.history };
     Kinematic begin{ from, Vector(from.size()), Vector(from.size()) };
     Vector moved = to;
     moved -= from;
@@ -368,12 +371,12 @@ TEST(PointContact, DriveGivesWhatLeverTakesAndContactStoresOrDissipates)
     end += moved;
     const DrivePoint drive = lever.drive(share * T);
     contact.evaluate(
-        PortStep{ accepted.drive, accepted.contact, drive, begin, end, begin.velocity, generalised_alpha(0.8, share * T) },
+        InterfaceStep{ accepted.drive, accepted.contact, drive, begin, end, begin.velocity, generalised_alpha(0.8, share * T) },
         found);
     const StepWork work = found.work();
     EXPECT_GT(std::abs(work.drive), 1. * share);
     EXPECT_GT(work.friction, 1. * share);
-    const double taken  = on_all_ports(lever, found.forces) * moved;
+    const double taken  = on_all_dofs(lever, found.forces) * moved;
     const double stored = found.energy() - begin_energy;
     return std::abs(work.drive - taken - stored - work.friction - work.damping - work.algorithmic);
   };
@@ -396,15 +399,15 @@ TEST(PointContact, ForcesAreContinuousWhereTheContactCrossesNodesAndMiddlesOfEle
     const auto evaluate = [&](const double x)
     {
       contact.evaluate_sliding({ at, { 0., x, v, 0. }, 108. }, found);
-      return on_all_ports(lever, found.forces);
+      return on_all_dofs(lever, found.forces);
     };
     double low  = 30.;
     double high = 90.;
     for (unsigned int i = 0; i < 60; ++i)
     {
       const double middle         = 0.5 * (low + high);
-      const auto c                = cylinder_centre(geometry, middle - at[lever.ports().support()],
-                                                    lever.properties().rest_inclination + at[lever.ports().rotation()]);
+      const auto c                = cylinder_centre(geometry, middle - at[lever.layout().support()],
+                                                    lever.properties().rest_inclination + at[lever.layout().rotation()]);
       (c.xi > place ? low : high) = middle;
     }
     const Vector before = evaluate(low - 1e-9);
@@ -412,6 +415,6 @@ TEST(PointContact, ForcesAreContinuousWhereTheContactCrossesNodesAndMiddlesOfEle
     Vector change       = after;
     change -= before;
     for (unsigned int i = 0; i < change.size(); ++i)
-      EXPECT_NEAR(change[i], 0., 1e-5 * arm(lever, i)) << "at " << place << ", port " << i;
+      EXPECT_NEAR(change[i], 0., 1e-5 * arm(lever, i)) << "at " << place << ", dof " << i;
   }
 }

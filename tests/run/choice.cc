@@ -66,7 +66,7 @@ TEST(Choice, WhatIsGivenIsKept)
   EXPECT_EQ(chosen(choice, "Analysis/Step"), "");
 }
 
-// The machine may be busier from one estimate to the next. The probes are part of what is paid.
+// The machine may be busier from one estimate to the next. The trial runs are part of what is paid.
 TEST(Choice, BudgetIsKept)
 {
   const auto choose = [](const Scene &scene)
@@ -76,8 +76,8 @@ TEST(Choice, BudgetIsKept)
     const double run   = expected_cost(with_settings(scene, choice.settings)).cpu_seconds;
     return std::make_tuple(std::move(choice), PhaseTimer::cpu_seconds() - since, run);
   };
-  const auto [loose, probes, run] = choose(asked("model-a", { "Accuracy/Target=0.01" }));
-  const double budget             = probes + 1.5 * run;
+  const auto [loose, trial_runs, run] = choose(asked("model-a", { "Accuracy/Target=0.01" }));
+  const double budget                 = trial_runs + 1.5 * run;
   const auto [choice, spent, more] =
       choose(asked("model-a", { "Accuracy/Target=1e-5", "Accuracy/Budget=" + std::to_string(budget) }));
   EXPECT_LE(spent + more, 1.5 * budget);

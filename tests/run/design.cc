@@ -6,7 +6,7 @@
 #include "mpi_environment.h"
 #include "report/report.h"
 #include "run/analyses.h"
-#include "run/design_judges.h"
+#include "run/design_checks.h"
 #include "scene/read.h"
 #include "scene/scene.h"
 #include "support/temporary_folder.h"
@@ -43,7 +43,7 @@ namespace
 
   SlideStability slide_at(const Scene &lever, const double x, const std::string &way, DynamicsMaker &maker)
   {
-    return judge(prepared(variant(lever, { override_text("Stability/Position", x), "Stability/Direction=" + way })), maker);
+    return check_slide(prepared(variant(lever, { override_text("Stability/Position", x), "Stability/Direction=" + way })), maker);
   }
 
   std::vector<Entry> in_time(const Scene &lever)

@@ -47,8 +47,8 @@ namespace
     for (const auto &entry : fields.finish())
       if (const auto *const value = std::get_if<double>(&entry.value))
         result.stress[entry.name] = *value;
-    const auto probes = [&] { return plane_probes(scene, model, result.rows, settings, fields.stress_samples()); };
-    for (auto &estimate : quasi_static_accuracy(scene, result.rows, probes))
+    const auto trial_runs = [&] { return plane_trial_runs(scene, model, result.rows, settings, fields.stress_samples()); };
+    for (auto &estimate : quasi_static_accuracy(scene, result.rows, trial_runs))
       result.errors.emplace(estimate.quantity, std::move(estimate));
     return result;
   }
@@ -64,8 +64,8 @@ namespace
     const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
     run_quasi_static(lever, scene.drive, settings,
                      [&](const State &, const Row &row, const Evaluation &) { result.rows.push_back(row); });
-    const auto probes = [&] { return solid_probes(scene, body, lever, result.rows, settings); };
-    for (auto &estimate : quasi_static_accuracy(scene, result.rows, probes))
+    const auto trial_runs = [&] { return solid_trial_runs(scene, body, lever, result.rows, settings); };
+    for (auto &estimate : quasi_static_accuracy(scene, result.rows, trial_runs))
       result.errors.emplace(estimate.quantity, std::move(estimate));
     return result;
   }
@@ -142,7 +142,7 @@ TEST(QuasiStaticAccuracy, AFinerMeshTellsLessAndTheModelKeepsItsPenalties)
   const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
   std::vector<Row> rows;
   run_quasi_static(model, scene.drive, settings, [&](const State &, const Row &row, const Evaluation &) { rows.push_back(row); });
-  const auto coarse = quasi_static_accuracy(scene, rows, [&] { return plane_probes(scene, model, rows, settings, {}); });
+  const auto coarse = quasi_static_accuracy(scene, rows, [&] { return plane_trial_runs(scene, model, rows, settings, {}); });
   EXPECT_EQ(model.penalties().normal, penalties.normal);
   const auto fine = estimated(with_face_size(scene, 0.25));
   for (const auto &estimate : coarse)
@@ -228,7 +228,7 @@ TEST(QuasiStaticAccuracy, SaysWhyThereIsNoEstimate)
   Scene scene              = coarse_scene(0.5);
   scene.mesh.file          = "lever.msh";
   scene.analysis.dimension = 3;
-  const auto estimates     = quasi_static_accuracy(scene, {}, [] { return Probes{}; });
+  const auto estimates     = quasi_static_accuracy(scene, {}, [] { return TrialRuns{}; });
   ASSERT_EQ(estimates.size(), 8u);
   for (const auto &estimate : estimates)
     EXPECT_NE(estimate.unknown.find("mesh from a file"), std::string::npos);
@@ -236,7 +236,7 @@ TEST(QuasiStaticAccuracy, SaysWhyThereIsNoEstimate)
 
 TEST(QuasiStaticAccuracy, ARunEndsWellWhereTheCoarserMeshCannotServe)
 {
-  const auto fails     = []() -> Probes { throw InputError("pads do not fit"); };
+  const auto fails     = []() -> TrialRuns { throw InputError("pads do not fit"); };
   const auto estimates = quasi_static_accuracy(coarse_scene(0.5), {}, fails);
   ASSERT_EQ(estimates.size(), 6u);
   EXPECT_NE(estimates.front().unknown.find("pads do not fit"), std::string::npos);

@@ -107,7 +107,7 @@ TEST(SteadySlides, AreSoughtFromTheirNeighboursToo)
   const Scene scene = shipped("reversal-b", { "Analysis/Type=stability", "Analysis/Model=condensed", "Mesh/Face size=0.25",
                                               "Contact/Penalty=800", "Condensed/Modes=2" });
   DynamicsMaker maker(false);
-  const auto found = judge(scene, maker);
+  const auto found = check_slide(scene, maker);
   EXPECT_EQ(found.kind, SlideKind::stable);
   EXPECT_NEAR(found.growth_rate(), -40.8, 0.5);
 }

@@ -40,7 +40,7 @@ namespace
   {
     DynamicsMaker maker(false);
     const auto dynamics = maker.make(scene);
-    const auto found    = judge(dynamics.model(), held_drive(scene), judged_modes(scene));
+    const auto found    = check_slide(dynamics.model(), held_drive(scene), checked_modes(scene));
     return vibration_accuracy(scene, found, dynamics.meshed, maker);
   }
 } // namespace
@@ -49,8 +49,8 @@ TEST(VibrationAccuracy, ToldErrorsHoldTheChangeToAFinerMesh)
 {
   const Scene scene = slide(0.5);
   DynamicsMaker maker(false);
-  const auto coarse = judge(scene, maker);
-  const auto fine   = judge(slide(0.2), maker);
+  const auto coarse = check_slide(scene, maker);
+  const auto fine   = check_slide(slide(0.2), maker);
   const auto errors = estimated(scene);
   ASSERT_EQ(errors.size(), 2u);
   const double growth    = std::abs(coarse.growth_rate() / fine.growth_rate() - 1.);
@@ -81,8 +81,8 @@ TEST(VibrationAccuracy, ToldErrorsHoldThePlaceBetweenTheNodes)
     return held_scene(scene);
   };
   DynamicsMaker maker(false);
-  const double coarse          = judge(undamped_slide(1.), maker).frequency();
-  const double fine            = judge(undamped_slide(0.25), maker).frequency();
+  const double coarse          = check_slide(undamped_slide(1.), maker).frequency();
+  const double fine            = check_slide(undamped_slide(0.25), maker).frequency();
   const double error           = std::abs(coarse / fine - 1.);
   const double estimated_error = total_error(estimated(undamped_slide(1.))[1]);
   EXPECT_GT(error, 0.02);
@@ -94,8 +94,8 @@ TEST(VibrationAccuracy, InThreeDimensionsToldErrorsHoldTheChangeToAFinerMeshSlow
 {
   const Scene scene = slide_in_space(4., 2);
   DynamicsMaker maker(false), fine_maker(false);
-  const auto coarse = judge(scene, maker);
-  const auto fine   = judge(slide_in_space(2., 4), fine_maker);
+  const auto coarse = check_slide(scene, maker);
+  const auto fine   = check_slide(slide_in_space(2., 4), fine_maker);
   const auto errors = estimated(scene);
   ASSERT_EQ(errors.size(), 2u);
   const double true_errors[] = { std::abs(coarse.growth_rate() / fine.growth_rate() - 1.),

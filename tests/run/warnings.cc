@@ -148,7 +148,7 @@ TEST(RowWarnings, ElasticSlipAgainstContactWidth)
 
 TEST(RowWarnings, DeflectionInLinearTheory)
 {
-  // Compression and overlap take (0.0164 + 0.0014)/120 = 0.00015 of the difference.
+  // Compression and penetration take (0.0164 + 0.0014)/120 = 0.00015 of the difference.
   const double exact = usual_row()[Column::theta_closed_form];
   expect_bound(Column::theta, exact - 0.0201, exact - 0.0202, "large_deflection");
   EXPECT_EQ(names_with(Column::theta, exact - 0.021, at_finite_strain()), Names{});

@@ -52,8 +52,8 @@ TEST(ReadDesign, TextsBecomeDemandsAndAims)
   EXPECT_TRUE(settings.aims[0].maximises);
   EXPECT_EQ(settings.aims[0].term.parameter, 1u);
   EXPECT_FALSE(settings.aims[1].maximises);
-  // The cheaper judge comes first.
-  EXPECT_EQ(settings.judged_by, (std::vector<DesignJudge>{ DesignJudge::beam, DesignJudge::condensed }));
+  // The cheaper check model comes first.
+  EXPECT_EQ(settings.check_models, (std::vector<CheckModel>{ CheckModel::beam, CheckModel::condensed }));
 }
 
 TEST(ReadDesign, MistakesNameTheNearestWord)

@@ -32,7 +32,7 @@ namespace sprag
     return {};
   }
 
-  /// A state in equilibrium, its memory that of where its step began.
+  /// A state in equilibrium, its contact history that of where its step began.
   struct Solved
   {
     State state;
@@ -48,7 +48,7 @@ namespace sprag
     for (const double x : { 5., 10., 15., 20. })
     {
       auto [state, found] = solved(model, accepted, DrivePoint{ x / 112., x, 112. });
-      model.remember(found, state);
+      model.store_history(found, state);
       accepted = std::move(state);
     }
     return accepted;

@@ -39,7 +39,7 @@ namespace sprag
       return {};
     }
 
-    void visit_history(Archive & /*archive*/) override
+    void serialise_history(Archive & /*archive*/) override
     {
     }
   };

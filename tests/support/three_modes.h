@@ -5,11 +5,11 @@
 
 namespace sprag
 {
-  /// Three modes of a lever: a port on the face with a static shape, another one without beside it, and the rotation.
+  /// Three modes of a lever: a dof on the face with a static shape, another one without beside it, and the rotation.
   inline ModalData three_modes(const bool with_statics)
   {
     ModalData data;
-    data.ports     = { 2, false };
+    data.layout    = { 2, false };
     data.stiffness = { 400., 9e4, 4e6 };
     data.damping.reinit(3, 3);
     data.damping(0, 0) = 0.8;

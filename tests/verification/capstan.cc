@@ -53,7 +53,7 @@ namespace
   }
 
   /// Rises by 0.3 mm until x = 1, which tightens the band, then turns, its surface running by x - 1 [mm].
-  Obstacle drum()
+  Counterface drum()
   {
     const auto rising = rigid_circle(radius, [](const double x) { return LeverPoint{ 0., 0.3 * std::min(x, 1.) }; });
     return [rising](const double x, const double theta)

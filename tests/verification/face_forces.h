@@ -27,14 +27,14 @@ namespace sprag
   {
     std::array<Resultant, 2> result;
     const auto &nodes = body.friction_face().nodes;
-    for (unsigned int i = 0; i < state.forces.ports.size(); ++i)
-      if (const unsigned int port = state.forces.ports[i]; port < 3 * nodes.size())
+    for (unsigned int i = 0; i < state.forces.dofs.size(); ++i)
+      if (const unsigned int dof = state.forces.dofs[i]; dof < 3 * nodes.size())
       {
-        const auto &place = nodes[port / 3].position;
+        const auto &place = nodes[dof / 3].position;
         Resultant::Vector force, moved;
-        force[port % 3] = state.forces.values[i];
+        force[dof % 3] = state.forces.values[i];
         for (unsigned int d = 0; d < 3; ++d)
-          moved[d] = state.coordinates[port - port % 3 + d];
+          moved[d] = state.coordinates[dof - dof % 3 + d];
         result[0].add(place, force);
         result[1].add(place + moved, force);
       }

@@ -78,13 +78,13 @@ namespace
       Row row;
       model.observe(step.trial, solved.found, row);
       rows.push_back(row);
-      model.remember(solved.found, step.trial);
+      model.store_history(solved.found, step.trial);
       accepted = step.trial;
     }
     return rows;
   }
 
-  // Both solve the same equations to corrections below 1e-7 of the overlap where convergence is quadratic: what is left is
+  // Both solve the same equations to corrections below 1e-7 of the penetration where convergence is quadratic: what is left is
   // round-off.
   void expect_same_answers(const Scene &scene)
   {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/energy_ledger.h"
 #include "model/contact_step.h"
-#include "verification/point_at_port.h"
+#include "verification/point_at_interface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ namespace
   constexpr double dt      = 1e-4;
 
   /// Friction under a given normal force on one displacement.
-  class Floor : public PointAtPort
+  class Floor : public PointAtInterface
   {
   public:
     explicit Floor(const FrictionLaw &friction_law)
@@ -31,23 +31,23 @@ namespace
     {
     }
 
-    void evaluate(const PortStep &step, Evaluation &found) const
+    void evaluate(const InterfaceStep &step, Evaluation &found) const
     {
-      const auto &before = step.memory.front();
+      const auto &before = step.history.front();
       using N            = Dual<double, 1>; // of the slip
       const double slip = step.end[0] - step.begin.position[0], was = before.traction[0];
-      const auto friction = end_friction(SlipLaw{ law, holding }, slip_memory(before), Several<N, 1>{ { variable<N>(slip, 0) } },
+      const auto friction = end_friction(SlipLaw{ law, holding }, slip_history(before), Several<N, 1>{ { variable<N>(slip, 0) } },
                                          N{} + normal, step.weights.dt);
       const double delay  = step.weights.delay();
       const double traction = friction.traction[0].v, change = traction - was;
-      found.forces.values[0]         = -(0.5 * (was + traction) + delay * change);
-      found.forces.tangent(0, 0)     = -(0.5 + delay) * friction.traction[0].d[0];
-      found.remembered.traction[0]   = traction;
-      found.remembered.slip_speed[0] = friction.slip_speed[0];
-      found.remembered.step          = step.weights.dt;
-      found.works                    = { 0., friction.dissipated, 0., delay * change * slip, friction.creep };
-      found.stored                   = friction.energy;
-      found.compressed               = mu * normal / holding; // of the spring in stick at the cone
+      found.forces.values[0]           = -(0.5 * (was + traction) + delay * change);
+      found.forces.tangent(0, 0)       = -(0.5 + delay) * friction.traction[0].d[0];
+      found.last_history.traction[0]   = traction;
+      found.last_history.slip_speed[0] = friction.slip_speed[0];
+      found.last_history.step          = step.weights.dt;
+      found.works                      = { 0., friction.dissipated, 0., delay * change * slip, friction.creep };
+      found.stored                     = friction.energy;
+      found.depth                      = mu * normal / holding; // of the spring in stick at the cone
     }
 
   private:
@@ -61,7 +61,7 @@ namespace
     data.damping.reinit(1, 1);
     data.shapes.reinit(1, 1);
     data.shapes(0, 0) = 1. / std::sqrt(mass);
-    return with_point_at_port(data, Floor(law));
+    return with_point_at_interface(data, Floor(law));
   }
 
   double position(const Motion &motion)
@@ -69,7 +69,7 @@ namespace
     return motion.coordinates.position[0] / std::sqrt(mass);
   }
 
-  struct Course
+  struct Trajectory
   {
     std::vector<double> x; ///< at every step
     std::vector<double> traction;
@@ -78,14 +78,14 @@ namespace
     StepWork work;
   };
 
-  Course oscillate(const FrictionLaw &law, const double spectral_radius, const double time)
+  Trajectory oscillate(const FrictionLaw &law, const double spectral_radius, const double time)
   {
     auto model                         = make_oscillator(law);
     Motion motion                      = model.initial_motion({ 0., 0., 0., 0. });
     motion.coordinates.position[0]     = release * std::sqrt(mass);
     motion.coordinates.acceleration[0] = -spring / mass * motion.coordinates.position[0];
 
-    Course result;
+    Trajectory result;
     EnergyLedger ledger(model.stored_energy(motion));
     double peak = 0.;
     for (unsigned int i = 1; i * dt <= time; ++i)

@@ -9,17 +9,17 @@
 
 namespace sprag
 {
-  /// A scene's model with its slide judged.
-  struct JudgedSlide
+  /// A scene's model with its slide checked.
+  struct CheckedSlide
   {
     Scene scene;
     Dynamics dynamics;
     SlideStability stability;
 
-    explicit JudgedSlide(const Scene &scene_)
+    explicit CheckedSlide(const Scene &scene_)
         : scene(held_scene(scene_))
         , dynamics(DynamicsMaker().make(scene))
-        , stability(judge(dynamics.model(), held_drive(scene), judged_modes(scene)))
+        , stability(check_slide(dynamics.model(), held_drive(scene), checked_modes(scene)))
     {
     }
 
@@ -39,11 +39,11 @@ namespace sprag
     }
 
     /// At another x, by the same model.
-    SlideStability judged_at(const double x) const
+    SlideStability checked_at(const double x) const
     {
       DrivePoint there = held_drive(scene);
       there.x          = x;
-      return judge(dynamics.model(), there, judged_modes(scene));
+      return check_slide(dynamics.model(), there, checked_modes(scene));
     }
   };
 

@@ -33,7 +33,7 @@ namespace
   Outcome indented(const dealii::Triangulation<2> &triangulation, LeverProperties properties, const double depth,
                    const double radius)
   {
-    properties.obstacle = rigid_circle(radius, [=](const double x) { return LeverPoint{ 0., x * depth - radius }; });
+    properties.counterface = rigid_circle(radius, [=](const double x) { return LeverPoint{ 0., x * depth - radius }; });
     return pressed(triangulation, properties);
   }
 

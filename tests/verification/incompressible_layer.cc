@@ -31,7 +31,7 @@ namespace
   Outcome indented(const dealii::Triangulation<2> &triangulation, const Layer &layer, const double radius, const double depth)
   {
     auto properties               = block_properties({}, 0.);
-    properties.obstacle           = rigid_circle(radius, [=](const double x) { return LeverPoint{ 0., x * depth - radius }; });
+    properties.counterface        = rigid_circle(radius, [=](const double x) { return LeverPoint{ 0., x * depth - radius }; });
     properties.body.degree        = layer.degree;
     properties.body.material      = layer.material;
     properties.body.point_spacing = 0.01;
@@ -52,8 +52,8 @@ namespace
 // A layer bonded to a rigid base under P R / (E t^2) = 1: half-width and largest pressure R p / (E t) of bonded_layer.py, whose
 // indentation is prescribed here. Cells of 0.05 mm under the contact: of the one at the edge p may end half a cell, and a point,
 // too early or late. The face moves aside by some delta a / t, so that it meets the circle higher up: a^2 / (R t) = 1 % of delta,
-// less of P. The overlap is 0.1 % of the indentation at degree 2 and 0.3 % at degree 1, P grows with its square. Between nodes
-// the circle stands out of chords by h^2 / 8R, see hertz.cc. Strains of 0.01 change P at finite strain by as much.
+// less of P. The penetration is 0.1 % of the indentation at degree 2 and 0.3 % at degree 1, P grows with its square. Between
+// nodes the circle stands out of chords by h^2 / 8R, see hertz.cc. Strains of 0.01 change P at finite strain by as much.
 TEST(IncompressibleLayer, MeetsTheExactLayerOnARigidBase)
 {
   const double radius = 56.;

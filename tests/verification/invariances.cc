@@ -69,10 +69,10 @@ namespace
     return rows;
   }
 
-  constexpr double round_off = 1e-9; ///< of iterations whose last correction is 1e-7 of the overlap, converging quadratically
+  constexpr double round_off = 1e-9; ///< of iterations whose last correction is 1e-7 of the penetration, converging quadratically
 
-  /// Between a reversal and the end the analysis chooses the places, by a stiffness found by a difference: over 1e-2 of an
-  /// overlap of 1e-4 mm, where positions are rounded off at 5e-14 mm. By that share of steps that grow to 1 mm the rows move
+  /// Between a reversal and the end the analysis chooses the places, by a stiffness found by a difference: over 1e-2 of a
+  /// penetration of 1e-4 mm, where positions are rounded off at 5e-14 mm. By that share of steps that grow to 1 mm the rows move
   /// [mm], and their forces by about as much of the peaks, as those fall to nothing over tens of mm.
   constexpr double moved = 1e-6;
 
@@ -235,8 +235,8 @@ TEST(EnergyLedger, ClosesWithAnElasticCylinder)
 }
 
 // P and Q of both strokes at mu and at 0.9 mu: what they change by is the closed form's change but for the change of the
-// deviation between the two, itself a few per cent of the deviation's size, 1 to 2 %.
-// What augmentation leaves of the overlap turns the lever by as much over the distance of the contact.
+// deviation between the two, itself a few per cent of the deviation's size, 1 to 2 %. What augmentation leaves of the penetration
+// turns the lever by as much over the distance of the contact.
 TEST(PenetrationTolerance, IsHowFarAugmentationLeavesTheLever)
 {
   Scene scene           = with_face_size(with_augmented_lagrangian(with_coulomb(model_a(), mu)), 2.);

@@ -16,18 +16,18 @@ namespace
   }
 
   /// What a kick of the slide comes to.
-  Settled after_kick(const JudgedSlide &judged, const double kick, HeldRun &run)
+  Settled after_kick(const CheckedSlide &checked, const double kick, HeldRun &run)
   {
-    run.use_spectral_radius(judged.scene.time.spectral_radius);
-    run.begin(judged.dynamics.model().perturbed(judged.slide(), judged.mode(), kick * judged.slide().overlap));
-    const double period = judged.step() * judged.scene.sprag_slip.steps_per_period;
-    return settle(run, judged.slide(), { period, judged.scene.sprag_slip.settling, 2. }, ignore);
+    run.use_spectral_radius(checked.scene.time.spectral_radius);
+    run.begin(checked.dynamics.model().perturbed(checked.slide(), checked.mode(), kick * checked.slide().penetration));
+    const double period = checked.step() * checked.scene.sprag_slip.steps_per_period;
+    return settle(run, checked.slide(), { period, checked.scene.sprag_slip.settling, 2. }, ignore);
   }
 
-  Settled after_kick(const JudgedSlide &judged, const double kick)
+  Settled after_kick(const CheckedSlide &checked, const double kick)
   {
-    HeldRun run(judged.dynamics.model(), judged.step());
-    return after_kick(judged, kick, run);
+    HeldRun run(checked.dynamics.model(), checked.step());
+    return after_kick(checked, kick, run);
   }
 
   Scene with_steps(Scene scene, const unsigned int per_period)
@@ -41,9 +41,9 @@ namespace
 // by less than 1 % of impacts that last half a period.
 TEST(LimitCycle, IsTheSameFromBelowAndAboveAndInShorterSteps)
 {
-  const auto below  = after_kick(JudgedSlide(backward_b()), 1e-3);
-  const auto above  = after_kick(JudgedSlide(backward_b()), 5.);
-  const auto finely = after_kick(JudgedSlide(with_steps(backward_b(), 256)), 1e-3);
+  const auto below  = after_kick(CheckedSlide(backward_b()), 1e-3);
+  const auto above  = after_kick(CheckedSlide(backward_b()), 5.);
+  const auto finely = after_kick(CheckedSlide(with_steps(backward_b(), 256)), 1e-3);
   for (const auto *found : { &below, &above, &finely })
   {
     ASSERT_EQ(found->kind, Settling::cycle);
@@ -61,17 +61,17 @@ TEST(LimitCycle, IsTheSameFromBelowAndAboveAndInShorterSteps)
 // Friction and damping take what the turning cylinder gives, over whole cycles and with everything that opens and sticks.
 TEST(LimitCycle, ClosesTheLedger)
 {
-  const JudgedSlide judged(backward_a(ModelType::beam, 6.));
-  HeldRun run(judged.dynamics.model(), judged.step());
-  EXPECT_TRUE(after_kick(judged, 1., run).vibrates());
+  const CheckedSlide checked(backward_a(ModelType::beam, 6.));
+  HeldRun run(checked.dynamics.model(), checked.step());
+  EXPECT_TRUE(after_kick(checked, 1., run).vibrates());
   EXPECT_LT(run.ledger().share(), 1e-6);
   EXPECT_GT(run.ledger().largest_work, 100.);
 }
 
 TEST(LimitCycle, DiesWhereTheSlideIsStableAndTheKickSmall)
 {
-  const JudgedSlide judged(backward_a(ModelType::beam, 20.));
-  EXPECT_EQ(after_kick(judged, 0.5).kind, Settling::slide);
+  const CheckedSlide checked(backward_a(ModelType::beam, 20.));
+  EXPECT_EQ(after_kick(checked, 0.5).kind, Settling::slide);
 }
 
 // Model B backward loses its stability between x = 41 and 42 and keeps the cycle that lives there down to below x = 40.
@@ -79,24 +79,24 @@ TEST(Continuation, FindsWhereASlideAndACycleCoexistSlow)
 {
   Scene scene                   = backward_b();
   scene.sprag_slip.continuation = 6;
-  const JudgedSlide judged(scene);
-  HeldRun run(judged.dynamics.model(), judged.step());
-  const auto start    = after_kick(judged, 1e-3, run);
-  const double period = judged.step() * scene.sprag_slip.steps_per_period;
-  Continuation continuation(judged.dynamics.model(), run, held_drive(scene), period, judged_modes(scene), scene.sprag_slip);
+  const CheckedSlide checked(scene);
+  HeldRun run(checked.dynamics.model(), checked.step());
+  const auto start    = after_kick(checked, 1e-3, run);
+  const double period = checked.step() * scene.sprag_slip.steps_per_period;
+  Continuation continuation(checked.dynamics.model(), run, held_drive(scene), period, checked_modes(scene), scene.sprag_slip);
   unsigned int calls = 0;
-  continuation.go(judged.stability, start, 38., [&] { ++calls; });
+  continuation.go(checked.stability, start, 38., [&] { ++calls; });
   EXPECT_GE(calls, 13u);
   EXPECT_LT(run.ledger().share(), 1e-6);
 
   const auto found = continuation.coexistence();
   ASSERT_TRUE(found);
-  EXPECT_EQ(judged.judged_at(found->to - 2e-3).kind, SlideKind::stable);
-  EXPECT_EQ(judged.judged_at(found->to + 2e-3).kind, SlideKind::flutter);
+  EXPECT_EQ(checked.checked_at(found->to - 2e-3).kind, SlideKind::stable);
+  EXPECT_EQ(checked.checked_at(found->to + 2e-3).kind, SlideKind::flutter);
   EXPECT_LT(found->from, 40.);
 
   // Without continuation: at one x inside a small perturbation dies and a large one does not, and it is the same cycle.
-  const JudgedSlide inside(held_at(scene, 41.));
+  const CheckedSlide inside(held_at(scene, 41.));
   EXPECT_EQ(after_kick(inside, Continuation::small_kick).kind, Settling::slide);
   const auto &points = continuation.points();
   const auto at_41 = std::find_if(points.begin(), points.end(), [](const auto &point) { return std::abs(point.x - 41.) < 1e-9; });

@@ -24,7 +24,7 @@ namespace
   /// Frequencies of undamped modes in contact without friction at x = 30 of a pair [1/s].
   struct Omegas
   {
-    double mirroring;
+    double symmetric;
     double swinging;
   };
 
@@ -38,19 +38,19 @@ namespace
     double in_contact[2] = { 0., 0. };
     for (const auto &mode : model->vibrations(*slide, true, 4))
     {
-      const bool swings = mode.mirroring < 0.;
-      EXPECT_NEAR(std::abs(mode.mirroring), 1., 1e-6);
+      const bool swings = mode.symmetry < 0.;
+      EXPECT_NEAR(std::abs(mode.symmetry), 1., 1e-6);
       if (mode.energy.contact < in_contact[swings])
         continue;
       in_contact[swings]                            = mode.energy.contact;
-      (swings ? result.swinging : result.mirroring) = mode.mode.eigenvalue.imag();
+      (swings ? result.swinging : result.symmetric) = mode.mode.eigenvalue.imag();
     }
     return result;
   }
 } // namespace
 
 // Both levers do the same to round-off, which swinging without a spring lets grow with the square of the time. That of a gap,
-// 7e-15 mm of the radius, is 1e-10 of an overlap of 7e-5 mm; the start's speeds, differences of equilibria 0.1 mm apart, make
+// 7e-15 mm of the radius, is 1e-10 of a penetration of 7e-5 mm; the start's speeds, differences of equilibria 0.1 mm apart, make
 // some 1e-7 of P of it.
 TEST(MirroredPairInTime, WithoutOffsetBothLeversDoWhatOneAloneDoesSlow)
 {
@@ -76,7 +76,7 @@ TEST(MirroredPairInTime, WithoutOffsetBothLeversDoWhatOneAloneDoesSlow)
 }
 
 // The ledger of levers that differ, on a frame that both share: fixed steps without numerical dissipation leave open what
-// Newton's tolerance of 1e-7 of an overlap squares to.
+// Newton's tolerance of 1e-7 of a penetration squares to.
 TEST(MirroredPairInTime, LedgerClosesForLeversThatDiffer)
 {
   for (const auto model : { ModelType::beam, ModelType::condensed })
@@ -91,7 +91,7 @@ TEST(MirroredPairInTime, LedgerClosesForLeversThatDiffer)
     }
 }
 
-// A rigid lever on a contact of stiffness k_c: (k + K_c)/J mirroring, K_c/J swinging, K_c with the change of direction in it.
+// A rigid lever on a contact of stiffness k_c: (k + K_c)/J symmetric, K_c/J swinging, K_c with the change of direction in it.
 TEST(MirroredPairInTime, SwingingLacksTheSpringOfAFreeJointAlone)
 {
   auto scene           = in_time(model_a(), ModelType::rigid);
@@ -99,10 +99,10 @@ TEST(MirroredPairInTime, SwingingLacksTheSpringOfAFreeJointAlone)
   const double k       = scene.spring.stiffness;
   const auto free      = contact_modes(paired(scene, SpringJoint::free));
   const auto held      = contact_modes(paired(scene, SpringJoint::held));
-  const double squared = free.mirroring * free.mirroring;
+  const double squared = free.symmetric * free.symmetric;
   // Of the spring's share a millionth is left; frequencies come to 1e-12.
   EXPECT_NEAR(squared - free.swinging * free.swinging, k / J, 2e-6 * k / J + 1e-11 * squared);
-  EXPECT_NEAR(held.mirroring, free.mirroring, 1e-10 * free.mirroring);
+  EXPECT_NEAR(held.symmetric, free.symmetric, 1e-10 * free.symmetric);
 }
 
 // Cantilever with a tip mass, Euler-Bernoulli: 1 + cos b cosh b + (M/m) b (cos b sinh b - sin b cosh b) = 0. Shear and rotary
@@ -178,7 +178,7 @@ TEST(MirroredPairInTime, ModesOfAllFidelitiesAgree)
                 1e-4 * meshed[i].mode.eigenvalue.imag());
     EXPECT_NEAR(condensed[i].mode.eigenvalue.real(), meshed[i].mode.eigenvalue.real(),
                 1e-4 * std::abs(meshed[i].mode.eigenvalue.imag()));
-    EXPECT_NEAR(condensed[i].mirroring, meshed[i].mirroring, 1e-3);
+    EXPECT_NEAR(condensed[i].symmetry, meshed[i].symmetry, 1e-3);
   }
-  EXPECT_LT(condensed.front().mirroring, -0.99);
+  EXPECT_LT(condensed.front().symmetry, -0.99);
 }

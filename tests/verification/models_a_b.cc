@@ -129,9 +129,9 @@ TEST(ModelsAAndB, FrictionIsMuTimesTheNormalForceInFullSliding)
     }
 }
 
-// A point at r = R - overlap feels its friction times R / r, as the slip is counted along the circle: at most mu overlap / R
-// more. The contact's half-width, 0.02 R (A) to 0.04 R (B), turns the mean of the normals from the centre's by 1e-3 of offset /
-// R.
+// A point at r = R - penetration feels its friction times R / r, as the slip is counted along the circle: at most mu penetration
+// / R more. The contact's half-width, 0.02 R (A) to 0.04 R (B), turns the mean of the normals from the centre's by 1e-3 of offset
+// / R.
 TEST(ModelsAAndB, LeverAxesDifferFromTheContactOnlyByTheCentreOffset)
 {
   for (const auto &[name, scene] : models())
@@ -239,9 +239,9 @@ TEST(ModelsAAndB, NodesThatPassUnderTheContactHardlyRippleTheForceSlow)
   }
 }
 
-// The overlap sinks the cylinder into the lever, which turns by that much less: penetration / s, of th - th0. Twice that, as the
-// friction shifts the centre of pressure too. Compared where both runs have a row at the very same x: the steps of the forward
-// stroke, and the ends of return strokes.
+// The penetration sinks the cylinder into the lever, which turns by that much less: penetration / s, of th - th0. Twice that, as
+// the friction shifts the centre of pressure too. Compared where both runs have a row at the very same x: the steps of the
+// forward stroke, and the ends of return strokes.
 TEST(ModelsAAndB, PenaltyAndAugmentedLagrangianAgreeWithinThePenetration)
 {
   for (const auto &[name, model] : models())
@@ -272,11 +272,11 @@ TEST(ModelsAAndB, AugmentationRemovesTheOverlapInAFewSolutions)
 {
   for (const auto &[name, model] : models())
   {
-    const auto rows    = run_scene(with_augmented_lagrangian(model));
-    const auto penalty = run_scene(model);
-    const auto overlap = [](const std::vector<Row> &run_rows) { return largest(run_rows, Column::penetration); };
-    EXPECT_GT(overlap(penalty), 0.);
-    EXPECT_LE(overlap(rows), 0.5 * overlap(penalty));
+    const auto rows        = run_scene(with_augmented_lagrangian(model));
+    const auto penalty     = run_scene(model);
+    const auto penetration = [](const std::vector<Row> &run_rows) { return largest(run_rows, Column::penetration); };
+    EXPECT_GT(penetration(penalty), 0.);
+    EXPECT_LE(penetration(rows), 0.5 * penetration(penalty));
     const double worst   = largest(rows, Column::augmentations);
     const double average = sum(rows, Column::augmentations) / static_cast<double>(rows.size() - 1);
     std::printf("%s: %.2f augmentations a step, %g in the worst\n", name, average, worst);
@@ -312,8 +312,8 @@ TEST(ModelsAAndB, CoarseStepsPassTheReversalToTheSameForce)
     }
 }
 
-// Multipliers are accepted with overlaps up to 1e-6 mm, so that two ways to the same place end 4e-5 of the largest P apart: of
-// model B's P at 30 mm, a third of that, 1.2e-4.
+// Multipliers are accepted with penetrations up to 1e-6 mm, so that two ways to the same place end 4e-5 of the largest P apart:
+// of model B's P at 30 mm, a third of that, 1.2e-4.
 TEST(SlowModelsAAndB, FineStepsPassTheReversalToTheSameForce)
 {
   for (const auto &[name, model] : models())

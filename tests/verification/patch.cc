@@ -15,7 +15,7 @@ namespace
   const double height  = 2.;
 
   /// Two materials of the same constants on a face of unequal cells.
-  void make_patch(dealii::Triangulation<2> &triangulation)
+  void make_element(dealii::Triangulation<2> &triangulation)
   {
     make_block({ 0., 0.35, 0.6, 1.3, 1.5, 2.4, 3. }, { 0., 0.4, 1., height }, triangulation);
     for (const auto &cell : triangulation.active_cell_iterators())
@@ -65,7 +65,7 @@ namespace
   Outcome pressed_on_plane(const Elements &elements)
   {
     dealii::Triangulation<2> triangulation;
-    make_patch(triangulation);
+    make_element(triangulation);
     return pressed(triangulation, block_properties(rigid_plane([](double x) { return 0.1 * x; }, [](double) { return 0.; }), 0.3),
                    elements);
   }
@@ -91,7 +91,8 @@ namespace
   }
 } // namespace
 
-// A uniform state is among what the elements can represent: the pressure is E U / H = 0.1 MPa but for the overlap of 1e-10 mm.
+// A uniform state is among what the elements can represent: the pressure is E U / H = 0.1 MPa but for the penetration of 1e-10
+// mm.
 TEST(Patch, AugmentedLagrangianCarriesAUniformPressure)
 {
   for (const unsigned int degree : { 1u, 2u })
@@ -121,7 +122,8 @@ TEST(Patch, TwoElasticBlocksOfOtherCellsCarryTheSame)
 }
 
 // Both sides follow a parabola, which a uniform shrinkage by p / (2 lambda + 2 mu) under hydrostatic pressure p makes another
-// one: with p as the multiplier no point overlaps and every node of both sides is in balance. Free corners of the sides apart.
+// one: with p as the multiplier no point is penetrated and every node of both sides is in balance. Free corners of the sides
+// apart.
 TEST(Patch, HydrostaticPressureBalancesAcrossACurvedInterface)
 {
   const double bend = 0.08, pressure = 0.3, width = 5.;
@@ -135,7 +137,7 @@ TEST(Patch, HydrostaticPressureBalancesAcrossACurvedInterface)
   properties.body.constants = { { material_id::lever, elastic }, { material_id::cylinder, elastic } };
   const ElasticBody<2> body(triangulation, properties.body);
 
-  // Of the whole body, and of the ports.
+  // Compliance of the whole body, and of the interface.
   dealii::Vector<double> u(body.n_dofs()), internal(body.n_dofs());
   const double shrinkage = pressure / (2. * lame.lambda + 2. * lame.mu);
   std::vector<dealii::Point<2>> support(body.n_dofs());
@@ -151,36 +153,36 @@ TEST(Patch, HydrostaticPressureBalancesAcrossACurvedInterface)
   body.reinit(stiffness);
   body.assemble(u, stiffness, internal);
   const auto dofs = surface_dofs(body);
-  const PortLayout ports{ static_cast<unsigned int>(dofs.size()), false };
-  dealii::Vector<double> z(ports.size());
+  const InterfaceLayout layout{ static_cast<unsigned int>(dofs.size()), false };
+  dealii::Vector<double> z(layout.size());
   for (unsigned int i = 0; i < dofs.size(); ++i)
     z[i] = u[dofs[i]];
 
   FaceContactProperties constants;
-  constants.obstacle  = properties.obstacle;
-  constants.centre    = properties.centre;
-  constants.friction  = properties.friction;
-  constants.penalties = { 100., 100. };
-  constants.ports     = ports;
+  constants.counterface = properties.counterface;
+  constants.centre      = properties.centre;
+  constants.friction    = properties.friction;
+  constants.penalties   = { 100., 100. };
+  constants.layout      = layout;
   FaceContact contact(body, constants);
-  std::vector<ContactMemory> memory(body.friction_face().points.size());
-  for (unsigned int q = 0; q < memory.size(); ++q)
+  std::vector<ContactHistory> history(body.friction_face().points.size());
+  for (unsigned int q = 0; q < history.size(); ++q)
   {
-    memory[q].normal_multiplier = pressure;
-    memory[q].point             = q;
+    history[q].normal_multiplier = pressure;
+    history[q].point             = q;
   }
   const DrivePoint rest{ 0., 0., 0. };
   FaceEvaluation<2> found;
-  contact.evaluate({ rest, memory, rest, { z, {}, {} }, z, {}, { 0., 0., 0., 0., 0. } }, found,
+  contact.evaluate({ rest, history, rest, { z, {}, {} }, z, {}, { 0., 0., 0., 0., 0. } }, found,
                    StaticTerms{ properties.friction, 1., FrictionMode::cone, true });
   for (const auto &point : found.points)
     EXPECT_GT(point.gap, -1e-12);
   EXPECT_EQ(found.points.size(), body.friction_face().points.size());
   const auto &forces     = found.forces;
   unsigned int n_checked = 0;
-  for (unsigned int i = 0; i < forces.ports.size() && forces.ports[i] < ports.surface; ++i)
+  for (unsigned int i = 0; i < forces.dofs.size() && forces.dofs[i] < layout.surface; ++i)
   {
-    const unsigned int dof = dofs[forces.ports[i]];
+    const unsigned int dof = dofs[forces.dofs[i]];
     if (std::abs(support[dof][0]) > 1.99)
       continue;
     EXPECT_NEAR(forces.values[i], internal[dof], 1e-11 * pressure * width) << support[dof];

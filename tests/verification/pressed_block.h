@@ -15,7 +15,7 @@
 namespace sprag
 {
   /// A rigid plane at height y(x), its material at xi = c(x).
-  inline Obstacle rigid_plane(std::function<double(double)> height, std::function<double(double)> place)
+  inline Counterface rigid_plane(std::function<double(double)> height, std::function<double(double)> place)
   {
     return [=](const double x, double)
     {
@@ -32,7 +32,7 @@ namespace sprag
   }
 
   /// A rigid circle whose centre moves over x. The body's axes rest.
-  inline Obstacle rigid_circle(const double radius, std::function<LeverPoint(double)> centre)
+  inline Counterface rigid_circle(const double radius, std::function<LeverPoint(double)> centre)
   {
     return [=](const double x, double)
     {
@@ -54,12 +54,12 @@ namespace sprag
     };
   }
 
-  /// A block, see make_block(), against an obstacle, its axes held.
-  inline LeverProperties block_properties(Obstacle obstacle, const double coefficient)
+  /// A block, see make_block(), against an counterface, its axes held.
+  inline LeverProperties block_properties(Counterface counterface, const double coefficient)
   {
     LeverProperties result;
     result.body.plane  = PlaneState::strain;
-    result.obstacle    = std::move(obstacle);
+    result.counterface = std::move(counterface);
     result.ideal_theta = [](double) { return 0.; };
     result.centre      = [](double, double) { return LeverPoint{ 0., 0. }; };
     result.spring      = { MomentLaw(1e9), 0., 1. };
@@ -94,7 +94,7 @@ namespace sprag
         if (!converged)
           break;
       }
-    model.remember(solved.found, step.trial);
+    model.store_history(solved.found, step.trial);
     return { std::move(step.trial), std::move(solved.found) };
   }
 

@@ -116,8 +116,8 @@ TEST(PreloadedSpring, PressesAtEveryFidelity)
       const auto at            = kinematics(scene.geometry, x);
       const double moment      = scene.spring.stiffness * (at.theta - kinematics(scene.geometry, 0.).theta + 0.01);
       DynamicsMaker maker;
-      const auto judged = judge(scene, maker);
-      EXPECT_NEAR(judged.slide->forces.P, moment / (at.s - mu * scene.geometry.interface_offset), 2e-3 * 20.) << x;
+      const auto checked = check_slide(scene, maker);
+      EXPECT_NEAR(checked.slide->forces.P, moment / (at.s - mu * scene.geometry.interface_offset), 2e-3 * 20.) << x;
     }
 }
 
@@ -155,7 +155,7 @@ TEST(SprungSupport, MeetsTheModelInTimeWithoutInertia)
   }
 }
 
-// u = Q / k_f = 1e-11 mm is below what the iterations resolve, 1e-7 of the overlap of some 1e-4 mm.
+// u = Q / k_f = 1e-11 mm is below what the iterations resolve, 1e-7 of the penetration of some 1e-4 mm.
 TEST(SprungSupport, StiffIsRigid)
 {
   for (const auto solution : { Solution::automatic, Solution::general })

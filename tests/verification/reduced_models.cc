@@ -120,7 +120,7 @@ TEST(Beam, TendsToTheRigidLeverInProportionToItsFlexibility)
     const double theta   = largest_difference(rows, rigid, Column::theta) / peak(rigid, Column::theta);
     EXPECT_LT(P_error, 0.6 / factor);
     EXPECT_LT(theta, 0.6 / factor);
-    // Round-off of an overlap of 0.01 mm between lengths of 200 mm rings along: 5e-11 of P in the smaller difference.
+    // Round-off of a penetration of 0.01 mm between lengths of 200 mm rings along: 5e-11 of P in the smaller difference.
     if (before > 0.)
     {
       EXPECT_NEAR(before / P_error, 10., 0.05 + 5e-10 / P_error) << factor;

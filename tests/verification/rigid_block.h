@@ -63,7 +63,7 @@ namespace sprag
       const auto u            = displacement(step.trial.coordinates);
       const auto load         = properties.load(u, step.trial.drive.x);
       const double duration   = step.trial.drive.time - step.start.time;
-      const double slip_begin = properties.contact(displacement(step.ports)).slip;
+      const double slip_begin = properties.contact(displacement(step.displacements)).slip;
       Found found;
       found.point = properties.contact(u);
       StepContactLaw law;
@@ -104,7 +104,7 @@ namespace sprag
       trial.contact[0].traction          = response.traction;
     }
 
-    void remember(const Evaluation &evaluation, State &state) const override
+    void store_history(const Evaluation &evaluation, State &state) const override
     {
       const auto &response = found_in(evaluation).response;
       state.contact.assign(1, {});

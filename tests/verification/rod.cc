@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/energy_ledger.h"
 #include "model/contact_step.h"
-#include "verification/point_at_port.h"
+#include "verification/point_at_interface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,10 +59,10 @@ namespace
   }
 
   /// A rigid wall without friction: the gap is the displacement.
-  class Wall : public PointAtPort
+  class Wall : public PointAtInterface
   {
   public:
-    void evaluate(const PortStep &step, Evaluation &found) const
+    void evaluate(const InterfaceStep &step, Evaluation &found) const
     {
       StepKinematics<1> point{};
       point.gap_begin      = step.begin.position[0];
@@ -74,13 +74,13 @@ namespace
       law.slip.stiffness         = 1.;
       law.slip.friction          = { CoulombFriction{ 0. }, FrictionSpeed::sliding };
       law.weights                = step.weights;
-      const auto response        = step_response(point, step.memory.front(), law);
+      const auto response        = step_response(point, step.history.front(), law);
       found.forces.values[0]     = response.force[0];
       found.forces.tangent(0, 0) = response.tangent[0][0];
-      found.remembered           = response.memory;
+      found.last_history         = response.history;
       found.works                = { 0., response.friction, response.damping, response.algorithmic, 0. };
       found.stored               = response.energy;
-      found.compressed           = response.pressure / penalty;
+      found.depth                = response.pressure / penalty;
     }
 
     void observe(const Evaluation &found, Row &row, unsigned int) const
@@ -94,7 +94,7 @@ namespace
     double time, u, pressure, energy, algorithmic;
   };
 
-  struct Course
+  struct Trajectory
   {
     std::vector<Sample> samples;
     dealii::Vector<double> last; ///< displacements of the nodes at the end
@@ -102,7 +102,7 @@ namespace
     LedgerReport ledger;
   };
 
-  Course bounce(const double spectral_radius, const double end)
+  Trajectory bounce(const double spectral_radius, const double end)
   {
     const Rod rod = make_rod();
     ModalData data;
@@ -111,7 +111,7 @@ namespace
     data.shapes.reinit(1, elements);
     for (unsigned int i = 0; i < elements; ++i)
       data.shapes(0, i) = rod.shapes(0, i);
-    auto model = with_point_at_port(data, Wall());
+    auto model = with_point_at_interface(data, Wall());
 
     Motion motion = model.initial_motion({ 0., 0., 0., 0. });
     for (unsigned int i = 0; i < elements; ++i)
@@ -122,7 +122,7 @@ namespace
       motion.coordinates.acceleration[i] = -rod.stiffness[i] * q;
     }
 
-    Course result;
+    Trajectory result;
     EnergyLedger ledger(model.stored_energy(motion));
     const auto total     = [](const StoredEnergy &energy) { return energy.kinetic + energy.elastic + energy.contact; };
     result.energy_before = total(model.stored_energy(motion));

@@ -3,7 +3,7 @@
 
 #include "fe/solid/solid_stiffness.h"
 #include "fe/solid/surface_contact.h"
-#include "fe/statics/port_window.h"
+#include "fe/statics/static_interface.h"
 #include "model/newton.h"
 #include "verification/block.h"
 
@@ -62,9 +62,9 @@ namespace sprag
       return body->n_dofs();
     }
 
-    unsigned int port_dof(const unsigned int port) const
+    unsigned int body_dof(const unsigned int interface_dof) const
     {
-      return face.nodes[port / 3].dofs[port % 3];
+      return face.nodes[interface_dof / 3].dofs[interface_dof % 3];
     }
 
     /// Turns forces on the degrees of freedom [N] into displacements [mm].
@@ -133,10 +133,10 @@ namespace sprag
     Mumps factors;
   };
 
-  /// The part of a block's face where it can be touched: its ports, three a node, and the compliance between them.
+  /// The part of a block's face where it can be touched: its dofs, three a node, and the compliance between them.
   struct NearFace
   {
-    PortSelection ports;
+    DofSelection dofs;
     dealii::FullMatrix<double> compliance; ///< [mm/N]
   };
 
@@ -148,10 +148,10 @@ namespace sprag
     const auto &nodes = block.friction_face().nodes;
     for (unsigned int i = 0; i < nodes.size(); ++i)
       if (std::abs(nodes[i].position[0]) <= reach && std::abs(nodes[i].position[2]) <= reach)
-        result.ports.insert(result.ports.end(), { 3 * i, 3 * i + 1, 3 * i + 2 });
+        result.dofs.insert(result.dofs.end(), { 3 * i, 3 * i + 1, 3 * i + 2 });
     std::vector<unsigned int> dofs;
-    for (const unsigned int port : result.ports)
-      dofs.push_back(block.port_dof(port));
+    for (const unsigned int interface_dof : result.dofs)
+      dofs.push_back(block.body_dof(interface_dof));
     result.compliance.reinit(dofs.size(), dofs.size());
     for (std::size_t first = 0; first < dofs.size(); first += together)
     {
@@ -169,9 +169,9 @@ namespace sprag
   /// face is 0, what else there is counts twice.
   inline NearFace with_mirror_image(NearFace face)
   {
-    for (unsigned int i = 0; i < face.ports.size(); ++i)
-      for (unsigned int j = 0; j < face.ports.size(); ++j)
-        face.compliance(i, j) *= (face.ports[i] % 3 == 1) == (face.ports[j] % 3 == 1) ? 2. : 0.;
+    for (unsigned int i = 0; i < face.dofs.size(); ++i)
+      for (unsigned int j = 0; j < face.dofs.size(); ++j)
+        face.compliance(i, j) *= (face.dofs[i] % 3 == 1) == (face.dofs[j] % 3 == 1) ? 2. : 0.;
     return face;
   }
 
@@ -181,7 +181,7 @@ namespace sprag
   public:
     using Vector = dealii::Tensor<1, 3>;
 
-    struct Obstacle
+    struct Counterface
     {
       double radius;       ///< across the axis, which lies along zeta [mm]
       double crown_radius; ///< along it [mm]
@@ -189,20 +189,20 @@ namespace sprag
       double length = 0.;  ///< 0: beyond the block [mm]
     };
 
-    /// `near` must be as far as obstacle and undeformed face overlap, and outlive this.
-    RubbedBlock(const SolidBlock &block_, const NearFace &near_, const Obstacle &obstacle)
+    /// `near` must hold all that the counterface can touch of the undeformed face, and outlive this.
+    RubbedBlock(const SolidBlock &block_, const NearFace &near_, const Counterface &counterface)
         : block(block_)
         , near(near_)
-        , ports(layout(block))
-        , window(ports, { 1e12, 0., 1. },
-                 { { ports.surface, [this](const PortSelection &) { return near.ports; },
-                     [this](const PortSelection &)
+        , layout(make_layout(block))
+        , window(layout, { 1e12, 0., 1. },
+                 { { layout.surface, [this](const DofSelection &) { return near.dofs; },
+                     [this](const DofSelection &)
                      { return std::make_shared<const dealii::FullMatrix<double>>(near.compliance); } } })
-        , contact(block.friction_face(), make_properties(obstacle, ports))
-        , elastic(ports.size())
-        , placed(ports.size())
+        , contact(block.friction_face(), make_properties(counterface, layout))
+        , elastic(layout.size())
+        , placed(layout.size())
     {
-      looked_at.push_back(ports.rotation());
+      looked_at.push_back(layout.rotation());
     }
 
     /// Moves the block's held side to a place from where the block touches without force [mm].
@@ -210,24 +210,25 @@ namespace sprag
     {
       contact.begin_step({ placed, 0. });
       const StaticTerms terms{ { CoulombFriction{ friction } }, 1. };
-      const auto memory   = found.memory();
+      const auto history  = found.history();
       const auto evaluate = [&](const dealii::Vector<double> &at)
       {
         placed = at;
-        for (unsigned int port = 0; port < ports.surface; ++port)
-          placed[port] += place[port % 3];
-        contact.evaluate({ placed, 0. }, memory, 0., terms, found);
+        for (unsigned int interface_dof = 0; interface_dof < layout.surface; ++interface_dof)
+          placed[interface_dof] += place[interface_dof % 3];
+        contact.evaluate({ placed, 0. }, history, 0., terms, found);
         auto residual = window.residual(at, found.forces, looked_at);
-        return Pressed{ residual.norm, found.sums.compression, std::move(residual) };
+        return Pressed{ residual.norm, found.sums.penetration, std::move(residual) };
       };
       const auto result = solve_by_newton(
           elastic, 1e-14, evaluate,
-          [&](const Pressed &pressed) { return window.correction(pressed.port_residual, found.forces, looked_at); },
+          [&](const Pressed &pressed) { return window.correction(pressed.interface_residual, found.forces, looked_at); },
           [&](const dealii::Vector<double> &change) { return change.linfty_norm(); });
       EXPECT_TRUE(result.converged) << place;
       contact.add_points(found);
-      for (const unsigned int port : found.forces.ports)
-        EXPECT_TRUE(!ports.is_surface(port) || std::binary_search(near.ports.begin(), near.ports.end(), port)) << port;
+      for (const unsigned int interface_dof : found.forces.dofs)
+        EXPECT_TRUE(!layout.is_surface(interface_dof) || std::binary_search(near.dofs.begin(), near.dofs.end(), interface_dof))
+            << interface_dof;
     }
 
     /// A point in contact: place on the undeformed face, area and what acts on the block there.
@@ -271,9 +272,10 @@ namespace sprag
     std::vector<std::pair<dealii::Point<3>, Vector>> displacements() const
     {
       std::vector<double> moved(block.n_dofs(), 0.);
-      for (unsigned int i = 0; i < found.forces.ports.size(); ++i)
-        if (const unsigned int port = found.forces.ports[i]; ports.is_surface(port) && !block.is_held(block.port_dof(port)))
-          moved[block.port_dof(port)] = found.forces.values[i];
+      for (unsigned int i = 0; i < found.forces.dofs.size(); ++i)
+        if (const unsigned int interface_dof = found.forces.dofs[i];
+            layout.is_surface(interface_dof) && !block.is_held(block.body_dof(interface_dof)))
+          moved[block.body_dof(interface_dof)] = found.forces.values[i];
       block.respond(moved);
       std::vector<std::pair<dealii::Point<3>, Vector>> result;
       for (const auto &node : block.friction_face().nodes)
@@ -282,44 +284,44 @@ namespace sprag
     }
 
   private:
-    static PortLayout layout(const SolidBlock &block)
+    static InterfaceLayout make_layout(const SolidBlock &block)
     {
-      PortLayout result{ 3 * static_cast<unsigned int>(block.friction_face().nodes.size()), false };
+      InterfaceLayout result{ 3 * static_cast<unsigned int>(block.friction_face().nodes.size()), false };
       result.has_inertia = false;
       return result;
     }
 
-    static SurfaceContactProperties make_properties(const Obstacle &obstacle, const PortLayout &ports)
+    static SurfaceContactProperties make_properties(const Counterface &counterface, const InterfaceLayout &layout)
     {
       Geometry geometry;
-      geometry.cylinder_radius = obstacle.radius;
+      geometry.cylinder_radius = counterface.radius;
       geometry.pivot_distance  = 0.;
-      geometry.pivot_height    = obstacle.radius;
+      geometry.pivot_height    = counterface.radius;
       Cylinder barrel;
-      barrel.crown_radius = obstacle.crown_radius;
-      barrel.length       = obstacle.length;
+      barrel.crown_radius = counterface.crown_radius;
+      barrel.length       = counterface.length;
       return { RigidCylinder(geometry, barrel),
-               [R = obstacle.radius](double, double) {
+               [R = counterface.radius](double, double) {
                  return LeverPoint{ 0., -R };
                },
-               obstacle.radius,
-               ports,
+               counterface.radius,
+               layout,
                0.,
-               { obstacle.penalty, obstacle.penalty } };
+               { counterface.penalty, counterface.penalty } };
     }
 
     struct Pressed
     {
       double residual;
-      double overlap;
-      Residual port_residual;
+      double penetration;
+      Residual interface_residual;
     };
 
     const SolidBlock &block;
     const NearFace &near;
-    PortSelection looked_at = near.ports;
-    const PortLayout ports;
-    PortWindow window;
+    DofSelection looked_at = near.dofs;
+    const InterfaceLayout layout;
+    StaticInterface window;
     SurfaceContact contact;
     dealii::Vector<double> elastic; ///< displacement of the face by the forces
     dealii::Vector<double> placed;  ///< and with the block's

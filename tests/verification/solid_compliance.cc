@@ -19,7 +19,7 @@ namespace
 // Columns of nodes that are alike are solved for once, beside a mesh whose lengths change along the face some others by the rows
 // of those; a block in the wrong place or the wrong way round is far beyond what the smooth part leaves out. The ends of the face
 // are not looked at: no contact is admitted there.
-TEST(SolidCompliance, BetweenPortsItIsThatOfTheWholeBody)
+TEST(SolidCompliance, BetweenDofsItIsThatOfTheWholeBody)
 {
   Scene scene                 = solid_model_a(0.3);
   scene.mesh.faces_in_contact = 4.; // shorter ones at the beginning of the way
@@ -29,13 +29,13 @@ TEST(SolidCompliance, BetweenPortsItIsThatOfTheWholeBody)
   ASSERT_TRUE(body.has_skin());
   const auto &nodes  = body.friction_face().nodes;
   const double begin = nodes.front().position[0] + 4. * body.skin(), end = nodes.back().position[0] - 4. * body.skin();
-  PortSelection inner;
-  for (unsigned int port = 0; port < 3 * nodes.size(); ++port)
-    if (const double xi = nodes[port / 3].position[0]; xi > begin && xi < end)
-      inner.push_back(port);
+  DofSelection inner;
+  for (unsigned int dof = 0; dof < 3 * nodes.size(); ++dof)
+    if (const double xi = nodes[dof / 3].position[0]; xi > begin && xi < end)
+      inner.push_back(dof);
   LayeredCompliance compliance(body, begin, end);
-  const auto port_compliance = compliance.among(inner);
-  const auto &found          = *port_compliance;
+  const auto interface_compliance = compliance.among(inner);
+  const auto &found               = *interface_compliance;
 
   const auto inner_dof = [&](const unsigned int place) { return nodes[inner[place] / 3].dofs[inner[place] % 3]; };
   double worst = 0., largest = 0.;

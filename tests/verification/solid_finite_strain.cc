@@ -25,8 +25,8 @@ namespace
   }
 } // namespace
 
-// Without contraction planes along the lever do not feel each other. Steps end where nothing moves by 1e-7 of the overlap, which
-// sums up to 1e-6 along the way. Linear theory is off by far more than the bound.
+// Without contraction planes along the lever do not feel each other. Steps end where nothing moves by 1e-7 of the penetration,
+// which sums up to 1e-6 along the way. Linear theory is off by far more than the bound.
 TEST(SolidFiniteStrain, WithoutContractionItIsPlaneStrain)
 {
   Scene scene                = at_finite_strain(0.);

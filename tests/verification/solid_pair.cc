@@ -172,15 +172,15 @@ TEST(SolidPair, ItsModesAreThoseOfALeverAndOfTheSwingSlow)
     return dynamics.model().vibrations(*slide, true, 40);
   };
   const auto pair_modes = compute_modes(scene), lever_modes = compute_modes(alone);
-  unsigned int mirroring = 0;
+  unsigned int symmetric = 0;
   for (const auto &mode : pair_modes)
   {
-    EXPECT_NEAR(std::abs(mode.mirroring), 1., 1e-6);
+    EXPECT_NEAR(std::abs(mode.symmetry), 1., 1e-6);
     const auto is_same = [&](const Eigenmode &other)
     { return std::abs(other.mode.eigenvalue - mode.mode.eigenvalue) < 1e-6 * std::abs(mode.mode.eigenvalue); };
-    if (mode.mirroring > 0.)
-      mirroring += std::any_of(lever_modes.begin(), lever_modes.end(), is_same) ? 1 : 0;
+    if (mode.symmetry > 0.)
+      symmetric += std::any_of(lever_modes.begin(), lever_modes.end(), is_same) ? 1 : 0;
   }
   EXPECT_EQ(pair_modes.size(), 2 * lever_modes.size());
-  EXPECT_EQ(mirroring, lever_modes.size());
+  EXPECT_EQ(symmetric, lever_modes.size());
 }

@@ -195,7 +195,7 @@ namespace
   }
 } // namespace
 
-// What steps of the plane leave out, 1e-8 of the overlap, makes up to 7e-7 of the peak of P, more or less by the kernels of
+// What steps of the plane leave out, 1e-8 of the penetration, makes up to 7e-7 of the peak of P, more or less by the kernels of
 // OpenBLAS, and twice that of the kinetic energy.
 TEST(SolidPartsInTime, ALeverMovesAsInThePlane)
 {
@@ -345,10 +345,10 @@ TEST(SolidPartsInTime, AVibrationGrowsAsItsEigenvalueSaysSlow)
   scene.drive              = Drive(DriveProfile::triangle, 0., 65., 112., 1.);
   scene.stability.position = 65.;
   scene.spring             = prepared_spring(scene);
-  const JudgedSlide judged(scene);
-  ASSERT_EQ(judged.stability.kind, SlideKind::flutter);
-  HeldRun run(judged.dynamics.model(), judged.step());
-  const auto growth = measure_growth(judged.dynamics.model(), judged.stability, scene.sprag_slip, run, [](const Row &) {});
+  const CheckedSlide checked(scene);
+  ASSERT_EQ(checked.stability.kind, SlideKind::flutter);
+  HeldRun run(checked.dynamics.model(), checked.step());
+  const auto growth = measure_growth(checked.dynamics.model(), checked.stability, scene.sprag_slip, run, [](const Row &) {});
   EXPECT_TRUE(growth.reached);
   EXPECT_TRUE(growth.slid);
   EXPECT_NEAR(growth.growth_difference(), 0., 0.003);

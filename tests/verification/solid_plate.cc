@@ -125,15 +125,15 @@ TEST(SolidPlate, TheSensorsCarryForceAndTwistingMoment)
                      ++seen;
                      double normal = 0., twisting = 0., along = 0.;
                      const auto &nodes = body.friction_face().nodes;
-                     for (unsigned int i = 0; i < state.forces.ports.size(); ++i)
-                       if (const unsigned int port = state.forces.ports[i]; port < 3 * nodes.size())
+                     for (unsigned int i = 0; i < state.forces.dofs.size(); ++i)
+                       if (const unsigned int dof = state.forces.dofs[i]; dof < 3 * nodes.size())
                        {
-                         const auto &place  = nodes[port / 3].position;
+                         const auto &place  = nodes[dof / 3].position;
                          const double force = state.forces.values[i];
-                         normal += port % 3 == 1 ? force : 0.;
-                         twisting += port % 3 == 1 ? force * place[2] : 0.;
-                         twisting += port % 3 == 2 ? force * (back - place[1]) : 0.;
-                         along += port % 3 == 2 ? std::abs(force) : 0.;
+                         normal += dof % 3 == 1 ? force : 0.;
+                         twisting += dof % 3 == 1 ? force * place[2] : 0.;
+                         twisting += dof % 3 == 2 ? force * (back - place[1]) : 0.;
+                         along += dof % 3 == 2 ? std::abs(force) : 0.;
                        }
                      EXPECT_GT(along, 0.);
                      EXPECT_NEAR(sum(row.sensor_forces), normal, 1e-8 * normal);

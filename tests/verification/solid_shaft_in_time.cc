@@ -108,10 +108,10 @@ TEST(SolidShaftInTime, AVibrationGrowsAsItsEigenvalueSaysSlow)
   scene.cylinder.skew           = 0.;
   scene.cylinder.skew_stiffness = 1e6;
   scene.stability.position      = 65.;
-  const JudgedSlide judged(scene);
-  ASSERT_EQ(judged.stability.kind, SlideKind::flutter);
-  HeldRun run(judged.dynamics.model(), judged.step());
-  const auto growth = measure_growth(judged.dynamics.model(), judged.stability, scene.sprag_slip, run, [](const Row &) {});
+  const CheckedSlide checked(scene);
+  ASSERT_EQ(checked.stability.kind, SlideKind::flutter);
+  HeldRun run(checked.dynamics.model(), checked.step());
+  const auto growth = measure_growth(checked.dynamics.model(), checked.stability, scene.sprag_slip, run, [](const Row &) {});
   EXPECT_TRUE(growth.reached);
   EXPECT_TRUE(growth.slid);
   EXPECT_NEAR(growth.growth_difference(), 0., 0.003);

@@ -90,15 +90,15 @@ namespace
 TEST(Flutter, OfTwoDegreesOfFreedomBeginsWhereRootsMeet)
 {
   ModalData data;
-  data.ports     = { 2, false };
+  data.layout    = { 2, false };
   data.stiffness = { 10., 11. };
   data.damping.reinit(2, 2);
   data.shapes.reinit(3, 2);
   data.shapes(0, 0) = data.shapes(1, 1) = 1.;
   const auto worst                      = [&](const double mu)
   {
-    PortPerturbation forces;
-    forces.ports = { 0, 1 };
+    LinearisedForces forces;
+    forces.dofs = { 0, 1 };
     for (auto *const matrix :
          { &forces.pressure, &forces.friction, &forces.pressure_rate, &forces.friction_rate, &forces.inertia })
       matrix->reinit(2, 2);
@@ -131,7 +131,7 @@ TEST(ModelB, NeverFluttersWithItsNeutralAxisAtThePivot)
         scene.lever.neutral_axis_offset = 0.;
         for (const double depth : { 4., 8., 20. })
         {
-          const auto found = judge(at(without_damping(with_depth(scene, depth)), x, direction), maker);
+          const auto found = check_slide(at(without_damping(with_depth(scene, depth)), x, direction), maker);
           EXPECT_EQ(found.kind, SlideKind::stable) << mu << " " << x << " " << depth;
           for (const auto &mode : found.modes)
             EXPECT_LT(std::abs(mode.mode.eigenvalue.real()), 1e-10 * std::abs(mode.mode.eigenvalue));
@@ -151,7 +151,7 @@ TEST(Beam, OfEightElementsHasConverged)
     const Scene held   = held_scene(scene);
     const auto flutter = [&](const unsigned int elements)
     {
-      const auto found = judge(*make_reduced_lever(held, elements), at_65, { 10 });
+      const auto found = check_slide(*make_reduced_lever(held, elements), at_65, { 10 });
       EXPECT_EQ(found.kind, SlideKind::flutter) << elements;
       return found.worst_mode().mode.eigenvalue;
     };
@@ -177,7 +177,7 @@ TEST(Beam, LeavesOutModesWithWavesShorterThanSixDepths)
   scene.stability.position  = 65.;
   scene.stability.direction = Direction::backward;
   DynamicsMaker maker;
-  const auto found = judge(scene, maker);
+  const auto found = check_slide(scene, maker);
   EXPECT_EQ(found.kind, SlideKind::stable);
   // (2 pi / 6)^2 / (2 pi h) sqrt(E / (12 rho)), rho that of the whole section.
   EXPECT_NEAR(highest_beam_frequency(scene), 14393., 150.);
@@ -194,7 +194,7 @@ TEST(Condensed, OfTwentyModesHasConverged)
   const auto flutter = [&](const unsigned int modes)
   {
     scene.condensed.modes = modes;
-    const auto found      = judge(scene, maker);
+    const auto found      = check_slide(scene, maker);
     EXPECT_EQ(found.kind, SlideKind::flutter) << modes;
     return found.worst_mode().mode.eigenvalue;
   };
@@ -216,7 +216,7 @@ TEST(ModelB, FluttersWithAnAxisBehindTheInterfaceOnAStiffContact)
   DynamicsMaker maker(false);
   Scene scene             = stability_scene(with_depth(with_coulomb(model_b(), 0.73), 12.), ModelType::beam);
   scene.contact.stiffness = 1e4;
-  const auto found        = judge(at(without_damping(scene), 44., Direction::backward), maker);
+  const auto found        = check_slide(at(without_damping(scene), 44., Direction::backward), maker);
   EXPECT_EQ(found.kind, SlideKind::flutter);
   EXPECT_NEAR(found.growth_rate(), 159., 8.);
   EXPECT_NEAR(found.frequency(), 778., 8.);
@@ -257,7 +257,7 @@ TEST(MeshedLever, SharesOfGrowthAddUp)
         scene.lever.stiffness_damping = 1e-6;
         scene.stability.modes         = 6;
         unsigned int vibrations       = 0;
-        for (const auto &mode : judge(scene, maker).modes)
+        for (const auto &mode : check_slide(scene, maker).modes)
         {
           const Complex lambda   = mode.mode.eigenvalue;
           const double round_off = lambda.imag() > 0. ? 1e-8 : 3e-5;
@@ -304,8 +304,8 @@ TEST(MeshedLever, UnderALawThatRisesWithSpeedCondensedVibratesAsTheFiniteElement
     scene.support.type    = support;
     scene.condensed.modes = 40;
     scene.stability.modes = 6;
-    const auto whole      = judge(scene, maker);
-    const auto condensed  = judge(stability_scene(scene, ModelType::condensed), maker);
+    const auto whole      = check_slide(scene, maker);
+    const auto condensed  = check_slide(stability_scene(scene, ModelType::condensed), maker);
     EXPECT_GT(std::abs(whole.worst_mode().growth.friction_speed), 10.);
     EXPECT_GE(expect_among(whole.modes, condensed.modes, 1e9, 1e-4), 6u);
   }
@@ -334,8 +334,8 @@ TEST(MeshedLeverSlow, CondensedToTwentyModesVibratesAsTheFiniteElements)
   for (const double depth : { 6., 20. })
   {
     const Scene scene    = with_depth(stability_scene(model_a(), ModelType::finite_element), depth);
-    const auto whole     = judge(scene, maker);
-    const auto condensed = judge(stability_scene(scene, ModelType::condensed), maker);
+    const auto whole     = check_slide(scene, maker);
+    const auto condensed = check_slide(stability_scene(scene, ModelType::condensed), maker);
     EXPECT_EQ(whole.kind, condensed.kind);
     EXPECT_GE(expect_among(whole.modes, condensed.modes, 3000., 1e-3), 3u) << depth;
   }
@@ -349,8 +349,9 @@ TEST(ModelASlow, FluttersBelowTheSameDepthInEveryFlexibleModel)
   for (const double depth : { 7., 8.2, 8.6 })
   {
     const Scene scene = without_damping(with_depth(stability_scene(with_coulomb(model_a(), 0.73), ModelType::beam), depth));
-    const auto whole  = judge(stability_scene(scene, ModelType::finite_element), maker);
-    for (const auto &other : { judge(stability_scene(scene, ModelType::condensed), maker), judge(with_fitted_law(scene), maker) })
+    const auto whole  = check_slide(stability_scene(scene, ModelType::finite_element), maker);
+    for (const auto &other :
+         { check_slide(stability_scene(scene, ModelType::condensed), maker), check_slide(with_fitted_law(scene), maker) })
     {
       EXPECT_EQ(other.kind, depth < 8.4 ? SlideKind::flutter : SlideKind::stable) << depth;
       EXPECT_EQ(other.kind, whole.kind) << depth;
@@ -368,8 +369,8 @@ TEST(ModelBSlow, IsStableInEveryFlexibleModel)
   for (const double depth : { 6., 12. })
   {
     const Scene scene = without_damping(with_depth(stability_scene(with_coulomb(model_b(), 0.73), ModelType::beam), depth));
-    EXPECT_EQ(judge(with_fitted_law(scene), maker).kind, SlideKind::stable) << depth;
+    EXPECT_EQ(check_slide(with_fitted_law(scene), maker).kind, SlideKind::stable) << depth;
     for (const auto model : meshed_models)
-      EXPECT_EQ(judge(stability_scene(scene, model), maker).kind, SlideKind::stable) << depth;
+      EXPECT_EQ(check_slide(stability_scene(scene, model), maker).kind, SlideKind::stable) << depth;
   }
 }

@@ -68,7 +68,7 @@ namespace
                                          "Drive/Speed=" + std::to_string(speed),
                                          std::string("Stability/Direction=") + (sign > 0. ? "forward" : "backward") };
     changes.insert(changes.end(), friction.begin(), friction.end());
-    const auto frame = JudgedSlide(scene_with(changes)).stability.modes.front().mode.eigenvalue;
+    const auto frame = CheckedSlide(scene_with(changes)).stability.modes.front().mode.eigenvalue;
     return -2. * frame.real() * stiffness / std::norm(frame);
   }
 

@@ -58,7 +58,7 @@ TEST(ForceControlledWedge, CarriesTheNormalForceOfStatics)
     {
       const Row last = loaded(wedge(enforcement, coefficient), step).back();
       EXPECT_EQ(last[Column::x], 1.);
-      // Statically determined: whatever the overlap, the forces are exact to round-off.
+      // Statically determined: whatever the penetration, the forces are exact to round-off.
       EXPECT_NEAR(last[Column::P] / exact, 1., 1e-12);
       EXPECT_NEAR(last[Column::F] / (coefficient * exact), 1., 1e-12);
     }

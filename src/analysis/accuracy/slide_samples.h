@@ -15,7 +15,7 @@ namespace sprag
 
   /// Returns the rows from the first reversal, its own row included, to the largest P and Q behind it, as long as the contact has
   /// moved by less than its width: those that a stroke's largest values may come from and slide_samples() leave out. Empty
-  /// without a reversal, or where that takes more rows than a probe can pay.
+  /// without a reversal, or where that takes more rows than a trial run can pay.
   std::vector<Row> passage_rows(const std::vector<Row> &rows);
 
   /// Repeats a run's samples in another model, which slides from each to the next in a single step, or in parts of it where no
@@ -31,7 +31,7 @@ namespace sprag
   /// Returns the rows at one of some times, exactly.
   std::vector<Row> rows_at(const std::vector<double> &times, const std::vector<Row> &rows);
 
-  /// Returns time, x and v of places in full sliding over the first two strokes of a drive, for probes before a run.
+  /// Returns time, x and v of places in full sliding over the first two strokes of a drive, for trial runs before a run.
   std::vector<Row> drive_samples(const Drive &drive);
 
   /// Returns the same of the first reversal and of places behind it, up to a distance [mm], over which the contact turns: where P

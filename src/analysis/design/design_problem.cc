@@ -517,9 +517,9 @@ namespace sprag
       result.parameters.push_back(bounds[i].from + std::clamp(place[i], 0., 1.) * (bounds[i].to - bounds[i].from));
     const Scene &scene = scene_at(result.parameters);
     ++*count;
-    const bool is_judged_by_models = std::any_of(base.design.judged_by.begin(), base.design.judged_by.end(),
-                                                 [](const DesignJudge judge) { return judge != DesignJudge::table; });
-    result.rule                    = hardest_rule(scene, is_judged_by_models);
+    const bool is_checked_by_models = std::any_of(base.design.check_models.begin(), base.design.check_models.end(),
+                                                  [](const CheckModel check_model) { return check_model != CheckModel::table; });
+    result.rule                     = hardest_rule(scene, is_checked_by_models);
     if (result.rule.violation < 0.)
     {
       result.quantities = lever_quantities(scene);

@@ -135,7 +135,7 @@ namespace sprag
 
     explicit DesignProblem(const Scene &scene);
 
-    /// Makes the closed form meet from now on what a judge found of a lever: what is positive by a factor, the rest by a
+    /// Makes the closed form meet from now on what a check model found of a lever: what is positive by a factor, the rest by a
     /// difference. `by_closed_form` is without earlier corrections.
     void correct(DesignQuantity quantity, double by_closed_form, double found);
 

@@ -45,13 +45,13 @@ namespace sprag
     }
   } // namespace
 
-  void visit(Archive &archive, LeverTable &table)
+  void serialise(Archive &archive, LeverTable &table)
   {
-    archive(table.now, table.peak_acceleration, table.peak_displacement, table.peak_base, table.energy_at_start, table.course);
+    archive(table.now, table.peak_acceleration, table.peak_displacement, table.peak_base, table.energy_at_start, table.solver);
     for (auto &[model, sign, motion, forces, stored] : table.sides)
     {
       archive(motion, forces, stored);
-      model.visit_history(archive);
+      model.serialise_history(archive);
     }
   }
 
@@ -70,9 +70,9 @@ namespace sprag
       , sides{ { { outward, 1, {}, {}, {} }, { inward, -1, {}, {}, {} } } }
   {
     if (scene.analysis.model == ModelType::finite_element || scene.analysis.dimension == 3)
-      course.grid.use_halves_alone();
-    course.requested_step = settings.time.step;
-    course.tangent        = settings.contact_stiffness;
+      solver.grid.use_halves_alone();
+    solver.requested_step = settings.time.step;
+    solver.tangent        = settings.contact_stiffness;
     now.z                 = scene.isolation.initial_displacement;
     now.rate              = scene.isolation.initial_velocity;
     for (auto &side : sides)
@@ -80,11 +80,11 @@ namespace sprag
       const auto at = drive_point(side, 0., now.z, now.rate);
       side.motion   = side.model.initial_motion({ 0., std::max(0., at.x), 0., 0. });
       side.stored   = side.model.stored_energy(side.motion);
-      course.force += side_force(side, side.motion);
+      solver.force += side_force(side, side.motion);
       side.motion.drive = at;
       side.forces.begin(side.motion.forces);
     }
-    course.step_force = course.previous_step_force = course.force;
+    solver.step_force = solver.previous_step_force = solver.force;
     begin();
   }
 
@@ -103,13 +103,13 @@ namespace sprag
 
   BasePoint LeverTable::base() const
   {
-    return base_excitation.at(now.time, course.piece);
+    return base_excitation.at(now.time, solver.piece);
   }
 
   std::size_t LeverTable::piece_before(const double time) const
   {
     const auto &kinks = base_excitation.kinks;
-    std::size_t found = course.piece;
+    std::size_t found = solver.piece;
     while (found < kinks.size() && kinks[found] < time)
       ++found;
     return found;
@@ -132,7 +132,7 @@ namespace sprag
   {
     auto weights        = generalised_alpha(settings.time.spectral_radius, h);
     weights.wants_error = adapts();
-    const double z = now.z + table_way, rate = 2. * (table_way - course.way_owed) / h - now.rate;
+    const double z = now.z + table_way, rate = 2. * (table_way - solver.way_owed) / h - now.rate;
     Trial trial{ z, rate, 0., 0., {} };
     for (unsigned int i = 0; i < sides.size(); ++i)
     {
@@ -162,15 +162,15 @@ namespace sprag
 
   double LeverTable::extrapolation(const double h) const
   {
-    return course.last_step > 0. ? (h + course.last_step) / (course.last_step + course.step_before) : 0.;
+    return solver.last_step > 0. ? (h + solver.last_step) / (solver.last_step + solver.step_before) : 0.;
   }
 
   /// The way on which the force goes on as in the last two steps.
   double LeverTable::predicted_way(const double h) const
   {
-    const double mean_force = course.step_force + extrapolation(h) * (course.step_force - course.previous_step_force);
+    const double mean_force = solver.step_force + extrapolation(h) * (solver.step_force - solver.previous_step_force);
     const double change     = base_at(now.time + h).v - base().v;
-    return (m * (2. * (now.rate + course.way_owed / h) - change) / h - K * now.z - mean_force) / (2. * m / (h * h) + 0.5 * K);
+    return (m * (2. * (now.rate + solver.way_owed / h) - change) / h - K * now.z - mean_force) / (2. * m / (h * h) + 0.5 * K);
   }
 
   /// Newton's method for the table's way; the levers' tangent comes from the last two tried.
@@ -182,7 +182,7 @@ namespace sprag
     std::optional<Trial> trial;
     for (unsigned int i = 0; i < most_iterations; ++i)
     {
-      ++course.iterations;
+      ++solver.iterations;
       trial = tried(h, way, std::move(trial));
       if (!trial)
         return {};
@@ -190,10 +190,10 @@ namespace sprag
       if (std::abs(trial->residual) <= std::max(balanced * scale, way_tolerance * inertia))
         return trial;
       if (i > 0 && way != last_way)
-        course.tangent = (trial->residual - last) / (way - last_way) - inertia - 0.5 * K;
+        solver.tangent = (trial->residual - last) / (way - last_way) - inertia - 0.5 * K;
       last     = trial->residual;
       last_way = way;
-      way -= trial->residual / std::max(inertia + 0.5 * K + course.tangent, 0.5 * inertia);
+      way -= trial->residual / std::max(inertia + 0.5 * K + solver.tangent, 0.5 * inertia);
     }
     return {};
   }
@@ -212,8 +212,8 @@ namespace sprag
   TableEvent LeverTable::advance(const double until)
   {
     const auto &kinks = base_excitation.kinks;
-    while (course.piece < kinks.size() && kinks[course.piece] <= now.time)
-      ++course.piece;
+    while (solver.piece < kinks.size() && kinks[solver.piece] <= now.time)
+      ++solver.piece;
     const auto &jumps = base_excitation.jumps;
     const auto jump   = std::upper_bound(jumps.begin(), jumps.end(), now.time);
     const double end  = jump != jumps.end() ? std::min(until, *jump) : until;
@@ -223,9 +223,9 @@ namespace sprag
       now.time = end;
       return TableEvent::none;
     }
-    if (course.grid.needs_span(end))
-      course.grid.begin(now.time, end, longest_step);
-    course.grid.choose(course.requested_step);
+    if (solver.grid.needs_span(end))
+      solver.grid.begin(now.time, end, longest_step);
+    solver.grid.choose(solver.requested_step);
     return take_step();
   }
 
@@ -234,7 +234,7 @@ namespace sprag
     const double shortest = std::ldexp(settings.time.step, 1 - static_cast<int>(most_halvings));
     for (;; shorten())
     {
-      const double h = course.grid.duration();
+      const double h = solver.grid.duration();
       std::optional<Trial> trial;
       std::string failure = "no balance of table and levers is found";
       try
@@ -246,13 +246,13 @@ namespace sprag
         failure = error.what();
       }
       const double error = trial && adapts() ? trial_error(*trial) : 0.;
-      const bool is_last = std::min(h, course.requested_step) < shortest;
+      const bool is_last = std::min(h, solver.requested_step) < shortest;
       if (trial && (error <= 1. || is_last))
       {
         const TableState before = now;
         accept(h, *trial);
-        now.time = course.grid.step_end();
-        course.grid.advance();
+        now.time = solver.grid.step_end();
+        solver.grid.advance();
         adapt(h, error);
         return find_event(before);
       }
@@ -264,21 +264,21 @@ namespace sprag
 
   void LeverTable::shorten()
   {
-    course.grid.shorten();
-    course.requested_step = course.grid.duration();
-    course.last_error     = 1.;
+    solver.grid.shorten();
+    solver.requested_step = solver.grid.duration();
+    solver.last_error     = 1.;
   }
 
   /// Errors go with the third power of the step; the larger of the last two counts, as they vary with the elements that pass. A
   /// step that was wanted longer than there was room for may be as long again.
   void LeverTable::adapt(const double h, const double error)
   {
-    const double longest = std::max(course.requested_step, largest_growth * h);
+    const double longest = std::max(solver.requested_step, largest_growth * h);
     if (adapts())
-      course.requested_step = std::min(longest, h * std::cbrt(error_aimed_at / std::max({ error, course.last_error, 1e-9 })));
+      solver.requested_step = std::min(longest, h * std::cbrt(error_aimed_at / std::max({ error, solver.last_error, 1e-9 })));
     else
-      course.requested_step = std::min(longest, settings.time.step);
-    course.last_error = error;
+      solver.requested_step = std::min(longest, settings.time.step);
+    solver.last_error = error;
   }
 
   void LeverTable::accept(const double h, Trial &trial)
@@ -289,16 +289,16 @@ namespace sprag
     // The way was met to within a tolerance: the rate follows from the forces, and what the way lacks the next step adds.
     const double mean_force    = 0.5 * K * (trial.z + now.z) + trial.force;
     const double rate          = now.rate - (base_at(t + h).v - base_before.v) - mean_force * h / m;
-    course.way_owed            = 0.5 * h * (rate - trial.rate);
-    course.previous_step_force = course.step_force;
-    course.step_force          = trial.force;
-    course.step_before         = course.steps > 0 ? course.last_step : h;
-    course.last_step           = h;
-    course.piece               = piece_before(t + h);
+    solver.way_owed            = 0.5 * h * (rate - trial.rate);
+    solver.previous_step_force = solver.step_force;
+    solver.step_force          = trial.force;
+    solver.step_before         = solver.steps > 0 ? solver.last_step : h;
+    solver.last_step           = h;
+    solver.piece               = piece_before(t + h);
     now.z                      = trial.z;
     now.rate                   = rate;
     now.time                   = t + h;
-    ++course.steps;
+    ++solver.steps;
     const auto base_behind = base();
     now.base_work -= mean_force * h * 0.5 * (base_before.v + base_behind.v);
     add_integrals(h, { a_before, base_before.a }, { acceleration(), base_behind.a });
@@ -308,7 +308,7 @@ namespace sprag
 
   void LeverTable::accept_levers(Trial &trial, const double h)
   {
-    course.force = 0.;
+    solver.force = 0.;
     for (unsigned int i = 0; i < sides.size(); ++i)
     {
       auto &side       = sides[i];
@@ -317,7 +317,7 @@ namespace sprag
       side.motion = std::move(*trial.levers[i].motion);
       side.forces.accept(side.motion.forces, h);
       side.stored = side.model.stored_energy(side.motion);
-      course.force += side_force(side, side.motion);
+      solver.force += side_force(side, side.motion);
     }
   }
 

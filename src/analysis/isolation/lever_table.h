@@ -45,17 +45,17 @@ namespace sprag
 
     double damper_force() const override
     {
-      return course.force;
+      return solver.force;
     }
 
     double force_before_turn() const override
     {
-      return course.force;
+      return solver.force;
     }
 
     double acceleration() const override
     {
-      return -(K * now.z + course.force) / m;
+      return -(K * now.z + solver.force) / m;
     }
 
     BasePoint base() const override;
@@ -65,16 +65,16 @@ namespace sprag
     /// Returns the mean number of ways tried in a step.
     double iterations_a_step() const
     {
-      return course.steps > 0 ? static_cast<double>(course.iterations) / static_cast<double>(course.steps) : 0.;
+      return solver.steps > 0 ? static_cast<double>(solver.iterations) / static_cast<double>(solver.steps) : 0.;
     }
 
     unsigned long step_count() const
     {
-      return course.steps;
+      return solver.steps;
     }
 
   private:
-    friend void visit(Archive &archive, LeverTable &table);
+    friend void serialise(Archive &archive, LeverTable &table);
 
     /// A lever of one side.
     struct Side
@@ -96,7 +96,7 @@ namespace sprag
     };
 
     /// Variables that change from step to step, apart from states and levers.
-    struct Course
+    struct SolverState
     {
       StepGrid grid;
       double requested_step      = 0.;
@@ -126,7 +126,7 @@ namespace sprag
     const double longest_step;
     const double way_tolerance; ///< to which a step's way is met [mm]
     std::array<Side, 2> sides;
-    Course course;
+    SolverState solver;
 
     bool adapts() const
     {
@@ -161,5 +161,5 @@ namespace sprag
     TableEvent find_event(const TableState &before) const;
   };
 
-  void visit(Archive &archive, LeverTable &table);
+  void serialise(Archive &archive, LeverTable &table);
 } // namespace sprag

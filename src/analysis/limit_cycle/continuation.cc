@@ -98,8 +98,8 @@ namespace sprag
       return sum;
     }
 
-    /// Judges the windows so far: a slide, a cycle, or undecided as long as the last ones differ.
-    Settling judged(const std::vector<CycleWindow> &windows, const double P)
+    /// Checks the windows so far: a slide, a cycle, or undecided as long as the last ones differ.
+    Settling checked(const std::vector<CycleWindow> &windows, const double P)
     {
       const std::size_t n = windows.size();
       if (n < 3)
@@ -112,7 +112,7 @@ namespace sprag
     }
 
     /// At the end of the time: a large vibration stays unless its second half is clearly smaller than its first.
-    Settling judged_at_last(const std::vector<CycleWindow> &windows, const double P)
+    Settling checked_at_last(const std::vector<CycleWindow> &windows, const double P)
     {
       const std::size_t n = windows.size();
       if (windows.back().amplitude_P < small_vibration * P || n < 4)
@@ -140,10 +140,10 @@ namespace sprag
       windows.push_back(next_window(run, slide, path, window_periods * times.period, sink));
       passed = windows.back().end - begin;
       if (passed >= times.shortest)
-        result.kind = judged(windows, slide.forces.P);
+        result.kind = checked(windows, slide.forces.P);
     }
     if (result.kind == Settling::undecided)
-      result.kind = judged_at_last(windows, slide.forces.P);
+      result.kind = checked_at_last(windows, slide.forces.P);
     result.window = result.kind == Settling::irregular ? joined(windows, windows.size() / 2) : windows.back();
     if (windows.size() > 1)
     {
@@ -166,22 +166,22 @@ namespace sprag
   } // namespace
 
   Continuation::Continuation(DynamicModel &dynamic_model, HeldRun &held_run, const DrivePoint &start, const double period,
-                             const JudgedModes &judged_modes, const SpragSlipSettings &sprag_slip)
+                             const CheckedModes &checked_modes, const SpragSlipSettings &sprag_slip)
       : model(dynamic_model)
       , run(held_run)
       , drive(start)
-      , modes(judged_modes)
+      , modes(checked_modes)
       , settings(sprag_slip)
       , times{ period, sprag_slip.settling, std::max(sprag_slip.settling, sprag_slip.longest_growth) }
   {
   }
 
-  ContinuationPoint Continuation::judged(const double x)
+  ContinuationPoint Continuation::checked(const double x)
   {
     DrivePoint there = drive;
     there.x          = x;
     ContinuationPoint point;
-    point.slide = judge(model, there, modes);
+    point.slide = check_slide(model, there, modes);
     point.x     = x;
     return point;
   }
@@ -194,7 +194,7 @@ namespace sprag
   Settled Continuation::kicked(const ContinuationPoint &point, const double amplitude)
   {
     const auto &slide = *point.slide.slide;
-    run.begin(model.perturbed(slide, watched_mode(point.slide), amplitude * slide.overlap));
+    run.begin(model.perturbed(slide, watched_mode(point.slide), amplitude * slide.penetration));
     return settled(point);
   }
 
@@ -213,7 +213,7 @@ namespace sprag
   {
     for (unsigned int i = 1; i <= settings.continuation; ++i)
     {
-      auto point         = judged(drive.x + (turn - drive.x) * i / settings.continuation);
+      auto point         = checked(drive.x + (turn - drive.x) * i / settings.continuation);
       const auto &last   = visited.back();
       const bool carries = point.holds() && last.away.vibrates();
       const auto at_last = run.state();
@@ -235,7 +235,7 @@ namespace sprag
     auto &[alive, state] = *last_alive;
     for (unsigned int i = 0; i < bisections; ++i)
     {
-      auto middle = judged(0.5 * (visited[alive].x + visited[alive + 1].x));
+      auto middle = checked(0.5 * (visited[alive].x + visited[alive + 1].x));
       if (!middle.holds())
         return;
       run.resume(state);
@@ -282,8 +282,8 @@ namespace sprag
   {
     while (std::abs(stable - unstable) > limit_accuracy)
     {
-      const double middle                                                  = 0.5 * (stable + unstable);
-      (judged(middle).slide.kind == SlideKind::stable ? stable : unstable) = middle;
+      const double middle                                                   = 0.5 * (stable + unstable);
+      (checked(middle).slide.kind == SlideKind::stable ? stable : unstable) = middle;
     }
     return stable;
   }

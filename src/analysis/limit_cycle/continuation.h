@@ -48,7 +48,7 @@ namespace sprag
   struct SettlingTimes
   {
     double period;   ///< of the slide's vibration [s]; a window has 20
-    double shortest; ///< before anything is judged [s]
+    double shortest; ///< before anything is checked [s]
     double longest;  ///< before what there is has to do [s]
   };
 
@@ -62,7 +62,7 @@ namespace sprag
   /// The slide and the vibrations found at one x.
   struct ContinuationPoint
   {
-    SlideStability slide; ///< judged there
+    SlideStability slide; ///< checked there
     double x = 0.;        ///< [mm]
     Settled away;         ///< the vibration carried along, or what a large kick of the slide leads to
     Settled back;         ///< the slide, perturbed a little, or a vibration carried along
@@ -92,20 +92,21 @@ namespace sprag
   class Continuation
   {
   public:
-    /// Perturbations of a slide over its overlap.
+    /// Perturbations of a slide over its penetration.
     static constexpr double small_kick = 1e-3;
     static constexpr double large_kick = 3.;
 
     /// Bisections of the interval in which a vibration that was carried along dies.
     static constexpr unsigned int bisections = 3;
 
-    /// Starts at `drive` with a vibration of this period [s]; `modes` is that of judge(). The run must begin at the slide or
-    /// vibration there.
-    Continuation(DynamicModel &model, HeldRun &run, const DrivePoint &drive, double period, const JudgedModes &modes,
+    /// Starts at `drive` with a vibration of this period [s]; `modes` is that of check_slide(). The run must begin at the slide
+    /// or vibration there.
+    Continuation(DynamicModel &model, HeldRun &run, const DrivePoint &drive, double period, const CheckedModes &modes,
                  const SpragSlipSettings &settings);
 
     /// Goes to `turn` [mm] in the scene's number of intervals, finds where the vibration dies on the way, and returns. `done` is
-    /// called after each x. What is finished can be asked for after an exception too. Throws as HeldRun::step() and judge().
+    /// called after each x. What is finished can be asked for after an exception too. Throws as HeldRun::step() and
+    /// check_slide().
     void go(const SlideStability &slide, const Settled &start, double turn, const std::function<void()> &done);
 
     /// Returns the points visited so far, from the start to the turn.
@@ -126,7 +127,7 @@ namespace sprag
       RunState state;
     };
 
-    ContinuationPoint judged(double x);
+    ContinuationPoint checked(double x);
     Settled settled(const ContinuationPoint &point);
     Settled kicked(const ContinuationPoint &point, double amplitude);
     Settled carried(const ContinuationPoint &from, const ContinuationPoint &to);
@@ -138,7 +139,7 @@ namespace sprag
     DynamicModel &model;
     HeldRun &run;
     const DrivePoint drive;
-    const JudgedModes modes;
+    const CheckedModes modes;
     const SpragSlipSettings &settings;
     const SettlingTimes times;
     std::vector<ContinuationPoint> visited;

@@ -101,7 +101,7 @@ namespace sprag
 
     Growth growth;
     growth.eigenvalue = mode.mode.eigenvalue;
-    run.begin(model.perturbed(slide, mode, at_start * slide.overlap));
+    run.begin(model.perturbed(slide, mode, at_start * slide.penetration));
     const auto path    = held_path(run.drive(), slide);
     const double begin = run.drive().time;
     AmplitudeWatch watch{ 0.5 * period, at_end / at_start };

@@ -20,7 +20,7 @@ namespace sprag
     std::complex<double> eigenvalue; ///< predicted [1/s]
     ExponentialFit envelope{};       ///< measured, of P - P of the slide [N]
     double frequency = 0.;           ///< measured [Hz]; NaN where the mode does not oscillate
-    std::vector<Sample> sizes;       ///< the envelope fitted, over the mean overlap
+    std::vector<Sample> sizes;       ///< the envelope fitted, over the mean penetration
     bool slid    = true;             ///< neither stick nor loss of contact in the window
     bool reached = false;            ///< the amplitude aimed at, within Sprag slip/Longest growth
 

@@ -33,7 +33,7 @@ namespace sprag
     /// Leaves the direction failed where the analysis fails.
     void set_slide(const SweptSlides &slides, const Direction direction, MapCell &cell)
     {
-      // One NaN for all, as a journal keeps no others apart.
+      // One NaN for all, as a results log keeps no others apart.
       const auto number = [](const double value) { return std::isnan(value) ? no_number : value; };
       const auto place  = cell.values.begin() + 1 + (direction == Direction::forward ? 0 : n_slide_values);
       try
@@ -84,20 +84,20 @@ namespace sprag
     return share == 1. ? range.to : range.from + share * (range.to - range.from);
   }
 
-  CellJudge::CellJudge(const Scene &map_scene)
+  CellCheck::CellCheck(const Scene &map_scene)
       : scene(map_scene)
       , maker(false)
   {
   }
 
-  Scene CellJudge::scene_at(const MapSite &site) const
+  Scene CellCheck::scene_at(const MapSite &site) const
   {
     const auto &[first, second, coarsest, bisections] = scene.map;
     return prepared(variant(scene, { override_text(first.name, parameter_at(first, site.first)),
                                      override_text(second.name, parameter_at(second, site.second)) }));
   }
 
-  MapCell CellJudge::judge(const MapSite &site)
+  MapCell CellCheck::check(const MapSite &site)
   {
     MapCell cell = empty_cell(failed_cell);
     try
@@ -120,7 +120,7 @@ namespace sprag
     return cell;
   }
 
-  std::optional<unsigned int> CellJudge::mesh_parameter() const
+  std::optional<unsigned int> CellCheck::mesh_parameter() const
   {
     const bool first = changes_mesh(scene, scene.map.first), second = changes_mesh(scene, scene.map.second);
     if (!is_meshed(scene.analysis.model) || first == second)

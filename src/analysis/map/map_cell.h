@@ -38,14 +38,14 @@ namespace sprag
   /// Returns the parameter's value at a coordinate of the grid: its ends exactly.
   double parameter_at(const ParameterRange &range, double coordinate);
 
-  /// Judges the slides of a map's scene both ways with other values of its two parameters. A cell depends on nothing but its
+  /// Checks the slides of a map's scene both ways with other values of its two parameters. A cell depends on nothing but its
   /// site.
-  class CellJudge
+  class CellCheck
   {
   public:
-    explicit CellJudge(const Scene &scene);
+    explicit CellCheck(const Scene &scene);
 
-    MapCell judge(const MapSite &site);
+    MapCell check(const MapSite &site);
 
     /// Measures the time spent on meshes and models.
     PhaseTimer &timer()
@@ -53,8 +53,8 @@ namespace sprag
       return maker.timer();
     }
 
-    /// Returns the parameter, 0 or 1, that alone changes the mesh, so that cells in the order of it are judged faster; none where
-    /// there is no such parameter.
+    /// Returns the parameter, 0 or 1, that alone changes the mesh, so that cells in the order of it are checked faster; none
+    /// where there is no such parameter.
     std::optional<unsigned int> mesh_parameter() const;
 
   private:

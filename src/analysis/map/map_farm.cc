@@ -30,17 +30,17 @@ namespace sprag
     return { { numbers.at(0), numbers.at(1) }, cell };
   }
 
-  MapFarm::MapFarm(const Scene &scene, const Journal *journal, std::function<void(std::size_t, std::size_t)> report)
-      : own_judge(scene)
-      , farm({ "map", unchanged_inputs(scene, "map"), std::move(report) }, journal)
-      , kept(own_judge.mesh_parameter())
+  MapFarm::MapFarm(const Scene &scene, const ResultsLog *results_log, std::function<void(std::size_t, std::size_t)> report)
+      : own_check(scene)
+      , farm({ "map", unchanged_inputs(scene, "map"), std::move(report) }, results_log)
+      , kept(own_check.mesh_parameter())
   {
     for (const auto &line : farm.taken_over())
       learn(line);
-    from_journal = known.size();
+    from_log = known.size();
   }
 
-  void MapFarm::judge(const std::vector<MapSite> &sites)
+  void MapFarm::check(const std::vector<MapSite> &sites)
   {
     std::vector<MapSite> missing;
     std::copy_if(sites.begin(), sites.end(), std::back_inserter(missing),
@@ -49,7 +49,7 @@ namespace sprag
       std::stable_sort(missing.begin(), missing.end(),
                        [this](const MapSite &a, const MapSite &b) { return coordinate(a, *kept) < coordinate(b, *kept); });
     farm.carry_out(
-        site_groups(missing), [&](const std::size_t i) { return to_line(missing[i], own_judge.judge(missing[i])); },
+        site_groups(missing), [&](const std::size_t i) { return to_line(missing[i], own_check.check(missing[i])); },
         [this](const std::string &line) { learn(line); });
   }
 

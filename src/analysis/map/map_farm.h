@@ -10,22 +10,22 @@ namespace sprag
 
   using MapCells = std::map<MapSite, MapCell>;
 
-  /// Writes a cell and its site as a line of a journal, to the last bit.
+  /// Writes a cell and its site as a line of a results log, to the last bit.
   std::string to_line(const MapSite &site, const MapCell &cell);
 
   /// Reads such a line.
   std::pair<MapSite, MapCell> parse_cell(const std::string &line);
 
-  /// All ranks of MPI, judging the cells of a map together. Every rank calls what is here and comes to have all cells.
+  /// All ranks of MPI, checking the cells of a map together. Every rank calls what is here and comes to have all cells.
   class MapFarm
   {
   public:
-    /// Takes over the cells in the journal, which rank 0 has; it is null on the others. `report` is called on rank 0 now and then
-    /// with the cells judged and those asked for.
-    MapFarm(const Scene &scene, const Journal *journal, std::function<void(std::size_t, std::size_t)> report);
+    /// Takes over the cells in the results log, which rank 0 has; it is null on the others. `report` is called on rank 0 now and
+    /// then with the cells checked and those asked for.
+    MapFarm(const Scene &scene, const ResultsLog *results_log, std::function<void(std::size_t, std::size_t)> report);
 
-    /// Judges what is not known yet. Throws what Team::carry_out() does; cells finished until then are kept.
-    void judge(const std::vector<MapSite> &sites);
+    /// Checks what is not known yet. Throws what Team::carry_out() does; cells finished until then are kept.
+    void check(const std::vector<MapSite> &sites);
 
     const MapCells &cells() const
     {
@@ -36,24 +36,24 @@ namespace sprag
       return known_kinds;
     }
 
-    /// Returns the number of cells that were in the journal.
+    /// Returns the number of cells that were in the results log.
     std::size_t taken_over() const
     {
-      return from_journal;
+      return from_log;
     }
 
-    CellJudge &cell_judge()
+    CellCheck &cell_check()
     {
-      return own_judge;
+      return own_check;
     }
 
   private:
-    CellJudge own_judge;
+    CellCheck own_check;
     TaskFarm farm;
-    const std::optional<unsigned int> kept; ///< see CellJudge::mesh_parameter()
+    const std::optional<unsigned int> kept; ///< see CellCheck::mesh_parameter()
     MapCells known;
     KnownKinds known_kinds;
-    std::size_t from_journal = 0;
+    std::size_t from_log = 0;
 
     std::vector<std::vector<std::size_t>> site_groups(const std::vector<MapSite> &sites) const;
     void learn(const std::string &line);

@@ -18,7 +18,7 @@ namespace sprag
 
   using KnownKinds = std::map<MapSite, MapKinds>;
 
-  /// A grid judged at every `coarsest`-th point and at its ends first, then closer and closer wherever kinds differ.
+  /// A grid checked at every `coarsest`-th point and at its ends first, then closer and closer wherever kinds differ.
   ///
   /// A quad is split when not all points known in it and on its sides have the same kinds, so that a boundary is followed
   /// wherever it leaves; and, while its parts are wider than an interval, when a quad beside it is split for that reason.
@@ -29,7 +29,7 @@ namespace sprag
     /// Makes a grid of at least two points each way; `coarsest` is a power of 2.
     MapGrid(unsigned int first_points, unsigned int second_points, unsigned int coarsest);
 
-    /// Returns the grid points to be judged next, by increasing site; none once nothing is left to refine.
+    /// Returns the grid points to be checked next, by increasing site; none once nothing is left to refine.
     std::vector<MapSite> next_sites();
 
     /// Takes over what is known of the grid's points.

@@ -12,11 +12,11 @@ namespace sprag
     /// Factor on the lever's Young's modulus that makes its flexure negligible.
     constexpr double rigid_factor = 1e4;
 
-    Role judged(const std::string &name, const std::string &meaning, const Scene &scene, DynamicsMaker &maker)
+    Role checked(const std::string &name, const std::string &meaning, const Scene &scene, DynamicsMaker &maker)
     {
       try
       {
-        const auto found = judge(scene, maker);
+        const auto found = check_slide(scene, maker);
         return { name, meaning, found.kind, found.growth_rate(), found.frequency(), found.motion() };
       }
       catch (const AnalysisError &error)
@@ -43,22 +43,22 @@ namespace sprag
       Scene constant           = held_scene(scene);
       constant.friction.law    = CoulombFriction{ present.slide->mu };
       constant.friction.factor = 1.;
-      result.push_back(judged("without_friction_derivative", "mu constant, as it is at this speed", constant, maker));
+      result.push_back(checked("without_friction_derivative", "mu constant, as it is at this speed", constant, maker));
     }
     Scene undamped             = scene;
     undamped.stability.damping = false;
-    result.push_back(judged("without_damping", "no damping of lever, contact and support", undamped, maker));
+    result.push_back(checked("without_damping", "no damping of lever, contact and support", undamped, maker));
     if (scene.support.type == SupportType::sprung)
     {
       Scene fixed        = scene;
       fixed.support.type = SupportType::rigid;
-      result.push_back(judged("without_support", "pivot at rest", fixed, maker));
+      result.push_back(checked("without_support", "pivot at rest", fixed, maker));
     }
     if (scene.analysis.model != ModelType::rigid)
     {
       Scene stiff = scene;
       stiff.lever.young_modulus *= rigid_factor;
-      result.push_back(judged("without_flexure", "Young's modulus of the lever times 1e4", stiff, maker));
+      result.push_back(checked("without_flexure", "Young's modulus of the lever times 1e4", stiff, maker));
     }
     return result;
   }

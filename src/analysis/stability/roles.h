@@ -18,6 +18,6 @@ namespace sprag
     std::string motion            = {}; ///< of a pair's most unstable mode, see SlideStability::motion()
   };
 
-  /// Judges the slide again without flexure, inertia, mu'(v), damping and a sprung support, each left out alone.
+  /// Checks the slide again without flexure, inertia, mu'(v), damping and a sprung support, each left out alone.
   std::vector<Role> roles(const Scene &scene, const SlideStability &present, DynamicsMaker &maker);
 } // namespace sprag

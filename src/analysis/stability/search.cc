@@ -14,7 +14,7 @@ namespace sprag
     struct Tried
     {
       double value = 0.;
-      std::optional<JudgedSlide> slide; ///< none where it cannot be judged
+      std::optional<CheckedSlide> slide; ///< none where it cannot be checked
 
       SlideKind kind() const
       {
@@ -41,9 +41,9 @@ namespace sprag
     class Search
     {
     public:
-      Search(const ParameterRange &range, const std::function<JudgedSlide(double)> &judge_at_,
+      Search(const ParameterRange &range, const std::function<CheckedSlide(double)> &check_at_,
              const std::function<void()> &value_tried_)
-          : judge_at(judge_at_)
+          : check_at(check_at_)
           , value_tried(value_tried_)
       {
         result.range   = range;
@@ -55,9 +55,9 @@ namespace sprag
         const auto &range = result.range;
         for (unsigned int i = 0; i < range.points; ++i)
           all.push_back(
-              judged_at(range.points == 1 ? range.from : range.from + (range.to - range.from) * i / (range.points - 1)));
+              checked_at(range.points == 1 ? range.from : range.from + (range.to - range.from) * i / (range.points - 1)));
         for (const double hint : hints)
-          insert(judged_at(hint));
+          insert(checked_at(hint));
         if (const auto found = std::find_if(all.begin(), all.end(), [](const Tried &tried) { return tried.slide.has_value(); });
             found != all.end())
           result.first = found->kind();
@@ -72,8 +72,8 @@ namespace sprag
         {
           const Window window             = { { points[i - 1], points[i], points[i + 1] } };
           const auto &[low, middle, high] = window;
-          const bool are_judged           = low.slide && middle.slide && high.slide;
-          if (!are_judged || low.kind() != middle.kind() || high.kind() != middle.kind() || middle.kind() == SlideKind::jammed)
+          const bool are_checked          = low.slide && middle.slide && high.slide;
+          if (!are_checked || low.kind() != middle.kind() || high.kind() != middle.kind() || middle.kind() == SlideKind::jammed)
             continue;
           if (is_unstable(middle.kind()))
           {
@@ -103,17 +103,17 @@ namespace sprag
       }
 
     private:
-      const std::function<JudgedSlide(double)> &judge_at;
+      const std::function<CheckedSlide(double)> &check_at;
       const std::function<void()> &value_tried;
       CriticalSearch result;
       std::vector<Tried> all; ///< from one end of the range to the other
 
-      Tried judged_at(const double value)
+      Tried checked_at(const double value)
       {
         Tried tried{ value, {} };
         try
         {
-          tried.slide = judge_at(value);
+          tried.slide = check_at(value);
           if (!result.worst || is_worse(*tried.slide, *result.worst))
             result.worst = tried.slide;
         }
@@ -131,7 +131,7 @@ namespace sprag
 
       void pass_over(const double value, const std::string &reason)
       {
-        result.not_judged.push_back(value);
+        result.not_checked.push_back(value);
         result.reason = reason;
       }
 
@@ -156,7 +156,7 @@ namespace sprag
             return;
           const bool upper  = std::abs(high.value - middle.value) > std::abs(middle.value - low.value);
           const auto &side  = upper ? high : low;
-          const Tried added = judged_at(middle.value + share * (side.value - middle.value));
+          const Tried added = checked_at(middle.value + share * (side.value - middle.value));
           if (!added.slide)
             return;
           insert(added);
@@ -187,7 +187,7 @@ namespace sprag
           const bool has_chord = at_low * at_high < 0. && std::min(std::abs(at_low), std::abs(at_high)) > least;
           const double inside  = std::min(0.5, 0.45 * tolerance / width);
           const double share   = has_chord && step % 3 != 0 ? std::clamp(at_low / (at_low - at_high), inside, 1. - inside) : 0.5;
-          const Tried middle   = judged_at(low.value + share * (high.value - low.value));
+          const Tried middle   = checked_at(low.value + share * (high.value - low.value));
           const bool moves_low = middle.slide && middle.kind() == low.kind();
           (moves_low ? low : high)       = middle;
           (moves_low ? at_low : at_high) = growth(middle);
@@ -202,9 +202,9 @@ namespace sprag
     };
   } // namespace
 
-  JudgedSlide judged(const SlideStability &found, const DrivePoint &drive)
+  CheckedSlide checked_slide(const SlideStability &found, const DrivePoint &drive)
   {
-    JudgedSlide result;
+    CheckedSlide result;
     result.kind        = found.kind;
     result.growth_rate = found.growth_rate();
     result.frequency   = found.frequency();
@@ -220,21 +220,21 @@ namespace sprag
     return result;
   }
 
-  bool is_worse(const JudgedSlide &a, const JudgedSlide &b)
+  bool is_worse(const CheckedSlide &a, const CheckedSlide &b)
   {
     return rank(a.kind) != rank(b.kind) ? rank(a.kind) > rank(b.kind) : a.growth_rate > b.growth_rate;
   }
 
-  bool is_alike(const JudgedSlide &a, const JudgedSlide &b)
+  bool is_alike(const CheckedSlide &a, const CheckedSlide &b)
   {
     return a.growth_rate == b.growth_rate && a.P == b.P;
   }
 
   CriticalSearch search_kinds(const ParameterRange &range, const SearchEffort &effort,
-                              const std::function<JudgedSlide(double)> &judge_at, const std::vector<double> &hints,
+                              const std::function<CheckedSlide(double)> &check_at, const std::vector<double> &hints,
                               const std::function<void()> &tried)
   {
-    Search search(range, judge_at, tried);
+    Search search(range, check_at, tried);
     search.try_points(hints);
     search.look_for_islands(effort.island_steps);
     return search.found(effort.tolerance);

@@ -10,7 +10,7 @@
 namespace sprag
 {
   /// A slide and what it does, or the worst of several.
-  struct JudgedSlide
+  struct CheckedSlide
   {
     SlideKind kind     = SlideKind::jammed;
     double growth_rate = std::numeric_limits<double>::quiet_NaN(); ///< largest Re lambda [1/s]; NaN where it jams
@@ -24,13 +24,13 @@ namespace sprag
     std::vector<double> growth_rates;   ///< of the modes by increasing |lambda|; empty of the worst of several
   };
 
-  JudgedSlide judged(const SlideStability &found, const DrivePoint &drive);
+  CheckedSlide checked_slide(const SlideStability &found, const DrivePoint &drive);
 
   /// Returns whether a does worse than b: what jams is worse than what vibrates, this than what is stable; then growth decides.
-  bool is_worse(const JudgedSlide &a, const JudgedSlide &b);
+  bool is_worse(const CheckedSlide &a, const CheckedSlide &b);
 
   /// Returns whether two slides do the same to the last digit; slides that jam never do.
-  bool is_alike(const JudgedSlide &a, const JudgedSlide &b);
+  bool is_alike(const CheckedSlide &a, const CheckedSlide &b);
 
   inline bool is_unstable(const SlideKind kind)
   {
@@ -43,22 +43,22 @@ namespace sprag
     double value = 0.;
     SlideKind below; ///< kind just below the value
     SlideKind above;
-    JudgedSlide worse; ///< the worse of the slides on both sides
-    double mu = 0.;    ///< of the slide below; NaN where there is no equilibrium
+    CheckedSlide worse; ///< the worse of the slides on both sides
+    double mu = 0.;     ///< of the slide below; NaN where there is no equilibrium
   };
 
   /// Changes of stability found along one parameter of the scene.
   struct CriticalSearch
   {
     ParameterRange range;
-    std::optional<SlideKind> first; ///< kind at the smallest value that could be judged; none: none could
+    std::optional<SlideKind> first; ///< kind at the smallest value that could be checked; none: none could
     std::vector<CriticalValue> changes;
-    std::optional<JudgedSlide> worst; ///< of all values tried
-    std::vector<double> not_judged;   ///< values that the scene does not admit, or at which the analysis failed
-    std::string reason;               ///< why the last of them was not
-    double spacing           = 0.;    ///< of the values tried throughout
-    unsigned int more_values = 0;     ///< tried between them, where a growth rate peaks
-    bool has_effect          = true;  ///< whether any two of the values tried differ in their growth
+    std::optional<CheckedSlide> worst; ///< of all values tried
+    std::vector<double> not_checked;   ///< values that the scene does not admit, or at which the analysis failed
+    std::string reason;                ///< why the last of them was not
+    double spacing           = 0.;     ///< of the values tried throughout
+    unsigned int more_values = 0;      ///< tried between them, where a growth rate peaks
+    bool has_effect          = true;   ///< whether any two of the values tried differ in their growth
   };
 
   /// Values that a search is expected to try beside the points of its range.
@@ -78,9 +78,9 @@ namespace sprag
 
   /// Finds the changes of kind along a parameter. It is tried at the range's points and at `hints` between them, then where a
   /// growth rate peaks so high that it may change its sign, and the changes are narrowed by bisection, or by regula falsi between
-  /// growth rates of both signs. An island narrower than the spacing that no growth rate hints at is missed. `judge_at` throws
-  /// InputError or AnalysisError for values that cannot be judged; these are passed over. `tried` is called after each value.
+  /// growth rates of both signs. An island narrower than the spacing that no growth rate hints at is missed. `check_at` throws
+  /// InputError or AnalysisError for values that cannot be checked; these are passed over. `tried` is called after each value.
   CriticalSearch search_kinds(
-      const ParameterRange &range, const SearchEffort &effort, const std::function<JudgedSlide(double)> &judge_at,
+      const ParameterRange &range, const SearchEffort &effort, const std::function<CheckedSlide(double)> &check_at,
       const std::vector<double> &hints = {}, const std::function<void()> &tried = [] {});
 } // namespace sprag

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/stability/stability.h"
 
-#include "model/mirroring.h"
+#include "model/mode_symmetry.h"
 #include "scene/contact_reference.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
@@ -37,20 +37,20 @@ namespace sprag
   std::string SlideStability::motion() const
   {
     constexpr double pure = 0.99;
-    if (modes.empty() || std::isnan(worst_mode().mirroring))
+    if (modes.empty() || std::isnan(worst_mode().symmetry))
       return "";
     const auto is_other = [this](const Eigenmode &mode)
-    { return are_tied(mode.mode, worst_mode().mode) && mode.mirroring * worst_mode().mirroring < 0.; };
+    { return are_tied(mode.mode, worst_mode().mode) && mode.symmetry * worst_mode().symmetry < 0.; };
     if (std::any_of(modes.begin(), modes.end(), is_other))
       return "either";
-    if (std::abs(worst_mode().mirroring) < pure)
+    if (std::abs(worst_mode().symmetry) < pure)
       return "mixed";
-    return worst_mode().mirroring > 0. ? "mirroring" : "swinging";
+    return worst_mode().symmetry > 0. ? "mirroring" : "swinging";
   }
 
-  JudgedModes judged_modes(const Scene &scene)
+  CheckedModes checked_modes(const Scene &scene)
   {
-    JudgedModes result{ scene.stability.modes };
+    CheckedModes result{ scene.stability.modes };
     if (scene.analysis.model == ModelType::beam)
       result.up_to = highest_beam_frequency(scene);
     return result;
@@ -64,7 +64,7 @@ namespace sprag
     return result;
   }
 
-  SlideStability judge(DynamicModel &model, const DrivePoint &drive, const JudgedModes &modes)
+  SlideStability check_slide(DynamicModel &model, const DrivePoint &drive, const CheckedModes &modes)
   {
     SlideStability result;
     result.slide = model.hold(drive, ContactFriction::sliding);
@@ -93,10 +93,10 @@ namespace sprag
     return result;
   }
 
-  SlideStability judge(const Scene &scene, DynamicsMaker &maker)
+  SlideStability check_slide(const Scene &scene, DynamicsMaker &maker)
   {
     const Scene held    = held_scene(scene);
     const auto dynamics = maker.make(held);
-    return judge(dynamics.model(), held_drive(scene), judged_modes(held));
+    return check_slide(dynamics.model(), held_drive(scene), checked_modes(held));
   }
 } // namespace sprag

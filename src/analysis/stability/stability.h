@@ -24,14 +24,14 @@ namespace sprag
   std::string kind_name(SlideKind kind);
 
   /// The vibrations that a verdict rests on.
-  struct JudgedModes
+  struct CheckedModes
   {
     unsigned int lowest;                                    ///< at least so many are found
     double up_to = std::numeric_limits<double>::infinity(); ///< [Hz]; the model cannot have faster ones
   };
 
   /// Returns those of the scene's model; see highest_beam_frequency().
-  JudgedModes judged_modes(const Scene &scene);
+  CheckedModes checked_modes(const Scene &scene);
 
   /// A steady slide and its vibrations.
   struct SlideStability
@@ -40,7 +40,7 @@ namespace sprag
     std::optional<HeldSlide> slide;  ///< none where there is no equilibrium
     std::vector<Eigenmode> modes;    ///< by increasing |lambda|; empty without equilibrium
     std::size_t worst = 0;           ///< of the modes, the one with the largest growth rate, the first of those that tie
-    std::optional<Eigenmode> beyond; ///< the fastest growing mode beyond JudgedModes::up_to, if one grows
+    std::optional<Eigenmode> beyond; ///< the fastest growing mode beyond CheckedModes::up_to, if one grows
 
     /// Returns the highest frequency among the modes [Hz]; NaN without equilibrium.
     double highest_frequency() const;
@@ -76,9 +76,9 @@ namespace sprag
   /// Growth above this share of |lambda| counts as growth. No structure has so little damping.
   constexpr double smallest_growth = 1e-6;
 
-  /// Judges the slide at `drive`.
-  SlideStability judge(DynamicModel &model, const DrivePoint &drive, const JudgedModes &modes);
+  /// Checks the slide at `drive`.
+  SlideStability check_slide(DynamicModel &model, const DrivePoint &drive, const CheckedModes &modes);
 
-  /// Judges the slide at the scene's held_drive(), with its model in held_scene(), which `maker` makes.
-  SlideStability judge(const Scene &scene, DynamicsMaker &maker);
+  /// Checks the slide at the scene's held_drive(), with its model in held_scene(), which `maker` makes.
+  SlideStability check_slide(const Scene &scene, DynamicsMaker &maker);
 } // namespace sprag

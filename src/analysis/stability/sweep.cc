@@ -14,7 +14,7 @@ namespace sprag
 {
   namespace
   {
-    /// Reduced and condensed levers judge a slide in milliseconds.
+    /// Reduced and condensed levers check a slide in milliseconds.
     unsigned int points_along(const Scene &scene)
     {
       const bool is_cheap = scene.analysis.model != ModelType::finite_element && scene.analysis.dimension == 2;
@@ -42,19 +42,19 @@ namespace sprag
     CriticalSearch slides_along(const Scene &scene, DynamicModel &model, const SearchEffort &effort)
     {
       const bool over_stroke = looks_over_stroke(scene);
-      const auto judge_at    = [&](const double x)
+      const auto check_at    = [&](const double x)
       {
         DrivePoint drive = held_drive(scene);
         drive.x          = x;
-        auto slide       = judged(judge(model, drive, judged_modes(scene)), drive);
+        auto slide       = checked_slide(check_slide(model, drive, checked_modes(scene)), drive);
         if (over_stroke || !is_reduced(scene.analysis.model)) // where single modes would take long to follow
           slide.growth_rates.clear();
         return slide;
       };
       if (over_stroke)
-        return search_kinds(stroke_range(scene, points_along(scene)), effort, judge_at);
+        return search_kinds(stroke_range(scene, points_along(scene)), effort, check_at);
       const double x = held_drive(scene).x;
-      return search_kinds({ "Stability/Position", x, x, 1 }, { 0., 0 }, judge_at);
+      return search_kinds({ "Stability/Position", x, x, 1 }, { 0., 0 }, check_at);
     }
 
     /// A beam in place of a meshed bar, with the contact law of its layer.
@@ -71,11 +71,11 @@ namespace sprag
       if (!is_meshed(scene.analysis.model) || scene.analysis.dimension == 3 || !scene.mesh.file.empty())
         return {};
       DynamicsMaker maker;
-      const auto judge_at = [&](const double value)
+      const auto check_at = [&](const double value)
       { return sweep(beam_instead(variant(scene, { override_text(range.name, value) })), maker).worst(); };
       ParameterRange finer = range;
       finer.points         = 2 * range.points - 1;
-      const auto found     = search_kinds(finer, { 0.01, 4 }, judge_at);
+      const auto found     = search_kinds(finer, { 0.01, 4 }, check_at);
       std::vector<double> hints;
       for (std::size_t i = 1; i < found.changes.size(); ++i)
         if (const double low = found.changes[i - 1].value, high = found.changes[i].value;
@@ -85,14 +85,14 @@ namespace sprag
     }
   } // namespace
 
-  const JudgedSlide &SweptSlides::worst(const Direction direction) const
+  const CheckedSlide &SweptSlides::worst(const Direction direction) const
   {
-    const JudgedSlide *result = nullptr;
+    const CheckedSlide *result = nullptr;
     for (const auto &way : ways)
     {
       if (direction != Direction::both && way.direction != direction)
         continue;
-      if (!way.along.not_judged.empty())
+      if (!way.along.not_checked.empty())
         throw AnalysisError(way.along.reason);
       if (result == nullptr || is_worse(*way.along.worst, *result))
         result = &*way.along.worst;
@@ -136,7 +136,7 @@ namespace sprag
     const auto ranges = uncertain_ranges(scene).value_or(std::vector<ParameterRange>());
     const auto n_ways = held_directions(scene).size();
     // The scene's own constants stand before those of the corners.
-    const auto worst = [&](const std::size_t corner, const std::size_t way) -> const std::optional<JudgedSlide> &
+    const auto worst = [&](const std::size_t corner, const std::size_t way) -> const std::optional<CheckedSlide> &
     { return swept.ways[(1 + corner) * n_ways + way].along.worst; };
     std::vector<std::string> result;
     for (std::size_t i = 0; i < ranges.size(); ++i)
@@ -145,8 +145,8 @@ namespace sprag
       for (std::size_t corner = 0; corner < std::size_t(1) << ranges.size(); ++corner)
         for (std::size_t way = 0; way < n_ways; ++way)
         {
-          const auto &here = worst(corner, way), &opposite = worst(corner ^ std::size_t(1) << i, way);
-          all_alike = all_alike && here && opposite && is_alike(*here, *opposite);
+          const auto &here = worst(corner, way), &antisymmetric = worst(corner ^ std::size_t(1) << i, way);
+          all_alike = all_alike && here && antisymmetric && is_alike(*here, *antisymmetric);
         }
       if (all_alike)
         result.push_back(ranges[i].name);
@@ -178,9 +178,9 @@ namespace sprag
   CriticalSearch critical_values(const Scene &scene, const ParameterRange &range, const double tolerance, DynamicsMaker &maker,
                                  const std::function<void()> &tried)
   {
-    const auto judge_at = [&](const double value)
+    const auto check_at = [&](const double value)
     { return sweep(prepared(variant(scene, { override_text(range.name, value) })), maker).worst(); };
-    return search_kinds(range, { tolerance, is_reduced(scene.analysis.model) ? 14u : 5u }, judge_at, beam_hints(scene, range),
+    return search_kinds(range, { tolerance, is_reduced(scene.analysis.model) ? 14u : 5u }, check_at, beam_hints(scene, range),
                         tried);
   }
 } // namespace sprag

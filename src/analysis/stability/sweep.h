@@ -11,7 +11,7 @@ namespace sprag
   struct SweptWay
   {
     Direction direction;
-    std::vector<std::string> constants; ///< see JudgedSlide
+    std::vector<std::string> constants; ///< see CheckedSlide
     CriticalSearch along;
   };
 
@@ -21,20 +21,20 @@ namespace sprag
   {
     std::vector<SweptWay> ways;
 
-    /// Returns the worst slide, of one direction or both. Throws AnalysisError where one of them could not be judged.
-    const JudgedSlide &worst(Direction direction = Direction::both) const;
+    /// Returns the worst slide, of one direction or both. Throws AnalysisError where one of them could not be checked.
+    const CheckedSlide &worst(Direction direction = Direction::both) const;
 
-    unsigned int slides() const; ///< judged
+    unsigned int slides() const; ///< checked
   };
 
-  /// Judges them. `finds_edges`: whether the x are sought, too, where the kind changes, and values inside each of the ranges are
-  /// judged: seven of a reduced lever, else the middle.
+  /// Checks them. `finds_edges`: whether the x are sought, too, where the kind changes, and values inside each of the ranges are
+  /// checked: seven of a reduced lever, else the middle.
   SweptSlides sweep(const Scene &scene, DynamicsMaker &maker, bool finds_edges = false);
 
   /// Returns the names of those of Stability/Ranges whose ends give the same slides, to the last digit.
   std::vector<std::string> ranges_without_effect(const Scene &scene, const SweptSlides &swept);
 
-  /// Returns the slides that a sweep judges without those where a growth rate peaks.
+  /// Returns the slides that a sweep checks without those where a growth rate peaks.
   unsigned int least_slides(const Scene &scene);
 
   /// Returns whether values inside the range need meshes of their own.

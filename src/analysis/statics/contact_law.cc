@@ -81,7 +81,7 @@ namespace sprag
   {
     double largest = 0.;
     for (const auto &point : points)
-      largest = std::max(largest, fit.exponent * point.overlap / point.local());
+      largest = std::max(largest, fit.exponent * point.penetration / point.local());
     return largest;
   }
 

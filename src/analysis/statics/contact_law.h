@@ -12,10 +12,10 @@ namespace sprag
   /// An indentation without friction: what the reduced models have to lump into their contact.
   struct Indentation
   {
-    double P;        ///< [N]
-    double approach; ///< overlap of the cylinder with the undeformed lever [mm]
-    double bending;  ///< deflection of the Euler-Bernoulli lever under P at the contact [mm]
-    double overlap;  ///< numerical, largest; what hard contact would not have [mm]
+    double P;           ///< [N]
+    double approach;    ///< approach of the cylinder to the undeformed lever [mm]
+    double bending;     ///< deflection of the Euler-Bernoulli lever under P at the contact [mm]
+    double penetration; ///< numerical, largest; what hard contact would not have [mm]
 
     double local() const
     {
@@ -41,7 +41,7 @@ namespace sprag
     std::vector<Indentation> points;
     ContactLawFit fit;
 
-    /// Returns the largest relative error of P that the penalty leaves: the exponent times the overlap over the local
+    /// Returns the largest relative error of P that the penalty leaves: the exponent times the penetration over the local
     /// indentation.
     double penalty_error() const;
   };

@@ -19,7 +19,7 @@ namespace sprag
     constexpr double round_off            = 5e-15; ///< of positions, over the size of the scene
     constexpr double growth               = 1.5;
     constexpr double cut                  = 0.25;
-    constexpr double stalled_overlap      = 100.; ///< admitted after all augmentations, over the tolerance
+    constexpr double stalled_penetration  = 100.; ///< admitted after all augmentations, over the tolerance
     constexpr double largest_speed_change = 0.02; ///< in a step, over the drive's peak speed
     constexpr double slow                 = 1e-6; ///< as rest, over the drive's peak speed
 
@@ -29,7 +29,7 @@ namespace sprag
     constexpr double passages      = 3.; ///< after so many the contact slides fully, whichever way it slid more
 
     constexpr unsigned int stick_solutions = 4;    ///< linear ones that balance a state in stick
-    constexpr double probe_share           = 1e-2; ///< of the overlap, by which the stiffness in stick is probed
+    constexpr double probe_share           = 1e-2; ///< of the penetration, by which the stiffness in stick is probed
 
     struct StepCost
     {
@@ -54,15 +54,16 @@ namespace sprag
       return {};
     }
 
-    /// Augments from an equilibrium until no point overlaps by more than the tolerance.
+    /// Augments from an equilibrium until no penetration exceeds the tolerance.
     std::optional<Evaluation> augment(Model &model, Step &step, std::optional<Evaluation> found, const ContactSettings &settings,
                                       StepCost &cost)
     {
       while (found && model.penetration(*found) > settings.penetration_tolerance)
       {
-        // If the contact's edge flips between two nodes, the overlap stalls. It is small then, and reported.
+        // If the contact's edge flips between two nodes, the penetration stalls. It is small then, and reported.
         if (++cost.augmentations > settings.maximum_augmentations)
-          return model.penetration(*found) <= stalled_overlap * settings.penetration_tolerance ? std::move(found) : std::nullopt;
+          return model.penetration(*found) <= stalled_penetration * settings.penetration_tolerance ? std::move(found)
+                                                                                                   : std::nullopt;
         model.augment(*found, step.trial);
         found = equilibrate(model, step, false, cost);
       }
@@ -101,7 +102,7 @@ namespace sprag
       cost.remedy  = "Try a smaller friction coefficient, Geometry/Interface offset or Drive/Stroke.";
       if (!cost.failure.empty())
         return {};
-      model.remember(*found, step.trial);
+      model.store_history(*found, step.trial);
       return Equilibrium{ std::move(step.trial), std::move(*found) };
     }
 
@@ -229,7 +230,7 @@ namespace sprag
     }
 
     /// A run on its way, all that it goes on from beside what the model keeps.
-    struct Course
+    struct SolverState
     {
       Progression now;
       double dx = 0.; ///< of the next step [mm]
@@ -237,9 +238,9 @@ namespace sprag
       double reported_stiffness = 0.; ///< see run_quasi_static()
     };
 
-    void visit(Archive &archive, Course &course)
+    void serialise(Archive &archive, SolverState &solver)
     {
-      auto &[now, dx, passage, reported_stiffness] = course;
+      auto &[now, dx, passage, reported_stiffness] = solver;
       auto &[state, row, found]                    = now;
       archive(state, row, dx, passage, reported_stiffness);
     }
@@ -248,7 +249,7 @@ namespace sprag
     Evaluation balance_in_stick(Model &model, Step &step)
     {
       auto found = model.evaluate(step, FrictionMode::stick);
-      for (unsigned int i = 0; i < stick_solutions && found.overlap > 0.; ++i)
+      for (unsigned int i = 0; i < stick_solutions && found.penetration > 0.; ++i)
       {
         step.trial.coordinates += model.correction(found);
         found = model.evaluate(step, FrictionMode::stick);
@@ -305,7 +306,7 @@ namespace sprag
     // The accepted state itself is not balanced in stick where the multipliers of the augmented Lagrangian are carried over.
     Step step         = model.begin_step(accepted, accepted.drive);
     const auto before = balance_in_stick(model, step);
-    if (before.overlap == 0.)
+    if (before.penetration == 0.)
       return 0.;
     const auto friction = [&](const Evaluation &found)
     {
@@ -313,16 +314,16 @@ namespace sprag
       model.observe(step.trial, found, row);
       return row.friction_force();
     };
-    const double at_first = friction(before), probe = probe_share * before.overlap;
+    const double at_first = friction(before), probe = probe_share * before.penetration;
     step.trial.drive.x += probe;
     return (friction(balance_in_stick(model, step)) - at_first) / probe;
   }
 
   namespace
   {
-    void take_step(Model &model, const Drive &drive, const QuasiStaticSettings &settings, Course &course)
+    void take_step(Model &model, const Drive &drive, const QuasiStaticSettings &settings, SolverState &solver)
     {
-      auto &[now, dx, passage, reported_stiffness] = course;
+      auto &[now, dx, passage, reported_stiffness] = solver;
       const bool reversed                          = drive.turns_at(now.state.drive.time) || begins_backward(now.state.drive);
       if (reversed)
       {
@@ -343,30 +344,30 @@ namespace sprag
   double run_quasi_static(Model &model, const Drive &drive, const QuasiStaticSettings &settings, const StepSink &sink,
                           ProgressKeeper *const keeper)
   {
-    Course course;
+    SolverState solver;
     const auto progress = [&](Archive &archive)
     {
-      visit(archive, course);
-      model.visit_history(archive);
+      serialise(archive, solver);
+      model.serialise_history(archive);
     };
     const auto hand_on = [&]
     {
-      sink(course.now.state, course.now.row, course.now.found);
+      sink(solver.now.state, solver.now.row, solver.now.found);
       if (keeper != nullptr)
         keeper->accept_step(progress);
     };
     if (keeper == nullptr || !keeper->take_up(progress))
     {
-      std::tie(course.now, course.dx) = begin(model, drive, settings);
+      std::tie(solver.now, solver.dx) = begin(model, drive, settings);
       hand_on();
     }
-    while (course.now.state.drive.time < drive.duration())
+    while (solver.now.state.drive.time < drive.duration())
     {
-      take_step(model, drive, settings, course);
+      take_step(model, drive, settings, solver);
       hand_on();
     }
     if (keeper != nullptr)
       keeper->end_steps(progress);
-    return course.reported_stiffness;
+    return solver.reported_stiffness;
   }
 } // namespace sprag

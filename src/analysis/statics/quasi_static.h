@@ -30,7 +30,7 @@ namespace sprag
   /// middle of a pair, put on it without friction.
   State settled(Model &model, const DrivePoint &start, const QuasiStaticSettings &settings);
 
-  /// A state in equilibrium, with the memory of its contact.
+  /// A state in equilibrium, with the history of its contact.
   struct Equilibrium
   {
     State state;

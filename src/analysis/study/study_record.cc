@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/study/study_record.h"
 
-#include "analysis/task_farm/journal.h"
+#include "analysis/task_farm/results_log.h"
 
 #include <array>
 #include <map>

@@ -33,7 +33,7 @@ namespace sprag
     Comparable found;                  ///< of a completed run
   };
 
-  /// Writes a record as a line of a journal, numbers to the last bit.
+  /// Writes a record as a line of a results log, numbers to the last bit.
   std::string to_line(const StudyRecord &record);
 
   /// Reads such a line.

@@ -63,8 +63,8 @@ namespace sprag
       return lasting;
     }
 
-    void judge(const StudySettings &study, const std::vector<StudyPoint> &rows, const std::vector<double> &costs,
-               MeasuredErrors &measured)
+    void assess(const StudySettings &study, const std::vector<StudyPoint> &rows, const std::vector<double> &costs,
+                MeasuredErrors &measured)
     {
       measured.front     = pareto_front(costs, measured.errors);
       const auto lasting = lasting_errors(study, rows, measured.errors);
@@ -149,7 +149,7 @@ namespace sprag
     if (trade.measured.size() > 1)
       trade.measured.push_back({ { "all", "largest of the errors" }, largest_errors(trade.measured), {}, {} });
     for (auto &measured : trade.measured)
-      judge(study, rows, costs, measured);
+      assess(study, rows, costs, measured);
     return trade;
   }
 } // namespace sprag

@@ -77,13 +77,13 @@ namespace sprag
     MPI_Win window{};
   };
 
-  /// Lines of this rank, on their way into the journal.
+  /// Lines of this rank, on their way into the results log.
   class TaskFarm::Batch
   {
   public:
-    Batch(const Task &task_, const std::pair<std::string, std::string> &journal)
+    Batch(const Task &task_, const std::pair<std::string, std::string> &results_log)
         : task(task_)
-        , address(journal)
+        , address(results_log)
     {
     }
 
@@ -115,22 +115,22 @@ namespace sprag
   private:
     const Task &task;
     const std::pair<std::string, std::string> &address;
-    std::optional<JournalPen> pen;
+    std::optional<ResultsLogWriter> pen;
     std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
     std::vector<std::string> fresh, written;
   };
 
-  TaskFarm::TaskFarm(Task task_, const Journal *first_ranks_journal)
+  TaskFarm::TaskFarm(Task task_, const ResultsLog *first_ranks_log)
       : task(std::move(task_))
-      , reports(first_ranks_journal != nullptr)
+      , reports(first_ranks_log != nullptr)
   {
-    if (first_ranks_journal != nullptr)
+    if (first_ranks_log != nullptr)
     {
-      journal      = first_ranks_journal->address();
-      from_journal = first_ranks_journal->lines();
+      results_log = first_ranks_log->address();
+      from_log    = first_ranks_log->lines();
     }
-    journal      = broadcast(MPI_COMM_WORLD, journal);
-    from_journal = broadcast(MPI_COMM_WORLD, from_journal);
+    results_log = broadcast(MPI_COMM_WORLD, results_log);
+    from_log    = broadcast(MPI_COMM_WORLD, from_log);
   }
 
   void TaskFarm::carry_out(const std::vector<std::vector<std::size_t>> &groups,
@@ -140,7 +140,7 @@ namespace sprag
     std::size_t total = 0;
     for (const auto &group : groups)
       total += group.size();
-    Batch batch(task, journal);
+    Batch batch(task, results_log);
     std::string failure;
     {
       Counters counters;

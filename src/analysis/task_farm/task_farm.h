@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "analysis/task_farm/journal.h"
+#include "analysis/task_farm/results_log.h"
 
 #include <cstddef>
 #include <functional>
@@ -14,7 +14,7 @@ namespace sprag
   struct Scene;
 
   /// All ranks of MPI, doing the pieces of a long analysis together. The result of a piece is a line of text, which goes into the
-  /// journal. Every rank calls what is here.
+  /// results log. Every rank calls what is here.
   class TaskFarm
   {
   public:
@@ -25,18 +25,18 @@ namespace sprag
       std::function<void(std::size_t, std::size_t)> report; ///< gets pieces done and wanted, on rank 0 now and then
     };
 
-    /// Rank 0 has the journal; it is null on the others.
-    TaskFarm(Task task, const Journal *journal);
+    /// Rank 0 has the results log; it is null on the others.
+    TaskFarm(Task task, const ResultsLog *results_log);
 
-    /// Lines that were in the journal.
+    /// Lines that were in the results log.
     const std::vector<std::string> &taken_over() const
     {
-      return from_journal;
+      return from_log;
     }
 
     /// Does the pieces in `groups`, whose indices `work` takes and whose lines it returns, and hands the lines of all ranks to
     /// `learn`. A rank takes one group after another, as soon as it is free. Throws AnalysisError on all ranks when one was asked
-    /// to end, the check fails or the journal cannot be written; what was finished until then is learned.
+    /// to end, the check fails or the results log cannot be written; what was finished until then is learned.
     void carry_out(const std::vector<std::vector<std::size_t>> &groups, const std::function<std::string(std::size_t)> &work,
                    const std::function<void(const std::string &)> &learn);
 
@@ -46,8 +46,8 @@ namespace sprag
 
     const Task task;
     const bool reports;
-    std::pair<std::string, std::string> journal; ///< see Journal::address()
-    std::vector<std::string> from_journal;
+    std::pair<std::string, std::string> results_log; ///< see ResultsLog::address()
+    std::vector<std::string> from_log;
 
     void work_on(const std::vector<std::vector<std::size_t>> &groups, const std::function<std::string(std::size_t)> &work,
                  std::size_t total, Counters &counters, Batch &batch) const;

@@ -20,7 +20,7 @@ namespace sprag
   };
 
   /// Finds the fastest growing vibration at each of a few places of the drive's first cycle, those left out at which none grows
-  /// by more than a factor of 1000 within a stroke. Where the model has no slide there is none. Judges by all vibrations of a
+  /// by more than a factor of 1000 within a stroke. Where the model has no slide there is none. Decides by all vibrations of a
   /// small model; requires one that finds them all (not finite elements).
   std::vector<GrowingMode> growing_modes(DynamicModel &model, const Drive &drive);
 

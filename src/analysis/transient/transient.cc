@@ -183,7 +183,7 @@ namespace sprag
     }
 
     /// A run on its way, all that it goes on from beside what the model keeps.
-    struct Course
+    struct SolverState
     {
       Motion motion;
       ForceHistory forces;
@@ -194,28 +194,28 @@ namespace sprag
       TransientReport report;
     };
 
-    void visit(Archive &archive, Course &course)
+    void serialise(Archive &archive, SolverState &solver)
     {
-      auto &[motion, forces, ledger, control, clock, quasi_static, report] = course;
+      auto &[motion, forces, ledger, control, clock, quasi_static, report] = solver;
       auto &[steps, rejected, largest_gap]                                 = report;
       archive(motion, forces, ledger, control.error, control.small, clock, quasi_static.samples, steps, rejected, largest_gap);
     }
 
-    Row begin(DynamicModel &model, const Drive &drive, Course &course)
+    Row begin(DynamicModel &model, const Drive &drive, SolverState &solver)
     {
-      course.quasi_static.begin();
-      course.motion = model.initial_motion(drive.at(0., Drive::Side::after));
-      course.forces.begin(course.motion.forces);
-      course.ledger = EnergyLedger(model.stored_energy(course.motion));
-      Row row       = observe(model, course.motion, course.ledger);
-      course.quasi_static.fill(row);
+      solver.quasi_static.begin();
+      solver.motion = model.initial_motion(drive.at(0., Drive::Side::after));
+      solver.forces.begin(solver.motion.forces);
+      solver.ledger = EnergyLedger(model.stored_energy(solver.motion));
+      Row row       = observe(model, solver.motion, solver.ledger);
+      solver.quasi_static.fill(row);
       return row;
     }
 
     /// Takes a step and returns its row.
-    Row take_step(DynamicModel &model, const Drive &drive, const TransientSettings &settings, Course &course)
+    Row take_step(DynamicModel &model, const Drive &drive, const TransientSettings &settings, SolverState &solver)
     {
-      auto &[motion, forces, ledger, control, clock, quasi_static, report] = course;
+      auto &[motion, forces, ledger, control, clock, quasi_static, report] = solver;
       quasi_static.extend(clock.step_end());
       auto attempt    = advance(model, drive, motion, forces, settings, control, clock);
       const double dx = attempt.outcome.motion->drive.x - motion.drive.x;
@@ -243,26 +243,26 @@ namespace sprag
   TransientReport run_transient(DynamicModel &model, const Drive &drive, const TransientSettings &settings,
                                 const MotionSink &sink, ProgressKeeper *const keeper)
   {
-    Course course{
+    SolverState solver{
       {}, {}, EnergyLedger(), { settings }, make_clock(drive, settings), { model, drive, settings.quasi_static_spacing }, {}
     };
     const auto progress = [&](Archive &archive)
     {
-      visit(archive, course);
-      model.visit_history(archive);
+      serialise(archive, solver);
+      model.serialise_history(archive);
     };
     const auto hand_on = [&](const Row &row)
     {
-      sink(course.motion, row);
+      sink(solver.motion, row);
       if (keeper != nullptr)
         keeper->accept_step(progress);
     };
     if (keeper == nullptr || !keeper->take_up(progress))
-      hand_on(begin(model, drive, course));
-    while (!course.clock.finished())
-      hand_on(take_step(model, drive, settings, course));
+      hand_on(begin(model, drive, solver));
+    while (!solver.clock.finished())
+      hand_on(take_step(model, drive, settings, solver));
     if (keeper != nullptr)
       keeper->end_steps(progress);
-    return course.report;
+    return solver.report;
   }
 } // namespace sprag

@@ -7,7 +7,7 @@ namespace sprag
   inline constexpr char interruption[] = "interrupted; every finished step is kept";
 
   /// Lets SIGINT, SIGTERM, SIGHUP and SIGUSR1, which mpirun hands on to its processes, ask for an end from now on instead of
-  /// making one, so that results can be finished. look_after() kills a process that does not come to its end. A SIGHUP that is
+  /// making one, so that results can be finished. supervise() kills a process that does not come to its end. A SIGHUP that is
   /// ignored, as under nohup, stays so. Crashes are left to the system, and writing to a pipe that nobody reads is no reason to
   /// end.
   void catch_interrupts();

@@ -130,7 +130,7 @@ namespace sprag
     std::vector<Connector> springs;
   };
 
-  /// Returns the degrees of freedom of the ports of the friction face, then of an elastic cylinder's face.
+  /// Returns the degrees of freedom of the nodes of the friction face, then those of an elastic cylinder's face.
   template <int dim>
   std::vector<unsigned int> surface_dofs(const ElasticBody<dim> &body)
   {

@@ -120,7 +120,7 @@ namespace sprag
         {
           const auto begin = static_cast<unsigned int>(result.points.size());
           result.points.insert(result.points.end(), points.begin(), points.end());
-          result.patches.push_back({ begin, static_cast<unsigned int>(result.points.size()), length });
+          result.elements.push_back({ begin, static_cast<unsigned int>(result.points.size()), length });
           result.edges.push_back(edge);
         }
         return result;

@@ -33,7 +33,7 @@ namespace sprag
   };
 
   /// The points of one cell's face.
-  struct FacePatch
+  struct Element
   {
     unsigned int begin; ///< index of the first
     unsigned int end;   ///< beyond the last
@@ -59,14 +59,14 @@ namespace sprag
   struct FrictionFace
   {
     std::vector<FaceNode<dim>> nodes;   ///< in three dimensions ordered along the first axis, then the last
-    std::vector<FacePoint<dim>> points; ///< patch by patch, ordered along the first axis, then the last
-    std::vector<FacePatch> patches;
-    std::vector<FaceEdge<dim>> edges; ///< of the patches
+    std::vector<FacePoint<dim>> points; ///< element by element, ordered along the first axis, then the last
+    std::vector<Element> elements;
+    std::vector<FaceEdge<dim>> edges; ///< of the elements
     double young_modulus = 0.;        ///< largest of its cells [MPa]
     double depth         = 0.;        ///< largest size of its cells normal to the face [mm]
   };
 
-  /// Returns the degrees of freedom of the ports of a face, one a direction for each node.
+  /// Returns the degrees of freedom of the nodes of a face, one a direction.
   template <int dim>
   std::vector<unsigned int> face_dofs(const FrictionFace<dim> &face)
   {

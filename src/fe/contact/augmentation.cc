@@ -33,7 +33,7 @@ namespace sprag
       : face(face_)
   {
     std::map<std::array<long, dim - 1>, unsigned int> numbers;
-    for (unsigned int k = 0; k < face.patches.size(); ++k)
+    for (unsigned int k = 0; k < face.elements.size(); ++k)
     {
       const auto &nodes = face.edges[k].nodes;
       const auto first  = in_face<dim>(nodes.front().position);
@@ -47,7 +47,7 @@ namespace sprag
         cell_share.corners[c] = numbers.try_emplace(place, static_cast<unsigned int>(numbers.size())).first->second;
       }
       areas.resize(numbers.size());
-      for (unsigned int q = face.patches[k].begin; q < face.patches[k].end; ++q)
+      for (unsigned int q = face.elements[k].begin; q < face.elements[k].end; ++q)
       {
         const auto place = in_face<dim>(face.points[q].position);
         cell_share.values.fill(1.);
@@ -90,11 +90,11 @@ namespace sprag
   }
 
   template <int dim>
-  std::vector<PointMemory<dim - 1>> FaceMultipliers<dim>::augmented(const States &states) const
+  std::vector<PointHistory<dim - 1>> FaceMultipliers<dim>::augmented(const States &states) const
   {
     const auto pressures = averaged(states, &FacePointState<dim>::pressure);
     const auto tractions = averaged(states, &FacePointState<dim>::traction);
-    std::vector<Memory> result(states.size());
+    std::vector<History> result(states.size());
     for (std::size_t a = 0; a < states.size(); ++a)
     {
       result[a].normal_multiplier = pressures[a];
@@ -105,16 +105,16 @@ namespace sprag
   }
 
   template <int dim>
-  double FaceMultipliers<dim>::largest_change(const States &states, const std::vector<Memory> &memory) const
+  double FaceMultipliers<dim>::largest_change(const States &states, const std::vector<History> &history) const
   {
     const auto pressures = averaged(states, &FacePointState<dim>::pressure);
     double largest       = 0.;
-    auto known           = memory.begin();
+    auto known           = history.begin();
     for (std::size_t a = 0; a < states.size(); ++a)
     {
-      while (known != memory.end() && known->point < states[a].index)
+      while (known != history.end() && known->point < states[a].index)
         ++known;
-      const bool is_known = known != memory.end() && known->point == states[a].index;
+      const bool is_known = known != history.end() && known->point == states[a].index;
       largest             = std::max(largest, std::abs(pressures[a] - (is_known ? known->normal_multiplier : 0.)));
     }
     return largest;

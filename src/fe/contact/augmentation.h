@@ -15,17 +15,17 @@ namespace sprag
   class FaceMultipliers
   {
   public:
-    using Memory = PointMemory<dim - 1>;
-    using States = std::vector<FacePointState<dim>>;
+    using History = PointHistory<dim - 1>;
+    using States  = std::vector<FacePointState<dim>>;
 
     /// The face must outlive this. On a surface its cells are rectangles along xi and zeta.
     explicit FaceMultipliers(const FrictionFace<dim> &face);
 
     /// Multipliers of the next augmentation at the points of `states`, from their tractions.
-    std::vector<Memory> augmented(const States &states) const;
+    std::vector<History> augmented(const States &states) const;
 
-    /// Largest change of a pressure multiplier by the next augmentation, from those in `memory` [MPa].
-    double largest_change(const States &states, const std::vector<Memory> &memory) const;
+    /// Largest change of a pressure multiplier by the next augmentation, from those in `history` [MPa].
+    double largest_change(const States &states, const std::vector<History> &history) const;
 
   private:
     static constexpr unsigned int n_corners = 1u << (dim - 1);

@@ -33,13 +33,13 @@ namespace sprag
 
   namespace
   {
-    std::variant<RigidObstacle, ElasticObstacle> make_obstacle(const ElasticBody<2> &body, const FacePatches<2> &face,
-                                                               const FaceContactProperties &properties)
+    std::variant<RigidCounterface, ElasticCounterface> make_counterface(const ElasticBody<2> &body, const FaceElements<2> &face,
+                                                                        const FaceContactProperties &properties)
     {
-      using Obstacles = std::variant<RigidObstacle, ElasticObstacle>;
-      if (body.cylinder_face().patches.empty())
-        return Obstacles(std::in_place_type<RigidObstacle>, body.friction_face(), face, properties);
-      return Obstacles(std::in_place_type<ElasticObstacle>, body.friction_face(), body.cylinder_face(), face, properties);
+      using Counterfaces = std::variant<RigidCounterface, ElasticCounterface>;
+      if (body.cylinder_face().elements.empty())
+        return Counterfaces(std::in_place_type<RigidCounterface>, body.friction_face(), face, properties);
+      return Counterfaces(std::in_place_type<ElasticCounterface>, body.friction_face(), body.cylinder_face(), face, properties);
     }
   } // namespace
 
@@ -48,31 +48,31 @@ namespace sprag
       , properties(std::move(properties_))
       , face(body.friction_face())
       , view(body.friction_face(), face)
-      , obstacle(make_obstacle(body, face, properties))
-      , port_places(properties.ports.size())
+      , counterface(make_counterface(body, face, properties))
+      , dof_places(properties.layout.size())
   {
   }
 
   void FaceContact::enter(const StepPlaces &places) const
   {
-    std::visit([&](auto &below) { below.enter(places); }, obstacle);
+    std::visit([&](auto &below) { below.enter(places); }, counterface);
   }
 
-  FacePatches<2>::Indices FaceContact::near() const
+  FaceElements<2>::Indices FaceContact::near() const
   {
-    return std::visit([](const auto &below) { return below.near(); }, obstacle);
+    return std::visit([](const auto &below) { return below.near(); }, counterface);
   }
 
-  FaceConfiguration FaceContact::configuration(const Vector<double> &ports, const double x) const
+  FaceConfiguration FaceContact::configuration(const Vector<double> &displacements, const double x) const
   {
-    const double inclination = properties.rest_inclination + ports[properties.ports.rotation()];
-    const double relative    = x - (properties.ports.sprung ? ports[properties.ports.support()] : 0.);
-    return { &ports, inclination, relative, properties.centre(relative, inclination) };
+    const double inclination = properties.rest_inclination + displacements[properties.layout.rotation()];
+    const double relative    = x - (properties.layout.sprung ? displacements[properties.layout.support()] : 0.);
+    return { &displacements, inclination, relative, properties.centre(relative, inclination) };
   }
 
   namespace
   {
-    StepContactLaw step_law(const FaceContactProperties &properties, const PortStep &step,
+    StepContactLaw step_law(const FaceContactProperties &properties, const InterfaceStep &step,
                             const std::optional<StaticTerms> &statics)
     {
       StepContactLaw law;
@@ -90,25 +90,25 @@ namespace sprag
     }
   } // namespace
 
-  template <class PatchVisitor>
-  void FaceContact::visit_patches(const FacePatches<2>::Indices &patches, const PatchVisitor &visit_patch) const
+  template <class ElementVisitor>
+  void FaceContact::visit_elements(const FaceElements<2>::Indices &elements, const ElementVisitor &visit_element) const
   {
     std::visit(
         [&](auto &below)
         {
-          for (const unsigned int patch : patches)
+          for (const unsigned int element : elements)
           {
-            below.enter(patch);
-            visit_patch(below, patch);
+            below.enter(element);
+            visit_element(below, element);
           }
         },
-        obstacle);
+        counterface);
   }
 
-  void FaceContact::evaluate(const PortStep &step, FaceEvaluation<2> &found, const std::optional<StaticTerms> &statics) const
+  void FaceContact::evaluate(const InterfaceStep &step, FaceEvaluation<2> &found, const std::optional<StaticTerms> &statics) const
   {
     found.begin(step.end, step.to.x, step.weights.dt);
-    FaceStep face_step{ step_law(properties, step, statics), step.memory, step.to.surface - step.from.surface };
+    FaceStep face_step{ step_law(properties, step, statics), step.history, step.to.surface - step.from.surface };
     if (statics)
     {
       face_step.augmented   = statics->augmented;
@@ -117,51 +117,51 @@ namespace sprag
     }
     enter({ configuration(step.begin.position, step.from.x), configuration(step.end, step.to.x), step.weights.stiffness(),
             statics.has_value() });
-    visit_patches(near_step(step.memory, face_step.law.balance, found),
-                  [&](auto &below, const unsigned int patch) { step_patch(below, patch, face_step, found); });
-    sum_forces(found.sums.loaded, port_places, found.forces);
-    found.sums.work.drive -= found.sums.force_on_obstacle * (step.to.x - step.from.x);
+    visit_elements(near_step(step.history, face_step.law.balance, found),
+                   [&](auto &below, const unsigned int element) { step_element(below, element, face_step, found); });
+    sum_forces(found.sums.loaded, dof_places, found.forces);
+    found.sums.work.drive -= found.sums.force_on_counterface * (step.to.x - step.from.x);
   }
 
-  /// Finds the patches of a step. Where forces are means over the step, those in contact when it began belong to them.
-  FacePatches<2>::Indices FaceContact::near_step(const std::vector<ContactMemory> &memory, const ForceBalance balance,
-                                                 FaceEvaluation<2> &found) const
+  /// Finds the elements of a step. Where forces are means over the step, those in contact when it began belong to them.
+  FaceElements<2>::Indices FaceContact::near_step(const std::vector<ContactHistory> &history, const ForceBalance balance,
+                                                  FaceEvaluation<2> &found) const
   {
-    auto patches = near();
+    auto elements = near();
     if (balance != ForceBalance::end)
-      patches = united(patches, touched_patches(face, memory));
-    return reach.clip(std::move(patches), found.within_reach);
+      elements = united(elements, touched_elements(face, history));
+    return reach.clip(std::move(elements), found.within_reach);
   }
 
-  FacePointState<2> &FaceContact::add_point(const unsigned int patch, const unsigned int point, FaceEvaluation<2> &found)
+  FacePointState<2> &FaceContact::add_point(const unsigned int element, const unsigned int point, FaceEvaluation<2> &found)
   {
     FacePointState<2> &state = found.points.emplace_back();
     state.index              = point;
-    state.patch              = patch;
+    state.element            = element;
     return state;
   }
 
-  template <class ObstacleBelow>
-  void FaceContact::step_patch(ObstacleBelow &below, const unsigned int patch, const FaceStep &step,
-                               FaceEvaluation<2> &found) const
+  template <class CounterfaceBelow>
+  void FaceContact::step_element(CounterfaceBelow &below, const unsigned int element, const FaceStep &step,
+                                 FaceEvaluation<2> &found) const
   {
     const double penalty    = properties.penalties.normal;
     const bool ends_balance = step.law.balance == ForceBalance::end;
-    auto remembered         = first_memory(step.memory, face.patches[patch].begin);
-    for (unsigned int q = face.patches[patch].begin; q < face.patches[patch].end; ++q)
+    auto known              = find_history(step.history, face.elements[element].begin);
+    for (unsigned int q = face.elements[element].begin; q < face.elements[element].end; ++q)
     {
-      auto &state            = add_point(patch, q, found);
+      auto &state            = add_point(element, q, found);
       const bool can_touch   = below.place(state);
-      const bool has_memory  = remembered != step.memory.end() && remembered->point == q;
-      const auto memory      = has_memory ? *remembered++ : ContactMemory{};
-      state.trial_pressure   = (can_touch ? memory.normal_multiplier : 0.) - penalty * state.gap;
+      const bool has_history = known != step.history.end() && known->point == q;
+      const auto history     = has_history ? *known++ : ContactHistory{};
+      state.trial_pressure   = (can_touch ? history.normal_multiplier : 0.) - penalty * state.gap;
       const double begin_gap = ends_balance ? state.gap : below.gap_at_begin(q);
-      const bool stays_open  = ends_balance ? state.trial_pressure <= 0. : state.gap >= 0. && begin_gap >= 0. && !has_memory;
+      const bool stays_open  = ends_balance ? state.trial_pressure <= 0. : state.gap >= 0. && begin_gap >= 0. && !has_history;
       if (stays_open)
         continue;
-      found.sums.compression =
-          std::max(found.sums.compression, ends_balance ? state.trial_pressure / penalty : -std::min(state.gap, begin_gap));
-      below.step(state, memory, step, found.sums);
+      found.sums.penetration =
+          std::max(found.sums.penetration, ends_balance ? state.trial_pressure / penalty : -std::min(state.gap, begin_gap));
+      below.step(state, history, step, found.sums);
     }
     below.leave(found.sums);
   }
@@ -171,69 +171,69 @@ namespace sprag
     slide(state, false, found);
   }
 
-  PortPerturbation FaceContact::linearise(const SlidingState &state, FaceEvaluation<2> &found) const
+  LinearisedForces FaceContact::linearise(const SlidingState &state, FaceEvaluation<2> &found) const
   {
     slide(state, true, found);
-    PortPerturbation result(found.forces.ports);
-    for (const auto &patch_sum : found.sums.parts)
-      result.add(patch_sum);
+    LinearisedForces result(found.forces.dofs);
+    for (const auto &element_sum : found.sums.parts)
+      result.add(element_sum);
     found.forces.tangent = result.stiffness();
     return result;
   }
 
   void FaceContact::slide(const SlidingState &sliding, const bool in_parts, FaceEvaluation<2> &found) const
   {
-    found.begin(sliding.ports, sliding.drive.x, 1.); // slip in a second
+    found.begin(sliding.displacements, sliding.drive.x, 1.); // slip in a second
     found.sums.in_parts = in_parts;
-    const auto at       = configuration(sliding.ports, sliding.drive.x);
+    const auto at       = configuration(sliding.displacements, sliding.drive.x);
     enter({ at, at });
     const auto law = slide_friction(properties.friction, sliding);
-    visit_patches(reach.clip(near(), found.within_reach),
-                  [&](auto &below, const unsigned int patch)
-                  {
-                    for (unsigned int q = face.patches[patch].begin; q < face.patches[patch].end; ++q)
-                    {
-                      auto &state = add_point(patch, q, found);
-                      below.place(state);
-                      state.trial_pressure = -properties.penalties.normal * state.gap;
-                      state.slip_change[0] = sliding.speed;
-                      if (state.gap < 0.)
-                        below.slide(state, sliding, law, found.sums);
-                    }
-                    below.leave(found.sums);
-                  });
-    sum_forces(found.sums.loaded, port_places, found.forces);
+    visit_elements(reach.clip(near(), found.within_reach),
+                   [&](auto &below, const unsigned int element)
+                   {
+                     for (unsigned int q = face.elements[element].begin; q < face.elements[element].end; ++q)
+                     {
+                       auto &state = add_point(element, q, found);
+                       below.place(state);
+                       state.trial_pressure = -properties.penalties.normal * state.gap;
+                       state.slip_change[0] = sliding.speed;
+                       if (state.gap < 0.)
+                         below.slide(state, sliding, law, found.sums);
+                     }
+                     below.leave(found.sums);
+                   });
+    sum_forces(found.sums.loaded, dof_places, found.forces);
   }
 
-  const PortSelection &FaceContact::reachable_ports(const double x, const PerLever &inclinations, const double travel)
+  const DofSelection &FaceContact::candidate_dofs(const double x, const PerLever &inclinations, const double travel)
   {
     const double radius_limit  = properties.radius > 0. ? 0.05 * properties.radius : std::numeric_limits<double>::infinity();
     const double near_distance = reach.factor * radius_limit + std::abs(travel);
     const double aside         = 4. * properties.layer_thickness; // where the face is looked at besides
     const double xi            = properties.centre(x, inclinations.front()).xi;
-    const auto patches_within  = [&](const double distance)
+    const auto elements_within = [&](const double distance)
     {
       constexpr double infinity = std::numeric_limits<double>::max();
-      return face.patches_in({ { { xi - distance, -infinity }, { xi + distance, infinity } } });
+      return face.elements_in({ { { xi - distance, -infinity }, { xi + distance, infinity } } });
     };
-    reach.set(face, patches_within(near_distance), patches_within(near_distance + aside),
-              2 * static_cast<unsigned int>(body.friction_face().nodes.size()), properties.ports.size());
-    return reach.ports;
+    reach.set(face, elements_within(near_distance), elements_within(near_distance + aside),
+              2 * static_cast<unsigned int>(body.friction_face().nodes.size()), properties.layout.size());
+    return reach.dofs;
   }
 
-  std::vector<ContactMemory> FaceContact::touch(const Vector<double> &ports, const DrivePoint &drive,
-                                                FaceEvaluation<2> &found) const
+  std::vector<ContactHistory> FaceContact::touch(const Vector<double> &displacements, const DrivePoint &drive,
+                                                 FaceEvaluation<2> &found) const
   {
-    found.begin(ports, drive.x, 0.);
-    const auto at = configuration(ports, drive.x);
+    found.begin(displacements, drive.x, 0.);
+    const auto at = configuration(displacements, drive.x);
     enter({ at, at });
-    visit_patches(near(),
-                  [&](auto &below, const unsigned int patch)
-                  {
-                    for (unsigned int q = face.patches[patch].begin; q < face.patches[patch].end; ++q)
-                      below.place(add_point(patch, q, found));
-                  });
-    sum_forces(found.sums.loaded, port_places, found.forces);
+    visit_elements(near(),
+                   [&](auto &below, const unsigned int element)
+                   {
+                     for (unsigned int q = face.elements[element].begin; q < face.elements[element].end; ++q)
+                       below.place(add_point(element, q, found));
+                   });
+    sum_forces(found.sums.loaded, dof_places, found.forces);
     return {};
   }
 
@@ -251,19 +251,19 @@ namespace sprag
     }
   } // namespace
 
-  double FaceContact::gap_change(const FaceEvaluation<2> &found, const Vector<double> &port_change, unsigned int) const
+  double FaceContact::gap_change(const FaceEvaluation<2> &found, const Vector<double> &moved, unsigned int) const
   {
     const auto at = configuration(found.displacement, found.x);
     enter({ at, at });
     const auto &point = contact_middle(found.points);
     double change     = 0.;
-    visit_patches({ point.patch },
-                  [&](auto &below, unsigned int)
-                  {
-                    const auto rows = below.rows(point);
-                    for (unsigned int i = 0; i < rows.ports.size(); ++i)
-                      change += rows.gap[i] * port_change[rows.ports[i]];
-                  });
+    visit_elements({ point.element },
+                   [&](auto &below, unsigned int)
+                   {
+                     const auto rows = below.rows(point);
+                     for (unsigned int i = 0; i < rows.dofs.size(); ++i)
+                       change += rows.gap[i] * moved[rows.dofs[i]];
+                   });
     return change;
   }
 
@@ -276,18 +276,18 @@ namespace sprag
     std::visit(
         [&](auto &below)
         {
-          unsigned int patch = dealii::numbers::invalid_unsigned_int;
+          unsigned int element = dealii::numbers::invalid_unsigned_int;
           for (const auto &point : found.points)
             if (point.pressure > 0.)
             {
-              if (point.patch != patch)
-                below.enter(patch = point.patch);
+              if (point.element != element)
+                below.enter(element = point.element);
               const double weight = face.points[point.index].weight * point.pressure;
               weighted += weight * below.slip(point);
               weights += weight;
             }
         },
-        obstacle);
+        counterface);
     return weights > 0. ? weighted / weights : 0.;
   }
 } // namespace sprag

@@ -3,17 +3,17 @@
 
 #include "base/archive.h"
 #include "fe/body/elastic_body.h"
-#include "fe/contact/elastic_obstacle.h"
+#include "fe/contact/elastic_counterface.h"
 #include "fe/contact/face_observation.h"
-#include "fe/contact/rigid_obstacle.h"
-#include "model/port_step.h"
+#include "fe/contact/rigid_counterface.h"
+#include "model/interface_step.h"
 
 #include <optional>
 #include <variant>
 
 namespace sprag
 {
-  /// The terms that a step without inertia has beside ports, drive and memory. Its forces are those at its end.
+  /// The terms that a step without inertia has beside displacements, drive and contact history. Its forces are those at its end.
   struct StaticTerms
   {
     FrictionLaw friction; ///< of the step
@@ -25,7 +25,7 @@ namespace sprag
   };
 
   /// Contact along the friction face over a step in time, with forces consistent with the scheme, or without inertia, integrated
-  /// over points denser than the nodes, by the penalty method and with multipliers if the memory has some. The obstacle is
+  /// over points denser than the nodes, by the penalty method and with multipliers if the history has some. The counterface is
   /// elastic where the body has a cylinder's face. Its position counts from the pivot frame's origin, which a sprung support
   /// moves.
   class FaceContact
@@ -42,27 +42,27 @@ namespace sprag
     using Evaluation = FaceEvaluation<2>;
 
     /// Evaluates a step: in time, or without inertia, where the rates do not count.
-    void evaluate(const PortStep &step, FaceEvaluation<2> &found, const std::optional<StaticTerms> &statics = {}) const;
+    void evaluate(const InterfaceStep &step, FaceEvaluation<2> &found, const std::optional<StaticTerms> &statics = {}) const;
 
     /// Evaluates steady sliding.
     void evaluate_sliding(const SlidingState &state, FaceEvaluation<2> &found) const;
 
-    /// Evaluates steady sliding and linearises its forces on their ports. Friction delays at each point in contact.
-    PortPerturbation linearise(const SlidingState &state, FaceEvaluation<2> &found) const;
+    /// Evaluates steady sliding and linearises its interface forces. Friction delays at each point in contact.
+    LinearisedForces linearise(const SlidingState &state, FaceEvaluation<2> &found) const;
 
-    /// Returns the ports near the cylinder at x from the pivot frame's origin and inclination theta, far beyond the contact's
-    /// width and where it may have been `travel` before [mm]. Evaluations that follow look at those alone.
-    const PortSelection &reachable_ports(double x, const PerLever &theta, double travel = 0.);
+    /// Returns the dofs near the cylinder at x from the pivot frame's origin and inclination theta. They reach far beyond the
+    /// contact's width and to where it may have been `travel` before [mm]. Evaluations that follow look at those alone.
+    const DofSelection &candidate_dofs(double x, const PerLever &theta, double travel = 0.);
 
-    /// Doubles how far these ports reach, from their next call on. To be called where an evaluation was not within them.
+    /// Doubles how far these dofs reach, from the next call on. To be called where an evaluation was not within them.
     void widen_reach()
     {
       reach.factor *= 2.;
     }
 
     /// Evaluates the contact at rest without force.
-    std::vector<ContactMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive,
-                                     FaceEvaluation<2> &found) const;
+    std::vector<ContactHistory> touch(const dealii::Vector<double> &displacements, const DrivePoint &drive,
+                                      FaceEvaluation<2> &found) const;
 
     const ContactPenalties &penalties() const
     {
@@ -75,9 +75,9 @@ namespace sprag
       properties.penalties = penalties;
     }
 
-    /// Returns by how much a small change of the ports changes the gap in the middle of the contact, or where it is smallest
-    /// [mm].
-    double gap_change(const FaceEvaluation<2> &found, const dealii::Vector<double> &port_change, unsigned int lever = 0) const;
+    /// Returns by how much a small change of the displacements changes the gap in the middle of the contact, or where it is
+    /// smallest [mm].
+    double gap_change(const FaceEvaluation<2> &found, const dealii::Vector<double> &moved, unsigned int lever = 0) const;
 
     /// Returns the mean slip of the points in contact, weighted with their pressure, from one configuration to another [mm].
     double mean_slip(const FaceEvaluation<2> &found, const dealii::Vector<double> &from, double from_x,
@@ -109,37 +109,37 @@ namespace sprag
       return view.state(found, drive);
     }
 
-    /// Visits how far it reaches and where it was last.
-    void visit_history(Archive &archive)
+    /// Serialises how far it reaches and where it was last.
+    void serialise_history(Archive &archive)
     {
       archive(reach.factor);
-      face.visit_history(archive);
+      face.serialise_history(archive);
     }
 
   private:
-    FaceConfiguration configuration(const dealii::Vector<double> &ports, double x) const;
-    FacePatches<2>::Indices near_step(const std::vector<ContactMemory> &memory, ForceBalance balance,
-                                      FaceEvaluation<2> &found) const;
+    FaceConfiguration configuration(const dealii::Vector<double> &displacements, double x) const;
+    FaceElements<2>::Indices near_step(const std::vector<ContactHistory> &history, ForceBalance balance,
+                                       FaceEvaluation<2> &found) const;
 
-    /// Enters patches of the obstacle one after the other and calls `visit_patch`(obstacle, patch).
-    template <class PatchVisitor>
-    void visit_patches(const FacePatches<2>::Indices &patches, const PatchVisitor &visit_patch) const;
+    /// Enters elements of the face one after the other and calls `visit_element`(counterface, element).
+    template <class ElementVisitor>
+    void visit_elements(const FaceElements<2>::Indices &elements, const ElementVisitor &visit_element) const;
 
-    template <class ObstacleBelow>
-    void step_patch(ObstacleBelow &below, unsigned int patch, const FaceStep &step, FaceEvaluation<2> &found) const;
+    template <class CounterfaceBelow>
+    void step_element(CounterfaceBelow &below, unsigned int element, const FaceStep &step, FaceEvaluation<2> &found) const;
     void slide(const SlidingState &sliding, bool in_parts, FaceEvaluation<2> &found) const;
     void enter(const StepPlaces &places) const;
-    FacePatches<2>::Indices near() const;
-    static FacePointState<2> &add_point(unsigned int patch, unsigned int point, FaceEvaluation<2> &found);
+    FaceElements<2>::Indices near() const;
+    static FacePointState<2> &add_point(unsigned int element, unsigned int point, FaceEvaluation<2> &found);
 
     const ElasticBody<2> &body;
     FaceContactProperties properties;
-    FacePatches<2> face;
+    FaceElements<2> face;
     const FaceView<2> view;
 
     // Workspace of evaluations; nothing of it is a result.
-    mutable std::variant<RigidObstacle, ElasticObstacle> obstacle; ///< looks at one patch after the other
-    mutable std::vector<unsigned int> port_places;                 ///< among those summed
+    mutable std::variant<RigidCounterface, ElasticCounterface> counterface; ///< looks at one element after the other
+    mutable std::vector<unsigned int> dof_places;                           ///< among those summed
 
     FaceReach<2> reach;
   };

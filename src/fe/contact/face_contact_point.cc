@@ -7,26 +7,26 @@
 
 namespace sprag
 {
-  Obstacle cylinder(const Geometry &geometry)
+  Counterface cylinder(const Geometry &geometry)
   {
     return [geometry](const double x, const double theta)
     {
       const auto circle = placed_for_points(geometry, x, theta);
-      return PlacedObstacle([circle](const LeverPoint &point) { return moving_circle_contact(circle, point); },
-                            [circle](const LeverPoint &point) { return circle_gap(circle, point); });
+      return PlacedCounterface([circle](const LeverPoint &point) { return moving_circle_contact(circle, point); },
+                               [circle](const LeverPoint &point) { return circle_gap(circle, point); });
     };
   }
 
   void set_cylinder(const Geometry &geometry, FaceContactProperties &properties)
   {
-    properties.obstacle = cylinder(geometry);
-    properties.centre   = [geometry](const double x, const double theta) { return cylinder_centre(geometry, x, theta); };
-    properties.radius   = geometry.cylinder_radius;
+    properties.counterface = cylinder(geometry);
+    properties.centre      = [geometry](const double x, const double theta) { return cylinder_centre(geometry, x, theta); };
+    properties.radius      = geometry.cylinder_radius;
   }
 
   template <int dim>
-  SlipShift slip_shift(const FacePatches<dim> &face, const unsigned int point, const double slope, const double travel,
-                       const double stiffness, const std::vector<PointMemory<dim - 1>> &memory,
+  SlipShift slip_shift(const FaceElements<dim> &face, const unsigned int point, const double slope, const double travel,
+                       const double stiffness, const std::vector<PointHistory<dim - 1>> &history,
                        const std::function<double(unsigned int)> &slip_at_begin)
   {
     const auto &line = face.lines[face.point_lines[point]];
@@ -41,37 +41,37 @@ namespace sprag
     const auto between        = [share](const double first, const double last) { return (1. - share) * first + share * last; };
     const auto point_traction = [&](const unsigned int q)
     {
-      const auto found = first_memory(memory, q);
-      return found != memory.end() && found->point == q ? found->traction[0] : 0.;
+      const auto found = find_history(history, q);
+      return found != history.end() && found->point == q ? found->traction[0] : 0.;
     };
     const double slip      = slip_at_begin(point) - between(slip_at_begin(a), slip_at_begin(b)) - travel * slope;
     const double unwinding = between(point_traction(a), point_traction(b)) - point_traction(point);
     return { slip, unwinding / stiffness, -travel };
   }
 
-  template SlipShift slip_shift<2>(const FacePatches<2> &, unsigned int, double, double, double,
-                                   const std::vector<PointMemory<1>> &, const std::function<double(unsigned int)> &);
-  template SlipShift slip_shift<3>(const FacePatches<3> &, unsigned int, double, double, double,
-                                   const std::vector<PointMemory<2>> &, const std::function<double(unsigned int)> &);
+  template SlipShift slip_shift<2>(const FaceElements<2> &, unsigned int, double, double, double,
+                                   const std::vector<PointHistory<1>> &, const std::function<double(unsigned int)> &);
+  template SlipShift slip_shift<3>(const FaceElements<3> &, unsigned int, double, double, double,
+                                   const std::vector<PointHistory<2>> &, const std::function<double(unsigned int)> &);
 
   SlidingTangent slide(const FaceContactProperties &properties, const FrictionLaw &law, const SlidingState &sliding,
                        const double weight, FacePointState<2> &state, ContactSums &sums)
   {
-    const auto &penalty        = properties.penalties;
-    const bool slides          = sliding.friction == ContactFriction::sliding;
-    const double speed         = state.slip_change[0];
-    const auto share           = slides ? sliding_friction(law, speed) : SlidingFriction{};
-    state.pressure             = -penalty.normal * state.gap;
-    state.traction[0]          = share.coefficient * state.pressure;
-    state.mu                   = slides ? friction_coefficient(law, std::abs(speed)).coefficient : 0.;
-    state.slipping             = slides;
-    state.memory.traction      = state.traction;
-    state.memory.slip_speed[0] = sliding.speed;
-    state.memory.point         = state.index;
-    state.elastic_slip         = state.traction.norm() / penalty.tangential;
-    const double elastic       = law.regularisation_speed > 0. ? 0. : 0.5 * state.traction.norm_square() / penalty.tangential;
+    const auto &penalty         = properties.penalties;
+    const bool slides           = sliding.friction == ContactFriction::sliding;
+    const double speed          = state.slip_change[0];
+    const auto share            = slides ? sliding_friction(law, speed) : SlidingFriction{};
+    state.pressure              = -penalty.normal * state.gap;
+    state.traction[0]           = share.coefficient * state.pressure;
+    state.mu                    = slides ? friction_coefficient(law, std::abs(speed)).coefficient : 0.;
+    state.slipping              = slides;
+    state.history.traction      = state.traction;
+    state.history.slip_speed[0] = sliding.speed;
+    state.history.point         = state.index;
+    state.elastic_slip          = state.traction.norm() / penalty.tangential;
+    const double elastic        = law.regularisation_speed > 0. ? 0. : 0.5 * state.traction.norm_square() / penalty.tangential;
     sums.stored += weight * (0.5 * penalty.normal * state.gap * state.gap + elastic);
-    sums.compression = std::max(sums.compression, -state.gap);
+    sums.penetration = std::max(sums.penetration, -state.gap);
 
     SlidingTangent sliding_tangent;
     sliding_tangent.normal   = -penalty.normal;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/contact/face_patches.h"
+#include "fe/contact/face_elements.h"
 #include "model/contact_step.h"
+#include "model/interface_coordinates.h"
 #include "model/linearisation.h"
-#include "model/port_coordinates.h"
 
 #include <algorithm>
 #include <functional>
@@ -13,22 +13,22 @@
 namespace sprag
 {
   /// A convex body without deformation, at its place.
-  class PlacedObstacle
+  class PlacedCounterface
   {
   public:
-    PlacedObstacle() = default;
+    PlacedCounterface() = default;
 
     /// Takes what tells the kinematics of a point of the lever against it, in the coordinates (displacement along xi, along eta,
     /// theta, x).
     template <class Kinematics>
-    PlacedObstacle(Kinematics point_kinematics)
+    PlacedCounterface(Kinematics point_kinematics)
         : kinematics(std::move(point_kinematics))
     {
     }
 
     /// Takes what tells the gap alone as well, in less time, for the many points that touch nothing.
     template <class Kinematics, class Gap>
-    PlacedObstacle(Kinematics point_kinematics, Gap point_gap)
+    PlacedCounterface(Kinematics point_kinematics, Gap point_gap)
         : kinematics(std::move(point_kinematics))
         , gap_alone(std::move(point_gap))
     {
@@ -50,7 +50,7 @@ namespace sprag
   };
 
   /// The body at its position x from the pivot frame's origin and hub rotation theta.
-  using Obstacle = std::function<PlacedObstacle(double x, double theta)>;
+  using Counterface = std::function<PlacedCounterface(double x, double theta)>;
 
   /// [N/mm^3], > 0
   struct ContactPenalties
@@ -62,10 +62,10 @@ namespace sprag
   /// Constants of the contact of a meshed lever.
   struct FaceContactProperties
   {
-    Obstacle obstacle;                                        ///< an elastic one as it is without load
-    std::function<LeverPoint(double x, double theta)> centre; ///< of the obstacle
-    double radius = 0.; ///< R: how far the obstacle's surface runs in its axes as they turn by 1, 0 if it turns with them [mm]
-    PortLayout ports;
+    Counterface counterface;                                  ///< an elastic one as it is without load
+    std::function<LeverPoint(double x, double theta)> centre; ///< of the counterface
+    double radius = 0.; ///< R: how far the counterface's surface runs in its axes as they turn by 1, 0 if it turns with them [mm]
+    InterfaceLayout layout;
     double rest_inclination = 0.; ///< theta without moment [rad]
     ContactPenalties penalties{};
     FrictionLaw friction;
@@ -73,17 +73,17 @@ namespace sprag
   };
 
   /// The damper's cylinder.
-  Obstacle cylinder(const Geometry &geometry);
+  Counterface cylinder(const Geometry &geometry);
 
-  /// Sets obstacle, centre and radius to it.
+  /// Sets counterface, centre and radius to it.
   void set_cylinder(const Geometry &geometry, FaceContactProperties &properties);
 
   /// A point of the friction face in an evaluation, with its tractions at the end.
   template <int dim>
   struct FacePointState : PointTraction<dim - 1>
   {
-    unsigned int index = 0;      ///< of the point in FrictionFace::points
-    unsigned int patch = 0;      ///< index in FrictionFace::patches
+    unsigned int index   = 0;    ///< of the point in FrictionFace::points
+    unsigned int element = 0;    ///< index in FrictionFace::elements
     dealii::Point<dim> position; ///< deformed, lever axes
     double gap            = 0.;
     double trial_pressure = 0.;             ///< lambda - eps g at the end: the pressure where positive [MPa]
@@ -96,9 +96,9 @@ namespace sprag
   struct FaceStep
   {
     StepContactLaw law;
-    const std::vector<ContactMemory> &memory; ///< of the points in contact where it begins, by increasing point
-    double surface_run = 0.;                  ///< of the obstacle by turning [mm]
-    bool augmented     = false;               ///< whether the traction remembered is a multiplier
+    const std::vector<ContactHistory> &history; ///< of the points in contact where it begins, by increasing point
+    double surface_run = 0.;                    ///< of the counterface by turning [mm]
+    bool augmented     = false;                 ///< whether the traction in the history is a multiplier
 
     // Without inertia, of a lever that follows a cylinder. mu is taken at the speed with which a point slides where the step
     // ends, which differs from its mean over the step: most points were not in contact when it began, and the cylinder has
@@ -109,28 +109,28 @@ namespace sprag
     double speed_ratio = 1.; ///< sliding speed of a rigid lever at the end over its mean; the law's duration is shorter by it
   };
 
-  /// Returns what the tangential penalty adds to the traction that is remembered, over the slip; a multiplier needs none.
+  /// Returns what the tangential penalty adds to the traction of the history, over the slip; a multiplier needs none.
   inline double unwinding_stiffness(const bool augmented, const double tangential_penalty)
   {
     return augmented ? std::numeric_limits<double>::infinity() : tangential_penalty;
   }
 
-  /// Finds the memory of the first point in contact from one on, by indices in the face.
+  /// Finds the history of the first point in contact from one on, by indices in the face.
   template <int slips>
-  auto first_memory(const std::vector<PointMemory<slips>> &memory, const unsigned int point)
+  auto find_history(const std::vector<PointHistory<slips>> &history, const unsigned int point)
   {
-    const auto is_before = [](const PointMemory<slips> &entry, const unsigned int q) { return entry.point < q; };
-    return std::lower_bound(memory.begin(), memory.end(), point, is_before);
+    const auto is_before = [](const PointHistory<slips> &entry, const unsigned int q) { return entry.point < q; };
+    return std::lower_bound(history.begin(), history.end(), point, is_before);
   }
 
-  /// Returns the patches that hold points in contact.
+  /// Returns the elements that hold points in contact.
   template <int dim>
-  std::vector<unsigned int> touched_patches(const FacePatches<dim> &face, const std::vector<PointMemory<dim - 1>> &memory)
+  std::vector<unsigned int> touched_elements(const FaceElements<dim> &face, const std::vector<PointHistory<dim - 1>> &history)
   {
     std::vector<unsigned int> result;
-    for (const auto &entry : memory)
-      if (result.empty() || entry.point >= face.patches[result.back()].end)
-        result.push_back(face.point_patch(entry.point));
+    for (const auto &entry : history)
+      if (result.empty() || entry.point >= face.elements[result.back()].end)
+        result.push_back(face.point_element(entry.point));
     return result;
   }
 
@@ -153,23 +153,25 @@ namespace sprag
   /// distance from the contact when the step began has the same zeta. There is no shift where the contact came from beyond the
   /// face.
   template <int dim>
-  SlipShift slip_shift(const FacePatches<dim> &face, unsigned int point, double slope, double travel, double stiffness,
-                       const std::vector<PointMemory<dim - 1>> &memory, const std::function<double(unsigned int)> &slip_at_begin);
+  SlipShift slip_shift(const FaceElements<dim> &face, unsigned int point, double slope, double travel, double stiffness,
+                       const std::vector<PointHistory<dim - 1>> &history,
+                       const std::function<double(unsigned int)> &slip_at_begin);
 
-  /// Friction's part of the tangent of a patch that slides steadily, where it is wanted apart; see PortPerturbation.
+  /// Friction's part of the tangent of an element that slides steadily, where it is wanted apart; see LinearisedForces.
   template <class Matrix>
   struct FrictionParts
   {
     Matrix by_displacement;
     Matrix by_velocity;
-    std::vector<FrictionDelay> delays; ///< on the ports of the patch
+    std::vector<FrictionDelay> delays; ///< at the interface of the element
   };
 
-  /// Derivatives of a point's gap and slip, and of its slip speed at ports at rest over the cylinder's, by some ports.
+  /// Derivatives by some interface dofs of a point's gap and slip, and of its slip speed at displacements at rest over the
+  /// cylinder's.
   struct FacePointRows
   {
     double weight; ///< area [mm^2]
-    std::vector<unsigned int> ports;
+    std::vector<unsigned int> dofs;
     dealii::Vector<double> gap;
     dealii::Vector<double> slip;
     dealii::Vector<double> stretch;
@@ -178,28 +180,28 @@ namespace sprag
   /// Sums over the points of an evaluation.
   struct ContactSums
   {
-    double compression       = 0.;    ///< of the contact springs, the largest in the step [mm]
-    double stored            = 0.;    ///< energy
-    double force_on_obstacle = 0.;    ///< generalised, of the position x, in the step [N]
-    bool beyond_face         = false; ///< whether the contact reaches the end of what can be touched
+    double penetration          = 0.;    ///< of the contact springs, the largest in the step [mm]
+    double stored               = 0.;    ///< energy
+    double force_on_counterface = 0.;    ///< generalised, of the position x, in the step [N]
+    bool beyond_face            = false; ///< whether the contact reaches the end of what can be touched
     StepWork work;
-    std::vector<PortForces> loaded;      ///< forces of the patches, ports in any order
+    std::vector<InterfaceForces> loaded; ///< forces of the elements, dofs in any order
     bool in_parts = false;               ///< whether steady sliding gives its tangent in parts
-    std::vector<PortPerturbation> parts; ///< of the patches loaded
+    std::vector<LinearisedForces> parts; ///< of the elements loaded
   };
 
-  /// Adds the forces of a patch, from values and tangent over its coordinates: of pressure alone where it is wanted in parts.
+  /// Adds the forces of an element, from values and tangent over its coordinates: of pressure alone where it is wanted in parts.
   template <class Values, class Matrix>
-  void add_patch(const PortCoordinates &coordinates, const Values &values, const Matrix &tangent,
-                 const FrictionParts<Matrix> &friction, ContactSums &sums)
+  void add_element(const InterfaceCoordinates &coordinates, const Values &values, const Matrix &tangent,
+                   const FrictionParts<Matrix> &friction, ContactSums &sums)
   {
-    PortForces forces{ collect_ports(coordinates), row_on_ports(coordinates, values), matrix_on_ports(coordinates, tangent) };
+    InterfaceForces forces{ collect_dofs(coordinates), row_on_dofs(coordinates, values), matrix_on_dofs(coordinates, tangent) };
     if (sums.in_parts)
     {
-      auto &parts         = sums.parts.emplace_back(forces.ports);
+      auto &parts         = sums.parts.emplace_back(forces.dofs);
       parts.pressure      = forces.tangent;
-      parts.friction      = matrix_on_ports(coordinates, friction.by_displacement);
-      parts.friction_rate = matrix_on_ports(coordinates, friction.by_velocity);
+      parts.friction      = matrix_on_dofs(coordinates, friction.by_displacement);
+      parts.friction_rate = matrix_on_dofs(coordinates, friction.by_velocity);
       parts.delays        = friction.delays;
     }
     sums.loaded.push_back(std::move(forces));
@@ -238,15 +240,15 @@ namespace sprag
            displacement == *at.displacement;
   }
 
-  /// Records a point's response to a step in its state and the sums, its forces apart. `run` [mm] is how far the obstacle's
+  /// Records a point's response to a step in its state and the sums, its forces apart. `run` [mm] is how far the counterface's
   /// surface runs at the point.
   template <int n>
-  void record(const StepResponse<n> &response, const FaceStep &step, const ContactMemory &begin, const double slip_change,
+  void record(const StepResponse<n> &response, const FaceStep &step, const ContactHistory &begin, const double slip_change,
               const double weight, const double run, FacePointState<2> &state, ContactSums &sums)
   {
     static_cast<PointTraction<1> &>(state) = response;
 
-    state.memory.point   = state.index;
+    state.history.point  = state.index;
     state.slip_change[0] = slip_change * step.speed_ratio;
     state.elastic_slip   = (response.traction - (step.augmented ? begin.traction : Slip())).norm() / step.law.slip.stiffness;
 
@@ -261,7 +263,7 @@ namespace sprag
   ///   pressure       normal G G + pressure dG/dq
   ///   friction       S (coupled G + stuck S + by_speed dv/dq) - traction dS/dq
   ///   friction_rate  by_speed S S
-  /// v what the slip speed is at ports at rest.
+  /// v the slip speed at displacements at rest.
   struct SlidingTangent
   {
     double normal   = 0.;

@@ -10,9 +10,9 @@
 namespace sprag
 {
   template <int dim>
-  void FaceEvaluation<dim>::begin(const dealii::Vector<double> &ports, const double at_x, const double duration_)
+  void FaceEvaluation<dim>::begin(const dealii::Vector<double> &displacements, const double at_x, const double duration_)
   {
-    displacement = ports;
+    displacement = displacements;
     x            = at_x;
     duration     = duration_;
     within_reach = true;
@@ -30,7 +30,7 @@ namespace sprag
   }
 
   template <int dim>
-  std::vector<PointMemory<dim - 1>> FaceEvaluation<dim>::memory() const
+  std::vector<PointHistory<dim - 1>> FaceEvaluation<dim>::history() const
   {
     if (sums.beyond_face)
       throw AnalysisError(dim == 3 ? check_validity()
@@ -39,10 +39,10 @@ namespace sprag
                                          rounded_text(x) +
                                          " mm: the cylinder yields or the lever bends too much. Try a larger Cylinder/Young "
                                          "modulus or a rigid cylinder.");
-    std::vector<PointMemory<dim - 1>> result;
+    std::vector<PointHistory<dim - 1>> result;
     for (const auto &point : points)
       if (point.pressure > 0.)
-        result.push_back(point.memory);
+        result.push_back(point.history);
     return result;
   }
 
@@ -131,9 +131,9 @@ namespace sprag
   }
 
   template <int dim>
-  FaceView<dim>::FaceView(const FrictionFace<dim> &face_, const FacePatches<dim> &patches_, const bool half)
+  FaceView<dim>::FaceView(const FrictionFace<dim> &face_, const FaceElements<dim> &grid_, const bool half)
       : face(face_)
-      , patches(patches_)
+      , grid(grid_)
       , is_half(half)
       , parts(face_parts(face))
   {
@@ -263,16 +263,16 @@ namespace sprag
   {
     PressureSamples samples;
     for (const auto &point : found.points)
-      if (patches.point_lines[point.index] == line)
+      if (grid.point_lines[point.index] == line)
       {
         samples.xi.push_back(point.position[0]);
         samples.weight.push_back(face.points[point.index].weight);
         samples.pressure.push_back(point.pressure);
         samples.trial.push_back(point.trial_pressure);
-        samples.cell.push_back(point.patch);
+        samples.cell.push_back(point.element);
       }
-    samples.begin = face.points[patches.lines[line].front()].position[0];
-    samples.end   = face.points[patches.lines[line].back()].position[0];
+    samples.begin = face.points[grid.lines[line].front()].position[0];
+    samples.end   = face.points[grid.lines[line].back()].position[0];
     return samples;
   }
 
@@ -285,7 +285,7 @@ namespace sprag
     const auto largest     = std::max_element(found.points.begin(), found.points.end(), by_pressure);
     if (largest == found.points.end() || largest->pressure == 0.)
       return;
-    const auto samples               = pressure_samples(found, patches.point_lines[largest->index]);
+    const auto samples               = pressure_samples(found, grid.point_lines[largest->index]);
     const auto recovered             = recover(samples);
     row[Column::contact_width]       = contact_width(samples, recovered);
     row[Column::largest_pressure]    = recovered.largest;

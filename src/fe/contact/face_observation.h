@@ -13,19 +13,21 @@ namespace sprag
   template <int dim>
   struct FaceEvaluation
   {
-    dealii::Vector<double> displacement; ///< of the ports
+    dealii::Vector<double> displacement; ///< of the dofs
     double x          = 0.;              ///< of the drive [mm]
     double duration   = 0.;              ///< of the step; 0: no slip speed [s]
-    bool within_reach = true;            ///< whether the contact was within the ports that it may reach
+    bool within_reach = true;            ///< whether the contact was within the candidate dofs
     ContactSums sums;
-    std::vector<FacePointState<dim>> points; ///< near the obstacle, by increasing point; in three dimensions see SurfaceContact
-    PortForces forces;
+    std::vector<FacePointState<dim>>
+        points; ///< near the counterface, by increasing point; in three dimensions see SurfaceContact
+    InterfaceForces forces;
 
     /// Forgets what was found and begins another evaluation.
-    void begin(const dealii::Vector<double> &ports, double at_x, double duration_);
+    void begin(const dealii::Vector<double> &displacements, double at_x, double duration_);
 
-    /// Returns the memory of the points in contact, by increasing point. Throws AnalysisError where there is an check_validity().
-    std::vector<PointMemory<dim - 1>> memory() const;
+    /// Returns the history of the points in contact, by increasing point. Throws AnalysisError where there is an
+    /// check_validity().
+    std::vector<PointHistory<dim - 1>> history() const;
 
     /// Tells why the contact goes beyond what can touch; empty if it does not.
     std::string check_validity() const;
@@ -42,10 +44,10 @@ namespace sprag
       return sums.stored;
     }
 
-    /// Returns the largest compression of the contact springs in the step, with multipliers p / penalty [mm].
-    double overlap() const
+    /// Returns the largest penetration of the contact springs in the step, with multipliers p / penalty [mm].
+    double penetration() const
     {
-      return sums.compression;
+      return sums.penetration;
     }
   };
 
@@ -54,8 +56,8 @@ namespace sprag
   class FaceView
   {
   public:
-    /// Face and patches must outlive this. `half`: the face is half of one which is the same on both sides of the middle.
-    FaceView(const FrictionFace<dim> &face, const FacePatches<dim> &patches, bool half = false);
+    /// Face and elements must outlive this. `half`: the face is half of one which is the same on both sides of the middle.
+    FaceView(const FrictionFace<dim> &face, const FaceElements<dim> &grid, bool half = false);
 
     /// Fills the columns that follow from tractions and positions on the face.
     void observe(const FaceEvaluation<dim> &found, Row &row) const;
@@ -79,7 +81,7 @@ namespace sprag
     PressureSamples pressure_samples(const FaceEvaluation<dim> &found, unsigned int line) const;
 
     const FrictionFace<dim> &face;
-    const FacePatches<dim> &patches;
+    const FaceElements<dim> &grid;
     const bool is_half;
     const FaceParts parts;
   };

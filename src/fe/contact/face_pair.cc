@@ -42,10 +42,10 @@ namespace sprag
   {
     for (std::size_t i = 0; i < lever_face.edges.size(); ++i)
     {
-      const auto &patch = lever_face.patches[i];
-      LeverEdge edge{ copy(lever_face.edges[i], 0), patch.end - patch.begin, 0. };
+      const auto &element = lever_face.elements[i];
+      LeverEdge edge{ copy(lever_face.edges[i], 0), element.end - element.begin, 0. };
       const double first = gauss_points[0] * 2. / edge.n_facets;
-      edge.width         = lever_face.points[patch.begin].weight * edge.n_facets / edge.undeformed.slope(first).norm();
+      edge.width         = lever_face.points[element.begin].weight * edge.n_facets / edge.undeformed.slope(first).norm();
       lever.push_back(edge);
     }
     for (const auto &edge : cylinder_face.edges)
@@ -221,7 +221,7 @@ namespace sprag
   }
 
   void FacePair::add_segment(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, const Segment &segment,
-                             PairPlace &place, PatchFacets &result) const
+                             PairPlace &place, ElementFacets &result) const
   {
     const double segment_length = segment.to - segment.from;
     for (const double gauss : gauss_points)
@@ -233,7 +233,7 @@ namespace sprag
 
   /// Adds a cut at the vertex beyond the edge in `place`, which is left for the next.
   void FacePair::add_cut(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, const double place_on_lever,
-                         PairPlace &place, PatchFacets &result) const
+                         PairPlace &place, ElementFacets &result) const
   {
     PairCut cut;
     cut.left  = point_above(edge, curve, at, place_on_lever, place);
@@ -244,9 +244,9 @@ namespace sprag
     result.cuts.push_back(cut);
   }
 
-  void FacePair::find_facets(const unsigned int patch, const PairConfiguration &at, PatchFacets &result) const
+  void FacePair::find_facets(const unsigned int element, const PairConfiguration &at, ElementFacets &result) const
   {
-    const auto &edge     = lever[patch];
+    const auto &edge     = lever[element];
     const auto curve     = deformed_curve(edge, *at.at.displacement);
     const double rounded = round_off * length;
     result.facets.clear();
@@ -286,14 +286,14 @@ namespace sprag
     }
   }
 
-  void FacePair::average(const PatchFacets &patch_facets, Facet &facet)
+  void FacePair::average(const ElementFacets &element_facets, Facet &facet)
   {
     if (!facet.opposed)
       return;
     double stretch = 0.;
     for (unsigned int p = facet.begin; p < facet.end; ++p)
     {
-      const auto &point = patch_facets.points[p];
+      const auto &point = element_facets.points[p];
       facet.weight += point.weight;
       facet.gap += point.weight * point.gap;
       facet.arc += point.weight * point.arc;
@@ -304,9 +304,9 @@ namespace sprag
     facet.stretch = stretch / facet.weight;
   }
 
-  double FacePair::reach(const unsigned int patch, const PairConfiguration &at, PairPlace &place) const
+  double FacePair::reach(const unsigned int element, const PairConfiguration &at, PairPlace &place) const
   {
-    const auto curve = deformed_curve(lever[patch], *at.at.displacement);
+    const auto curve = deformed_curve(lever[element], *at.at.displacement);
     double smallest  = std::numeric_limits<double>::max();
     for (const double s : { 0., 0.5, 1. })
     {
@@ -322,17 +322,18 @@ namespace sprag
     return smallest - 0.02 * (curve.position(1.) - curve.origin).norm();
   }
 
-  PairCoordinates FacePair::coordinates(const unsigned int patch, const std::initializer_list<const PatchFacets *> facets) const
+  PairCoordinates FacePair::coordinates(const unsigned int element,
+                                        const std::initializer_list<const ElementFacets *> facets) const
   {
     PairCoordinates result;
-    const auto &edge = lever[patch];
+    const auto &edge = lever[element];
     result.n_lever   = edge.n_nodes;
     result.degree    = degree;
     result.nodes.assign(edge.nodes.begin(), edge.nodes.begin() + edge.n_nodes);
     auto first        = static_cast<unsigned int>(chain.size());
     unsigned int last = 0;
-    for (const auto *const patch_facets : facets)
-      for (const auto &point : patch_facets->points)
+    for (const auto *const element_facets : facets)
+      for (const auto &point : element_facets->points)
       {
         first = std::min(first, point.edge);
         last  = std::max(last, point.edge);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/contact/face_patches.h"
+#include "fe/contact/face_elements.h"
 
 #include <deal.II/base/tensor.h>
 #include <deal.II/lac/full_matrix.h>
@@ -101,19 +101,19 @@ namespace sprag
     unsigned int last_cut  = 0; ///< beyond
   };
 
-  /// The facets of a patch, in the order of the points of the friction face.
-  struct PatchFacets
+  /// The facets of a face element, in the order of the points of the friction face.
+  struct ElementFacets
   {
     std::vector<Facet> facets;
     std::vector<PairPoint> points;
     std::vector<PairCut> cuts;
   };
 
-  /// Coordinates of the facets of a patch: two a node, then theta, then x, the circle's position.
+  /// Coordinates of the facets of an element: two a node, then theta, then x, the circle's position.
   struct PairCoordinates
   {
-    /// Ports of node i are 2 nodes[i] and 2 nodes[i] + 1: the lever's first, three or two, then those of the cylinder's face from
-    /// `first` on. FaceEdge::held for nodes that do not move.
+    /// Node i has the dofs 2 nodes[i] and 2 nodes[i] + 1: the lever's first, three or two nodes, then those of the cylinder's
+    /// face from `first` on. FaceEdge::held for nodes that do not move.
     std::vector<unsigned int> nodes;
     unsigned int n_lever = 0;
     unsigned int first   = 0; ///< along the chain
@@ -148,14 +148,14 @@ namespace sprag
 
     PairConfiguration configuration(const FaceConfiguration &at) const;
 
-    /// Smallest gap at the ends and in the middle of a patch, less a margin for its bending [mm]. `place` is where on the
-    /// cylinder to look first, and then where the patch was found.
-    double reach(unsigned int patch, const PairConfiguration &at, PairPlace &place) const;
+    /// Smallest gap at the ends and in the middle of an element, less a margin for its bending [mm]. `place` is where on the
+    /// cylinder to look first, and then where the element was found.
+    double reach(unsigned int element, const PairConfiguration &at, PairPlace &place) const;
 
-    void find_facets(unsigned int patch, const PairConfiguration &at, PatchFacets &result) const;
+    void find_facets(unsigned int element, const PairConfiguration &at, ElementFacets &result) const;
 
-    /// Coordinates of a patch and of the cylinder's edges that its facets touch, in some configurations.
-    PairCoordinates coordinates(unsigned int patch, std::initializer_list<const PatchFacets *> facets) const;
+    /// Coordinates of an element and of the cylinder's edges that its facets touch, in some configurations.
+    PairCoordinates coordinates(unsigned int element, std::initializer_list<const ElementFacets *> facets) const;
 
   private:
     using Vector2 = dealii::Tensor<1, 2>;
@@ -189,7 +189,7 @@ namespace sprag
     static EdgeCurve edge_curve(unsigned int n_nodes, const Vector2 *nodes);
     static EdgeCurve deformed_curve(const Edge &edge, const dealii::Vector<double> &displacements);
     void check_chain();
-    static void average(const PatchFacets &patch_facets, Facet &facet);
+    static void average(const ElementFacets &element_facets, Facet &facet);
 
     /// Signed distance of a position along xi from a vertex of the chain.
     double beyond(const Vector2 &position, unsigned int vertex, const PairConfiguration &at) const;
@@ -200,10 +200,10 @@ namespace sprag
     PairPoint point_above(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, double place_on_lever,
                           PairPlace &place) const;
     void add_segment(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, const Segment &segment,
-                     PairPlace &place, PatchFacets &result) const;
+                     PairPlace &place, ElementFacets &result) const;
 
     void add_cut(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, double place_on_lever,
-                 PairPlace &place, PatchFacets &result) const;
+                 PairPlace &place, ElementFacets &result) const;
 
     std::vector<LeverEdge> lever;
     std::vector<CylinderEdge> chain;

@@ -85,7 +85,7 @@ namespace sprag
       return p.speed * place_curvature(p, f) + outer_product(f.place, f.speed);
     }
 
-    /// The coordinates of a patch as a Gauss point sees them.
+    /// The coordinates of an element as a Gauss point sees them.
     class View
     {
     public:
@@ -245,7 +245,7 @@ namespace sprag
     };
   } // namespace
 
-  void find_rows(const PatchFacets &patch_facets, const Facet &facet, const PairConfiguration &at,
+  void find_rows(const ElementFacets &element_facets, const Facet &facet, const PairConfiguration &at,
                  const PairCoordinates &coordinates, const double radius, FacetRows &rows)
   {
     for (auto *const row : { &rows.gap, &rows.arc, &rows.stretch, &rows.slip })
@@ -256,7 +256,7 @@ namespace sprag
     const View view(at, coordinates);
     for (unsigned int q = facet.begin; q < facet.end; ++q)
     {
-      const auto &p      = patch_facets.points[q];
+      const auto &p      = element_facets.points[q];
       const double share = p.weight / facet.weight;
       const Forms forms(p);
       view.add(p, forms.gap, share, rows.gap);
@@ -267,7 +267,7 @@ namespace sprag
     }
     for (unsigned int c = facet.first_cut; c < facet.last_cut; ++c)
     {
-      const auto &cut = patch_facets.cuts[c];
+      const auto &cut = element_facets.cuts[c];
       Vector<double> movement(coordinates.size());
       view.add_movement(cut, cut.width / facet.weight, movement);
       rows.arc.add(cut.left.arc - cut.right.arc, movement);
@@ -276,7 +276,7 @@ namespace sprag
     }
   }
 
-  FacetBends bends(const PatchFacets &patch_facets, const Facet &facet, const PairConfiguration &at,
+  FacetBends bends(const ElementFacets &element_facets, const Facet &facet, const PairConfiguration &at,
                    const PairCoordinates &coordinates, const double radius, const Vector<double> &change)
   {
     const View view(at, coordinates);
@@ -284,7 +284,7 @@ namespace sprag
     FacetBends result;
     for (unsigned int q = facet.begin; q < facet.end; ++q)
     {
-      const auto &p      = patch_facets.points[q];
+      const auto &p      = element_facets.points[q];
       const double share = p.weight / facet.weight;
       const Forms forms(p);
       const Form seen = view.seen(p, change);
@@ -295,7 +295,7 @@ namespace sprag
     }
     for (unsigned int c = facet.first_cut; c < facet.last_cut; ++c)
     {
-      const auto &cut = patch_facets.cuts[c];
+      const auto &cut = element_facets.cuts[c];
       const CutRows rows(view, cut, coordinates.size(), 1. / facet.weight);
       const double moved = rows.movement * change;
       const double turn  = radius * (cut.left.stretch() - cut.right.stretch()) * change[coordinates.theta()];
@@ -305,7 +305,7 @@ namespace sprag
     return result;
   }
 
-  void add_curvature(const PatchFacets &patch_facets, const Facet &facet, const PairConfiguration &at,
+  void add_curvature(const ElementFacets &element_facets, const Facet &facet, const PairConfiguration &at,
                      const PairCoordinates &coordinates, const double radius, const double normal, const double tangential,
                      FullMatrix<double> &matrix)
   {
@@ -313,7 +313,7 @@ namespace sprag
     Vector<double> by_stretch(coordinates.size());
     for (unsigned int q = facet.begin; q < facet.end; ++q)
     {
-      const auto &p      = patch_facets.points[q];
+      const auto &p      = element_facets.points[q];
       const double share = p.weight / facet.weight;
       const Forms forms(p);
       view.add(p, share * (normal * gap_curvature(p, forms) + tangential * slip_gradient(p, forms)), matrix);
@@ -324,7 +324,7 @@ namespace sprag
       matrix(coordinates.theta(), j) += by_stretch[j];
     for (unsigned int c = facet.first_cut; c < facet.last_cut; ++c)
     {
-      const auto &cut = patch_facets.cuts[c];
+      const auto &cut = element_facets.cuts[c];
       CutRows rows(view, cut, coordinates.size(), 1. / facet.weight);
       for (unsigned int i = 0; i < coordinates.size(); ++i)
         for (unsigned int j = 0; j < coordinates.size(); ++j)

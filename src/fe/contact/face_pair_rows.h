@@ -5,7 +5,7 @@
 
 namespace sprag
 {
-  /// Derivatives of a facet's means by the coordinates of its patch.
+  /// Derivatives of a facet's means by the coordinates of its element.
   struct FacetRows
   {
     dealii::Vector<double> gap;
@@ -18,7 +18,7 @@ namespace sprag
   };
 
   /// `radius` R [mm]: how far the cylinder's surface runs in its axes as they turn by 1; 0 for a body that turns with them.
-  void find_rows(const PatchFacets &patch_facets, const Facet &facet, const PairConfiguration &at,
+  void find_rows(const ElementFacets &element_facets, const Facet &facet, const PairConfiguration &at,
                  const PairCoordinates &coordinates, double radius, FacetRows &rows);
 
   /// change . d(rows.gap)/dq . change, and so for rows.slip.
@@ -28,12 +28,12 @@ namespace sprag
     double slip = 0.;
   };
 
-  FacetBends bends(const PatchFacets &patch_facets, const Facet &facet, const PairConfiguration &at,
+  FacetBends bends(const ElementFacets &element_facets, const Facet &facet, const PairConfiguration &at,
                    const PairCoordinates &coordinates, double radius, const dealii::Vector<double> &change);
 
   /// Adds normal * d(rows.gap)/dq + tangential * d(rows.slip)/dq; the second is unsymmetric by the change of the stretch, and
   /// leaves out what kinks between the cylinder's edges times the gap are.
-  void add_curvature(const PatchFacets &patch_facets, const Facet &facet, const PairConfiguration &at,
+  void add_curvature(const ElementFacets &element_facets, const Facet &facet, const PairConfiguration &at,
                      const PairCoordinates &coordinates, double radius, double normal, double tangential,
                      dealii::FullMatrix<double> &matrix);
 

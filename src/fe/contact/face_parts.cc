@@ -29,12 +29,12 @@ namespace sprag
     FaceParts result;
     auto &[xi, weight, zeta] = result.points;
     result.point_parts.resize(face.points.size());
-    for (const auto &patch : face.patches)
+    for (const auto &element : face.elements)
     {
       std::map<std::pair<unsigned int, long>, unsigned int> known; // by the quarter along xi and zeta
-      const double first = face.points[patch.begin].position[0];
-      const double span  = face.points[patch.end - 1].position[0] - first;
-      for (unsigned int q = patch.begin; q < patch.end; ++q)
+      const double first = face.points[element.begin].position[0];
+      const double span  = face.points[element.end - 1].position[0] - first;
+      for (unsigned int q = element.begin; q < element.end; ++q)
       {
         const auto &point  = face.points[q];
         const auto quarter = static_cast<unsigned int>(

@@ -175,7 +175,7 @@ namespace sprag
       return basis;
     }
 
-    /// Compliance of the ports of the surface with the hub held [mm/N].
+    /// Compliance of the surface with the hub held [mm/N].
     FullMatrix<double> surface_compliance(const ElasticBody<2> &body, const std::vector<unsigned int> &surface)
     {
       PETScWrappers::SparseMatrix stiffness;
@@ -197,48 +197,48 @@ namespace sprag
     return make_response(body.factorised());
   }
 
-  CondensedBasis basis_on(const PortLayout &ports, const LeverModes &modes, const std::vector<unsigned int> &surface,
+  CondensedBasis basis_on(const InterfaceLayout &layout, const LeverModes &modes, const std::vector<unsigned int> &surface,
                           const FullMatrix<double> &face_matrix, const SensorForces &sensors, const unsigned int surface_begin,
                           const std::array<double, 2> &slope_compliances, const double spring_stiffness)
   {
-    const auto m = static_cast<unsigned int>(modes.stiffness.size()), n = ports.rotation() + 1;
+    const auto m = static_cast<unsigned int>(modes.stiffness.size()), n = layout.rotation() + 1;
     CondensedBasis result;
-    result.sensors                  = ports.sensors;
-    result.slopes                   = ports.slopes;
+    result.sensors                  = layout.sensors;
+    result.slopes                   = layout.slopes;
     result.stiffness                = modes.stiffness;
     result.layer_stiffness          = modes.layer_stiffness;
     static_cast<MassSums &>(result) = modes;
 
     auto &shapes = result.shapes;
-    shapes.reinit(ports.ports_per_lever(), m);
+    shapes.reinit(layout.dofs_per_lever(), m);
     for (unsigned int j = 0; j < m; ++j)
     {
-      for (unsigned int i = 0; i < ports.surface; ++i)
+      for (unsigned int i = 0; i < layout.surface; ++i)
         shapes(i, j) = modes.displacements[j][surface[i]];
       const auto compressions = sensors.compressions(modes.displacements[j]);
-      for (unsigned int i = 0; i < ports.sensors; ++i)
-        shapes(ports.sensor(i), j) = compressions[i];
-      shapes(ports.rotation(), j)     = modes.rotation[j];
-      shapes(ports.momentum_eta(), j) = modes.momentum[j][1];
-      shapes(ports.momentum_xi(), j)  = modes.momentum[j][0];
+      for (unsigned int i = 0; i < layout.sensors; ++i)
+        shapes(layout.sensor(i), j) = compressions[i];
+      shapes(layout.rotation(), j)     = modes.rotation[j];
+      shapes(layout.momentum_eta(), j) = modes.momentum[j][1];
+      shapes(layout.momentum_xi(), j)  = modes.momentum[j][0];
     }
 
     // The static compliance less that of the modes.
     auto &compliance = result.face_compliance;
     compliance.reinit(n, n);
     compliance.fill(face_matrix);
-    sensors.add_compliance(ports, surface_begin, compliance);
-    for (unsigned int i = 0; i < ports.slopes; ++i)
-      compliance(ports.slope(i), ports.slope(i)) = slope_compliances[i];
-    compliance(ports.rotation(), ports.rotation()) = 1. / spring_stiffness;
-    FullMatrix<double> at_ports(n, m), scaled(n, m);
+    sensors.add_compliance(layout, surface_begin, compliance);
+    for (unsigned int i = 0; i < layout.slopes; ++i)
+      compliance(layout.slope(i), layout.slope(i)) = slope_compliances[i];
+    compliance(layout.rotation(), layout.rotation()) = 1. / spring_stiffness;
+    FullMatrix<double> at_interface(n, m), scaled(n, m);
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < m; ++j)
       {
-        at_ports(i, j) = shapes(i, j);
-        scaled(i, j)   = -shapes(i, j) / modes.stiffness[j];
+        at_interface(i, j) = shapes(i, j);
+        scaled(i, j)       = -shapes(i, j) / modes.stiffness[j];
       }
-    scaled.mTmult(compliance, at_ports, true);
+    scaled.mTmult(compliance, at_interface, true);
     compliance.symmetrize();
     return result;
   }
@@ -250,8 +250,8 @@ namespace sprag
     const auto surface  = surface_dofs(body);
     auto modes          = lever_modes(body, response, settings.inertia, settings.spring_stiffness, settings.modes);
     const SensorForces sensors(body, response);
-    const PortLayout ports{ static_cast<unsigned int>(surface.size()), true, sensors.number() };
-    auto basis = basis_on(ports, modes, surface, surface_compliance(body, surface), sensors, 0, {}, settings.spring_stiffness);
+    const InterfaceLayout layout{ static_cast<unsigned int>(surface.size()), true, sensors.number() };
+    auto basis = basis_on(layout, modes, surface, surface_compliance(body, surface), sensors, 0, {}, settings.spring_stiffness);
     basis.displacements = std::move(modes.displacements);
     basis.rotation      = std::move(modes.rotation);
     basis.cpu_seconds   = timer.cpu_time();
@@ -309,22 +309,22 @@ namespace sprag
     const auto n_lever   = static_cast<unsigned int>(basis.stiffness.size());
     const unsigned int n = n_lever + (constants.sprung ? 1 : 0);
     ModalData data;
-    data.ports.sensors    = basis.sensors;
-    data.ports.slopes     = basis.slopes;
-    data.ports.surface    = static_cast<unsigned int>(basis.face_compliance.m()) - 1 - basis.sensors - basis.slopes;
-    data.ports.sprung     = constants.sprung;
+    data.layout.sensors   = basis.sensors;
+    data.layout.slopes    = basis.slopes;
+    data.layout.surface   = static_cast<unsigned int>(basis.face_compliance.m()) - 1 - basis.sensors - basis.slopes;
+    data.layout.sprung    = constants.sprung;
     data.stiffness        = basis.stiffness;
     data.face_compliance  = basis.face_compliance;
     data.relaxation       = constants.relaxation;
     data.spring_stiffness = constants.spring_stiffness;
-    data.shapes.reinit(data.ports.size(), n);
-    for (unsigned int i = 0; i < std::min(data.ports.size(), static_cast<unsigned int>(basis.shapes.m())); ++i)
+    data.shapes.reinit(data.layout.size(), n);
+    for (unsigned int i = 0; i < std::min(data.layout.size(), static_cast<unsigned int>(basis.shapes.m())); ++i)
       for (unsigned int j = 0; j < n_lever; ++j)
         data.shapes(i, j) = basis.shapes(i, j);
 
     // The spring's share of the modes' stiffness is not damped.
     data.damping.reinit(n, n);
-    const unsigned int hub = data.ports.rotation();
+    const unsigned int hub = data.layout.rotation();
     for (unsigned int i = 0; i < n_lever; ++i)
     {
       for (unsigned int j = 0; j < n_lever; ++j)
@@ -338,8 +338,8 @@ namespace sprag
     {
       data.support = n_lever;
       data.stiffness.push_back(constants.support_stiffness / constants.support_mass);
-      data.damping(n_lever, n_lever)             = constants.support_damping / constants.support_mass;
-      data.shapes(data.ports.support(), n_lever) = 1. / std::sqrt(constants.support_mass);
+      data.damping(n_lever, n_lever)              = constants.support_damping / constants.support_mass;
+      data.shapes(data.layout.support(), n_lever) = 1. / std::sqrt(constants.support_mass);
     }
     return data;
   }
@@ -348,21 +348,21 @@ namespace sprag
   Vector<double> condensed_displacement(const ElasticBody<dim> &body, const ModeShapes &modes,
                                         const std::vector<unsigned int> &surface, const Response &response, const Motion &motion)
   {
-    // On the ports of the surface, on those of sensors and of the cylinder's axis, which are not loaded or move no mode, and last
-    // on the hub's rotation.
+    // Rows and columns: dofs of the surface, of the sensors and the cylinder's axis, which are not loaded or move no mode, and
+    // last the hub's rotation.
     const auto &forces  = motion.face_force;
     const bool has_face = forces.size() > 0;
     std::vector<double> loads(body.n_dofs(), 0.);
-    for (unsigned int port = 0; port < surface.size() && has_face; ++port)
-      if (!body.is_held(surface[port]))
-        loads[surface[port]] = forces[port];
+    for (unsigned int dof = 0; dof < surface.size() && has_face; ++dof)
+      if (!body.is_held(surface[dof]))
+        loads[surface[dof]] = forces[dof];
     loads = response(std::move(loads));
     Vector<double> result(loads.begin(), loads.end());
     for (unsigned int j = 0; j < modes.stiffness.size(); ++j)
     {
       double work = has_face ? forces[forces.size() - 1] * modes.rotation[j] : 0.;
-      for (unsigned int port = 0; port < surface.size() && has_face; ++port)
-        work += forces[port] * modes.displacements[j][surface[port]];
+      for (unsigned int dof = 0; dof < surface.size() && has_face; ++dof)
+        work += forces[dof] * modes.displacements[j][surface[dof]];
       result.add(motion.coordinates.position[j] - work / modes.stiffness[j], modes.displacements[j]);
     }
     return result;

@@ -14,7 +14,7 @@ namespace sprag
   /// a residual compliance (MacNeal 1971, Rubin 1975), so that static deflections are those of the finite elements.
   struct CondensedBasis : ModeShapes, MassSums
   {
-    dealii::FullMatrix<double> shapes;          ///< a row a port, momentum included and support not; a column a mode
+    dealii::FullMatrix<double> shapes;          ///< a row a dof, momentum included and support not; a column a mode
     dealii::FullMatrix<double> layer_stiffness; ///< of the friction layer, in the modes
     dealii::FullMatrix<double> face_compliance; ///< residual, of face, sensors, slopes and rotation [mm/N]
     unsigned int sensors = 0;
@@ -24,9 +24,10 @@ namespace sprag
     std::string message; ///< why it was not stored, empty if it was
   };
 
-  /// Returns the basis of modes on the ports of a layout, without displacements. `surface`: degrees of freedom of its ports,
-  /// which begin at `surface_begin` of the body's. `face_matrix`: their static compliance with the hub held [mm/N].
-  CondensedBasis basis_on(const PortLayout &ports, const LeverModes &modes, const std::vector<unsigned int> &surface,
+  /// Returns the basis of modes on the dofs of a layout, without displacements. `surface`: the body's degrees of freedom of the
+  /// layout's surface, which begin at `surface_begin` of all on the surface. `face_matrix`: their static compliance with the hub
+  /// held [mm/N].
+  CondensedBasis basis_on(const InterfaceLayout &layout, const LeverModes &modes, const std::vector<unsigned int> &surface,
                           const dealii::FullMatrix<double> &face_matrix, const SensorForces &sensors, unsigned int surface_begin,
                           const std::array<double, 2> &slope_compliances, double spring_stiffness);
 
@@ -53,7 +54,7 @@ namespace sprag
   ModalData modal_data(const CondensedBasis &basis, const LeverDynamics &constants);
 
   /// Returns the elastic displacement of all degrees of freedom of a body in a motion of a condensed lever, by its modes and the
-  /// answer to forces on its surface, whose ports have the degrees of freedom `surface` [mm].
+  /// answer to forces on its surface, whose degrees of freedom are `surface` [mm].
   template <int dim>
   dealii::Vector<double> condensed_displacement(const ElasticBody<dim> &body, const ModeShapes &modes,
                                                 const std::vector<unsigned int> &surface, const Response &response,

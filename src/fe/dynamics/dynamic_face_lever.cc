@@ -19,13 +19,13 @@ namespace sprag
       return { device.condensed.modes, device.spring.stiffness, lever_inertia(device), device.condensed.cache, {} };
     }
 
-    FaceContactProperties make_contact(const Device &device, const PortLayout &ports, const ContactPenalties &penalties,
+    FaceContactProperties make_contact(const Device &device, const InterfaceLayout &layout, const ContactPenalties &penalties,
                                        const unsigned int lever)
     {
       const Device own = lever_device(device, lever);
       FaceContactProperties result;
       set_cylinder(own.geometry, result);
-      result.ports            = ports;
+      result.layout           = layout;
       result.rest_inclination = rest_inclination(device);
       result.penalties        = penalties;
       result.friction         = own.friction;
@@ -48,10 +48,10 @@ namespace sprag
     std::unique_ptr<DynamicModel> assemble(const Device &device, const ElasticBody<2> &body, std::unique_ptr<Structure> structure,
                                            const MeshedDynamics &facts)
     {
-      const PortLayout ports = structure->ports();
-      const auto contact     = [&](const unsigned int lever)
-      { return std::make_unique<FaceContact>(body, make_contact(device, ports.single_lever(), facts.penalties, lever)); };
-      return assemble_lever(std::move(structure), lever_frame(device, ports, facts.total_mass), contact,
+      const InterfaceLayout layout = structure->layout();
+      const auto contact           = [&](const unsigned int lever)
+      { return std::make_unique<FaceContact>(body, make_contact(device, layout.single_lever(), facts.penalties, lever)); };
+      return assemble_lever(std::move(structure), lever_frame(device, layout, facts.total_mass), contact,
                             static_cast<unsigned int>(body.friction_face().points.size()));
     }
   } // namespace

@@ -20,7 +20,7 @@ namespace sprag
     std::shared_ptr<const FrictionFace<3>> face; ///< in space, of the contact
     std::unique_ptr<DynamicModel> model;
 
-    /// In space, turns the shape of a mode at the ports into that along an edge of the whole face.
+    /// In space, turns the shape of a mode at the interface into that along an edge of the whole face.
     std::function<void(const Eigenmode &, ModeShape &)> follow_edge;
 
     /// Elastic displacement of all degrees of freedom of the body in the axes of a lever, 0 or of a pair 1 [mm]; the model must
@@ -54,8 +54,8 @@ namespace sprag
   };
 
   /// Completes the condensed model of a lever or a pair. `structure(part)` and `displacement(part, motion)`: structure and
-  /// elastic displacement of the lever, or of the mirrored (0) and the opposite (1) motions of a pair, whose structures may be
-  /// `alike`; `assemble(structure)` makes the model.
+  /// elastic displacement of the lever, or of the symmetric (0) and the antisymmetric (1) motions of a pair, whose structures may
+  /// be `alike`; `assemble(structure)` makes the model.
   template <class Structure, class Displacement, class Assemble>
   void complete_condensed(const unsigned int levers, const bool alike, const Structure &structure,
                           const Displacement &displacement, const Assemble &assemble, MeshedDynamics &result)

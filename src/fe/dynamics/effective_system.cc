@@ -22,10 +22,11 @@ namespace sprag
     }
   } // namespace
 
-  EffectiveSystem::EffectiveSystem(const InertialMatrices &matrices_, const LeverPorts &ports_, const ModalDamping &damping_,
-                                   const InertialMatrices::Weights &weights_, const double damping_weight)
+  EffectiveSystem::EffectiveSystem(const InertialMatrices &matrices_, const LeverInterface &interface_,
+                                   const ModalDamping &damping_, const InertialMatrices::Weights &weights_,
+                                   const double damping_weight)
       : matrices(matrices_)
-      , ports(ports_)
+      , interface(interface_)
       , damping(damping_)
       , weights(weights_)
       // A lever at rest is as soft as its spring, which multiplies round-off; vibrations rest on that, and LU leaves less of it.
@@ -70,79 +71,79 @@ namespace sprag
 
   namespace
   {
-    // Forces on the same ports step after step are answered fastest by responses to single forces; so many that they are not
-    // worth their memory, or ever new ones as a contact moves over a fine face, by one solution for all. Each step earns the
-    // right to one solution for a single force, so that both together cost at most twice the better of them.
+    // Forces on the same dofs step after step are answered fastest by responses to single forces; so many that they are not worth
+    // their memory, or ever new ones as a contact moves over a fine face, by one solution for all. Each step earns the right to
+    // one solution for a single force, so that both together cost at most twice the better of them.
     constexpr unsigned int most_responses = 128;
   } // namespace
 
-  Vector<double> EffectiveSystem::response(const PortLoads &forces) const
+  Vector<double> EffectiveSystem::response(const DofLoads &forces) const
   {
-    Vector<double> load(ports.n_coordinates());
-    for (unsigned int a = 0; a < forces.ports.size(); ++a)
-      ports.add_force(forces.ports[a], forces.values[a], load);
+    Vector<double> load(interface.n_coordinates());
+    for (unsigned int a = 0; a < forces.dofs.size(); ++a)
+      interface.add_force(forces.dofs[a], forces.values[a], load);
     return solve(Vector<double>(load.begin(), load.begin() + matrices.coordinates.size()));
   }
 
-  const Vector<double> &EffectiveSystem::response(const unsigned int port) const
+  const Vector<double> &EffectiveSystem::response(const unsigned int dof) const
   {
-    const auto [found, is_new] = responses.try_emplace(port);
+    const auto [found, is_new] = responses.try_emplace(dof);
     if (is_new)
     {
-      PortLoads unit{ { port }, Vector<double>(1) };
+      DofLoads unit{ { dof }, Vector<double>(1) };
       unit.values[0] = 1.;
       found->second  = response(unit);
     }
     return found->second;
   }
 
-  void EffectiveSystem::add_response(const PortLoads &forces, Vector<double> &position) const
+  void EffectiveSystem::add_response(const DofLoads &forces, Vector<double> &position) const
   {
     const auto add = [&](const double factor, const Vector<double> &part)
     {
       for (unsigned int i = 0; i < part.size(); ++i)
         position[i] += part[i] * factor;
     };
-    const auto unknown = static_cast<unsigned int>(std::count_if(
-        forces.ports.begin(), forces.ports.end(), [&](const unsigned int port) { return responses.count(port) == 0; }));
-    credit             = std::min(credit + 1, most_responses);
+    const auto unknown = static_cast<unsigned int>(
+        std::count_if(forces.dofs.begin(), forces.dofs.end(), [&](const unsigned int dof) { return responses.count(dof) == 0; }));
+    credit = std::min(credit + 1, most_responses);
     if (unknown > credit)
       return add(1., response(forces));
     credit -= unknown;
     if (responses.size() + unknown > most_responses)
       for (auto known = responses.begin(); known != responses.end();)
-        known = std::binary_search(forces.ports.begin(), forces.ports.end(), known->first) ? std::next(known)
-                                                                                           : responses.erase(known);
-    for (unsigned int a = 0; a < forces.ports.size(); ++a)
-      add(forces.values[a], response(forces.ports[a]));
+        known =
+            std::binary_search(forces.dofs.begin(), forces.dofs.end(), known->first) ? std::next(known) : responses.erase(known);
+    for (unsigned int a = 0; a < forces.dofs.size(); ++a)
+      add(forces.values[a], response(forces.dofs[a]));
   }
 
-  void EffectiveSystem::visit_history(Archive &archive)
+  void EffectiveSystem::serialise_history(Archive &archive)
   {
-    PortSelection known;
+    DofSelection known;
     for (const auto &known_response : responses)
       known.push_back(known_response.first);
     archive(credit, known);
     if (!archive.reads())
       return;
     responses.clear();
-    for (const unsigned int port : known)
-      response(port);
+    for (const unsigned int dof : known)
+      response(dof);
   }
 
-  FullMatrix<double> EffectiveSystem::port_compliance() const
+  FullMatrix<double> EffectiveSystem::interface_compliance() const
   {
-    const auto &layout = ports.layout();
+    const auto &layout = interface.layout();
     Mumps condensing;
     PETScWrappers::SparseMatrix matrix;
     matrices.sum(weights, matrix);
-    FullMatrix<double> face_compliance = condensing.factorise_with_schur_complement(matrix, ports.face_coordinates());
+    FullMatrix<double> face_compliance = condensing.factorise_with_schur_complement(matrix, interface.face_coordinates());
     invert(face_compliance);
-    ports.transform(face_compliance);
-    FullMatrix<double> result(layout.ports_per_lever(), layout.ports_per_lever());
+    interface.transform(face_compliance);
+    FullMatrix<double> result(layout.dofs_per_lever(), layout.dofs_per_lever());
     for (unsigned int i = 0; i < face_compliance.m(); ++i)
       for (unsigned int j = 0; j < face_compliance.m(); ++j)
-        result(ports.face_port(i), ports.face_port(j)) = 0.5 * (face_compliance(i, j) + face_compliance(j, i));
+        result(interface.face_dof(i), interface.face_dof(j)) = 0.5 * (face_compliance(i, j) + face_compliance(j, i));
     subtract_low_rank(result);
     for (unsigned int sensor = 0; sensor < layout.sensors; ++sensor)
       append(layout.sensor(sensor), result);
@@ -156,34 +157,34 @@ namespace sprag
 
   void EffectiveSystem::subtract_low_rank(FullMatrix<double> &compliance) const
   {
-    const auto n               = static_cast<unsigned int>(damped.size());
-    const unsigned int n_ports = ports.layout().rotation() + 1;
+    const auto n                   = static_cast<unsigned int>(damped.size());
+    const unsigned int n_interface = interface.layout().rotation() + 1;
     if (n == 0)
       return;
-    FullMatrix<double> at_ports(n_ports, n), half(n_ports, n), product(n_ports, n_ports);
+    FullMatrix<double> at_interface(n_interface, n), half(n_interface, n), product(n_interface, n_interface);
     for (unsigned int k = 0; k < n; ++k)
     {
-      Vector<double> with_support(ports.n_coordinates());
+      Vector<double> with_support(interface.n_coordinates());
       std::copy(damped[k].begin(), damped[k].end(), with_support.begin());
-      const auto displacements = ports.displacements(with_support);
-      for (unsigned int i = 0; i < n_ports; ++i)
-        at_ports(i, k) = displacements[i];
+      const auto displacements = interface.displacements(with_support);
+      for (unsigned int i = 0; i < n_interface; ++i)
+        at_interface(i, k) = displacements[i];
     }
-    at_ports.mmult(half, low_rank);
-    half.mTmult(product, at_ports);
-    for (unsigned int i = 0; i < n_ports; ++i)
-      for (unsigned int j = 0; j < n_ports; ++j)
+    at_interface.mmult(half, low_rank);
+    half.mTmult(product, at_interface);
+    for (unsigned int i = 0; i < n_interface; ++i)
+      for (unsigned int j = 0; j < n_interface; ++j)
         compliance(i, j) -= product(i, j);
   }
 
-  void EffectiveSystem::append(const unsigned int port, FullMatrix<double> &compliance) const
+  void EffectiveSystem::append(const unsigned int dof, FullMatrix<double> &compliance) const
   {
-    const auto &layout = ports.layout();
-    Vector<double> with_support(ports.n_coordinates());
-    const auto &lever_response = response(port);
+    const auto &layout = interface.layout();
+    Vector<double> with_support(interface.n_coordinates());
+    const auto &lever_response = response(dof);
     std::copy(lever_response.begin(), lever_response.end(), with_support.begin());
-    const auto displacements = ports.displacements(with_support);
+    const auto displacements = interface.displacements(with_support);
     for (unsigned int i = 0; i < layout.support(); ++i)
-      compliance(i, port) = compliance(port, i) = displacements[i];
+      compliance(i, dof) = compliance(dof, i) = displacements[i];
   }
 } // namespace sprag

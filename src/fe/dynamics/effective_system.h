@@ -3,8 +3,8 @@
 
 #include "base/archive.h"
 #include "fe/algebra/mumps.h"
-#include "fe/dynamics/lever_ports.h"
-#include "model/port_forces.h"
+#include "fe/dynamics/lever_interface.h"
+#include "model/interface_forces.h"
 
 #include <map>
 
@@ -17,45 +17,45 @@ namespace sprag
     std::vector<double> factors;                    ///< 2 zeta omega [1/s], > 0
   };
 
-  /// Inverse of a weighted sum of a lever's matrices and of its modal damping, the support left out. Kept as factors; what a
-  /// force on a port does to all coordinates is found once.
+  /// Inverse of a weighted sum of a lever's matrices and of its modal damping, the support left out. Kept as factors; the
+  /// response of all coordinates to a force on a dof is found once.
   class EffectiveSystem
   {
   public:
     /// `damping_weight` 0: without the modal damping. Arguments must outlive the system.
-    EffectiveSystem(const InertialMatrices &matrices, const LeverPorts &ports, const ModalDamping &damping,
+    EffectiveSystem(const InertialMatrices &matrices, const LeverInterface &interface, const ModalDamping &damping,
                     const InertialMatrices::Weights &weights, double damping_weight);
 
-    /// Compliance of the lever's ports.
-    dealii::FullMatrix<double> port_compliance() const;
+    /// Compliance of the lever's interface.
+    dealii::FullMatrix<double> interface_compliance() const;
 
     /// Right-hand side and solution without the support.
     dealii::Vector<double> solve(const dealii::Vector<double> &right_hand_side) const;
 
-    /// Adds the displacement of all coordinates by forces on ports, the support's excepted, increasing. Responses to single
-    /// forces are kept where they are worth it.
-    void add_response(const PortLoads &forces, dealii::Vector<double> &position) const;
+    /// Adds the displacement of all coordinates by forces on the interface dofs `forces.dofs`, the support's excepted,
+    /// increasing. Responses to single forces are kept where they are worth it.
+    void add_response(const DofLoads &forces, dealii::Vector<double> &position) const;
 
-    /// Visits which responses are kept.
-    void visit_history(Archive &archive);
+    /// Serialises which responses are kept.
+    void serialise_history(Archive &archive);
 
   private:
-    dealii::Vector<double> response(const PortLoads &forces) const;
-    const dealii::Vector<double> &response(unsigned int port) const;
+    dealii::Vector<double> response(const DofLoads &forces) const;
+    const dealii::Vector<double> &response(unsigned int dof) const;
     void find_low_rank(double damping_weight);
     void subtract_low_rank(dealii::FullMatrix<double> &compliance) const;
 
-    /// Row and column of a port that is not a coordinate.
-    void append(unsigned int port, dealii::FullMatrix<double> &compliance) const;
+    /// Sets row and column of a dof that is not a coordinate.
+    void append(unsigned int dof, dealii::FullMatrix<double> &compliance) const;
 
     const InertialMatrices &matrices;
-    const LeverPorts &ports;
+    const LeverInterface &interface;
     const ModalDamping &damping;
     const InertialMatrices::Weights weights;
     Mumps factors;
     std::vector<dealii::Vector<double>> damped;                       ///< S^-1 M phi, S without modal damping
     dealii::FullMatrix<double> low_rank;                              ///< (D^-1 + (M phi)^T S^-1 M phi)^-1
-    mutable std::map<unsigned int, dealii::Vector<double>> responses; ///< by port
+    mutable std::map<unsigned int, dealii::Vector<double>> responses; ///< by dof
     mutable unsigned int credit = 0;                                  ///< responses that may be found now
   };
 } // namespace sprag

@@ -168,15 +168,15 @@ namespace sprag
       {
         if (mirrored.empty())
           return {};
-        Vector<double> opposite(displacement.size());
-        for (unsigned int dof = 0; dof < opposite.size(); ++dof)
-          opposite[dof] = 0.5 * (displacement[dof] + (axes[dof] == 2 ? 1. : -1.) * displacement[mirrored[dof]]);
-        const auto momentum = mass(opposite);
+        Vector<double> antisymmetric(displacement.size());
+        for (unsigned int dof = 0; dof < antisymmetric.size(); ++dof)
+          antisymmetric[dof] = 0.5 * (displacement[dof] + (axes[dof] == 2 ? 1. : -1.) * displacement[mirrored[dof]]);
+        const auto momentum = mass(antisymmetric);
         double sideways     = 0.;
-        for (unsigned int dof = 0; dof < opposite.size(); ++dof)
-          sideways += axes[dof] == 2 ? opposite[dof] * momentum[dof] : 0.;
-        const double opposite_share = opposite * momentum;
-        return { 1. - opposite_share, opposite_share - sideways, sideways };
+        for (unsigned int dof = 0; dof < antisymmetric.size(); ++dof)
+          sideways += axes[dof] == 2 ? antisymmetric[dof] * momentum[dof] : 0.;
+        const double antisymmetric_share = antisymmetric * momentum;
+        return { 1. - antisymmetric_share, antisymmetric_share - sideways, sideways };
       }
 
     private:

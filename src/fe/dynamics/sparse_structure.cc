@@ -65,7 +65,7 @@ namespace sprag
     return product * v;
   }
 
-  std::vector<StructureMode> SparseStructure::vibrations(const PortPerturbation &forces, const unsigned int number)
+  std::vector<StructureMode> SparseStructure::vibrations(const LinearisedForces &forces, const unsigned int number)
   {
     use_statics();
     const auto solve = [this](const Vector<double> &load, Vector<double> &q)
@@ -75,12 +75,12 @@ namespace sprag
       if (constants.sprung)
         q[n_lever] = load[n_lever] / constants.support_stiffness;
     };
-    const SparseOperator structure{ lever_ports.n_coordinates(),
+    const SparseOperator structure{ lever_interface.n_coordinates(),
                                     [this](const auto &q, auto &result) { mass_product(q, result); },
                                     [this](const auto &q, auto &result) { damping_product(q, result); },
                                     [this](const auto &q, auto &result) { stiffness_product(q, result); },
                                     solve,
-                                    lever_ports };
+                                    lever_interface };
     return sparse_vibrations(structure, forces, number);
   }
 
@@ -211,17 +211,17 @@ namespace sprag
     return energy;
   }
 
-  Vector<double> SparseStructure::port_error(const Motion &begin, const Motion &end) const
+  Vector<double> SparseStructure::local_error(const Motion &begin, const Motion &end) const
   {
     const auto &w                  = current->weights;
     const double factor            = w.dt * w.dt * (w.beta - 1. / 6.);
     const Products &begin_products = products(begin);
     const Products &end_products   = products(end);
-    Vector<double> result(ports().size());
-    for (unsigned int i = 0; i < mode_ports.size(); ++i)
-      result.add(factor * (end_products.modal[2][i] - begin_products.modal[2][i]), mode_ports[i]);
+    Vector<double> result(layout().size());
+    for (unsigned int i = 0; i < mode_displacements.size(); ++i)
+      result.add(factor * (end_products.modal[2][i] - begin_products.modal[2][i]), mode_displacements[i]);
     if (constants.sprung)
-      result[ports().support()] = factor * (end.coordinates.acceleration[n_lever] - begin.coordinates.acceleration[n_lever]);
+      result[layout().support()] = factor * (end.coordinates.acceleration[n_lever] - begin.coordinates.acceleration[n_lever]);
     return result;
   }
 
@@ -268,7 +268,7 @@ namespace sprag
                                    const LeverModes &modes, const LeverDynamics &constants_)
       : matrices(std::move(matrices_))
       , constants(constants_)
-      , lever_ports(body, *matrices, constants.sprung)
+      , lever_interface(body, *matrices, constants.sprung)
       , n_lever(matrices->coordinates.size())
       , rigid_rotation(matrices->coordinates.rigid_rotation())
       , mass(matrices->mass)
@@ -279,7 +279,7 @@ namespace sprag
     {
       Vector<double> momentum(n_lever);
       auto shape = matrices->coordinates.total(modes.displacements[i], modes.leaf[i], modes.rotation[i]);
-      shape.grow_or_shrink(lever_ports.n_coordinates());
+      shape.grow_or_shrink(lever_interface.n_coordinates());
       mass.multiply<1>({ { &shape } }, { { &momentum } });
       if (i > 0 && constants.modal_damping > 0.)
       {
@@ -288,19 +288,19 @@ namespace sprag
       }
       mode_momenta.push_back(momentum);
       if (i < n_error_modes)
-        mode_ports.push_back(lever_ports.displacements(shape));
+        mode_displacements.push_back(lever_interface.displacements(shape));
     }
   }
 
-  const PortLayout &SparseStructure::ports() const
+  const InterfaceLayout &SparseStructure::layout() const
   {
-    return lever_ports.layout();
+    return lever_interface.layout();
   }
 
   Motion SparseStructure::rest() const
   {
     Motion motion;
-    const unsigned int n            = lever_ports.n_coordinates();
+    const unsigned int n            = lever_interface.n_coordinates();
     motion.coordinates.position     = Vector<double>(n);
     motion.coordinates.velocity     = Vector<double>(n);
     motion.coordinates.acceleration = Vector<double>(n);
@@ -313,8 +313,8 @@ namespace sprag
     {
       statics         = std::make_unique<Step>();
       statics->system = std::make_unique<EffectiveSystem>(
-          *matrices, lever_ports, damping, InertialMatrices::Weights{ 0., 1., 0., constants.spring_stiffness }, 0.);
-      statics->compliance = port_compliance(*statics->system, constants.support_stiffness);
+          *matrices, lever_interface, damping, InertialMatrices::Weights{ 0., 1., 0., constants.spring_stiffness }, 0.);
+      statics->compliance = interface_compliance(*statics->system, constants.support_stiffness);
     }
     current = statics.get();
   }
@@ -327,8 +327,8 @@ namespace sprag
                                                     w.stiffness() + w.damping() * constants.stiffness_damping,
                                                     w.damping() * constants.relaxation,
                                                     w.stiffness() * constants.spring_stiffness };
-    step->system     = std::make_unique<EffectiveSystem>(*matrices, lever_ports, damping, matrix_weights, w.damping());
-    step->compliance = port_compliance(*step->system, effective_support(w));
+    step->system     = std::make_unique<EffectiveSystem>(*matrices, lever_interface, damping, matrix_weights, w.damping());
+    step->compliance = interface_compliance(*step->system, effective_support(w));
     return step;
   }
 
@@ -337,7 +337,7 @@ namespace sprag
     current = step_among(steps, weights, n_steps, [&] { return make_step(weights); });
   }
 
-  void SparseStructure::visit_history(Archive &archive)
+  void SparseStructure::serialise_history(Archive &archive)
   {
     std::vector<StepWeights> weights;
     for (const auto &step : steps)
@@ -351,19 +351,19 @@ namespace sprag
         steps.push_back(make_step(step_weights));
     }
     for (const auto &step : steps)
-      step->system->visit_history(archive);
+      step->system->serialise_history(archive);
   }
 
-  PortCompliance SparseStructure::port_compliance(const EffectiveSystem &system, const double support_stiffness) const
+  InterfaceCompliance SparseStructure::interface_compliance(const EffectiveSystem &system, const double support_stiffness) const
   {
-    PortCompliance result;
-    result.append(system.port_compliance());
+    InterfaceCompliance result;
+    result.append(system.interface_compliance());
     if (constants.sprung)
       result.append(1. / support_stiffness);
     return result;
   }
 
-  const PortCompliance &SparseStructure::compliance() const
+  const InterfaceCompliance &SparseStructure::compliance() const
   {
     return current->compliance;
   }
@@ -385,24 +385,24 @@ namespace sprag
     return load / effective_support(w);
   }
 
-  void SparseStructure::add_responses(const Step &step, const PortForces &forces, const double at_support,
+  void SparseStructure::add_responses(const Step &step, const InterfaceForces &forces, const double at_support,
                                       Vector<double> &position) const
   {
-    // The support's port is the last.
-    const bool on_support = constants.sprung && !forces.ports.empty() && forces.ports.back() == ports().support();
-    const auto n          = static_cast<unsigned int>(forces.ports.size()) - (on_support ? 1 : 0);
+    // The support's dof is the last.
+    const bool on_support = constants.sprung && !forces.dofs.empty() && forces.dofs.back() == layout().support();
+    const auto n          = static_cast<unsigned int>(forces.dofs.size()) - (on_support ? 1 : 0);
     step.system->add_response(
-        { { forces.ports.begin(), forces.ports.begin() + n }, Vector<double>(forces.values.begin(), forces.values.begin() + n) },
+        { { forces.dofs.begin(), forces.dofs.begin() + n }, Vector<double>(forces.values.begin(), forces.values.begin() + n) },
         position);
     if (on_support)
       position[n_lever] += at_support * forces.values[n];
   }
 
-  Motion SparseStructure::deform(const PortForces &forces) const
+  Motion SparseStructure::deform(const InterfaceForces &forces) const
   {
-    Vector<double> load(lever_ports.n_coordinates());
-    for (unsigned int a = 0; a < forces.ports.size(); ++a)
-      lever_ports.add_force(forces.ports[a], forces.values[a], load);
+    Vector<double> load(lever_interface.n_coordinates());
+    for (unsigned int a = 0; a < forces.dofs.size(); ++a)
+      lever_interface.add_force(forces.dofs[a], forces.values[a], load);
     // The rotational spring is soft beside the lever: what the first solution leaves out of balance is solved for again.
     constexpr unsigned int corrections = 2;
     Motion motion                      = rest();
@@ -423,27 +423,27 @@ namespace sprag
     return motion;
   }
 
-  Vector<double> SparseStructure::port_positions(const Motion &motion) const
+  Vector<double> SparseStructure::positions(const Motion &motion) const
   {
-    return lever_ports.displacements(motion.coordinates.position);
+    return lever_interface.displacements(motion.coordinates.position);
   }
 
-  Vector<double> SparseStructure::port_positions(const Motion &motion, const PortSelection &) const
+  Vector<double> SparseStructure::positions(const Motion &motion, const DofSelection &) const
   {
-    return port_positions(motion);
+    return positions(motion);
   }
 
-  PortState SparseStructure::port_state(const Motion &motion, const unsigned int port) const
+  DofState SparseStructure::dof_state(const Motion &motion, const unsigned int dof) const
   {
     const auto &q = motion.coordinates;
-    return { lever_ports.displacements(q.position)[port], lever_ports.displacements(q.velocity)[port] };
+    return { lever_interface.displacements(q.position)[dof], lever_interface.displacements(q.velocity)[dof] };
   }
 
-  Kinematic SparseStructure::port_kinematics(const Motion &motion) const
+  Kinematic SparseStructure::kinematics(const Motion &motion) const
   {
     const auto &q = motion.coordinates;
-    return { lever_ports.displacements(q.position), lever_ports.displacements(q.velocity),
-             lever_ports.displacements(q.acceleration) };
+    return { lever_interface.displacements(q.position), lever_interface.displacements(q.velocity),
+             lever_interface.displacements(q.acceleration) };
   }
 
   /// Residual of the motion at the drifted position without force: the effective matrix times the way from there to the free
@@ -486,7 +486,7 @@ namespace sprag
     load[n_lever - 1] -= constants.spring_stiffness * rotation;
   }
 
-  Vector<double> SparseStructure::free_ports(const Motion &accepted, const PortSelection &) const
+  Vector<double> SparseStructure::free_displacements(const Motion &accepted, const DofSelection &) const
   {
     const auto &w             = current->weights;
     const auto &start         = accepted.coordinates;
@@ -497,10 +497,10 @@ namespace sprag
       free_motion[i] += lever_solution[i];
     if (constants.sprung)
       free_motion[n_lever] = free_support(start, w);
-    return lever_ports.displacements(free_motion);
+    return lever_interface.displacements(free_motion);
   }
 
-  Motion SparseStructure::advance(const Motion &accepted, const PortForces &forces, const DrivePoint &to) const
+  Motion SparseStructure::advance(const Motion &accepted, const InterfaceForces &forces, const DrivePoint &to) const
   {
     const auto &w = current->weights;
     Motion motion;

@@ -25,8 +25,8 @@ namespace sprag
     double support_damping   = 0.; ///< [N s/mm]
   };
 
-  /// A meshed linear lever with all its degrees of freedom, answering to forces on its ports as ModalStructure does. Coordinates:
-  /// TotalCoordinates and, on a sprung support, its displacement.
+  /// A meshed linear lever with all its degrees of freedom, answering to forces at its interface as ModalStructure does.
+  /// Coordinates: TotalCoordinates and, on a sprung support, its displacement.
   class SparseStructure
   {
   public:
@@ -37,7 +37,7 @@ namespace sprag
     SparseStructure(const ElasticBody<2> &body, std::shared_ptr<const InertialMatrices> matrices, const LeverModes &modes,
                     const LeverDynamics &constants);
 
-    const PortLayout &ports() const;
+    const InterfaceLayout &layout() const;
 
     /// The motion at rest without force.
     Motion rest() const;
@@ -45,32 +45,32 @@ namespace sprag
     /// Makes the compliance that of statics, or of a step.
     void use_statics();
     void use_step(const StepWeights &weights);
-    const PortCompliance &compliance() const;
+    const InterfaceCompliance &compliance() const;
 
     /// Motion at rest under forces, after use_statics().
-    Motion deform(const PortForces &forces) const;
+    Motion deform(const InterfaceForces &forces) const;
 
-    dealii::Vector<double> port_positions(const Motion &motion) const;
-    dealii::Vector<double> port_positions(const Motion &motion, const PortSelection &selected) const;
-    PortState port_state(const Motion &motion, unsigned int port) const;
-    Kinematic port_kinematics(const Motion &motion) const;
+    dealii::Vector<double> positions(const Motion &motion) const;
+    dealii::Vector<double> positions(const Motion &motion, const DofSelection &selected) const;
+    DofState dof_state(const Motion &motion, unsigned int dof) const;
+    Kinematic kinematics(const Motion &motion) const;
 
-    /// Displacements of the ports at the end of a step without forces in it.
-    dealii::Vector<double> free_ports(const Motion &accepted, const PortSelection &selected) const;
+    /// Returns the interface displacements at the end of a step without forces in it.
+    dealii::Vector<double> free_displacements(const Motion &accepted, const DofSelection &selected) const;
 
-    /// Completes the step that free_ports() began under its forces.
-    Motion advance(const Motion &accepted, const PortForces &forces, const DrivePoint &to) const;
+    /// Completes the step that free_displacements() began under its forces.
+    Motion advance(const Motion &accepted, const InterfaceForces &forces, const DrivePoint &to) const;
 
     /// Adds the structure's damping and algorithmic work of the step.
     void add_work(const Motion &begin, const Motion &end, StepWork &work) const;
 
     StoredEnergy stored_energy(const Motion &motion) const;
 
-    /// Displacements of the ports by the local error of a step in the lowest modes.
-    dealii::Vector<double> port_error(const Motion &begin, const Motion &end) const;
+    /// Returns the interface displacements by the local error of a step in the lowest modes.
+    dealii::Vector<double> local_error(const Motion &begin, const Motion &end) const;
 
-    /// The vibrations of lowest frequency under linear forces on the ports.
-    std::vector<StructureMode> vibrations(const PortPerturbation &forces, unsigned int number);
+    /// Returns the vibrations of lowest frequency under linear forces at the interface.
+    std::vector<StructureMode> vibrations(const LinearisedForces &forces, unsigned int number);
 
     /// v^T C v with the motion's positions as velocities v: twice the power that damping takes.
     double damping_form(const Motion &velocities) const;
@@ -78,8 +78,8 @@ namespace sprag
     /// Elastic displacement of all degrees of freedom of the body, in lever axes [mm]. Of a pair's structure that of a lever.
     dealii::Vector<double> elastic_displacement(const Motion &motion, unsigned int lever = 0) const;
 
-    /// Visits the steps whose factors are kept, and what is kept with them.
-    void visit_history(Archive &archive);
+    /// Serialises the steps whose factors are kept, and what is kept with them.
+    void serialise_history(Archive &archive);
 
   private:
     /// Products of a motion's position, velocity and acceleration (rates of the stiffnesses only where damping needs them).
@@ -98,14 +98,14 @@ namespace sprag
     {
       StepWeights weights{};
       std::unique_ptr<EffectiveSystem> system;
-      PortCompliance compliance;
+      InterfaceCompliance compliance;
     };
 
     /// Known of the last two motions asked for.
     const Products &products(const Motion &motion) const;
     Products make_products(const Motion &motion) const;
     std::unique_ptr<Step> make_step(const StepWeights &weights) const;
-    PortCompliance port_compliance(const EffectiveSystem &system, double support_stiffness) const;
+    InterfaceCompliance interface_compliance(const EffectiveSystem &system, double support_stiffness) const;
     double effective_support(const StepWeights &w) const;
     double free_support(const Kinematic &start, const StepWeights &w) const;
     dealii::Vector<double> motion_load(const Kinematic &start, const Products &motion_products, const StepWeights &w) const;
@@ -119,20 +119,21 @@ namespace sprag
 
     void add_support_work(const Kinematic &q_0, const Kinematic &q_1, const StepWeights &w, StepWork &work) const;
 
-    /// Adds the lever's movement under forces on the ports, and the support's with compliance `at_support`.
-    void add_responses(const Step &step, const PortForces &forces, double at_support, dealii::Vector<double> &position) const;
+    /// Adds the lever's movement under interface forces, and the support's with compliance `at_support`.
+    void add_responses(const Step &step, const InterfaceForces &forces, double at_support,
+                       dealii::Vector<double> &position) const;
 
     const std::shared_ptr<const InertialMatrices> matrices;
     const LeverDynamics constants;
-    const LeverPorts lever_ports;
+    const LeverInterface lever_interface;
     const unsigned int n_lever; ///< coordinates without the support's
     const dealii::Vector<double> rigid_rotation;
     const CompressedRows mass;
     const CompressedRows stiffness;
     const CompressedRows layer;
     ModalDamping damping;
-    std::vector<dealii::Vector<double>> mode_momenta; ///< M phi
-    std::vector<dealii::Vector<double>> mode_ports;   ///< displacements of the ports
+    std::vector<dealii::Vector<double>> mode_momenta;       ///< M phi
+    std::vector<dealii::Vector<double>> mode_displacements; ///< displacements of the interface
 
     std::unique_ptr<Step> statics;
     std::vector<std::unique_ptr<Step>> steps; ///< the latest last

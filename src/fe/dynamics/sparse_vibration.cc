@@ -25,8 +25,8 @@ namespace sprag
     double operator*(const SparseState &other) const;
   };
 
-  /// The linearised problem E s' = A s of a sparse structure under forces on its ports, s = (q, q', tau): products with A^-1 E,
-  /// whose eigenvalues are 1 / lambda.
+  /// The linearised problem E s' = A s of a sparse structure under forces at its interface, s = (q, q', tau): products with A^-1
+  /// E, whose eigenvalues are 1 / lambda.
   ///
   /// States are measured by their energy, q^T K q + q'^T M q' + tau^2 over the stiffness of stick, K with the contact's springs.
   /// Without friction and damping the products are skew in it: their eigenvectors are orthogonal, and what is stiff is small.
@@ -34,7 +34,7 @@ namespace sprag
   {
   public:
     /// Arguments must outlive the problem. Throws AnalysisError if there is a mode without stiffness.
-    InverseProblem(const SparseOperator &structure, const PortPerturbation &forces);
+    InverseProblem(const SparseOperator &structure, const LinearisedForces &forces);
 
     unsigned int size() const; ///< of the state
     SparseState zero() const;
@@ -50,13 +50,13 @@ namespace sprag
 
   private:
     const SparseOperator &structure;
-    const PortPerturbation &forces;
+    const LinearisedForces &forces;
     const dealii::FullMatrix<double> stiffness;
     const dealii::FullMatrix<double> damping;
     const unsigned int n_forces;
     dealii::FullMatrix<double> springs;            ///< of the contact, those that are not negative
     std::vector<double> tractions;                 ///< energy of the delays' tractions by their square
-    std::vector<dealii::Vector<double>> responses; ///< of the structure to unit forces on the ports
+    std::vector<dealii::Vector<double>> responses; ///< of the structure to unit forces at the interface
     dealii::LAPACKFullMatrix<double> portable;     ///< factors of 1 - G df/dz
 
     void find_springs();
@@ -65,9 +65,9 @@ namespace sprag
     dealii::Vector<double> displacements(const SparseState &state) const;
     void mass_product(const dealii::Vector<double> &rate, dealii::Vector<double> &momentum) const;
     void add_delayed(const dealii::Vector<double> &rates, dealii::Vector<double> &sum) const;
-    dealii::Vector<double> loaded_ports(const dealii::Vector<double> &q) const;
-    void add_port_forces(const dealii::FullMatrix<double> &matrix, double factor, const dealii::Vector<double> &q,
-                         dealii::Vector<double> &sum) const;
+    dealii::Vector<double> loaded_displacements(const dealii::Vector<double> &q) const;
+    void add_interface_forces(const dealii::FullMatrix<double> &matrix, double factor, const dealii::Vector<double> &q,
+                              dealii::Vector<double> &sum) const;
     void solve(const dealii::Vector<double> &right_hand_side, dealii::Vector<double> &q) const;
   };
 
@@ -92,12 +92,12 @@ namespace sprag
     return q * other.q + rate * other.rate + (traction.size() > 0 ? traction * other.traction : 0.);
   }
 
-  InverseProblem::InverseProblem(const SparseOperator &sparse_structure, const PortPerturbation &port_forces)
+  InverseProblem::InverseProblem(const SparseOperator &sparse_structure, const LinearisedForces &interface_forces)
       : structure(sparse_structure)
-      , forces(port_forces)
+      , forces(interface_forces)
       , stiffness(forces.stiffness())
       , damping(forces.damping())
-      , n_forces(static_cast<unsigned int>(forces.ports.size()))
+      , n_forces(static_cast<unsigned int>(forces.dofs.size()))
       , springs(n_forces, n_forces)
       , portable(n_forces)
   {
@@ -147,10 +147,10 @@ namespace sprag
     for (unsigned int b = 0; b < n_forces; ++b)
     {
       load = 0.;
-      structure.ports.add_force(forces.ports[b], 1., load);
+      structure.interface.add_force(forces.dofs[b], 1., load);
       responses.emplace_back(structure.size);
       structure.solve(load, responses.back());
-      const auto z = loaded_ports(responses.back());
+      const auto z = loaded_displacements(responses.back());
       for (unsigned int a = 0; a < n_forces; ++a)
         compliance(a, b) = z[a];
     }
@@ -175,8 +175,8 @@ namespace sprag
     SparseState result{ displacements(state), state.q, Vector<double>(n_delays()) };
     if (n_delays() == 0)
       return result;
-    const auto before = loaded_ports(state.q);
-    const auto after  = loaded_ports(result.q);
+    const auto before = loaded_displacements(state.q);
+    const auto after  = loaded_displacements(result.q);
     for (unsigned int k = 0; k < n_delays(); ++k)
     {
       const auto &delay  = forces.delays[k];
@@ -189,7 +189,7 @@ namespace sprag
   {
     SparseState result = zero();
     structure.stiffness(state.q, result.q);
-    add_port_forces(springs, 1., state.q, result.q);
+    add_interface_forces(springs, 1., state.q, result.q);
     mass_product(state.rate, result.rate);
     for (unsigned int k = 0; k < n_delays(); ++k)
       result.traction[k] = tractions[k] * state.traction[k];
@@ -208,7 +208,7 @@ namespace sprag
   void InverseProblem::mass_product(const Vector<double> &rate, Vector<double> &momentum) const
   {
     structure.mass(rate, momentum);
-    add_port_forces(forces.inertia, 1., rate, momentum);
+    add_interface_forces(forces.inertia, 1., rate, momentum);
   }
 
   /// The rotational spring is so soft beside the contact that solutions without the contact have lost half their digits: what
@@ -220,7 +220,7 @@ namespace sprag
     mass_product(state.rate, left);
     load += left;
     load *= -1.;
-    add_port_forces(damping, 1., state.q, load);
+    add_interface_forces(damping, 1., state.q, load);
     add_delayed(state.traction, load);
     solve(load, result);
 
@@ -229,7 +229,7 @@ namespace sprag
     {
       structure.stiffness(result, left);
       left.sadd(-1., 1., load);
-      add_port_forces(stiffness, 1., result, left);
+      add_interface_forces(stiffness, 1., result, left);
       solve(left, correction);
       result += correction;
     }
@@ -245,28 +245,28 @@ namespace sprag
     for (unsigned int k = 0; k < n_delays(); ++k)
       values.add(-forces.delays[k].time * rates[k], forces.delays[k].force);
     for (unsigned int a = 0; a < n_forces; ++a)
-      structure.ports.add_force(forces.ports[a], values[a], sum);
+      structure.interface.add_force(forces.dofs[a], values[a], sum);
   }
 
-  Vector<double> InverseProblem::loaded_ports(const Vector<double> &q) const
+  Vector<double> InverseProblem::loaded_displacements(const Vector<double> &q) const
   {
-    const auto all = structure.ports.displacements(q);
+    const auto all = structure.interface.displacements(q);
     Vector<double> z(n_forces);
     for (unsigned int a = 0; a < z.size(); ++a)
-      z[a] = all[forces.ports[a]];
+      z[a] = all[forces.dofs[a]];
     return z;
   }
 
-  void InverseProblem::add_port_forces(const FullMatrix<double> &matrix, const double factor, const Vector<double> &q,
-                                       Vector<double> &sum) const
+  void InverseProblem::add_interface_forces(const FullMatrix<double> &matrix, const double factor, const Vector<double> &q,
+                                            Vector<double> &sum) const
   {
     if (n_forces == 0)
       return;
-    const auto z = loaded_ports(q);
+    const auto z = loaded_displacements(q);
     Vector<double> values(z.size());
     matrix.vmult(values, z);
     for (unsigned int a = 0; a < n_forces; ++a)
-      structure.ports.add_force(forces.ports[a], factor * values[a], sum);
+      structure.interface.add_force(forces.dofs[a], factor * values[a], sum);
   }
 
   /// With the stiffness of structure and forces: f = A (1 - G A)^-1 z where the structure alone went to z.
@@ -275,7 +275,7 @@ namespace sprag
     structure.solve(right_hand_side, q);
     if (n_forces == 0)
       return;
-    auto z = loaded_ports(q);
+    auto z = loaded_displacements(q);
     portable.solve(z);
     Vector<double> values(n_forces);
     stiffness.vmult(values, z);
@@ -459,7 +459,7 @@ namespace sprag
     }
   } // namespace
 
-  std::vector<StructureMode> sparse_vibrations(const SparseOperator &structure, const PortPerturbation &forces,
+  std::vector<StructureMode> sparse_vibrations(const SparseOperator &structure, const LinearisedForces &forces,
                                                const unsigned int number)
   {
     const InverseProblem problem(structure, forces);

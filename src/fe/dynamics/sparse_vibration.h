@@ -3,7 +3,7 @@
 
 #include "fe/algebra/compressed_rows.h"
 #include "fe/dynamics/effective_system.h"
-#include "fe/dynamics/lever_ports.h"
+#include "fe/dynamics/lever_interface.h"
 #include "model/linearisation.h"
 #include "model/vibration.h"
 
@@ -20,7 +20,7 @@ namespace sprag
     Product damping;
     Product stiffness;
     Product solve; ///< with the stiffness
-    const LeverPorts &ports;
+    const LeverInterface &interface;
   };
 
   /// Largest backward error of what sparse_vibrations() returns: of the residual A^-1 E s - s / lambda of the first-order problem
@@ -30,10 +30,10 @@ namespace sprag
   /// friction: 2e-8 at three times the mu of cork.
   constexpr double largest_backward_error = 1e-6;
 
-  /// At least the `number` vibrations exp(lambda t) of smallest |lambda|, Im lambda > 0, under linear forces on the ports, and
-  /// what grows or was found below them without vibrating, by increasing |lambda|; of a structure that has fewer those found so
-  /// well. The method of Arnoldi for the inverse of the linearised problem, see InverseProblem, in a space of no more than 100
+  /// At least the `number` vibrations exp(lambda t) of smallest |lambda|, Im lambda > 0, under linear forces at the interface,
+  /// and what grows or was found below them without vibrating, by increasing |lambda|; of a structure that has fewer those found
+  /// so well. The method of Arnoldi for the inverse of the linearised problem, see InverseProblem, in a space of no more than 100
   /// dimensions and 12 for each. Throws AnalysisError if they are not found in it, or not that well.
-  std::vector<StructureMode> sparse_vibrations(const SparseOperator &structure, const PortPerturbation &forces,
+  std::vector<StructureMode> sparse_vibrations(const SparseOperator &structure, const LinearisedForces &forces,
                                                unsigned int number);
 } // namespace sprag

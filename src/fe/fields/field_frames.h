@@ -80,10 +80,10 @@ namespace sprag
     /// Adds a frame, of another time than those before.
     void write(const DeviceState &state);
 
-    /// Visits what says which frames there are, see FieldFiles.
-    void visit_progress(Archive &archive)
+    /// Serialises what says which frames there are, see FieldFiles.
+    void serialise_progress(Archive &archive)
     {
-      files->visit_progress(archive);
+      files->serialise_progress(archive);
     }
 
   private:

@@ -40,7 +40,7 @@ namespace sprag
     }
   }
 
-  void StressPeaks::visit_progress(Archive &archive)
+  void StressPeaks::serialise_progress(Archive &archive)
   {
     archive(peaks);
   }

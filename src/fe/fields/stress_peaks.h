@@ -28,8 +28,8 @@ namespace sprag
     /// Returns the entries of /summary for so many levers. They are NaN where nothing has been looked at.
     std::vector<Entry> entries(unsigned int levers) const;
 
-    /// Visits what was found so far.
-    void visit_progress(Archive &archive);
+    /// Serialises what was found so far.
+    void serialise_progress(Archive &archive);
 
   private:
     struct Peak

@@ -53,7 +53,7 @@ namespace sprag
       std::string mesh;                             ///< in gmsh's format 2.2
     };
 
-    void visit(Archive &archive, Answer &answer)
+    void serialise(Archive &archive, Answer &answer)
     {
       archive(answer.mistakes, answer.materials, answer.boundaries, answer.mesh);
     }

@@ -226,8 +226,8 @@ namespace sprag
     const double depth      = body.skin();
     const auto loads        = bond_loads(body, { begin - beyond * depth, end + beyond * depth, spacing, depth });
     const int n             = loads.size();
-    const auto n_ports      = static_cast<unsigned int>(dofs.size());
-    FullMatrix<double> face_response(n_ports, n);
+    const auto n_surface    = static_cast<unsigned int>(dofs.size());
+    FullMatrix<double> face_response(n_surface, n);
     LAPACKFullMatrix<double> products(n);
     for (int first = 0; first < n; first += chunk)
     {
@@ -243,8 +243,8 @@ namespace sprag
       for (int j = first; j < last; ++j)
       {
         const double *const response = &responses[static_cast<std::size_t>(j - first) * body.n_dofs()];
-        for (unsigned int port = 0; port < n_ports; ++port)
-          face_response(port, j) = response[dofs[port]];
+        for (unsigned int surface_dof = 0; surface_dof < n_surface; ++surface_dof)
+          face_response(surface_dof, j) = response[dofs[surface_dof]];
         for (int i = 0; i < n; ++i)
           for (int k = loads.begin[i]; k < loads.begin[i + 1]; ++k)
             products(i, j) += loads.value[k - 1] * response[loads.row[k - 1] - 1];
@@ -254,34 +254,34 @@ namespace sprag
     // B^T K^-1 B = L L^T, Z = (K^-1 B)_face L^-T.
     products.set_property(LAPACKSupport::symmetric);
     products.compute_cholesky_factorization();
-    LAPACKFullMatrix<double> lower(n), transposed(n, n_ports);
+    LAPACKFullMatrix<double> lower(n), transposed(n, n_surface);
     for (int i = 0; i < n; ++i)
       for (int j = 0; j <= i; ++j)
         lower(i, j) = products(i, j);
-    for (unsigned int port = 0; port < n_ports; ++port)
+    for (unsigned int surface_dof = 0; surface_dof < n_surface; ++surface_dof)
       for (int j = 0; j < n; ++j)
-        transposed(j, port) = face_response(port, j);
+        transposed(j, surface_dof) = face_response(surface_dof, j);
     lower.set_property(LAPACKSupport::lower_triangular);
     lower.solve(transposed);
-    basis.reinit(n_ports, n);
-    for (unsigned int port = 0; port < n_ports; ++port)
+    basis.reinit(n_surface, n);
+    for (unsigned int surface_dof = 0; surface_dof < n_surface; ++surface_dof)
       for (int j = 0; j < n; ++j)
-        basis(port, j) = transposed(j, port);
+        basis(surface_dof, j) = transposed(j, surface_dof);
   }
 
-  unsigned int LayeredCompliance::port_block(const unsigned int port) const
+  unsigned int LayeredCompliance::containing_block(const unsigned int surface_dof) const
   {
-    const auto after = std::upper_bound(blocks.begin(), blocks.end(), port,
+    const auto after = std::upper_bound(blocks.begin(), blocks.end(), surface_dof,
                                         [](const unsigned int value, const Block &range) { return value < range.begin; });
     return static_cast<unsigned int>(after - blocks.begin()) - 1;
   }
 
-  PortSelection LayeredCompliance::whole_blocks(const PortSelection &ports) const
+  DofSelection LayeredCompliance::whole_blocks(const DofSelection &surface_dofs) const
   {
-    PortSelection result;
-    for (const unsigned int port : ports)
-      if (result.empty() || port > result.back())
-        for (unsigned int i = blocks[port_block(port)].begin; i < blocks[port_block(port)].end; ++i)
+    DofSelection result;
+    for (const unsigned int surface_dof : surface_dofs)
+      if (result.empty() || surface_dof > result.back())
+        for (unsigned int i = blocks[containing_block(surface_dof)].begin; i < blocks[containing_block(surface_dof)].end; ++i)
           result.push_back(i);
     return result;
   }
@@ -289,9 +289,9 @@ namespace sprag
   LayeredCompliance::NearColumns LayeredCompliance::find_near_columns(const unsigned int block_index) const
   {
     SparseColumns loads;
-    for (unsigned int port = blocks[block_index].begin; port < blocks[block_index].end; ++port)
+    for (unsigned int surface_dof = blocks[block_index].begin; surface_dof < blocks[block_index].end; ++surface_dof)
     {
-      if (const int number = body.number_near(dofs[port]); number >= 0)
+      if (const int number = body.number_near(dofs[surface_dof]); number >= 0)
         loads.add(static_cast<unsigned int>(number), 1.);
       loads.end_column();
     }
@@ -357,11 +357,11 @@ namespace sprag
     return is_far_away ? nullptr : &columns.block_matrices[number];
   }
 
-  /// Displacement of a port by forces on each, of the skin alone.
-  const std::vector<double> &LayeredCompliance::near_row(const unsigned int port)
+  /// Returns the displacement of a dof by a unit force on each, of the skin alone.
+  const std::vector<double> &LayeredCompliance::near_row(const unsigned int surface_dof)
   {
-    const auto [found, is_new] = known_rows.try_emplace(port, dofs.size());
-    if (const int own = body.number_near(dofs[port]); is_new && own >= 0)
+    const auto [found, is_new] = known_rows.try_emplace(surface_dof, dofs.size());
+    if (const int own = body.number_near(dofs[surface_dof]); is_new && own >= 0)
     {
       SparseColumns load;
       load.add(static_cast<unsigned int>(own), 1.);
@@ -399,15 +399,15 @@ namespace sprag
     return result;
   }
 
-  std::vector<unsigned int> LayeredCompliance::block_numbers(const PortSelection &whole_blocks) const
+  std::vector<unsigned int> LayeredCompliance::block_numbers(const DofSelection &whole_blocks) const
   {
     std::vector<unsigned int> result;
     for (unsigned int place = 0; place < whole_blocks.size(); place += blocks[result.back()].end - blocks[result.back()].begin)
-      result.push_back(port_block(whole_blocks[place]));
+      result.push_back(containing_block(whole_blocks[place]));
     return result;
   }
 
-  std::shared_ptr<const FullMatrix<double>> LayeredCompliance::among(const PortSelection &whole_blocks)
+  std::shared_ptr<const FullMatrix<double>> LayeredCompliance::among(const DofSelection &whole_blocks)
   {
     const auto n = static_cast<unsigned int>(whole_blocks.size());
     if (spare_matrix.use_count() != 1)
@@ -415,13 +415,13 @@ namespace sprag
     auto &result = *spare_matrix;
     result.TableBase<2, double>::reinit({ n, n }, true); // all of it is set below
     // Most of it was found last time, in one piece.
-    const auto first =
-        std::find_if(whole_blocks.begin(), whole_blocks.end(),
-                     [&](const unsigned int port) { return std::binary_search(last_ports.begin(), last_ports.end(), port); });
+    const auto first  = std::find_if(whole_blocks.begin(), whole_blocks.end(),
+                                     [&](const unsigned int surface_dof)
+                                     { return std::binary_search(last_dofs.begin(), last_dofs.end(), surface_dof); });
     const auto begin  = static_cast<unsigned int>(first - whole_blocks.begin());
-    const auto before = begin < n ? find_index(*first, last_ports) : 0;
+    const auto before = begin < n ? find_index(*first, last_dofs) : 0;
     unsigned int end  = begin;
-    while (end < n && before + end - begin < last_ports.size() && last_ports[before + end - begin] == whole_blocks[end])
+    while (end < n && before + end - begin < last_dofs.size() && last_dofs[before + end - begin] == whole_blocks[end])
       ++end;
     for (unsigned int row = begin; row < end; ++row)
       std::copy_n(&(*last_matrix)(before + row - begin, before), end - begin, &result(row, begin));
@@ -437,38 +437,39 @@ namespace sprag
             for (unsigned int b = 0; b < fresh.n() && column + b <= row + a; ++b)
               result(row + a, column + b) = result(column + b, row + a) = fresh(a, b);
         }
-    last_ports = whole_blocks;
+    last_dofs = whole_blocks;
     std::swap(last_matrix, spare_matrix);
     return last_matrix;
   }
 
-  Vector<double> LayeredCompliance::displacements(const PortSelection &ports, const PortLoads &forces)
+  Vector<double> LayeredCompliance::displacements(const DofSelection &surface_dofs, const DofLoads &forces)
   {
-    Vector<double> amplitudes(basis_size()), result(static_cast<unsigned int>(ports.size()));
-    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+    Vector<double> amplitudes(basis_size()), result(static_cast<unsigned int>(surface_dofs.size()));
+    for (unsigned int a = 0; a < forces.dofs.size(); ++a)
       for (unsigned int j = 0; j < basis.n(); ++j)
-        amplitudes[j] += basis(forces.ports[a], j) * forces.values[a];
-    for (unsigned int i = 0; i < ports.size(); ++i)
+        amplitudes[j] += basis(forces.dofs[a], j) * forces.values[a];
+    for (unsigned int i = 0; i < surface_dofs.size(); ++i)
     {
       for (unsigned int j = 0; j < basis.n(); ++j)
-        result[i] += basis(ports[i], j) * amplitudes[j];
-      result[i] += near_displacement(ports[i], forces);
+        result[i] += basis(surface_dofs[i], j) * amplitudes[j];
+      result[i] += near_displacement(surface_dofs[i], forces);
     }
     return result;
   }
 
-  /// Displacement of a port by the loads near it. If the columns of other tiles do not serve, a row costs less than all columns.
-  double LayeredCompliance::near_displacement(const unsigned int port, const PortLoads &forces)
+  /// Returns the displacement of a dof by the loads near it. If the columns of other tiles do not serve, a row costs less than
+  /// all columns.
+  double LayeredCompliance::near_displacement(const unsigned int surface_dof, const DofLoads &forces)
   {
-    const unsigned int to = port_block(port);
+    const unsigned int to = containing_block(surface_dof);
     double result         = 0.;
-    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+    for (unsigned int a = 0; a < forces.dofs.size(); ++a)
     {
-      const unsigned int by = forces.ports[a], from = port_block(by);
+      const unsigned int by = forces.dofs[a], from = containing_block(by);
       if (!is_like(to, from))
-        result += near_row(port)[by] * forces.values[a];
+        result += near_row(surface_dof)[by] * forces.values[a];
       else if (const auto *const block = near_block(to, from))
-        result += (*block)(port - blocks[to].begin, by - blocks[from].begin) * forces.values[a];
+        result += (*block)(surface_dof - blocks[to].begin, by - blocks[from].begin) * forces.values[a];
     }
     return result;
   }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fe/solid/solid_body.h"
-#include "model/port_forces.h"
+#include "model/interface_forces.h"
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -26,16 +26,16 @@ namespace sprag
     /// xi, over the depth of the skin, > 0; the smaller, the less is left out. The body must outlive this.
     LayeredCompliance(const SolidBody &body, double begin, double end, double spacing_over_depth = 1.);
 
-    /// The columns of nodes that hold the given ports, as increasing ports. A port is a number among the face's displacements,
+    /// Returns the dofs of the columns of nodes that hold some, increasing. Dofs are numbers among the face's displacements,
     /// sorted by the columns, see surface_dofs().
-    PortSelection whole_blocks(const PortSelection &ports) const;
+    DofSelection whole_blocks(const DofSelection &surface_dofs) const;
 
-    /// The compliance between some ports, which make up whole columns.
-    std::shared_ptr<const dealii::FullMatrix<double>> among(const PortSelection &whole_blocks);
+    /// Returns the compliance between some dofs, which make up whole columns.
+    std::shared_ptr<const dealii::FullMatrix<double>> among(const DofSelection &whole_blocks);
 
-    /// Displacements of some ports by forces on others, those of the skin left out where they are further away than it reaches
-    /// [mm].
-    dealii::Vector<double> displacements(const PortSelection &ports, const PortLoads &forces);
+    /// Returns the displacements of some dofs by forces on others, those of the skin left out where they are further away than it
+    /// reaches [mm].
+    dealii::Vector<double> displacements(const DofSelection &surface_dofs, const DofLoads &forces);
 
     unsigned int basis_size() const
     {
@@ -47,7 +47,7 @@ namespace sprag
     struct Block
     {
       double xi;
-      unsigned int begin;       ///< its first port
+      unsigned int begin;       ///< its first dof
       unsigned int end;         ///< beyond the last
       unsigned int like;        ///< one in the middle of those with the same surroundings
       unsigned int n_alike = 1; ///< tiles that answer like it, itself among them
@@ -64,24 +64,24 @@ namespace sprag
     void find_basis(double begin, double end, double spacing);
     bool is_like(unsigned int row_block, unsigned int column_block) const;
     unsigned int stand_in(unsigned int row_block, unsigned int column_block) const;
-    const std::vector<double> &near_row(unsigned int port);
-    double near_displacement(unsigned int port, const PortLoads &forces);
+    const std::vector<double> &near_row(unsigned int surface_dof);
+    double near_displacement(unsigned int surface_dof, const DofLoads &forces);
     const dealii::FullMatrix<double> *near_block(unsigned int row_block, unsigned int column_block);
     dealii::FullMatrix<double> block(unsigned int row_block, unsigned int column_block);
     const NearColumns &near_columns(unsigned int block_index);
     NearColumns find_near_columns(unsigned int block_index) const;
-    unsigned int port_block(unsigned int port) const;
-    std::vector<unsigned int> block_numbers(const PortSelection &whole_blocks) const;
+    unsigned int containing_block(unsigned int surface_dof) const;
+    std::vector<unsigned int> block_numbers(const DofSelection &whole_blocks) const;
 
     const SolidBody &body;
-    const std::vector<unsigned int> dofs; ///< of the ports
+    const std::vector<unsigned int> dofs; ///< of the body
     std::vector<Block> blocks;
     std::map<unsigned int, NearColumns> known; ///< by the tile
     std::map<unsigned int, std::vector<double>> known_rows;
-    dealii::FullMatrix<double> basis; ///< Z, a row a port
+    dealii::FullMatrix<double> basis; ///< Z, a row a dof
 
     // The last matrix, most of which the next one contains too, and the one before, whose memory the next one takes.
-    PortSelection last_ports;
+    DofSelection last_dofs;
     std::shared_ptr<dealii::FullMatrix<double>> last_matrix, spare_matrix;
   };
 } // namespace sprag

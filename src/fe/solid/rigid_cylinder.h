@@ -97,12 +97,12 @@ namespace sprag
   }
 
   template <class N, class A>
-  SPRAG_PART auto in_lanes(const CylinderPose<N, A> &pose)
+  SPRAG_PART auto to_batch(const CylinderPose<N, A> &pose)
   {
-    const auto widen = [](const A &a) { return in_lanes(a); };
-    return CylinderPose<decltype(in_lanes(pose.x)), decltype(widen(pose.axes.axis.x))>{ in_lanes(pose.x),
-                                                                                        in_lanes(pose.cosine),
-                                                                                        in_lanes(pose.sine),
+    const auto widen = [](const A &a) { return to_batch(a); };
+    return CylinderPose<decltype(to_batch(pose.x)), decltype(widen(pose.axes.axis.x))>{ to_batch(pose.x),
+                                                                                        to_batch(pose.cosine),
+                                                                                        to_batch(pose.sine),
                                                                                         pose.axes.each(widen),
                                                                                         { pose.turned[0].each(widen),
                                                                                           pose.turned[1].each(widen) } };

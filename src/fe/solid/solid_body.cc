@@ -17,7 +17,7 @@ namespace sprag
 {
   using namespace dealii;
 
-  void visit(Archive &archive, SolidProperties &properties)
+  void serialise(Archive &archive, SolidProperties &properties)
   {
     auto &body = properties.body;
     archive(body.degree, body.plane, body.material, body.width, body.curved, body.point_spacing, body.constants,

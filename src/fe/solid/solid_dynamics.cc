@@ -49,7 +49,7 @@ namespace sprag
         for (unsigned int j = 0; j < std::min<std::size_t>(n, displacements.size()); ++j)
           result += sign * coordinates[part * n + j] * displacements[j][dof];
       }
-      return structures.size() == 2 ? MirroredPorts::share() * result : result;
+      return structures.size() == 2 ? MirroredInterface::share() * result : result;
     }
 
     /// Tells the shape along an edge of the whole face, by the modes of the free lever. What these leave out is the dent of the
@@ -92,8 +92,8 @@ namespace sprag
       return ends.second->position[0] > begin && ends.first->position[0] < end;
     }
 
-    /// Returns the part whose patches reach into `begin` ... `end` along xi [mm]. The face's nodes increase along xi. Throws
-    /// AnalysisError where there is no such patch.
+    /// Returns the part whose elements reach into `begin` ... `end` along xi [mm]. The face's nodes increase along xi. Throws
+    /// AnalysisError where there is no such element.
     FaceWindow make_window(const FrictionFace<3> &face, const double begin, const double end)
     {
       std::vector<std::size_t> chosen;
@@ -119,15 +119,15 @@ namespace sprag
       part.nodes.assign(face.nodes.begin() + first, face.nodes.begin() + last);
       for (const std::size_t i : chosen)
       {
-        const auto &patch = face.patches[i];
-        const auto from   = static_cast<unsigned int>(part.points.size());
-        for (unsigned int q = patch.begin; q < patch.end; ++q)
+        const auto &element = face.elements[i];
+        const auto from     = static_cast<unsigned int>(part.points.size());
+        for (unsigned int q = element.begin; q < element.end; ++q)
         {
           auto &point = part.points.emplace_back(face.points[q]);
           for (auto &node : point.nodes)
             node.first -= first;
         }
-        part.patches.push_back({ from, static_cast<unsigned int>(part.points.size()), patch.length });
+        part.elements.push_back({ from, static_cast<unsigned int>(part.points.size()), element.length });
         auto &edge = part.edges.emplace_back(face.edges[i]);
         for (auto &node : edge.nodes)
           if (node.index != FaceEdge<3>::held)
@@ -136,38 +136,38 @@ namespace sprag
       return result;
     }
 
-    PortSelection window_ports(const FaceWindow &window)
+    DofSelection window_dofs(const FaceWindow &window)
     {
-      PortSelection result(3 * window.face.nodes.size());
+      DofSelection result(3 * window.face.nodes.size());
       for (unsigned int i = 0; i < result.size(); ++i)
         result[i] = 3 * window.first_node + i;
       return result;
     }
 
-    /// Layout of the ports of the window, the sensors, the cylinder's axis, the hub and its momentum.
-    PortLayout make_layout(const FaceWindow &window, const SolidInTime &lever, const Device &device)
+    /// Returns the layout of the window, the sensors, the cylinder's axis, the hub and its momentum.
+    InterfaceLayout make_layout(const FaceWindow &window, const SolidInTime &lever, const Device &device)
     {
-      PortLayout result{ static_cast<unsigned int>(3 * window.face.nodes.size()), true, lever.sensors->number() };
+      InterfaceLayout result{ static_cast<unsigned int>(3 * window.face.nodes.size()), true, lever.sensors->number() };
       result.slopes = lever.body->is_half() || !device.cylinder.has_free_axis() ? 0 : 2;
       return result;
     }
 
     std::unique_ptr<SurfaceContact> make_contact(const Device &device, const SolidInTime &lever, const FrictionFace<3> &face,
-                                                 const PortLayout &ports, const unsigned int index)
+                                                 const InterfaceLayout &layout, const unsigned int index)
     {
       const Device own = lever_device(device, index);
       return std::make_unique<SurfaceContact>(
           face, SurfaceContactProperties{ RigidCylinder(own.geometry, own.cylinder),
                                           [geometry = own.geometry](const double x, const double theta)
                                           { return cylinder_centre(geometry, x, theta); },
-                                          own.geometry.cylinder_radius, ports, rest_inclination(device),
+                                          own.geometry.cylinder_radius, layout, rest_inclination(device),
                                           penalties_in_time(own, lever.body->friction_face()), lever.body->is_half(),
                                           own.friction, device.layer.thickness });
     }
 
-    LeverFrame make_frame(const Device &device, const SolidInTime &lever, const PortLayout &ports)
+    LeverFrame make_frame(const Device &device, const SolidInTime &lever, const InterfaceLayout &layout)
     {
-      LeverFrame result       = lever_frame(device, ports, lever.modes.total_mass);
+      LeverFrame result       = lever_frame(device, layout, lever.modes.total_mass);
       result.sensor_stiffness = lever.sensors->stiffness();
       result.tell_sensors     = [is_half = lever.body->is_half()](const std::vector<double> &forces, Row &row)
       { tell_sides(forces, is_half, row); };
@@ -221,7 +221,7 @@ namespace sprag
     const auto structure  = [&](const unsigned int part)
     {
       const auto basis = basis_on(make_layout(*window, lever, device), *structures[part], face_dofs(face),
-                                  *lever.compliance->among(window_ports(*window)), *lever.sensors, 3 * window->first_node,
+                                  *lever.compliance->among(window_dofs(*window)), *lever.sensors, 3 * window->first_node,
                                   slope_compliances(device.cylinder), device.spring.stiffness);
       return std::make_unique<ModalStructure>(
           modal_data(truncated(basis, n_modes), make_lever_dynamics(device, relaxation, basis.total_mass)));
@@ -230,10 +230,10 @@ namespace sprag
     { return condensed_displacement(*lever.body, *structures[part], dofs, make_response(*lever.body), motion); };
     const auto assemble = [&](auto all)
     {
-      const PortLayout ports = all->ports();
-      const auto contact     = [&](const unsigned int index)
-      { return make_contact(device, lever, face, ports.single_lever(), index); };
-      return assemble_lever(std::move(all), make_frame(device, lever, ports), contact,
+      const InterfaceLayout layout = all->layout();
+      const auto contact           = [&](const unsigned int index)
+      { return make_contact(device, lever, face, layout.single_lever(), index); };
+      return assemble_lever(std::move(all), make_frame(device, lever, layout), contact,
                             static_cast<unsigned int>(face.points.size()));
     };
     MeshedDynamics result = facts(device, lever, n_modes);

@@ -25,8 +25,8 @@ namespace sprag
     std::optional<LeverModes> swinging; ///< of a pair's levers that swing together, where they are others
   };
 
-  /// Returns the modes of each structure that such levers make: of a pair those of the motions in which the levers mirror each
-  /// other, and of those in which the second does the opposite.
+  /// Returns the modes of each structure that such levers make: of a pair those of the symmetric motions, in which the levers
+  /// mirror each other, and of the antisymmetric.
   std::vector<const LeverModes *> structure_modes(const SolidInTime &lever, unsigned int levers);
 
   /// Makes body, compliance and the scene's number of modes from the plane mesh. Throws AnalysisError if a factorisation fails.

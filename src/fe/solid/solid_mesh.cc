@@ -20,7 +20,7 @@ namespace sprag
   using namespace dealii;
 
   template <int dim>
-  void visit(Archive &archive, CellData<dim> &cell)
+  void serialise(Archive &archive, CellData<dim> &cell)
   {
     archive(cell.vertices, cell.material_id, cell.manifold_id);
   }
@@ -147,7 +147,7 @@ namespace sprag
       std::vector<std::string> mistakes;
     };
 
-    void visit(Archive &archive, Handed &handed)
+    void serialise(Archive &archive, Handed &handed)
     {
       auto &[vertices, cells, sides] = handed.description;
       archive(vertices, cells, sides, handed.is_half, handed.mistakes);

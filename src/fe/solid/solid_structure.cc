@@ -32,14 +32,14 @@ namespace sprag
     return cell_displacement;
   }
 
-  void FiniteStrain::add(const PortLoads &on_face, std::vector<double> &loads) const
+  void FiniteStrain::add(const DofLoads &on_face, std::vector<double> &loads) const
   {
-    for (unsigned int i = 0; i < on_face.ports.size(); ++i)
-      if (const unsigned int dof = surface[on_face.ports[i]]; !body.is_held(dof))
+    for (unsigned int i = 0; i < on_face.dofs.size(); ++i)
+      if (const unsigned int dof = surface[on_face.dofs[i]]; !body.is_held(dof))
         loads[dof] += on_face.values[i];
   }
 
-  Vector<double> FiniteStrain::strain_residual(const Vector<double> &displacement, const PortLoads &on_face)
+  Vector<double> FiniteStrain::strain_residual(const Vector<double> &displacement, const DofLoads &on_face)
   {
     std::vector<double> loads(body.n_dofs(), 0.);
     Vector<double> internal(cell_displacement.size()), stiffness_forces(cell_displacement.size());
@@ -62,7 +62,7 @@ namespace sprag
     return result;
   }
 
-  Vector<double> FiniteStrain::correction(const Vector<double> &strain_residual, const PortLoads &change) const
+  Vector<double> FiniteStrain::correction(const Vector<double> &strain_residual, const DofLoads &change) const
   {
     std::vector<double> loads(body.n_dofs(), 0.);
     add(change, loads);
@@ -86,11 +86,11 @@ namespace sprag
     }
   } // namespace
 
-  SolidStructure::SolidStructure(const SolidBody &body_, const double begin, const double end, const PortLayout &ports_,
-                                 const PortSprings &springs_)
-      : PortWindow(ports_, springs_,
-                   { { ports_.surface, [this](const PortSelection &some) { return compliance.whole_blocks(some); },
-                       [this](const PortSelection &blocks) { return compliance.among(blocks); } } })
+  SolidStructure::SolidStructure(const SolidBody &body_, const double begin, const double end, const InterfaceLayout &layout_,
+                                 const JointSprings &springs_)
+      : StaticInterface(layout_, springs_,
+                        { { layout_.surface, [this](const DofSelection &some) { return compliance.whole_blocks(some); },
+                            [this](const DofSelection &blocks) { return compliance.among(blocks); } } })
       , body(body_)
       , surface(surface_dofs(body))
       , compliance(body, begin, end)
@@ -104,12 +104,12 @@ namespace sprag
   /// Index among the coordinates, at finite strain, of the first displacement of a lever's body.
   unsigned int SolidStructure::first_body_coordinate(const unsigned int lever) const
   {
-    return PortWindow::n_coordinates() + lever * body.n_dofs();
+    return StaticInterface::n_coordinates() + lever * body.n_dofs();
   }
 
   unsigned int SolidStructure::n_coordinates() const
   {
-    return finite ? first_body_coordinate(ports.levers) : PortWindow::n_coordinates();
+    return finite ? first_body_coordinate(layout.levers) : StaticInterface::n_coordinates();
   }
 
   Vector<double> SolidStructure::lever_displacement(const Vector<double> &coordinates, const unsigned int lever) const
@@ -118,46 +118,46 @@ namespace sprag
     return Vector<double>(first, first + body.n_dofs());
   }
 
-  void SolidStructure::set_faces(const PortLoads &forces, const PortSelection &near, Vector<double> &coordinates)
+  void SolidStructure::set_faces(const DofLoads &forces, const DofSelection &near, Vector<double> &coordinates)
   {
     if (!finite)
-      return PortWindow::set_faces(forces, near, coordinates);
-    for (unsigned int i = 0; i < ports.levers; ++i)
-      for (unsigned int port = 0; port < ports.surface; ++port)
-        coordinates[ports.first(i) + port] = coordinates[first_body_coordinate(i) + surface[port]];
+      return StaticInterface::set_faces(forces, near, coordinates);
+    for (unsigned int i = 0; i < layout.levers; ++i)
+      for (unsigned int dof = 0; dof < layout.surface; ++dof)
+        coordinates[layout.first(i) + dof] = coordinates[first_body_coordinate(i) + surface[dof]];
   }
 
-  Residual SolidStructure::residual(const Vector<double> &coordinates, const PortForces &forces, const PortSelection &near)
+  Residual SolidStructure::residual(const Vector<double> &coordinates, const InterfaceForces &forces, const DofSelection &near)
   {
     if (!finite)
-      return PortWindow::residual(coordinates, forces, near);
-    Vector<double> face_displacements(ports.size()), strain_parts(n_coordinates());
-    for (unsigned int i = 0; i < ports.levers; ++i)
+      return StaticInterface::residual(coordinates, forces, near);
+    Vector<double> face_displacements(layout.size()), strain_parts(n_coordinates());
+    for (unsigned int i = 0; i < layout.levers; ++i)
     {
       const auto displacement = lever_displacement(coordinates, i);
-      const auto strain_part  = finite->strain_residual(displacement, on_surface({ forces.ports, forces.values }, i));
+      const auto strain_part  = finite->strain_residual(displacement, on_surface({ forces.dofs, forces.values }, i));
       std::copy(strain_part.begin(), strain_part.end(), strain_parts.begin() + first_body_coordinate(i));
-      for (unsigned int port = 0; port < ports.surface; ++port)
-        face_displacements[ports.first(i) + port] = displacement[surface[port]] + strain_part[surface[port]];
+      for (unsigned int dof = 0; dof < layout.surface; ++dof)
+        face_displacements[layout.first(i) + dof] = displacement[surface[dof]] + strain_part[surface[dof]];
     }
-    auto result = PortWindow::residual(coordinates, forces, near, &face_displacements);
+    auto result = StaticInterface::residual(coordinates, forces, near, &face_displacements);
     result.norm = std::hypot(result.norm, strain_parts.l2_norm());
     std::copy(result.values.begin(), result.values.end(), strain_parts.begin());
     result.values = std::move(strain_parts);
     return result;
   }
 
-  Vector<double> SolidStructure::correction(const Residual &residual, const PortForces &forces, const PortSelection &near)
+  Vector<double> SolidStructure::correction(const Residual &residual, const InterfaceForces &forces, const DofSelection &near)
   {
-    auto result = PortWindow::correction(residual, forces, near);
+    auto result = StaticInterface::correction(residual, forces, near);
     if (!finite)
       return result;
-    PortLoads change{ forces.ports, Vector<double>(forces.values.size()) };
+    DofLoads change{ forces.dofs, Vector<double>(forces.values.size()) };
     Vector<double> moved(forces.values.size());
-    result.extract_subvector_to(forces.ports.begin(), forces.ports.end(), moved.begin());
+    result.extract_subvector_to(forces.dofs.begin(), forces.dofs.end(), moved.begin());
     forces.tangent.vmult(change.values, moved);
     result.grow_or_shrink(n_coordinates());
-    for (unsigned int i = 0; i < ports.levers; ++i)
+    for (unsigned int i = 0; i < layout.levers; ++i)
     {
       const auto strain_part = finite->correction(lever_displacement(residual.values, i), on_surface(change, i));
       std::copy(strain_part.begin(), strain_part.end(), result.begin() + first_body_coordinate(i));
@@ -165,7 +165,7 @@ namespace sprag
     return result;
   }
 
-  void SolidStructure::tell_sensors(const unsigned int lever, const Vector<double> &coordinates, const PortLoads &forces,
+  void SolidStructure::tell_sensors(const unsigned int lever, const Vector<double> &coordinates, const DofLoads &forces,
                                     Row &row) const
   {
     tell_sides(finite ? body.sensor_forces(lever_displacement(coordinates, lever)) : sensors(on_surface(forces, lever)),
@@ -180,34 +180,34 @@ namespace sprag
     return *std::min_element(node_lines.begin(), node_lines.end(), is_closer);
   }
 
-  /// The displacement along eta between the nodes of a line by those of three of them: their ports and shares.
-  PortLoads SolidStructure::interpolation(const std::vector<unsigned int> &line, const double xi) const
+  /// Returns the dofs and shares of three nodes of a line by which the displacement along eta between nodes follows.
+  DofLoads SolidStructure::interpolation(const std::vector<unsigned int> &line, const double xi) const
   {
     const auto &nodes    = body.friction_face().nodes;
     const auto xi_at     = [&](const std::size_t i) { return nodes[line[i]].position[0]; };
     const auto is_before = [&](const unsigned int node, const double value) { return nodes[node].position[0] < value; };
     const auto after     = std::lower_bound(line.begin(), line.end(), xi, is_before) - line.begin();
     const auto first     = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - 1, 0, line.size() - 3));
-    PortLoads result{ {}, Vector<double>(3) };
+    DofLoads result{ {}, Vector<double>(3) };
     for (std::size_t i = first; i < first + 3; ++i)
     {
       double share = 1.;
       for (std::size_t j = first; j < first + 3; ++j)
         if (j != i)
           share *= (xi - xi_at(j)) / (xi_at(i) - xi_at(j));
-      result.ports.push_back(3 * line[i] + 1);
+      result.dofs.push_back(3 * line[i] + 1);
       result.values[static_cast<unsigned int>(i - first)] = share;
     }
     return result;
   }
 
   double SolidStructure::indentation(const unsigned int lever, const double thickness, const Vector<double> &coordinates,
-                                     const PortLoads &forces, const Row &row) const
+                                     const DofLoads &forces, const Row &row) const
   {
     const auto acting = on_surface(forces, lever);
-    if (thickness == 0. || acting.ports.empty() || node_lines.empty())
+    if (thickness == 0. || acting.dofs.empty() || node_lines.empty())
       return 0.;
-    const auto displacements = [&](const PortSelection &some)
+    const auto displacements = [&](const DofSelection &some)
     {
       if (!finite)
         return compliance.displacements(some, acting);
@@ -222,22 +222,22 @@ namespace sprag
     const auto at      = [&](const double xi)
     {
       const auto shares = interpolation(line, xi);
-      return shares.values * displacements(shares.ports);
+      return shares.values * displacements(shares.dofs);
     };
     return at(s) - 0.5 * (at(s - aside) + at(s + aside));
   }
 
-  std::vector<Vector<double>> SolidStructure::body_displacements(const Vector<double> &coordinates, const PortLoads &forces) const
+  std::vector<Vector<double>> SolidStructure::body_displacements(const Vector<double> &coordinates, const DofLoads &forces) const
   {
     std::vector<Vector<double>> result;
     if (finite)
     {
-      for (unsigned int i = 0; i < ports.levers; ++i)
+      for (unsigned int i = 0; i < layout.levers; ++i)
         result.push_back(lever_displacement(coordinates, i));
       return result;
     }
-    std::vector<PortLoads> loads;
-    for (unsigned int i = 0; i < ports.levers; ++i)
+    std::vector<DofLoads> loads;
+    for (unsigned int i = 0; i < layout.levers; ++i)
       loads.push_back(on_surface(forces, i));
     const auto lever_responses = responses(loads);
     for (auto column = lever_responses.begin(); column != lever_responses.end(); column += body.n_dofs())
@@ -246,36 +246,36 @@ namespace sprag
   }
 
   /// Displacements of all degrees of freedom of the whole body by forces on the face, one after another.
-  std::vector<double> SolidStructure::responses(const std::vector<PortLoads> &on_faces) const
+  std::vector<double> SolidStructure::responses(const std::vector<DofLoads> &on_faces) const
   {
     SparseColumns loads;
     for (const auto &acting : on_faces)
     {
-      for (unsigned int i = 0; i < acting.ports.size(); ++i)
-        if (const unsigned int dof = surface[acting.ports[i]]; !body.is_held(dof))
+      for (unsigned int i = 0; i < acting.dofs.size(); ++i)
+        if (const unsigned int dof = surface[acting.dofs[i]]; !body.is_held(dof))
           loads.add(dof, acting.values[i]);
       loads.end_column();
     }
     return body.respond(loads);
   }
 
-  std::vector<FaceSample> SolidStructure::samples(const Vector<double> &coordinates, const PortLoads &forces) const
+  std::vector<FaceSample> SolidStructure::samples(const Vector<double> &coordinates, const DofLoads &forces) const
   {
     std::vector<FaceSample> result;
-    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+    for (unsigned int lever = 0; lever < layout.levers; ++lever)
     {
       result.push_back({ on_surface(forces, lever), {} });
       auto &[acting, displacements] = result.back();
-      displacements.reinit(static_cast<unsigned int>(acting.ports.size()));
+      displacements.reinit(static_cast<unsigned int>(acting.dofs.size()));
       for (unsigned int i = 0; i < displacements.size(); ++i)
-        displacements[i] = coordinates[ports.first(lever) + acting.ports[i]];
+        displacements[i] = coordinates[layout.first(lever) + acting.dofs[i]];
     }
     return result;
   }
 
   SolidStructure::Exactness SolidStructure::exactness(const std::vector<FaceSample> &samples) const
   {
-    std::vector<PortLoads> loads;
+    std::vector<DofLoads> loads;
     for (const auto &sample : samples)
       loads.push_back(sample.first);
     const auto whole_responses = responses(loads);
@@ -285,9 +285,9 @@ namespace sprag
     {
       const auto &[acting, displacements] = samples[k];
       double difference = 0., largest = 0., missed = 0., work = 0.;
-      for (unsigned int i = 0; i < acting.ports.size(); ++i)
+      for (unsigned int i = 0; i < acting.dofs.size(); ++i)
       {
-        const double exact = whole_responses[k * body.n_dofs() + surface[acting.ports[i]]];
+        const double exact = whole_responses[k * body.n_dofs() + surface[acting.dofs[i]]];
         difference         = std::max(difference, std::abs(exact - displacements[i]));
         largest            = std::max(largest, std::abs(exact));
         missed += (exact - displacements[i]) * acting.values[i];

@@ -4,9 +4,9 @@
 #include "fe/body/cell_stiffness.h"
 #include "fe/solid/layered_compliance.h"
 #include "fe/solid/solid_body.h"
-#include "fe/statics/port_window.h"
 #include "fe/statics/sensor_forces.h"
-#include "model/port_forces.h"
+#include "fe/statics/static_interface.h"
+#include "model/interface_forces.h"
 
 #include <optional>
 
@@ -24,10 +24,10 @@ namespace sprag
 
     /// Returns by how much a displacement falls short of what its own strain and the forces make of it,
     /// K^-1 (f + K u - R(u)) - u. Throws AnalysisError where an element turned inside out.
-    dealii::Vector<double> strain_residual(const dealii::Vector<double> &displacement, const PortLoads &on_face);
+    dealii::Vector<double> strain_residual(const dealii::Vector<double> &displacement, const DofLoads &on_face);
 
     /// Returns the correction by an unbalance and a change of the forces that goes with it.
-    dealii::Vector<double> correction(const dealii::Vector<double> &strain_residual, const PortLoads &change) const;
+    dealii::Vector<double> correction(const dealii::Vector<double> &strain_residual, const DofLoads &change) const;
 
   private:
     struct Cell
@@ -38,50 +38,50 @@ namespace sprag
     };
 
     const dealii::Vector<double> &cell_values(const Cell &cell, const dealii::Vector<double> &displacement);
-    void add(const PortLoads &on_face, std::vector<double> &loads) const;
+    void add(const DofLoads &on_face, std::vector<double> &loads) const;
 
     const SolidBody &body;
-    const std::vector<unsigned int> surface; ///< degrees of freedom of the ports
+    const std::vector<unsigned int> surface; ///< the body's degrees of freedom on the faces
     CellStiffness<3> stiffness;
     CellElasticity<3> elasticity;
     std::vector<Cell> cells;
     dealii::Vector<double> cell_displacement;
   };
 
-  /// Forces on the ports of the face of a lever, and the displacements of these ports.
-  using FaceSample = std::pair<PortLoads, dealii::Vector<double>>;
+  /// Forces on the face of a lever, and the displacements of their dofs.
+  using FaceSample = std::pair<DofLoads, dealii::Vector<double>>;
 
-  /// One or both levers of a pair in three dimensions in statics, seen through a window of the ports of their faces. At finite
-  /// strain the displacements of all degrees of freedom of the body of each lever follow those of the ports among the
-  /// coordinates. To be made and used by the first rank.
-  class SolidStructure : public PortWindow
+  /// One or both levers of a pair in three dimensions in statics, seen through a window of the dofs of their faces. At finite
+  /// strain the displacements of the whole body of each lever follow those of the interface among the coordinates. To be made and
+  /// used by the first rank.
+  class SolidStructure : public StaticInterface
   {
   public:
     /// The body must outlive this. `begin` and `end`: where on the face forces may act [mm].
-    SolidStructure(const SolidBody &body, double begin, double end, const PortLayout &ports, const PortSprings &springs);
+    SolidStructure(const SolidBody &body, double begin, double end, const InterfaceLayout &layout, const JointSprings &springs);
     SolidStructure(const SolidStructure &)            = delete;
     SolidStructure &operator=(const SolidStructure &) = delete;
 
     unsigned int n_coordinates() const;
 
-    /// See PortWindow; at finite strain sets the ports to where the bodies are.
-    void set_faces(const PortLoads &forces, const PortSelection &near, dealii::Vector<double> &coordinates);
+    /// See StaticInterface; at finite strain sets the interface to where the bodies are.
+    void set_faces(const DofLoads &forces, const DofSelection &near, dealii::Vector<double> &coordinates);
 
-    Residual residual(const dealii::Vector<double> &coordinates, const PortForces &forces, const PortSelection &near);
-    dealii::Vector<double> correction(const Residual &residual, const PortForces &forces, const PortSelection &near);
+    Residual residual(const dealii::Vector<double> &coordinates, const InterfaceForces &forces, const DofSelection &near);
+    dealii::Vector<double> correction(const Residual &residual, const InterfaceForces &forces, const DofSelection &near);
 
     /// Returns the displacement of all degrees of freedom of each lever's body in its axes [mm]; of a linear one by a
     /// back-substitution with the whole.
     std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
-                                                           const PortLoads &forces) const;
+                                                           const DofLoads &forces) const;
 
     /// Tells a row the forces of the sensors of a lever [N].
-    void tell_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const PortLoads &forces, Row &row) const;
+    void tell_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const DofLoads &forces, Row &row) const;
 
     /// Returns the deflection of a lever's face where the pressure is largest over that aside of the contact [mm]; 0 without a
     /// layer. The row holds place and width of the contact.
     double indentation(unsigned int lever, double layer_thickness, const dealii::Vector<double> &coordinates,
-                       const PortLoads &forces, const Row &row) const;
+                       const DofLoads &forces, const Row &row) const;
 
     bool is_linear() const
     {
@@ -94,7 +94,7 @@ namespace sprag
     }
 
     /// Returns a state's forces on the face of each lever and the displacements where they act.
-    std::vector<FaceSample> samples(const dealii::Vector<double> &coordinates, const PortLoads &forces) const;
+    std::vector<FaceSample> samples(const dealii::Vector<double> &coordinates, const DofLoads &forces) const;
 
     /// The error of the compliance of the face of a linear body against a solve with the whole body, the worst of some
     /// states.
@@ -108,12 +108,12 @@ namespace sprag
   private:
     unsigned int first_body_coordinate(unsigned int lever) const;
     dealii::Vector<double> lever_displacement(const dealii::Vector<double> &coordinates, unsigned int lever) const;
-    std::vector<double> responses(const std::vector<PortLoads> &on_faces) const;
+    std::vector<double> responses(const std::vector<DofLoads> &on_faces) const;
     const std::vector<unsigned int> &line_at(double zeta) const;
-    PortLoads interpolation(const std::vector<unsigned int> &line, double xi) const;
+    DofLoads interpolation(const std::vector<unsigned int> &line, double xi) const;
 
     const SolidBody &body;
-    const std::vector<unsigned int> surface;           ///< degrees of freedom of a lever's ports
+    const std::vector<unsigned int> surface;           ///< the body's degrees of freedom on a lever's faces
     mutable LayeredCompliance compliance;              ///< of a face; remembers what it found
     std::vector<std::vector<unsigned int>> node_lines; ///< nodes of the face with the same zeta, along xi; three and more
     const SensorForces sensors;

@@ -6,8 +6,8 @@
 #include "fe/statics/contact_penalties.h"
 #include "laws/friction.h"
 #include "laws/friction_law.h"
-#include "model/joined_memory.h"
-#include "model/joined_ports.h"
+#include "model/joined_history.h"
+#include "model/joined_interfaces.h"
 #include "scene/across.h"
 #include "scene/closed_form.h"
 #include "scene/device.h"
@@ -82,28 +82,29 @@ namespace sprag
     }
 
     template <class Body>
-    PortLayout make_layout(const Body &body, const std::vector<LeverProperties> &levers)
+    InterfaceLayout make_layout(const Body &body, const std::vector<LeverProperties> &levers)
     {
-      PortLayout result{ static_cast<unsigned int>(surface_dofs(body).size()), levers.front().support_stiffness.has_value() };
+      InterfaceLayout result{ static_cast<unsigned int>(surface_dofs(body).size()),
+                              levers.front().support_stiffness.has_value() };
       result.levers      = static_cast<unsigned int>(levers.size());
       result.has_inertia = false;
       result.slopes      = n_slopes(body, levers.front());
       return result;
     }
 
-    FaceContact make_contact(const ElasticBody<2> &body, const LeverProperties &properties, const PortLayout &ports)
+    FaceContact make_contact(const ElasticBody<2> &body, const LeverProperties &properties, const InterfaceLayout &layout)
     {
       return { body,
-               { properties.obstacle, properties.centre, properties.radius, ports, properties.spring.rest,
+               { properties.counterface, properties.centre, properties.radius, layout, properties.spring.rest,
                  contact_penalties(body, properties.contact, properties.layer_thickness, properties.penalty_factor,
                                    properties.longest_face),
                  properties.friction, properties.layer_thickness } };
     }
 
-    SurfaceContact make_contact(const SolidBody &body, const LeverProperties &properties, const PortLayout &ports)
+    SurfaceContact make_contact(const SolidBody &body, const LeverProperties &properties, const InterfaceLayout &layout)
     {
       return { body.friction_face(),
-               { RigidCylinder(*properties.geometry, properties.cylinder), properties.centre, properties.radius, ports,
+               { RigidCylinder(*properties.geometry, properties.cylinder), properties.centre, properties.radius, layout,
                  properties.spring.rest,
                  contact_penalties(body.friction_face(), properties.contact, properties.layer_thickness,
                                    properties.penalty_factor, properties.longest_face),
@@ -111,54 +112,57 @@ namespace sprag
     }
 
     LeverParts<2>::Structure make_structure(const ElasticBody<2> &body, const LeverProperties &properties,
-                                            const PortLayout &ports, const PortSprings &springs, const std::array<double, 2> &)
+                                            const InterfaceLayout &layout, const JointSprings &springs,
+                                            const std::array<double, 2> &)
     {
       using Structure = LeverParts<2>::Structure;
       if (properties.solution == Solution::automatic && properties.body.material == MaterialModel::linear)
-        return Structure(std::in_place_type<StaticStructure>, body, ports, springs);
-      return Structure(std::in_place_type<FullStiffness>, body, ports, springs);
+        return Structure(std::in_place_type<StaticStructure>, body, layout, springs);
+      return Structure(std::in_place_type<FullStiffness>, body, layout, springs);
     }
 
-    LeverParts<3>::Structure make_structure(const SolidBody &body, const LeverProperties &properties, const PortLayout &ports,
-                                            const PortSprings &springs, const std::array<double, 2> &swept)
+    LeverParts<3>::Structure make_structure(const SolidBody &body, const LeverProperties &properties,
+                                            const InterfaceLayout &layout, const JointSprings &springs,
+                                            const std::array<double, 2> &swept)
     {
       const double room = 0.1 * properties.radius;
-      return LeverParts<3>::Structure(std::in_place_type<SolidStructure>, body, swept[0] - room, swept[1] + room, ports, springs);
+      return LeverParts<3>::Structure(std::in_place_type<SolidStructure>, body, swept[0] - room, swept[1] + room, layout,
+                                      springs);
     }
 
-    PortSprings make_springs(const LeverProperties &properties)
+    JointSprings make_springs(const LeverProperties &properties)
     {
       return { properties.spring.law.linear_stiffness(), properties.support_stiffness.value_or(0.), properties.spring.arm,
                slope_compliances(properties.cylinder), 0.5 * properties.body.width };
     }
 
-    // Memories of the contact of a plane and of a surface.
+    // History of the contact of a plane and of a surface.
 
-    std::vector<ContactMemory> &contact_history(State &state, const FaceContact &)
+    std::vector<ContactHistory> &contact_history(State &state, const FaceContact &)
     {
       return state.contact;
     }
 
-    std::vector<SurfaceMemory> &contact_history(State &state, const SurfaceContact &)
+    std::vector<SurfaceHistory> &contact_history(State &state, const SurfaceContact &)
     {
       return state.surface_contact;
     }
 
-    PortStep with_memory(const PortStep &step, const std::vector<ContactMemory> &memory)
+    InterfaceStep with_history(const InterfaceStep &step, const std::vector<ContactHistory> &history)
     {
-      return { step.from, memory, step.to, step.begin, step.end, step.end_rate, step.weights };
+      return { step.from, history, step.to, step.begin, step.end, step.end_rate, step.weights };
     }
 
-    PortStep with_memory(const PortStep &step, const std::vector<SurfaceMemory> &memory)
+    InterfaceStep with_history(const InterfaceStep &step, const std::vector<SurfaceHistory> &history)
     {
-      return { step.from, step.memory, step.to, step.begin, step.end, step.end_rate, step.weights, &memory };
+      return { step.from, step.history, step.to, step.begin, step.end, step.end_rate, step.weights, &history };
     }
   } // namespace
 
   template <int dim>
-  StaticLever<dim>::Lever::Lever(const typename Parts::Body &body, const PortLayout &ports, LeverProperties lever)
+  StaticLever<dim>::Lever::Lever(const typename Parts::Body &body, const InterfaceLayout &layout, LeverProperties lever)
       : properties(std::move(lever))
-      , contact(make_contact(body, properties, ports))
+      , contact(make_contact(body, properties, layout))
   {
   }
 
@@ -179,15 +183,15 @@ namespace sprag
   StaticLever<dim>::StaticLever(const typename Parts::Source &source, std::vector<LeverProperties> properties, const bool swings,
                                 const std::array<double, 2> &swept)
       : own_body(make_body(source, properties.front()))
-      , ports(make_layout(own_body, properties))
+      , layout(make_layout(own_body, properties))
       , springs(make_springs(properties.front()))
-      , own_structure(make_structure(own_body, properties.front(), ports, springs, swept))
+      , own_structure(make_structure(own_body, properties.front(), layout, springs, swept))
       , multipliers(own_body.friction_face())
-      , excess(ports, properties.front().spring.law, swings, 0.)
+      , excess(layout, properties.front().spring.law, swings, 0.)
       , joint_is_free(swings)
   {
     for (auto &lever_data : properties)
-      levers.emplace_back(own_body, ports.single_lever(), std::move(lever_data));
+      levers.emplace_back(own_body, layout.single_lever(), std::move(lever_data));
   }
 
   template <int dim>
@@ -196,7 +200,7 @@ namespace sprag
     State state;
     state.drive = drive;
     state.coordinates.reinit(std::visit([](const auto &s) { return s.n_coordinates(); }, own_structure));
-    for (unsigned int i = 0; i < ports.levers; ++i)
+    for (unsigned int i = 0; i < layout.levers; ++i)
       state.coordinates[rotation(i)] = levers[i].properties.ideal_theta(drive.x) - levers[i].properties.spring.rest;
     return state;
   }
@@ -204,10 +208,10 @@ namespace sprag
   template <int dim>
   Step StaticLever<dim>::begin_step(const State &accepted, const DrivePoint &end)
   {
-    Step step{ accepted, accepted.drive, accepted.forces, port_displacements(accepted.coordinates), {} };
+    Step step{ accepted, accepted.drive, accepted.forces, interface_displacements(accepted.coordinates), {} };
     step.trial.drive = end;
-    const double u   = support_displacement(step.ports);
-    for (unsigned int i = 0; i < ports.levers; ++i)
+    const double u   = support_displacement(step.displacements);
+    for (unsigned int i = 0; i < layout.levers; ++i)
     {
       const auto &ideal = levers[i].properties.ideal_theta;
       step.trial.coordinates[rotation(i)] += ideal(end.x - u) - ideal(accepted.drive.x - u);
@@ -223,8 +227,8 @@ namespace sprag
     return std::visit([](const auto &s) { return s.looks_at_some; }, own_structure);
   }
 
-  /// Makes contacts and step look at the ports that the contacts may reach. Those of a face that are new begin with what the
-  /// forces there make of them.
+  /// Makes contacts and step look at the candidate dofs of the contacts. New ones of a face begin at the displacements by the
+  /// forces there.
   template <int dim>
   void StaticLever<dim>::look_at(Step &step)
   {
@@ -234,38 +238,38 @@ namespace sprag
         [&](auto &s)
         {
           if constexpr (std::decay_t<decltype(s)>::looks_at_some)
-            s.set_faces(step.forces, step.near, step.ports);
+            s.set_faces(step.forces, step.near, step.displacements);
         },
         own_structure);
-    for (const unsigned int port : step.near)
-      if (ports.is_surface(port) && !std::binary_search(before.begin(), before.end(), port))
-        step.trial.coordinates[port] = step.ports[port];
+    for (const unsigned int dof : step.near)
+      if (layout.is_surface(dof) && !std::binary_search(before.begin(), before.end(), dof))
+        step.trial.coordinates[dof] = step.displacements[dof];
   }
 
   template <int dim>
-  Vector<double> StaticLever<dim>::port_displacements(const Vector<double> &coordinates) const
+  Vector<double> StaticLever<dim>::interface_displacements(const Vector<double> &coordinates) const
   {
-    return std::visit([&](const auto &s) -> Vector<double> { return s.port_displacements(coordinates); }, own_structure);
+    return std::visit([&](const auto &s) -> Vector<double> { return s.interface_displacements(coordinates); }, own_structure);
   }
 
-  /// Finds the ports within reach of the contacts in a step that ends near its trial state, and those of the forces it begins
-  /// with.
+  /// Finds the candidate dofs of the contacts in a step that ends near its trial state, and those of the forces it begins with.
   template <int dim>
-  PortSelection StaticLever<dim>::reachable(const Step &step)
+  DofSelection StaticLever<dim>::reachable(const Step &step)
   {
-    const auto end       = port_displacements(step.trial.coordinates);
-    const double begin_x = step.start.x - support_displacement(step.ports);
+    const auto end       = interface_displacements(step.trial.coordinates);
+    const double begin_x = step.start.x - support_displacement(step.displacements);
     const double x       = step.trial.drive.x - support_displacement(end);
-    PortSelection result = step.forces.ports;
-    for (unsigned int i = 0; i < ports.levers; ++i)
+    DofSelection result  = step.forces.dofs;
+    for (unsigned int i = 0; i < layout.levers; ++i)
     {
       auto &[properties, contact] = levers[i];
-      const double rest = properties.spring.rest, theta = rest + end[ports.rotation(i)];
-      const double travel = properties.centre(x, theta).xi - properties.centre(begin_x, rest + step.ports[ports.rotation(i)]).xi;
-      PortSelection lever_ports;
-      for (const unsigned int port : contact.reachable_ports(x, { { theta } }, travel))
-        lever_ports.push_back(joined_port(ports, i, port));
-      result = united(result, lever_ports);
+      const double rest = properties.spring.rest, theta = rest + end[layout.rotation(i)];
+      const double travel =
+          properties.centre(x, theta).xi - properties.centre(begin_x, rest + step.displacements[layout.rotation(i)]).xi;
+      DofSelection lever_dofs;
+      for (const unsigned int dof : contact.candidate_dofs(x, { { theta } }, travel))
+        lever_dofs.push_back(joined_dof(layout, i, dof));
+      result = united(result, lever_dofs);
     }
     return result;
   }
@@ -277,44 +281,44 @@ namespace sprag
     if (looks_at_some() && step.near != reached)
       look_at(step);
     evaluate_contacts(step, mode, found);
-    excess.add_forces(turns(step.trial), !found.forces.ports.empty(), found.forces);
-    step.trial.forces = { found.forces.ports, found.forces.values };
+    excess.add_forces(turns(step.trial), !found.forces.dofs.empty(), found.forces);
+    step.trial.forces = { found.forces.dofs, found.forces.values };
     found.near        = step.near;
     found.residual =
         std::visit([&](auto &s) { return s.residual(step.trial.coordinates, found.forces, found.near); }, own_structure);
-    double overlap = 0.;
+    double penetration = 0.;
     for (const auto &lever : found.levers)
-      overlap = std::max(overlap, lever.contact.overlap());
-    return { found.residual.norm, overlap, std::move(found) };
+      penetration = std::max(penetration, lever.contact.penetration());
+    return { found.residual.norm, penetration, std::move(found) };
   }
 
   template <int dim>
   void StaticLever<dim>::evaluate_contacts(Step &step, const FrictionMode mode, Balance &found)
   {
-    static const std::vector<ContactMemory> none;
+    static const std::vector<ContactHistory> none;
     auto &trial    = step.trial;
-    const auto end = port_displacements(trial.coordinates);
-    std::vector<const PortForces *> lever_forces;
+    const auto end = interface_displacements(trial.coordinates);
+    std::vector<const InterfaceForces *> lever_forces;
     bool within_reach = true;
-    found.levers.resize(ports.levers);
-    for (unsigned int i = 0; i < ports.levers; ++i)
+    found.levers.resize(layout.levers);
+    for (unsigned int i = 0; i < layout.levers; ++i)
     {
       auto &[properties, lever] = levers[i];
-      auto &[memory, contact]   = found.levers[i];
+      auto &[history, contact]  = found.levers[i];
 
-      memory          = lever_memory(i, n_face_points(), contact_history(trial, lever));
+      history         = lever_history(i, n_face_points(), contact_history(trial, lever));
       auto terms      = static_terms(properties.friction, properties.geometry, step.start, trial.drive, mode);
       terms.augmented = augments();
-      const Kinematic begin{ extract_lever_ports(ports, i, step.ports), {}, {} };
-      const auto own_end = extract_lever_ports(ports, i, end);
+      const Kinematic begin{ extract_lever(layout, i, step.displacements), {}, {} };
+      const auto own_end = extract_lever(layout, i, end);
       const StepWeights weights{ trial.drive.time - step.start.time, 0., 0., 0., 0. };
       const Vector<double> no_rates;
-      lever.evaluate(with_memory({ step.start, none, trial.drive, begin, own_end, no_rates, weights }, memory), contact, terms);
+      lever.evaluate(with_history({ step.start, none, trial.drive, begin, own_end, no_rates, weights }, history), contact, terms);
       lever_forces.push_back(&contact.forces);
       within_reach = within_reach && contact.within_reach;
     }
     if (within_reach)
-      return join_forces(ports, lever_forces, found.forces);
+      return join_forces(layout, lever_forces, found.forces);
     for (auto &lever : levers)
       lever.contact.widen_reach();
     look_at(step);
@@ -337,33 +341,33 @@ namespace sprag
   template <int dim>
   unsigned int StaticLever<dim>::rotation(const unsigned int lever) const
   {
-    return std::visit([&](const auto &s) { return s.coordinate(ports.rotation(lever)); }, own_structure);
+    return std::visit([&](const auto &s) { return s.coordinate(layout.rotation(lever)); }, own_structure);
   }
 
   template <int dim>
   PerLever StaticLever<dim>::turns(const State &state) const
   {
     PerLever result{};
-    for (unsigned int i = 0; i < ports.levers; ++i)
+    for (unsigned int i = 0; i < layout.levers; ++i)
       result[i] = state.coordinates[rotation(i)];
     return result;
   }
 
-  /// u along x by the displacements of the ports [mm].
+  /// Returns u along x by the interface displacements [mm].
   template <int dim>
-  double StaticLever<dim>::support_displacement(const Vector<double> &port_values) const
+  double StaticLever<dim>::support_displacement(const Vector<double> &displacements) const
   {
-    return ports.sprung ? port_values[ports.support()] : 0.;
+    return layout.sprung ? displacements[layout.support()] : 0.;
   }
 
   template <int dim>
   double StaticLever<dim>::movement(const Vector<double> &correction) const
   {
     Vector<double> in_lengths = correction;
-    for (unsigned int i = 0; i < ports.levers; ++i)
+    for (unsigned int i = 0; i < layout.levers; ++i)
       in_lengths[rotation(i)] *= springs.arm;
-    for (unsigned int i = 0; i < ports.slopes; ++i)
-      in_lengths[ports.slope(i)] *= springs.slope_arm;
+    for (unsigned int i = 0; i < layout.slopes; ++i)
+      in_lengths[layout.slope(i)] *= springs.slope_arm;
     return in_lengths.linfty_norm();
   }
 
@@ -383,17 +387,17 @@ namespace sprag
   double StaticLever<dim>::penetration(const Evaluation &evaluation) const
   {
     if (!augments())
-      return evaluation.overlap;
+      return evaluation.penetration;
     double result = 0.;
-    for (const auto &[memory, contact] : get_balance(evaluation).levers)
-      result = std::max(result, multipliers.largest_change(contact.points, memory) / penalties().normal);
+    for (const auto &[history, contact] : get_balance(evaluation).levers)
+      result = std::max(result, multipliers.largest_change(contact.points, history) / penalties().normal);
     return result;
   }
 
   template <int dim>
   std::string StaticLever<dim>::check_validity(const State &state, const Evaluation &evaluation) const
   {
-    for (unsigned int i = 0; i < ports.levers; ++i)
+    for (unsigned int i = 0; i < layout.levers; ++i)
       if (const auto found = check_validity(i, state.drive, get_balance(evaluation).levers[i].contact); !found.empty())
         return (i == 0 ? "" : "of the pair's second lever, ") + found;
     return {};
@@ -411,7 +415,7 @@ namespace sprag
     if (const auto beyond = found.check_validity(); !beyond.empty())
       return beyond;
     // A linear material knows no limit of its own.
-    const double pressure = found.overlap() * penalties().normal;
+    const double pressure = found.penetration() * penalties().normal;
     if (const auto beyond = check_pressure(pressure, own_body.friction_face().young_modulus);
         properties.body.material == MaterialModel::linear && !beyond.empty())
       return beyond;
@@ -423,15 +427,15 @@ namespace sprag
     return {};
   }
 
-  /// Joins what `memory`(lever) returns of each lever.
+  /// Joins the histories that `history`(lever) returns.
   template <int dim>
-  typename StaticLever<dim>::Memory StaticLever<dim>::joined(const std::function<Memory(std::size_t)> &memory) const
+  typename StaticLever<dim>::History StaticLever<dim>::joined(const std::function<History(std::size_t)> &history) const
   {
-    return ports.levers == 1 ? memory(0) : joined_memory(n_face_points(), memory(0), memory(1));
+    return layout.levers == 1 ? history(0) : joined_history(n_face_points(), history(0), history(1));
   }
 
   template <int dim>
-  typename StaticLever<dim>::Memory StaticLever<dim>::augmented(const Evaluation &evaluation) const
+  typename StaticLever<dim>::History StaticLever<dim>::augmented(const Evaluation &evaluation) const
   {
     const auto &found = get_balance(evaluation).levers;
     return joined([&](const std::size_t lever) { return multipliers.augmented(found[lever].contact.points); });
@@ -444,11 +448,11 @@ namespace sprag
   }
 
   template <int dim>
-  void StaticLever<dim>::remember(const Evaluation &evaluation, State &state) const
+  void StaticLever<dim>::store_history(const Evaluation &evaluation, State &state) const
   {
     const auto &found = get_balance(evaluation).levers;
     contact_history(state, levers.front().contact) =
-        augments() ? augmented(evaluation) : joined([&](const std::size_t lever) { return found[lever].contact.memory(); });
+        augments() ? augmented(evaluation) : joined([&](const std::size_t lever) { return found[lever].contact.history(); });
   }
 
   template <int dim>
@@ -456,7 +460,7 @@ namespace sprag
   {
     const auto &found = get_balance(evaluation).levers;
     observe(0, state, found[0].contact, row);
-    if (ports.levers == 2)
+    if (layout.levers == 2)
     {
       Row second;
       second[Column::friction_work] = 0.;
@@ -476,7 +480,7 @@ namespace sprag
 
     const double turn          = turns(state)[lever];
     const double theta         = properties.spring.rest + turn;
-    const double u             = support_displacement(port_displacements(state.coordinates));
+    const double u             = support_displacement(interface_displacements(state.coordinates));
     const double support       = properties.support_stiffness.value_or(0.);
     row[Column::theta]         = theta;
     row[Column::spring_energy] = properties.spring.law.energy(turn);
@@ -484,7 +488,7 @@ namespace sprag
     row[Column::centre_offset]        = row[Column::s] - properties.centre(state.drive.x - u, theta).xi;
     row[Column::Q]                    = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
     row[Column::support_displacement] = u;
-    row[Column::Q_support]            = ports.sprung ? support * u : row[Column::Q];
+    row[Column::Q_support]            = layout.sprung ? support * u : row[Column::Q];
     row[Column::support_energy]       = 0.5 * support * u * u;
     const bool is_linear              = properties.body.material == MaterialModel::linear;
     if (!is_linear)
@@ -497,18 +501,18 @@ namespace sprag
     std::visit([&](const auto &s) { s.tell_sensors(lever, state.coordinates, state.forces, row); }, own_structure);
   }
 
-  /// Returns the energy of a linear elastic cylinder or of the rigid one's shaft [mJ]: half of the work of the forces on its
-  /// ports.
+  /// Returns the energy of a linear elastic cylinder or of the rigid one's shaft [mJ]: half of the work of the interface forces
+  /// on it.
   template <int dim>
   double StaticLever<dim>::cylinder_energy(const unsigned int lever, const State &state) const
   {
-    const auto displacements = port_displacements(state.coordinates);
+    const auto displacements = interface_displacements(state.coordinates);
     const auto &on           = state.forces;
-    const unsigned int first = ports.first(lever) + dim * static_cast<unsigned int>(own_body.friction_face().nodes.size());
+    const unsigned int first = layout.first(lever) + dim * static_cast<unsigned int>(own_body.friction_face().nodes.size());
     double result            = 0.;
-    for (unsigned int i = 0; i < on.ports.size(); ++i)
-      if (on.ports[i] >= first && on.ports[i] < ports.rotation(lever))
-        result += 0.5 * on.values[i] * displacements[on.ports[i]];
+    for (unsigned int i = 0; i < on.dofs.size(); ++i)
+      if (on.dofs[i] >= first && on.dofs[i] < layout.rotation(lever))
+        result += 0.5 * on.values[i] * displacements[on.dofs[i]];
     return result;
   }
 
@@ -529,15 +533,15 @@ namespace sprag
   {
     const auto lever_faces = [&](const std::size_t lever)
     { return levers[lever].contact.face_state(get_balance(evaluation).levers[lever].contact, state.drive); };
-    return ports.levers == 1 ? lever_faces(0) : joined_faces(lever_faces(0), lever_faces(1));
+    return layout.levers == 1 ? lever_faces(0) : joined_faces(lever_faces(0), lever_faces(1));
   }
 
   template <int dim>
-  void StaticLever<dim>::visit_history(Archive &archive)
+  void StaticLever<dim>::serialise_history(Archive &archive)
   {
     for (auto &lever : levers)
-      lever.contact.visit_history(archive);
-    std::visit([&](auto &s) { s.visit_history(archive); }, own_structure);
+      lever.contact.serialise_history(archive);
+    std::visit([&](auto &s) { s.serialise_history(archive); }, own_structure);
   }
 
   template <int dim>
@@ -555,7 +559,7 @@ namespace sprag
 
   template <int dim>
   std::vector<Vector<double>> StaticLever<dim>::body_displacements(const Vector<double> &coordinates,
-                                                                   const PortLoads &forces) const
+                                                                   const DofLoads &forces) const
   {
     return std::visit([&](const auto &s) { return s.body_displacements(coordinates, forces); }, own_structure);
   }

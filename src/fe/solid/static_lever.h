@@ -52,8 +52,8 @@ namespace sprag
   /// axes of a lever, which turn with its hub, those of the second lever mirrored. In three dimensions to be made and used by the
   /// first rank.
   ///
-  /// Contact memory is that of the first lever and then of the second. Points of the face and their tractions are those of the
-  /// first.
+  /// The contact history is that of the first lever and then of the second. Points of the face and their tractions are those of
+  /// the first.
   template <int dim>
   class StaticLever : public Model
   {
@@ -76,11 +76,11 @@ namespace sprag
     double penetration(const Evaluation &evaluation) const override;
     std::string check_validity(const State &state, const Evaluation &evaluation) const override;
     void augment(const Evaluation &evaluation, State &trial) const override;
-    void remember(const Evaluation &evaluation, State &state) const override;
+    void store_history(const Evaluation &evaluation, State &state) const override;
     void observe(const State &state, const Evaluation &evaluation, Row &row) const override;
     FacePoints face_points() const override;
     FaceState face_state(const State &state, const Evaluation &evaluation) const override;
-    void visit_history(Archive &archive) override;
+    void serialise_history(Archive &archive) override;
 
     const ContactPenalties &penalties() const;
 
@@ -100,17 +100,17 @@ namespace sprag
 
     /// Returns the displacement of all degrees of freedom of each lever in its axes [mm].
     std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
-                                                           const PortLoads &forces) const;
+                                                           const DofLoads &forces) const;
 
     /// Returns the index of a hub's turn from the spring's rest among the coordinates.
     unsigned int rotation(unsigned int lever = 0) const;
 
   private:
-    using Memory = std::vector<PointMemory<dim - 1>>;
+    using History = std::vector<PointHistory<dim - 1>>;
 
     struct Lever
     {
-      Lever(const typename Parts::Body &body, const PortLayout &ports, LeverProperties properties);
+      Lever(const typename Parts::Body &body, const InterfaceLayout &layout, LeverProperties properties);
 
       const LeverProperties properties;
       typename Parts::Contact contact;
@@ -119,7 +119,7 @@ namespace sprag
     /// The contact of a lever in an evaluation.
     struct Found
     {
-      Memory memory; ///< and multipliers that it was evaluated with
+      History history; ///< and multipliers that it was evaluated with
       typename Parts::Evaluation contact;
     };
 
@@ -127,23 +127,23 @@ namespace sprag
     struct Balance
     {
       std::vector<Found> levers;
-      PortForces forces; ///< of the contacts and of the springs beyond their linear part
-      PortSelection near;
+      InterfaceForces forces; ///< of the contacts and of the springs beyond their linear part
+      DofSelection near;
       Residual residual;
     };
 
     StaticLever(const typename Parts::Source &source, std::vector<LeverProperties> properties, bool swings,
                 const std::array<double, 2> &swept);
     static const Balance &get_balance(const Evaluation &evaluation);
-    dealii::Vector<double> port_displacements(const dealii::Vector<double> &coordinates) const;
+    dealii::Vector<double> interface_displacements(const dealii::Vector<double> &coordinates) const;
     bool looks_at_some() const;
     void look_at(Step &step);
-    PortSelection reachable(const Step &step);
+    DofSelection reachable(const Step &step);
     void evaluate_contacts(Step &step, FrictionMode mode, Balance &found);
-    Memory joined(const std::function<Memory(std::size_t)> &memory) const;
-    Memory augmented(const Evaluation &evaluation) const;
+    History joined(const std::function<History(std::size_t)> &history) const;
+    History augmented(const Evaluation &evaluation) const;
     PerLever turns(const State &state) const;
-    double support_displacement(const dealii::Vector<double> &ports) const;
+    double support_displacement(const dealii::Vector<double> &displacements) const;
     double cylinder_energy(unsigned int lever, const State &state) const;
     std::string check_validity(unsigned int lever, const DrivePoint &drive, const typename Parts::Evaluation &found) const;
     void observe(unsigned int lever, const State &state, const typename Parts::Evaluation &found, Row &row) const;
@@ -151,13 +151,13 @@ namespace sprag
     unsigned int n_face_points() const;
 
     typename Parts::KeptBody own_body;
-    const PortLayout ports;
+    const InterfaceLayout layout;
     std::deque<Lever> levers;
-    const PortSprings springs;
+    const JointSprings springs;
     Structure own_structure;
     const FaceMultipliers<dim> multipliers;
     HubSpringExcess excess;
     const bool joint_is_free;
-    PortSelection reached; ///< that the contacts look at
+    DofSelection reached; ///< that the contacts look at
   };
 } // namespace sprag

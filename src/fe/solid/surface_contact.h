@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fe/contact/face_contact.h"
-#include "fe/solid/step_in_lanes.h"
+#include "fe/solid/batched_step.h"
 
 namespace sprag
 {
@@ -12,7 +12,7 @@ namespace sprag
     RigidCylinder cylinder;
     std::function<LeverPoint(double x, double theta)> centre; ///< of the cylinder
     double radius;                                            ///< R [mm]
-    PortLayout ports;                                         ///< three a node of the face; with slopes where these may change
+    InterfaceLayout layout;                                   ///< three a node of the face; with slopes where these may change
     double rest_inclination;                                  ///< theta without moment [rad]
     ContactPenalties penalties;
     bool half = false; ///< the face is half of one which is the same on both sides of the middle
@@ -22,12 +22,12 @@ namespace sprag
     double layer_thickness = 0.; ///< [mm]
   };
 
-  using SurfaceMemory = PointMemory<2>;
+  using SurfaceHistory = PointHistory<2>;
 
-  /// Ports and drive at one end of a step.
+  /// Interface displacements and drive at one end of a step.
   struct SurfacePlace
   {
-    const dealii::Vector<double> &ports;
+    const dealii::Vector<double> &displacements;
     double x; ///< of the drive [mm]
   };
 
@@ -48,19 +48,19 @@ namespace sprag
 
     /// Evaluates a step without inertia, with its points: where it is augmented all near the cylinder, else those of
     /// Request::complete.
-    void evaluate(const PortStep &step, FaceEvaluation<3> &found, const StaticTerms &terms);
+    void evaluate(const InterfaceStep &step, FaceEvaluation<3> &found, const StaticTerms &terms);
 
     /// Sets the accepted state in which the following steps begin.
     void begin_step(const SurfacePlace &begin);
 
-    /// Evaluates forces, compression and tangent of the step without inertia that ends at `end`. `memory`: of the points in
+    /// Evaluates forces, penetration and tangent of the step without inertia that ends at `end`. `history`: of the points in
     /// contact where it begins. `surface_run`: of the cylinder by turning [mm]. Of the terms `travel` and `augmented` belong to
     /// the step: they are the same until the next begin_step().
-    void evaluate(const SurfacePlace &end, const std::vector<SurfaceMemory> &memory, double surface_run, const StaticTerms &terms,
-                  FaceEvaluation<3> &found);
+    void evaluate(const SurfacePlace &end, const std::vector<SurfaceHistory> &history, double surface_run,
+                  const StaticTerms &terms, FaceEvaluation<3> &found);
 
     /// Evaluates forces and compression of a step in time, and the tangent or what Request::complete adds.
-    void evaluate(const PortStep &step, FaceEvaluation<3> &found);
+    void evaluate(const InterfaceStep &step, FaceEvaluation<3> &found);
 
     /// Finds all points near the cylinder of the last evaluation, in time or without inertia.
     void add_points(FaceEvaluation<3> &found) const;
@@ -68,26 +68,26 @@ namespace sprag
     /// Evaluates steady sliding: the cylinder's surface runs round its axis at the slide's speed.
     void evaluate_sliding(const SlidingState &sliding, FaceEvaluation<3> &found);
 
-    /// The same, with its forces linearised on their ports. What the spring of stick delays is left out: at a speed v it takes
-    /// mu p / (v times its stiffness), microseconds.
-    PortPerturbation linearise(const SlidingState &sliding, FaceEvaluation<3> &found);
+    /// The same, with its interface forces linearised. What the spring of stick delays is left out: at a speed v it takes mu p /
+    /// (v times its stiffness), microseconds.
+    LinearisedForces linearise(const SlidingState &sliding, FaceEvaluation<3> &found);
 
     /// Evaluates the contact at rest without force.
-    std::vector<SurfaceMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive, FaceEvaluation<3> &found);
+    std::vector<SurfaceHistory> touch(const dealii::Vector<double> &z, const DrivePoint &drive, FaceEvaluation<3> &found);
 
-    /// Returns by how much a small change of the ports changes the gap where that is smallest [mm].
-    double gap_change(const FaceEvaluation<3> &found, const dealii::Vector<double> &port_change, unsigned int lever = 0) const;
+    /// Returns by how much a small change of the displacements changes the gap where that is smallest [mm].
+    double gap_change(const FaceEvaluation<3> &found, const dealii::Vector<double> &change, unsigned int lever = 0) const;
 
     /// Returns the mean slip round the cylinder of the points in contact, weighted with their pressure, from one configuration to
     /// another [mm].
     double mean_slip(const FaceEvaluation<3> &found, const dealii::Vector<double> &from, double from_x,
                      const dealii::Vector<double> &to, double to_x) const;
 
-    /// Returns the ports near the cylinder at the beginning and at the end of a step in which the contact travels along xi [mm];
+    /// Returns the dofs near the cylinder at the beginning and at the end of a step in which the contact travels along xi [mm];
     /// those that it passes between take no part.
-    const PortSelection &reachable_ports(double x, const PerLever &theta, double travel = 0.);
+    const DofSelection &candidate_dofs(double x, const PerLever &theta, double travel = 0.);
 
-    /// Doubles how far these ports reach, from their next call on.
+    /// Doubles how far these dofs reach, from the next call on.
     void widen_reach()
     {
       reach.factor *= 2.;
@@ -131,73 +131,73 @@ namespace sprag
     void use_penalties(const ContactPenalties &penalties)
     {
       properties.penalties = penalties;
-      begin_ports.reinit(0); // no step has begun with them
+      begin_displacements.reinit(0); // no step has begun with them
     }
 
-    /// Visits how far it reaches.
-    void visit_history(Archive &archive)
+    /// Serialises how far it reaches.
+    void serialise_history(Archive &archive)
     {
       archive(reach.factor);
-      patches.visit_history(archive);
+      grid.serialise_history(archive);
     }
 
   private:
-    using Patches = FacePatches<3>;
-    using Kind    = StepInLanes::Kind;
+    using Elements = FaceElements<3>;
+    using Kind     = BatchedStep::Kind;
 
     void find_ends();
     void complete(FaceEvaluation<3> &found) const;
-    bool share_line(unsigned int patch, unsigned int other) const;
+    bool share_line(unsigned int element, unsigned int other) const;
     void add_points_in_contact(const std::optional<unsigned int> &peak, FaceEvaluation<3> &found) const;
     RigidCylinder::Pose to_pose(const SurfacePlace &place) const;
-    AxisSlopes turned_by(const dealii::Vector<double> &ports) const;
-    Patches::Indices near(const SurfacePlace &place, const RigidCylinder::Pose &pose) const;
-    StepInLanes::Constants constants(Kind kind, const SurfacePlace &end, const FrictionLaw &friction) const;
-    std::vector<SlipShift> slip_shifts(unsigned int patch, const std::vector<SurfaceMemory> &memory,
+    AxisSlopes turned_by(const dealii::Vector<double> &displacements) const;
+    Elements::Indices near(const SurfacePlace &place, const RigidCylinder::Pose &pose) const;
+    BatchedStep::Constants constants(Kind kind, const SurfacePlace &end, const FrictionLaw &friction) const;
+    std::vector<SlipShift> slip_shifts(unsigned int element, const std::vector<SurfaceHistory> &history,
                                        const StaticTerms &terms) const;
     void press_slide(const SlidingState &sliding, FaceEvaluation<3> &found);
-    void press(const StepInLanes::Constants &step, const SurfacePlace &place, Patches::Indices patches_near,
+    void press(const BatchedStep::Constants &step, const SurfacePlace &place, Elements::Indices elements_near,
                FaceEvaluation<3> &found);
-    void place_patches(const dealii::Vector<double> &begin);
-    void press_patches(const dealii::Vector<double> &end, FaceEvaluation<3> &found);
-    StepInLanes::Constants step_constants(const PortStep &step) const;
+    void place_elements(const dealii::Vector<double> &begin);
+    void press_elements(const dealii::Vector<double> &end, FaceEvaluation<3> &found);
+    BatchedStep::Constants step_constants(const InterfaceStep &step) const;
     double slip_at(const FacePointState<3> &point, const SurfacePlace &place) const;
     std::vector<unsigned int> nodes_at(double zeta) const;
     double indentation(const FaceEvaluation<3> &found, const Row &row) const;
-    void find_summed(Patches::Indices touched);
-    void set_forces(Request request, PortForces &forces) const;
-    dealii::FullMatrix<double> tangent(StepInLanes::Part part) const;
+    void find_summed(Elements::Indices touched);
+    void set_forces(Request request, InterfaceForces &forces) const;
+    dealii::FullMatrix<double> tangent(BatchedStep::Part part) const;
     bool reaches_end(const FaceEvaluation<3> &found) const;
     double slip_at_begin(unsigned int point) const;
-    PortCoordinates patch_coordinates(unsigned int patch) const;
+    InterfaceCoordinates element_coordinates(unsigned int element) const;
 
     const FrictionFace<3> &face;
     SurfaceContactProperties properties;
-    Patches patches;
+    Elements grid;
     const FaceView<3> view;
-    std::vector<std::vector<unsigned int>> patch_lines; ///< increasing
-    std::vector<bool> is_at_end;                        ///< whether a patch is at an end of the face along xi
+    std::vector<std::vector<unsigned int>> element_lines; ///< increasing
+    std::vector<bool> is_at_end;                          ///< whether an element is at an end of the face along xi
 
-    dealii::Vector<double> begin_ports;
+    dealii::Vector<double> begin_displacements;
     double begin_x = 0.;
     RigidCylinder::Pose begin_pose{};
     double begin_travel  = 0.; ///< of the terms without inertia
     bool begin_augmented = false;
-    mutable std::vector<std::vector<double>> begin_slips; ///< of the points by patches; of those that were looked at
+    mutable std::vector<std::vector<double>> begin_slips; ///< of the points by elements; of those that were looked at
 
-    /// Patches whose forces are summed, and their ports.
+    /// Elements whose forces are summed, and their dofs.
     struct Summed
     {
-      Patches::Indices patches;
-      std::vector<unsigned int> ports;          ///< increasing
-      std::vector<PortCoordinates> coordinates; ///< of the patches, with places among the ports in place of these
+      Elements::Indices elements;
+      std::vector<unsigned int> dofs;                ///< increasing
+      std::vector<InterfaceCoordinates> coordinates; ///< of the elements, with places among the dofs in place of these
     };
 
-    StepInLanes in_lanes;
-    Patches::Indices looked_at_first;         ///< patches near where a step in time begins, and where it remembers a contact
-    Patches::Indices looked_at;               ///< by the last evaluation
-    std::vector<StepInLanes::Forces> pressed; ///< of the patches that are summed
-    std::optional<unsigned int> most_pressed; ///< the one whose springs are compressed most
+    BatchedStep batched;
+    Elements::Indices looked_at_first;        ///< elements near where a step in time begins, and where it was in contact
+    Elements::Indices looked_at;              ///< by the last evaluation
+    std::vector<BatchedStep::Forces> pressed; ///< of the elements that are summed
+    std::optional<unsigned int> most_pressed; ///< the one of the largest penetration
     Summed summed;
 
     FaceReach<3> reach;

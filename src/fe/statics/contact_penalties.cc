@@ -9,8 +9,8 @@ namespace sprag
 {
   namespace
   {
-    /// Over E/depth of the layer. The overlap is then a tenth of the layer's compression, which moves P by 0.03 % and the largest
-    /// pressure by 3 %.
+    /// Over E/depth of the layer. The penetration is then a tenth of the layer's compression, which moves P by 0.03 % and the
+    /// largest pressure by 3 %.
     constexpr double penalty_factor = 12.;
 
     /// Leaves 0.25 % of the largest pressure where the cells are as fine as that takes.
@@ -33,8 +33,8 @@ namespace sprag
       const double by_layer          = penalty_factor * face.young_modulus / std::max(face.depth, layer_thickness);
       if (face.edges.front().nodes.size() == corners)
         return by_layer;
-      const auto shorter    = [](const FacePatch &a, const FacePatch &b) { return a.length < b.length; };
-      const double shortest = std::min_element(face.patches.begin(), face.patches.end(), shorter)->length;
+      const auto shorter    = [](const Element &a, const Element &b) { return a.length < b.length; };
+      const double shortest = std::min_element(face.elements.begin(), face.elements.end(), shorter)->length;
       const double length   = std::max(shortest, longest);
       const double by_cells = std::max(by_layer, penalty_over_cells * face.young_modulus / length);
       if (enforcement == Enforcement::augmented_lagrangian)
@@ -58,7 +58,7 @@ namespace sprag
                                      const std::optional<double> &over_layer, const double longest)
   {
     const auto lever = contact_penalties(body.friction_face(), settings, layer_thickness, over_layer, longest);
-    if (body.cylinder_face().patches.empty())
+    if (body.cylinder_face().elements.empty())
       return lever;
     const auto cylinder = contact_penalties(body.cylinder_face(), settings, 0., over_layer);
     return { std::min(lever.normal, cylinder.normal), std::min(lever.tangential, cylinder.tangential) };

@@ -13,22 +13,22 @@ namespace sprag
 {
   using namespace dealii;
 
-  FullStiffness::FullStiffness(const ElasticBody<2> &body_, const PortLayout &ports_, const PortSprings &springs_)
+  FullStiffness::FullStiffness(const ElasticBody<2> &body_, const InterfaceLayout &layout_, const JointSprings &springs_)
       : body(body_)
-      , ports(ports_)
+      , layout(layout_)
       , springs(springs_)
       , surface(surface_dofs(body))
   {
     body.reinit(body_stiffness);
     pattern.reinit(n_coordinates(), n_coordinates());
     const MatrixRows rows(body_stiffness);
-    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+    for (unsigned int lever = 0; lever < layout.levers; ++lever)
       for (PetscInt i = 0; i < rows.n; ++i)
         for (PetscInt k = rows.begin[i]; k < rows.begin[i + 1]; ++k)
           pattern.add(first_coordinate(lever) + static_cast<unsigned int>(i),
                       first_coordinate(lever) + static_cast<unsigned int>(rows.column[k]));
-    couple_ports();
-    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+    couple_interface();
+    for (unsigned int lever = 0; lever < layout.levers; ++lever)
       find_places(lever);
   }
 
@@ -50,28 +50,28 @@ namespace sprag
 
   /// Hubs and support with everything that the contact touches, and an elastic cylinder's face with all of both faces: the
   /// material of the lever slides along it.
-  void FullStiffness::couple_ports()
+  void FullStiffness::couple_interface()
   {
-    const auto couple = [&](const unsigned int port, const unsigned int other)
+    const auto couple = [&](const unsigned int dof, const unsigned int other)
     {
-      pattern.add(coordinate(port), coordinate(other));
-      pattern.add(coordinate(other), coordinate(port));
+      pattern.add(coordinate(dof), coordinate(other));
+      pattern.add(coordinate(other), coordinate(dof));
     };
-    const auto friction_ports = 2 * static_cast<unsigned int>(body.friction_face().nodes.size());
-    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+    const auto n_friction = 2 * static_cast<unsigned int>(body.friction_face().nodes.size());
+    for (unsigned int lever = 0; lever < layout.levers; ++lever)
     {
-      for (unsigned int i = 0; i < ports.ports_per_lever(); ++i)
+      for (unsigned int i = 0; i < layout.dofs_per_lever(); ++i)
       {
-        couple(ports.first(lever) + i, ports.rotation(lever));
-        if (ports.sprung)
-          couple(ports.first(lever) + i, ports.support());
-        for (unsigned int j = friction_ports; j < ports.surface; ++j)
-          couple(ports.first(lever) + i, ports.first(lever) + j);
+        couple(layout.first(lever) + i, layout.rotation(lever));
+        if (layout.sprung)
+          couple(layout.first(lever) + i, layout.support());
+        for (unsigned int j = n_friction; j < layout.surface; ++j)
+          couple(layout.first(lever) + i, layout.first(lever) + j);
       }
-      couple(ports.rotation(lever), ports.rotation(0));
+      couple(layout.rotation(lever), layout.rotation(0));
     }
-    if (ports.sprung)
-      couple(ports.support(), ports.support());
+    if (layout.sprung)
+      couple(layout.support(), layout.support());
   }
 
   unsigned int FullStiffness::first_coordinate(const unsigned int lever) const
@@ -81,22 +81,22 @@ namespace sprag
 
   unsigned int FullStiffness::n_coordinates() const
   {
-    return first_coordinate(ports.levers) + (ports.sprung ? 1 : 0);
+    return first_coordinate(layout.levers) + (layout.sprung ? 1 : 0);
   }
 
-  unsigned int FullStiffness::coordinate(const unsigned int port) const
+  unsigned int FullStiffness::coordinate(const unsigned int dof) const
   {
-    if (port == ports.support())
-      return first_coordinate(ports.levers);
-    const unsigned int lever = ports.port_lever(port);
-    return first_coordinate(lever) + (ports.is_surface(port) ? surface[port - ports.first(lever)] : body.n_dofs());
+    if (dof == layout.support())
+      return first_coordinate(layout.levers);
+    const unsigned int lever = layout.lever_index(dof);
+    return first_coordinate(lever) + (layout.is_surface(dof) ? surface[dof - layout.first(lever)] : body.n_dofs());
   }
 
-  Vector<double> FullStiffness::port_displacements(const Vector<double> &coordinates) const
+  Vector<double> FullStiffness::interface_displacements(const Vector<double> &coordinates) const
   {
-    Vector<double> result(ports.size());
-    for (unsigned int port = 0; port < result.size(); ++port)
-      result[port] = coordinates[coordinate(port)];
+    Vector<double> result(layout.size());
+    for (unsigned int dof = 0; dof < result.size(); ++dof)
+      result[dof] = coordinates[coordinate(dof)];
     return result;
   }
 
@@ -114,7 +114,7 @@ namespace sprag
     return matrices.back();
   }
 
-  Residual FullStiffness::residual(const Vector<double> &coordinates, const PortForces &forces, const PortSelection &)
+  Residual FullStiffness::residual(const Vector<double> &coordinates, const InterfaceForces &forces, const DofSelection &)
   {
     if (!is_ordered)
     {
@@ -124,31 +124,31 @@ namespace sprag
     const auto tangent = free_matrix();
     auto &matrix       = *tangent;
     Vector<double> left(n_coordinates());
-    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+    for (unsigned int lever = 0; lever < layout.levers; ++lever)
       add_body(lever, coordinates, matrix, left);
-    const auto add_spring = [&](const unsigned int port, const double stiffness)
+    const auto add_spring = [&](const unsigned int dof, const double stiffness)
     {
-      const unsigned int i = coordinate(port);
+      const unsigned int i = coordinate(dof);
       matrix.add(i, i, stiffness);
       left[i] -= stiffness * coordinates[i];
     };
-    for (unsigned int lever = 0; lever < ports.levers; ++lever)
-      add_spring(ports.rotation(lever), springs.rotation);
-    if (ports.sprung)
-      add_spring(ports.support(), ports.levers * springs.support);
-    for (unsigned int i = 0; i < forces.ports.size(); ++i)
+    for (unsigned int lever = 0; lever < layout.levers; ++lever)
+      add_spring(layout.rotation(lever), springs.rotation);
+    if (layout.sprung)
+      add_spring(layout.support(), layout.levers * springs.support);
+    for (unsigned int i = 0; i < forces.dofs.size(); ++i)
     {
-      left[coordinate(forces.ports[i])] += forces.values[i];
-      for (unsigned int j = 0; j < forces.ports.size(); ++j)
+      left[coordinate(forces.dofs[i])] += forces.values[i];
+      for (unsigned int j = 0; j < forces.dofs.size(); ++j)
         if (forces.tangent(i, j) != 0.)
-          matrix.add(coordinate(forces.ports[i]), coordinate(forces.ports[j]), -forces.tangent(i, j));
+          matrix.add(coordinate(forces.dofs[i]), coordinate(forces.dofs[j]), -forces.tangent(i, j));
     }
     matrix.compress(VectorOperation::add);
 
     double squares = left.norm_sqr();
-    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+    for (unsigned int lever = 0; lever < layout.levers; ++lever)
     {
-      const double moment = left[coordinate(ports.rotation(lever))];
+      const double moment = left[coordinate(layout.rotation(lever))];
       squares += (1. / (springs.arm * springs.arm) - 1.) * moment * moment;
     }
     return { std::move(left), std::sqrt(squares), tangent };
@@ -165,12 +165,12 @@ namespace sprag
       forces[first + dof] -= internal[dof];
 
     const MatrixRows from(body_stiffness), to(matrix);
-    const std::size_t n = places.size() / ports.levers;
+    const std::size_t n = places.size() / layout.levers;
     for (std::size_t k = 0; k < n; ++k)
       to[places[lever * n + k]] += from[k];
   }
 
-  void FullStiffness::visit_history(Archive &archive)
+  void FullStiffness::serialise_history(Archive &archive)
   {
     bool known       = is_ordered;
     auto coordinates = first_coordinates;
@@ -188,7 +188,7 @@ namespace sprag
     }
   }
 
-  Vector<double> FullStiffness::correction(const Residual &residual, const PortForces &, const PortSelection &)
+  Vector<double> FullStiffness::correction(const Residual &residual, const InterfaceForces &, const DofSelection &)
   {
     is_ordered = true;
     factors.factorise(*residual.tangent);
@@ -203,15 +203,15 @@ namespace sprag
     return Vector<double>(begin, begin + body.n_dofs());
   }
 
-  std::vector<Vector<double>> FullStiffness::body_displacements(const Vector<double> &coordinates, const PortLoads &) const
+  std::vector<Vector<double>> FullStiffness::body_displacements(const Vector<double> &coordinates, const DofLoads &) const
   {
     std::vector<Vector<double>> result;
-    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+    for (unsigned int lever = 0; lever < layout.levers; ++lever)
       result.push_back(body_displacement(lever, coordinates));
     return result;
   }
 
-  void FullStiffness::tell_sensors(const unsigned int lever, const Vector<double> &coordinates, const PortLoads &, Row &row) const
+  void FullStiffness::tell_sensors(const unsigned int lever, const Vector<double> &coordinates, const DofLoads &, Row &row) const
   {
     row.sensor_forces = body.sensor_forces(body_displacement(lever, coordinates));
   }

@@ -4,9 +4,9 @@
 #include "base/archive.h"
 #include "fe/algebra/mumps.h"
 #include "fe/body/elastic_body.h"
-#include "fe/statics/port_springs.h"
-#include "model/port_forces.h"
-#include "model/port_layout.h"
+#include "fe/statics/joint_springs.h"
+#include "model/interface_forces.h"
+#include "model/interface_layout.h"
 #include "results/columns.h"
 
 namespace sprag
@@ -16,37 +16,37 @@ namespace sprag
   class FullStiffness
   {
   public:
-    static constexpr bool looks_at_some = false; ///< but at all ports
+    static constexpr bool looks_at_some = false; ///< but at the whole interface
 
     /// The body must outlive this; that of a pair's second lever is alike.
-    FullStiffness(const ElasticBody<2> &body, const PortLayout &ports, const PortSprings &springs);
+    FullStiffness(const ElasticBody<2> &body, const InterfaceLayout &layout, const JointSprings &springs);
 
     unsigned int n_coordinates() const;
 
-    /// Index of the coordinate of a port.
-    unsigned int coordinate(unsigned int port) const;
+    /// Returns the index of the coordinate of a dof.
+    unsigned int coordinate(unsigned int dof) const;
 
-    dealii::Vector<double> port_displacements(const dealii::Vector<double> &coordinates) const;
+    dealii::Vector<double> interface_displacements(const dealii::Vector<double> &coordinates) const;
 
-    /// Returns the forces on the ports less those of bodies and springs [N], with the tangent.
-    Residual residual(const dealii::Vector<double> &coordinates, const PortForces &forces, const PortSelection &near = {});
+    /// Returns the interface forces less those of bodies and springs [N], with the tangent.
+    Residual residual(const dealii::Vector<double> &coordinates, const InterfaceForces &forces, const DofSelection &near = {});
 
     /// Returns the correction. Throws AnalysisError if the factorisation fails.
-    dealii::Vector<double> correction(const Residual &residual, const PortForces &forces, const PortSelection &near = {});
+    dealii::Vector<double> correction(const Residual &residual, const InterfaceForces &forces, const DofSelection &near = {});
 
     /// Returns the displacement of the whole body of each lever.
     std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
-                                                           const PortLoads &forces) const;
+                                                           const DofLoads &forces) const;
 
     /// Tells a row the forces of the sensors of a lever [N].
-    void tell_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const PortLoads &forces, Row &row) const;
+    void tell_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const DofLoads &forces, Row &row) const;
 
-    /// Visits what the factors' ordering was found for, on which their round-off depends.
-    void visit_history(Archive &archive);
+    /// Serialises what the factors' ordering was found for, on which their round-off depends.
+    void serialise_history(Archive &archive);
 
   private:
     unsigned int first_coordinate(unsigned int lever) const;
-    void couple_ports();
+    void couple_interface();
     void find_places(unsigned int lever);
     std::shared_ptr<dealii::PETScWrappers::SparseMatrix> free_matrix();
     dealii::Vector<double> body_displacement(unsigned int lever, const dealii::Vector<double> &coordinates) const;
@@ -54,9 +54,9 @@ namespace sprag
                   dealii::Vector<double> &forces);
 
     const ElasticBody<2> &body;
-    const PortLayout ports;
-    const PortSprings springs;
-    const std::vector<unsigned int> surface; ///< degrees of freedom of a lever's ports
+    const InterfaceLayout layout;
+    const JointSprings springs;
+    const std::vector<unsigned int> surface; ///< the body's degrees of freedom on a lever's faces
     Mumps factors;
     dealii::PETScWrappers::SparseMatrix body_stiffness; ///< stiffness of a lever's body
     dealii::DynamicSparsityPattern pattern;
@@ -66,6 +66,6 @@ namespace sprag
     // State of the first tangent, for which the factors are ordered.
     bool is_ordered = false;
     dealii::Vector<double> first_coordinates;
-    PortForces first_forces;
+    InterfaceForces first_forces;
   };
 } // namespace sprag

@@ -48,7 +48,7 @@ namespace sprag
     result.body.point_spacing = device.geometry.cylinder_radius / 4000.;
 
     const Geometry geometry = device.geometry;
-    result.obstacle         = cylinder(geometry);
+    result.counterface      = cylinder(geometry);
     result.centre           = [geometry](double x, double theta) { return cylinder_centre(geometry, x, theta); };
     result.radius           = geometry.cylinder_radius;
     result.ideal_theta      = [geometry](double x) { return kinematics(geometry, x).theta; };

@@ -30,10 +30,10 @@ namespace sprag
   struct LeverProperties
   {
     BodyProperties body;
-    Obstacle obstacle;
+    Counterface counterface;
     std::function<double(double)> ideal_theta;        ///< inclination that first guesses follow, over x [rad]
-    std::function<LeverPoint(double, double)> centre; ///< of the obstacle over x and theta
-    double radius = 0.; ///< R of an elastic obstacle, 0 if it turns with the lever, see FacePair [mm]
+    std::function<LeverPoint(double, double)> centre; ///< of the counterface over x and theta
+    double radius = 0.; ///< R of an elastic counterface, 0 if it turns with the lever, see FacePair [mm]
     HubSpring spring;
     std::optional<double> support_stiffness; ///< k_f of a sprung support [N/mm], > 0; none: it is rigid
     FrictionLaw friction;

@@ -21,20 +21,20 @@ namespace sprag
     for (unsigned int i = 0; i < number(); ++i)
     {
       const double *const sensor_response = &responses[static_cast<std::size_t>(i) * n_dofs];
-      for (unsigned int port = 0; port < n_surface; ++port)
-        rows(i, port) = sensor_response[surface[port]];
+      for (unsigned int dof = 0; dof < n_surface; ++dof)
+        rows(i, dof) = sensor_response[surface[dof]];
       for (unsigned int j = 0; j < number(); ++j)
         rows(i, n_surface + j) = sensors[j].compression(sensor_response);
     }
   }
 
-  std::vector<double> SensorForces::operator()(const PortLoads &forces) const
+  std::vector<double> SensorForces::operator()(const DofLoads &forces) const
   {
     std::vector<double> result(number(), 0.);
     for (unsigned int row = 0; row < number(); ++row)
-      for (unsigned int i = 0; i < forces.ports.size(); ++i)
-        if (forces.ports[i] < n_surface)
-          result[row] += sensors[row].stiffness * rows(row, forces.ports[i]) * forces.values[i];
+      for (unsigned int i = 0; i < forces.dofs.size(); ++i)
+        if (forces.dofs[i] < n_surface)
+          result[row] += sensors[row].stiffness * rows(row, forces.dofs[i]) * forces.values[i];
     return result;
   }
 
@@ -46,16 +46,16 @@ namespace sprag
     return result;
   }
 
-  void SensorForces::add_compliance(const PortLayout &ports, const unsigned int surface_begin,
+  void SensorForces::add_compliance(const InterfaceLayout &layout, const unsigned int surface_begin,
                                     dealii::FullMatrix<double> &compliance) const
   {
     for (unsigned int s = 0; s < number(); ++s)
     {
-      const unsigned int port = ports.sensor(s);
-      for (unsigned int i = 0; i < ports.surface; ++i)
-        compliance(port, i) = compliance(i, port) = rows(s, surface_begin + i);
+      const unsigned int dof = layout.sensor(s);
+      for (unsigned int i = 0; i < layout.surface; ++i)
+        compliance(dof, i) = compliance(i, dof) = rows(s, surface_begin + i);
       for (unsigned int other = 0; other < number(); ++other)
-        compliance(port, ports.sensor(other)) = rows(s, n_surface + other);
+        compliance(dof, layout.sensor(other)) = rows(s, n_surface + other);
     }
   }
 

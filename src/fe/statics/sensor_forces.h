@@ -2,7 +2,8 @@
 #pragma once
 
 #include "fe/body/elastic_body.h"
-#include "model/port_forces.h"
+#include "model/interface_forces.h"
+#include "model/interface_layout.h"
 #include "results/columns.h"
 
 #include <deal.II/lac/full_matrix.h>
@@ -31,14 +32,14 @@ namespace sprag
       return sensors.empty() ? 0. : sensors.front().stiffness;
     }
 
-    /// Returns their forces by those on a linear body's surface, by its ports [N].
-    std::vector<double> operator()(const PortLoads &forces) const;
+    /// Returns their forces by those on a linear body's surface, by its dofs [N].
+    std::vector<double> operator()(const DofLoads &forces) const;
 
     /// Returns their compressions by the displacement of all degrees of freedom [mm].
     std::vector<double> compressions(const dealii::Vector<double> &displacement) const;
 
-    /// Sets the static compliance of sensors' ports, in a layout whose ports begin at one of the surface [mm/N].
-    void add_compliance(const PortLayout &ports, unsigned int surface_begin, dealii::FullMatrix<double> &compliance) const;
+    /// Sets the static compliance of sensors, in a layout whose dofs begin at `surface_begin` of the surface [mm/N].
+    void add_compliance(const InterfaceLayout &layout, unsigned int surface_begin, dealii::FullMatrix<double> &compliance) const;
 
   private:
     SensorForces(std::vector<Connector> sensors, const std::vector<unsigned int> &surface, unsigned int n_dofs,
@@ -46,7 +47,7 @@ namespace sprag
 
     const std::vector<Connector> sensors;
     const unsigned int n_surface;
-    dealii::FullMatrix<double> rows; ///< compressions by unit forces on the surface's ports and then on the sensors themselves
+    dealii::FullMatrix<double> rows; ///< compressions by unit forces on the surface's dofs and then on the sensors themselves
   };
 
   /// Tells a row the forces of the places in space, and their parts on either side of the plate. Each of a half stands for both.

@@ -11,48 +11,48 @@ namespace sprag
 
   namespace
   {
-    /// Ports in a row of a tile. Smaller ones make more calls of the solver, larger ones more entries that nobody asks for.
+    /// Dofs in a row of a block. Smaller ones make more calls of the solver, larger ones more entries that nobody asks for.
     constexpr unsigned int block_size = 128;
   } // namespace
 
   SurfaceCompliance::SurfaceCompliance(const Mumps &stiffness, std::vector<unsigned int> dofs)
       : factors(stiffness)
-      , dofs_by_port(std::move(dofs))
+      , body_dofs(std::move(dofs))
   {
-    for (unsigned int port = 0; port < dofs_by_port.size(); ++port)
-      ports_by_dof[dofs_by_port[port]] = port;
+    for (unsigned int surface_dof = 0; surface_dof < body_dofs.size(); ++surface_dof)
+      surface_dof_map[body_dofs[surface_dof]] = surface_dof;
   }
 
-  unsigned int SurfaceCompliance::n_block_ports(const unsigned int block) const
+  unsigned int SurfaceCompliance::n_block_dofs(const unsigned int block) const
   {
-    return std::min(block_size, static_cast<unsigned int>(dofs_by_port.size()) - block * block_size);
+    return std::min(block_size, static_cast<unsigned int>(body_dofs.size()) - block * block_size);
   }
 
-  PortSelection SurfaceCompliance::block_ports(const unsigned int block) const
+  DofSelection SurfaceCompliance::block_dofs(const unsigned int block) const
   {
-    PortSelection result(n_block_ports(block));
+    DofSelection result(n_block_dofs(block));
     std::iota(result.begin(), result.end(), block * block_size);
     return result;
   }
 
-  PortSelection SurfaceCompliance::whole_blocks(const PortSelection &ports) const
+  DofSelection SurfaceCompliance::whole_blocks(const DofSelection &surface_dofs) const
   {
     std::set<unsigned int> touched;
-    for (const unsigned int port : ports)
-      touched.insert(port / block_size);
-    PortSelection result;
+    for (const unsigned int surface_dof : surface_dofs)
+      touched.insert(surface_dof / block_size);
+    DofSelection result;
     for (const unsigned int block : touched)
     {
-      const auto own_ports = block_ports(block);
-      result.insert(result.end(), own_ports.begin(), own_ports.end());
+      const auto own_dofs = block_dofs(block);
+      result.insert(result.end(), own_dofs.begin(), own_dofs.end());
     }
     return result;
   }
 
-  FullMatrix<double> SurfaceCompliance::among(const PortSelection &whole_blocks)
+  FullMatrix<double> SurfaceCompliance::among(const DofSelection &whole_blocks)
   {
-    std::vector<unsigned int> begins; // of the tiles among the ports
-    for (unsigned int i = 0; i < whole_blocks.size(); i += n_block_ports(whole_blocks[i] / block_size))
+    std::vector<unsigned int> begins; // of the tiles among the dofs
+    for (unsigned int i = 0; i < whole_blocks.size(); i += n_block_dofs(whole_blocks[i] / block_size))
       begins.push_back(i);
     const auto block_at = [&](const unsigned int begin) { return whole_blocks[begin] / block_size; };
     std::vector<Block> missing;
@@ -81,7 +81,7 @@ namespace sprag
     return block.first < block.second ? entry(column, row) : blocks.at(block)(row % block_size, column % block_size);
   }
 
-  void SurfaceCompliance::visit_history(Archive &archive)
+  void SurfaceCompliance::serialise_history(Archive &archive)
   {
     auto known = searches;
     archive(known);
@@ -96,34 +96,34 @@ namespace sprag
   void SurfaceCompliance::find(const std::vector<Block> &needed)
   {
     searches.push_back(needed);
-    // A row costs much, an entry little: the rows are those of ports that are new.
-    std::map<unsigned int, PortSelection> columns; // by the tile of the rows, in the order of the degrees of freedom
+    // A row costs much, an entry little: the rows are those of dofs that are new.
+    std::map<unsigned int, DofSelection> columns; // by the tile of the rows, in the order of the degrees of freedom
     for (const auto &[first, second] : needed)
     {
       const bool first_is_new = blocks.count({ first, first }) == 0;
-      const auto column_ports = block_ports(first_is_new ? second : first);
-      auto &row_ports         = columns[first_is_new ? first : second];
-      row_ports.insert(row_ports.end(), column_ports.begin(), column_ports.end());
+      const auto column_dofs  = block_dofs(first_is_new ? second : first);
+      auto &row_dofs          = columns[first_is_new ? first : second];
+      row_dofs.insert(row_dofs.end(), column_dofs.begin(), column_dofs.end());
     }
     for (const auto &[first, second] : needed)
-      blocks[{ first, second }].reinit(n_block_ports(first), n_block_ports(second));
+      blocks[{ first, second }].reinit(n_block_dofs(first), n_block_dofs(second));
 
     std::map<unsigned int, std::vector<unsigned int>> entries; // degrees of freedom
-    for (auto &[block, ports] : columns)
+    for (auto &[block, surface_dofs] : columns)
     {
-      std::sort(ports.begin(), ports.end(),
-                [&](const unsigned int a, const unsigned int b) { return dofs_by_port[a] < dofs_by_port[b]; });
+      std::sort(surface_dofs.begin(), surface_dofs.end(),
+                [&](const unsigned int a, const unsigned int b) { return body_dofs[a] < body_dofs[b]; });
       std::vector<unsigned int> dofs;
-      for (const unsigned int port : ports)
-        dofs.push_back(dofs_by_port[port]);
-      for (const unsigned int row : block_ports(block))
-        entries[dofs_by_port[row]] = dofs;
+      for (const unsigned int surface_dof : surface_dofs)
+        dofs.push_back(body_dofs[surface_dof]);
+      for (const unsigned int row : block_dofs(block))
+        entries[body_dofs[row]] = dofs;
     }
     const auto values = factors.compute_inverse_entries(entries);
     auto value        = values.begin();
     for (const auto &row_entries : entries)
     {
-      const unsigned int row = ports_by_dof.at(row_entries.first);
+      const unsigned int row = surface_dof_map.at(row_entries.first);
       for (const unsigned int column : columns.at(row / block_size))
         entry(row, column) = *value++;
     }
@@ -136,15 +136,15 @@ namespace sprag
                                const unsigned int i)
     {
       return { 2 * static_cast<unsigned int>(mesh_face.nodes.size()),
-               [=](const PortSelection &some) { return (*faces)[i].whole_blocks(some); },
-               [=](const PortSelection &blocks)
+               [=](const DofSelection &some) { return (*faces)[i].whole_blocks(some); },
+               [=](const DofSelection &blocks)
                { return std::make_shared<const FullMatrix<double>>((*faces)[i].among(blocks)); } };
     }
   } // namespace
 
-  StaticStructure::StaticStructure(const ElasticBody<2> &body_, const PortLayout &ports_, const PortSprings &springs_)
-      : PortWindow(ports_, springs_,
-                   { face_response(body_.friction_face(), &faces, 0), face_response(body_.cylinder_face(), &faces, 1) })
+  StaticStructure::StaticStructure(const ElasticBody<2> &body_, const InterfaceLayout &layout_, const JointSprings &springs_)
+      : StaticInterface(layout_, springs_,
+                        { face_response(body_.friction_face(), &faces, 0), face_response(body_.cylinder_face(), &faces, 1) })
       , body(body_)
       , surface(surface_dofs(body))
       , factors(body.factorised())
@@ -154,28 +154,28 @@ namespace sprag
   {
   }
 
-  void StaticStructure::visit_history(Archive &archive)
+  void StaticStructure::serialise_history(Archive &archive)
   {
     for (auto &face : faces)
-      face.visit_history(archive);
-    PortWindow::visit_history(archive);
+      face.serialise_history(archive);
+    StaticInterface::serialise_history(archive);
   }
 
-  std::vector<Vector<double>> StaticStructure::body_displacements(const Vector<double> &, const PortLoads &forces) const
+  std::vector<Vector<double>> StaticStructure::body_displacements(const Vector<double> &, const DofLoads &forces) const
   {
-    std::vector<Vector<double>> result(ports.levers);
-    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+    std::vector<Vector<double>> result(layout.levers);
+    for (unsigned int lever = 0; lever < layout.levers; ++lever)
     {
       const auto acting = on_surface(forces, lever);
       Vector<double> loads(body.n_dofs());
-      for (unsigned int i = 0; i < acting.ports.size(); ++i)
-        loads[surface[acting.ports[i]]] = acting.values[i];
+      for (unsigned int i = 0; i < acting.dofs.size(); ++i)
+        loads[surface[acting.dofs[i]]] = acting.values[i];
       factors->solve(loads, result[lever]);
     }
     return result;
   }
 
-  void StaticStructure::tell_sensors(const unsigned int lever, const Vector<double> &, const PortLoads &forces, Row &row) const
+  void StaticStructure::tell_sensors(const unsigned int lever, const Vector<double> &, const DofLoads &forces, Row &row) const
   {
     row.sensor_forces = sensors(on_surface(forces, lever));
   }

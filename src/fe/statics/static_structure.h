@@ -4,10 +4,10 @@
 #include "base/archive.h"
 #include "fe/algebra/mumps.h"
 #include "fe/body/elastic_body.h"
-#include "fe/statics/port_window.h"
 #include "fe/statics/sensor_forces.h"
-#include "model/port_forces.h"
-#include "model/port_layout.h"
+#include "fe/statics/static_interface.h"
+#include "model/interface_forces.h"
+#include "model/interface_layout.h"
 #include "results/columns.h"
 
 #include <array>
@@ -22,56 +22,56 @@ namespace sprag
   {
   public:
     /// `stiffness`: factors of the body's symmetric stiffness, which must outlive this. `dofs`: degrees of freedom of the body,
-    /// by the port's place on the face.
+    /// by their places on the face.
     SurfaceCompliance(const Mumps &stiffness, std::vector<unsigned int> dofs);
 
-    /// The tiles that hold the given ports of the face, as increasing ports.
-    PortSelection whole_blocks(const PortSelection &ports) const;
+    /// Returns the dofs of the tiles that hold some of the face's, increasing.
+    DofSelection whole_blocks(const DofSelection &surface_dofs) const;
 
-    /// The compliance between some ports, which make up whole tiles.
-    dealii::FullMatrix<double> among(const PortSelection &whole_blocks);
+    /// Returns the compliance between some dofs, which make up whole tiles.
+    dealii::FullMatrix<double> among(const DofSelection &whole_blocks);
 
-    /// Visits which tiles are known. Those found together are found together again: the solver's round-off depends on that.
-    void visit_history(Archive &archive);
+    /// Serialises which tiles are known. Those found together are found together again: the solver's round-off depends on that.
+    void serialise_history(Archive &archive);
 
   private:
     using Block = std::pair<unsigned int, unsigned int>; ///< of rows and columns, first >= second
 
-    unsigned int n_block_ports(unsigned int block) const;
-    PortSelection block_ports(unsigned int block) const;
+    unsigned int n_block_dofs(unsigned int block) const;
+    DofSelection block_dofs(unsigned int block) const;
     double &entry(unsigned int row, unsigned int column);
     void find(const std::vector<Block> &needed);
 
     const Mumps &factors;
-    const std::vector<unsigned int> dofs_by_port;
-    std::map<unsigned int, unsigned int> ports_by_dof;
+    const std::vector<unsigned int> body_dofs;
+    std::map<unsigned int, unsigned int> surface_dof_map;
     std::map<Block, dealii::FullMatrix<double>> blocks;
     std::vector<std::vector<Block>> searches; ///< the tiles found together
   };
 
   /// Linear levers on linear springs in statics, one or both of a pair, which are alike: factorised once and seen through a
-  /// window of their ports.
-  class StaticStructure : public PortWindow
+  /// window of their interface.
+  class StaticStructure : public StaticInterface
   {
   public:
     /// The body must outlive this.
-    StaticStructure(const ElasticBody<2> &body, const PortLayout &ports, const PortSprings &springs);
+    StaticStructure(const ElasticBody<2> &body, const InterfaceLayout &layout, const JointSprings &springs);
     StaticStructure(const StaticStructure &)            = delete;
     StaticStructure &operator=(const StaticStructure &) = delete;
 
-    /// Returns the displacement of the whole body of each lever under forces on the ports, by a back-substitution.
+    /// Returns the displacement of the whole body of each lever under interface forces, by a back-substitution.
     std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
-                                                           const PortLoads &forces) const;
+                                                           const DofLoads &forces) const;
 
     /// Tells a row the forces of the sensors of a lever [N].
-    void tell_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const PortLoads &forces, Row &row) const;
+    void tell_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const DofLoads &forces, Row &row) const;
 
-    /// Visits what it knows of the compliance.
-    void visit_history(Archive &archive);
+    /// Serialises what it knows of the compliance.
+    void serialise_history(Archive &archive);
 
   private:
     const ElasticBody<2> &body;
-    const std::vector<unsigned int> surface; ///< degrees of freedom of a lever's ports
+    const std::vector<unsigned int> surface; ///< the body's degrees of freedom on a lever's faces
     const std::shared_ptr<const Mumps> factors;
     std::array<SurfaceCompliance, 2> faces; ///< of friction face and cylinder's face
     const SensorForces sensors;

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "base/system/supervisor.h"
+
+#include <chrono>
+#include <csignal>
+#include <ctime>
+#include <initializer_list>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace sprag
+{
+  namespace
+  {
+    using Clock = std::chrono::steady_clock;
+
+    sigset_t watched_signals()
+    {
+      sigset_t signals;
+      sigemptyset(&signals);
+      for (const int signal : { SIGINT, SIGTERM, SIGCHLD })
+        sigaddset(&signals, signal);
+      struct sigaction hangup = {};
+      if (::sigaction(SIGHUP, nullptr, &hangup) == 0 && hangup.sa_handler != SIG_IGN) // ignored under nohup
+        sigaddset(&signals, SIGHUP);
+      return signals;
+    }
+
+    /// The next of the signals, or 0 after a tenth of a second without one.
+    int next_signal(const sigset_t &signals)
+    {
+      const timespec pause = { 0, 100'000'000 };
+      const int signal     = ::sigtimedwait(&signals, nullptr, &pause);
+      return signal < 0 || signal == SIGCHLD ? 0 : signal;
+    }
+
+    /// State of the end of a process after the user has asked for it.
+    struct Ending
+    {
+      const pid_t process;
+      const int last_signal;
+      const std::chrono::duration<double> patience;
+      unsigned int wishes    = 0;
+      bool insisted          = false;
+      Clock::time_point sent = {};
+
+      void ask()
+      {
+        ++wishes;
+        if (wishes == 1)
+          send(SIGUSR1);
+        else
+          insist();
+      }
+
+      void go_on()
+      {
+        if (wishes > 0 && Clock::now() - sent > patience)
+          insist();
+      }
+
+      void insist()
+      {
+        send(insisted ? SIGKILL : last_signal);
+        insisted = true;
+      }
+
+      void send(const int signal)
+      {
+        ::kill(process, signal);
+        sent = Clock::now();
+      }
+    };
+  } // namespace
+
+  std::optional<WorkEnd> supervise(const int last_signal, const double patience)
+  {
+    const sigset_t signals = watched_signals();
+    sigset_t before;
+    ::sigprocmask(SIG_BLOCK, &signals, &before);
+    const pid_t parent = ::getpid();
+    const pid_t child  = ::fork();
+    if (child <= 0)
+    {
+      if (child == 0)
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+      if (child == 0 && ::getppid() != parent)
+        ::_exit(1);
+      ::sigprocmask(SIG_SETMASK, &before, nullptr);
+      return {};
+    }
+    Ending ending{ child, last_signal, std::chrono::duration<double>(patience) };
+    int status = 0;
+    while (::waitpid(child, &status, WNOHANG) == 0)
+      if (next_signal(signals) != 0)
+        ending.ask();
+      else
+        ending.go_on();
+    return WorkEnd{ WIFEXITED(status) ? WEXITSTATUS(status) : 0, WIFSIGNALED(status) ? WTERMSIG(status) : 0, ending.wishes > 0 };
+  }
+} // namespace sprag

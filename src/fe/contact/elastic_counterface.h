@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "fe/contact/face_contact_point.h"
+#include "fe/contact/face_pair_rows.h"
+
+#include <map>
+
+namespace sprag
+{
+  /// An elastic cylinder below the lever's face, with the member functions of RigidCounterface. The points of the friction face
+  /// are facets, see FacePair: pressure and traction are those of the facet's mean gap and slip. The dofs of the cylinder's nodes
+  /// follow those of the lever's. Elements and points are indices in `face`.
+  class ElasticCounterface
+  {
+  public:
+    /// All must outlive the counterface; `face` are the lever's elements.
+    ElasticCounterface(const FrictionFace<2> &lever, const FrictionFace<2> &cylinder, const FaceElements<2> &face,
+                       const FaceContactProperties &properties);
+
+    void enter(const StepPlaces &places);
+    FaceElements<2>::Indices near() const;
+    void enter(unsigned int element);
+    bool place(FacePointState<2> &state) const;
+    double gap_at_begin(unsigned int point);
+    void step(FacePointState<2> &state, const ContactHistory &history, const FaceStep &step, ContactSums &sums);
+    void slide(FacePointState<2> &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums);
+    void leave(ContactSums &sums);
+    FacePointRows rows(const FacePointState<2> &state);
+    double slip(const FacePointState<2> &state);
+
+  private:
+    struct Side
+    {
+      PairConfiguration at;
+      ElementFacets element_facets;
+      double first_slip = 0.; ///< slip coordinate of the cylinder's first node without load [mm]
+    };
+
+    double first_slip(const FaceConfiguration &at) const;
+    FaceElements<2>::Indices near(const PairConfiguration &at) const;
+    void enter_begin(const FaceConfiguration &at);
+    void enter_balance();
+    const ElementFacets &facets_at_begin(unsigned int element_index);
+    double slip_at_begin(unsigned int point);
+    double slip_at_end(unsigned int point) const;
+    double slip_coordinate(const Facet &facet, const FaceConfiguration &at, double slip_offset, unsigned int point) const;
+    std::array<unsigned int, 2> neighbours(unsigned int point) const;
+    double distance(unsigned int from, unsigned int to) const;
+    double slope(unsigned int point) const;
+    void touch();
+    const Facet &facet_at_end(unsigned int point) const;
+    void add_tangent(const StepResponse<2> &response, const Facet &facet, double stretch, double run, double end_stretch);
+    void add_shift(const Facet &facet, unsigned int point, const SlipShift &shift, double d_shift);
+    dealii::Tensor<1, 4> on_lever(double normal, double along_slip, const FacetRows &rows) const;
+    InterfaceCoordinates interface_coordinates() const;
+    FacePointRows rows_on_dofs(const Facet &facet) const;
+    dealii::Vector<double> change(const dealii::Vector<double> &from, const dealii::Vector<double> &to) const;
+
+    const FaceElements<2> &face;
+    const FaceContactProperties &properties;
+    const FacePair pair;
+    const LeverPoint first_node; ///< of the cylinder's face, about its centre
+    StepPlaces places{};
+    Side end;
+
+    // State at the balance, if the forces of a step are those between its ends.
+    Side balance_side;
+    dealii::Vector<double> between; ///< displacements at the balance
+
+    // State at the begin of the step, the same in all its iterations.
+    Side begin_side;
+    dealii::Vector<double> known_begin;
+    FaceElements<2>::Indices near_begin;
+    std::map<unsigned int, ElementFacets> begin_facets; ///< by elements
+
+    // State of the element at hand.
+    unsigned int element = 0;
+    unsigned int first   = 0;       ///< of its points
+    FaceElements<2>::Nodal nodal{}; ///< its displacements at the end
+    bool touched     = false;
+    bool at_face_end = false;
+    PairCoordinates coordinates;
+    FacetRows end_rows, balance_rows, at_left, at_right;
+    dealii::Vector<double> force_row; ///< derivative of a force
+    dealii::Vector<double> movement;  ///< in the step
+    dealii::Vector<double> values;
+    dealii::FullMatrix<double> tangent;
+    FrictionParts<dealii::FullMatrix<double>> friction;
+  };
+} // namespace sprag

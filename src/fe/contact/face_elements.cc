@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "fe/contact/face_elements.h"
+
+#include "base/errors.h"
+
+#include <deal.II/numerics/rtree.h>
+
+#include <cmath>
+#include <map>
+
+namespace sprag
+{
+  /// The elements by the boxes around their nodes.
+  template <int dim>
+  struct FaceElements<dim>::Tree
+  {
+    using Box = dealii::BoundingBox<dim>;
+
+    explicit Tree(const FrictionFace<dim> &face)
+        : boxes(bounding_boxes(face))
+        , tree(dealii::pack_rtree_of_indices(boxes))
+    {
+    }
+
+    static std::vector<Box> bounding_boxes(const FrictionFace<dim> &face)
+    {
+      std::vector<Box> result;
+      for (const auto &edge : face.edges)
+      {
+        std::vector<dealii::Point<dim>> nodes;
+        for (const auto &node : edge.nodes)
+          nodes.push_back(node.position);
+        result.emplace_back(nodes);
+      }
+      return result;
+    }
+
+    template <class Predicate>
+    Indices found(const Predicate &predicate) const
+    {
+      Indices result;
+      for (auto box = tree.qbegin(predicate); box != tree.qend(); ++box)
+        result.push_back(static_cast<unsigned int>(*box));
+      std::sort(result.begin(), result.end());
+      return result;
+    }
+
+    const std::vector<Box> boxes;
+    const decltype(dealii::pack_rtree_of_indices(std::vector<Box>())) tree;
+  };
+
+  namespace
+  {
+    template <int dim>
+    auto copied_elements(const FrictionFace<dim> &face)
+    {
+      std::vector<typename FaceElements<dim>::Element> result;
+      for (const auto &element : face.elements)
+      {
+        const auto &nodes = face.points[element.begin].nodes;
+        if (nodes.size() > FaceElements<dim>::max_nodes)
+          throw AnalysisError("contact is limited to elements of degree 2");
+        auto &copy = result.emplace_back();
+        copy       = { element.begin, element.end, element.length, static_cast<unsigned int>(nodes.size()), {} };
+        for (unsigned int a = 0; a < copy.n_nodes; ++a)
+          copy.nodes[a] = nodes[a].first;
+      }
+      return result;
+    }
+
+    template <int dim>
+    auto copied_points(const FrictionFace<dim> &face)
+    {
+      std::vector<typename FaceElements<dim>::Point> result;
+      for (const auto &point : face.points)
+      {
+        auto &copy = result.emplace_back();
+        copy       = { point.position, point.weight, {} };
+        for (unsigned int a = 0; a < point.nodes.size(); ++a)
+          copy.shapes[a] = point.nodes[a].second;
+      }
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  FaceElements<dim>::FaceElements(const FrictionFace<dim> &face)
+      : elements(copied_elements(face))
+      , points(copied_points(face))
+      , tree(std::make_unique<Tree>(face))
+  {
+    find_neighbours();
+    find_lines();
+  }
+
+  template <int dim>
+  FaceElements<dim>::~FaceElements() = default;
+
+  template <int dim>
+  void FaceElements<dim>::find_neighbours()
+  {
+    constexpr double same = 1e-6; ///< place of two nodes, over the length of an element
+    const auto &boxes     = tree->boxes;
+    for (unsigned int element = 0; element < boxes.size(); ++element)
+    {
+      auto box = boxes[element];
+      box.extend(same * elements[element].length);
+      auto touching = tree->found(boost::geometry::index::intersects(box));
+      touching.erase(std::find(touching.begin(), touching.end(), element));
+      neighbours.push_back(std::move(touching));
+    }
+
+    std::vector<bool> reached(boxes.size());
+    for (unsigned int first = 0; first < boxes.size(); ++first)
+    {
+      if (reached[first])
+        continue;
+      other_starts.push_back(first);
+      reached[first] = true;
+      Indices part{ first };
+      for (std::size_t i = 0; i < part.size(); ++i)
+        for (const unsigned int element : neighbours[part[i]])
+          if (!reached[element])
+          {
+            reached[element] = true;
+            part.push_back(element);
+          }
+    }
+    if (other_starts.size() == 1)
+      other_starts.clear();
+  }
+
+  template <int dim>
+  void FaceElements<dim>::find_lines()
+  {
+    std::map<long, Indices> by_zeta;
+    for (unsigned int q = 0; q < points.size(); ++q)
+      by_zeta[dim == 3 ? std::lround(1e6 * points[q].position[dim - 1]) : 0].push_back(q);
+    point_lines.resize(points.size());
+    for (auto &entry : by_zeta)
+    {
+      auto &line       = entry.second;
+      const auto by_xi = [&](const unsigned int a, const unsigned int b)
+      { return points[a].position[0] < points[b].position[0]; };
+      std::sort(line.begin(), line.end(), by_xi);
+      for (const unsigned int point : line)
+        point_lines[point] = static_cast<unsigned int>(lines.size());
+      lines.push_back(std::move(line));
+    }
+  }
+
+  template <int dim>
+  void FaceReach<dim>::set(const FaceElements<dim> &face, Indices may_touch, Indices shown, const unsigned int surface,
+                           const unsigned int size)
+  {
+    reached = std::move(may_touch);
+    if (!dofs.empty() && shown == looked_at)
+      return;
+    looked_at = std::move(shown);
+    dofs      = face.element_displacements(looked_at);
+    for (auto dof = surface; dof < size; ++dof)
+      dofs.push_back(dof);
+  }
+
+  template <int dim>
+  auto FaceReach<dim>::clip(Indices near, bool &within_reach) const -> Indices
+  {
+    within_reach = dofs.empty() || std::includes(reached.begin(), reached.end(), near.begin(), near.end());
+    if (within_reach)
+      return near;
+    Indices result;
+    std::set_intersection(near.begin(), near.end(), reached.begin(), reached.end(), std::back_inserter(result));
+    return result;
+  }
+
+  template <int dim>
+  typename FaceElements<dim>::Nodal FaceElements<dim>::nodal(const Element &element, const dealii::Vector<double> &displacement)
+  {
+    Nodal result{};
+    for (unsigned int a = 0; a < element.n_nodes; ++a)
+      for (unsigned int d = 0; d < dim; ++d)
+        result[dim * a + d] = displacement[dim * element.nodes[a] + d];
+    return result;
+  }
+
+  template <int dim>
+  dealii::Point<dim> FaceElements<dim>::position(const Point &point, const Nodal &displacement)
+  {
+    auto result = point.position;
+    for (unsigned int a = 0; a < max_nodes; ++a)
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] += point.shapes[a] * displacement[dim * a + d];
+    return result;
+  }
+
+  template <int dim>
+  unsigned int FaceElements<dim>::point_element(const unsigned int point) const
+  {
+    const auto ends_before = [](const Element &element, const unsigned int q) { return element.end <= q; };
+    const auto found       = std::lower_bound(elements.begin(), elements.end(), point, ends_before);
+    return static_cast<unsigned int>(found - elements.begin());
+  }
+
+  /// The closest element of the undeformed face, or one beside it where the centre has hardly moved: a search of the tree costs
+  /// as much as the contact of some points.
+  template <int dim>
+  unsigned int FaceElements<dim>::element_below(const dealii::Point<dim> &centre) const
+  {
+    if (known_element >= elements.size() || centre.distance(known_centre) > elements[known_element].length)
+    {
+      known_centre  = centre;
+      known_element = tree->found(boost::geometry::index::nearest(centre, 1)).front();
+    }
+    return known_element;
+  }
+
+  template <int dim>
+  std::vector<unsigned int> FaceElements<dim>::elements_in(const dealii::BoundingBox<dim> &box) const
+  {
+    const auto found = tree->found(boost::geometry::index::intersects(box));
+    return found.empty() ? tree->found(boost::geometry::index::nearest(box.center(), 1)) : found;
+  }
+
+  template <int dim>
+  std::vector<unsigned int> FaceElements<dim>::element_displacements(const Indices &some) const
+  {
+    std::vector<unsigned int> result;
+    for (const unsigned int element : some)
+      for (unsigned int a = 0; a < elements[element].n_nodes; ++a)
+        for (unsigned int d = 0; d < dim; ++d)
+          result.push_back(dim * elements[element].nodes[a] + d);
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+  template class FaceElements<2>;
+  template class FaceElements<3>;
+  template struct FaceReach<2>;
+  template struct FaceReach<3>;
+} // namespace sprag

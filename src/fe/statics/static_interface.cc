@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "fe/statics/static_interface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  StaticInterface::StaticInterface(const InterfaceLayout &layout_, const JointSprings &springs_, std::vector<FaceResponse> faces_)
+      : layout(layout_)
+      , springs(springs_)
+      , faces(std::move(faces_))
+  {
+  }
+
+  unsigned int StaticInterface::n_coordinates() const
+  {
+    return layout.size();
+  }
+
+  unsigned int StaticInterface::coordinate(const unsigned int dof) const
+  {
+    return dof;
+  }
+
+  const Vector<double> &StaticInterface::interface_displacements(const Vector<double> &coordinates) const
+  {
+    return coordinates;
+  }
+
+  /// Moves the window where it lacks some dofs. Returns their places.
+  DofSelection StaticInterface::look_at(const DofSelection &near)
+  {
+    if (!std::includes(window.begin(), window.end(), near.begin(), near.end()))
+      move_window(near);
+    return find_indices(near);
+  }
+
+  void StaticInterface::move_window(const DofSelection &selected)
+  {
+    window_for = selected;
+    window.clear();
+    compliance            = {};
+    const auto add_spring = [&](const unsigned int dof, const double own)
+    {
+      window.push_back(dof);
+      compliance.append(own);
+    };
+    for (unsigned int lever = 0; lever < layout.levers; ++lever)
+    {
+      unsigned int first = layout.first(lever);
+      for (const auto &face : faces)
+      {
+        const auto begin = std::lower_bound(selected.begin(), selected.end(), first);
+        const auto end   = std::lower_bound(begin, selected.end(), first + face.n_interface);
+        DofSelection face_dofs;
+        std::transform(begin, end, std::back_inserter(face_dofs), [&](const unsigned int dof) { return dof - first; });
+        const auto blocks = face.whole_blocks(face_dofs);
+        for (const unsigned int place : blocks)
+          window.push_back(first + place);
+        if (!blocks.empty())
+          compliance.append(face.among(blocks));
+        first += face.n_interface;
+      }
+      for (unsigned int slope = 0; slope < layout.slopes; ++slope)
+        add_spring(layout.slope(slope), springs.slopes[slope]);
+      add_spring(layout.rotation(lever), 1. / springs.rotation);
+    }
+    if (layout.sprung)
+      add_spring(layout.support(), 1. / (layout.levers * springs.support));
+  }
+
+  void StaticInterface::serialise_history(Archive &archive)
+  {
+    DofSelection selected = window_for;
+    archive(selected);
+    if (archive.reads() && !selected.empty())
+      move_window(selected);
+  }
+
+  DofSelection StaticInterface::find_indices(const DofSelection &selected) const
+  {
+    DofSelection result;
+    unsigned int place = 0;
+    for (const unsigned int dof : selected)
+    {
+      while (window.at(place) != dof) // throws where the window lacks it
+        ++place;
+      result.push_back(place);
+    }
+    return result;
+  }
+
+  void StaticInterface::set_faces(const DofLoads &forces, const DofSelection &near, Vector<double> &coordinates)
+  {
+    const auto places = look_at(near);
+    Vector<double> displacements(compliance.size());
+    add_response(compliance, find_indices(forces.dofs), forces.values, places, displacements);
+    for (const unsigned int place : places)
+      if (layout.is_surface(window[place]))
+        coordinates[window[place]] = displacements[place];
+  }
+
+  Residual StaticInterface::residual(const Vector<double> &coordinates, const InterfaceForces &forces, const DofSelection &near,
+                                     const Vector<double> *const face_displacements)
+  {
+    const auto places = look_at(near);
+    Vector<double> mismatch(compliance.size());
+    for (const unsigned int place : places)
+      mismatch[place] = -coordinates[window[place]];
+    add_response(compliance, find_indices(forces.dofs), forces.values, places, mismatch);
+    Residual result{ Vector<double>(n_coordinates()), 0. };
+    double squares = 0.;
+    for (const unsigned int place : places)
+    {
+      const unsigned int dof = window[place];
+      const bool is_set      = face_displacements != nullptr && layout.is_surface(dof);
+      result.values[dof]     = is_set ? (*face_displacements)[dof] - coordinates[dof] : mismatch[place];
+      squares += result.values[dof] * result.values[dof];
+    }
+    const auto as_movement = [&](const unsigned int dof, const double arm)
+    {
+      const double turn = result.values[dof];
+      squares += (arm * arm - 1.) * turn * turn;
+    };
+    for (unsigned int lever = 0; lever < layout.levers; ++lever)
+      as_movement(layout.rotation(lever), springs.arm);
+    for (unsigned int slope = 0; slope < layout.slopes; ++slope)
+      as_movement(layout.slope(slope), springs.slope_arm);
+    result.norm = std::sqrt(squares);
+    return result;
+  }
+
+  Vector<double> StaticInterface::correction(const Residual &residual, const InterfaceForces &forces, const DofSelection &near)
+  {
+    const auto places = look_at(near);
+    Vector<double> mismatch(compliance.size());
+    for (const unsigned int place : places)
+      mismatch[place] = residual.values[window[place]];
+    const auto in_window = interface_correction(compliance, find_indices(forces.dofs), forces.tangent, places, mismatch);
+    Vector<double> result(n_coordinates());
+    for (const unsigned int place : places)
+      result[window[place]] = in_window[place];
+    return result;
+  }
+
+  DofLoads StaticInterface::on_surface(const DofLoads &forces, const unsigned int lever) const
+  {
+    const auto &all  = forces.dofs;
+    const auto begin = std::lower_bound(all.begin(), all.end(), layout.first(lever));
+    const auto end   = std::lower_bound(begin, all.end(), layout.first(lever) + layout.surface);
+    DofLoads result{ { begin, end },
+                     Vector<double>(forces.values.begin() + (begin - all.begin()), forces.values.begin() + (end - all.begin())) };
+    for (auto &dof : result.dofs)
+      dof -= layout.first(lever);
+    return result;
+  }
+} // namespace sprag

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "base/archive.h"
+#include "fe/statics/joint_springs.h"
+#include "model/interface_forces.h"
+#include "model/interface_layout.h"
+
+#include <functional>
+
+namespace sprag
+{
+  /// Compliance of a face of a body that its hub holds, by the places of its dofs on the face.
+  struct FaceResponse
+  {
+    unsigned int n_interface;
+    std::function<DofSelection(const DofSelection &)> whole_blocks; ///< those that hold some dofs
+    std::function<std::shared_ptr<const dealii::FullMatrix<double>>(const DofSelection &whole_blocks)> among; ///< [mm/N]
+  };
+
+  /// Interface of linear levers on linear springs in statics, z = G f(z). The compliance G is dense on the faces of a lever and
+  /// diagonal on hubs and support, which do not move a body in its own axes, and on the cylinder's slopes. It is known in a
+  /// window of whole tiles, which moves where other dofs are looked at. Only dofs with forces carry tangents, so that a Newton
+  /// correction is a dense solve of those, and the iterates are those of the full system. Coordinates: displacements of all dofs.
+  /// `near` are the dofs that are looked at, which increase and hold those of the forces, of hubs and of the support.
+  class StaticInterface
+  {
+  public:
+    static constexpr bool looks_at_some = true;
+
+    /// `faces`: those of a lever in the order of their dofs, the same for both of a pair.
+    StaticInterface(const InterfaceLayout &layout, const JointSprings &springs, std::vector<FaceResponse> faces);
+
+    unsigned int n_coordinates() const;
+
+    /// Returns the index of the coordinate of a dof.
+    unsigned int coordinate(unsigned int dof) const;
+
+    const dealii::Vector<double> &interface_displacements(const dealii::Vector<double> &coordinates) const;
+
+    /// Sets the displacements of those dofs of the faces that are looked at to G f.
+    void set_faces(const DofLoads &forces, const DofSelection &near, dealii::Vector<double> &coordinates);
+
+    /// Returns G f - z. `face_displacements`: displacements of the whole faces in place of G f, of a body that is not linear.
+    Residual residual(const dealii::Vector<double> &coordinates, const InterfaceForces &forces, const DofSelection &near,
+                      const dealii::Vector<double> *face_displacements = nullptr);
+
+    /// Returns the correction, 0 on dofs that are not looked at. Throws AnalysisError if the tangent is singular.
+    dealii::Vector<double> correction(const Residual &residual, const InterfaceForces &forces, const DofSelection &near);
+
+    /// Serialises where the window is.
+    void serialise_history(Archive &archive);
+
+  protected:
+    /// Returns the forces on the surface of a lever, with its dofs numbered as of one lever alone.
+    DofLoads on_surface(const DofLoads &forces, unsigned int lever) const;
+
+    const InterfaceLayout layout;
+
+  private:
+    void move_window(const DofSelection &selected);
+    DofSelection find_indices(const DofSelection &selected) const;
+    DofSelection look_at(const DofSelection &near);
+
+    const JointSprings springs;
+    const std::vector<FaceResponse> faces;
+
+    DofSelection window;            ///< dofs that the compliance is known of, a place for each
+    DofSelection window_for;        ///< dofs that it was made for
+    InterfaceCompliance compliance; ///< of the places
+  };
+} // namespace sprag

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "run/design_checks.h"
+
+#include "analysis/stability/stability.h"
+#include "analytic/isolation.h"
+#include "base/append.h"
+#include "base/errors.h"
+#include "levers/prepared_scene.h"
+#include "program/memory.h"
+#include "report/report.h"
+#include "run/analyses.h"
+#include "scene/closed_form.h"
+#include "scene/contact_width.h"
+#include "scene/held_slide.h"
+#include "scene/read.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace sprag
+{
+  namespace
+  {
+    using Q = DesignQuantity;
+
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+
+    /// Share of the drive from its smallest x: near enough to x = 0 for the slope, and far enough for a contact.
+    constexpr double share_for_slopes = 0.05;
+
+    std::vector<double> sample_positions(const Scene &scene)
+    {
+      std::vector<double> places;
+      const double from = scene.drive.minimum(), length = scene.drive.maximum() - from;
+      for (unsigned int i = 1; i <= scene.design.positions; ++i)
+        places.push_back(from + length * i / scene.design.positions);
+      return places;
+    }
+
+    SlideStability slide_at(Scene scene, const double x, const Direction direction, DynamicsMaker &maker)
+    {
+      scene.stability.position  = x;
+      scene.stability.direction = direction;
+      return check_slide(scene, maker);
+    }
+
+    double compute_growth(const SlideStability &slide)
+    {
+      return slide.kind == SlideKind::jammed ? infinite : slide.growth_rate();
+    }
+
+    /// Forces of slides over those of the closed form.
+    struct Ratios
+    {
+      double forward, backward;
+    };
+
+    Ratios ratios_near_rest(const Scene &scene, DynamicsMaker &maker)
+    {
+      const double x  = scene.drive.minimum() + share_for_slopes * (scene.drive.maximum() - scene.drive.minimum());
+      const double v  = scene.drive.peak_speed();
+      const auto part = [&](const Direction direction, const double speed)
+      {
+        const auto found = slide_at(scene, x, direction, maker);
+        return found.slide ? found.slide->forces.Q / closed_form(scene, x, speed).Q : std::numeric_limits<double>::quiet_NaN();
+      };
+      return { part(Direction::forward, v), part(Direction::backward, -v) };
+    }
+
+    /// Q and P of slides at places, of one way.
+    struct Slides
+    {
+      std::vector<double> Q, P;
+      double growth_rate    = -infinite;
+      double jamming_margin = 1.;
+      bool all_unique       = true;
+    };
+
+    Slides slides_along(const Scene &scene, const Direction direction, DynamicsMaker &maker)
+    {
+      Slides result;
+      for (const double x : sample_positions(scene))
+      {
+        const auto found   = slide_at(scene, x, direction, maker);
+        result.growth_rate = std::max(result.growth_rate, compute_growth(found));
+        result.all_unique  = result.all_unique && found.slide && found.kind != SlideKind::jammed;
+        if (!found.slide)
+          continue;
+        result.Q.push_back(found.slide->forces.Q);
+        result.P.push_back(found.slide->forces.P);
+        result.jamming_margin = std::min(result.jamming_margin, found.slide->margin);
+      }
+      return result;
+    }
+
+    double largest_size(const std::vector<double> &values)
+    {
+      double largest = 0.;
+      for (const double value : values)
+        largest = std::max(largest, std::abs(value));
+      return largest;
+    }
+
+    /// Q of the closed form at the places, out and back.
+    std::pair<Slides, Slides> ideal_slides(const Scene &scene, const std::vector<double> &places)
+    {
+      const double v = scene.drive.peak_speed();
+      std::pair<Slides, Slides> result;
+      for (const double x : places)
+      {
+        result.first.Q.push_back(closed_form(scene, x, v).Q);
+        result.second.Q.push_back(closed_form(scene, x, -v).Q);
+      }
+      return result;
+    }
+
+    double loop_opening(const Slides &out, const Slides &back)
+    {
+      return std::accumulate(out.Q.begin(), out.Q.end(), 0.) - std::accumulate(back.Q.begin(), back.Q.end(), 0.);
+    }
+
+    void add_forces(const Scene &scene, const Slides &out, const Slides &back, DesignQuantities &found)
+    {
+      const auto places              = sample_positions(scene);
+      found[Q::force_ratio]          = direction_ratio(out.Q.back(), back.Q.back());
+      found[Q::largest_force]        = std::max(largest_size(out.Q), largest_size(back.Q));
+      found[Q::largest_normal_force] = std::max(largest_size(out.P), largest_size(back.P));
+      found[Q::largest_pressure]     = layer_pressure(scene, found[Q::largest_normal_force]);
+      found[Q::jamming_margin]       = back.jamming_margin;
+      // Both quantities depend on the spacing of the places: the closed form at all x is corrected by the ratio at these places.
+      const auto ideal    = ideal_slides(scene, places);
+      const auto whole    = lever_quantities(scene);
+      found[Q::loop_area] = whole[Q::loop_area] * loop_opening(out, back) / loop_opening(ideal.first, ideal.second);
+      found[Q::nonlinearity] =
+          whole[Q::nonlinearity] * std::max(compute_nonlinearity(places, out.Q), compute_nonlinearity(places, back.Q)) /
+          std::max(compute_nonlinearity(places, ideal.first.Q), compute_nonlinearity(places, ideal.second.Q));
+    }
+
+    void take_larger(double &value, const std::vector<Entry> &summary, const std::vector<std::string> &names)
+    {
+      for (const auto &name : names)
+        value = std::max(value, std::abs(find_value(summary, name)));
+    }
+  } // namespace
+
+  std::string model_name(const CheckModel check_model)
+  {
+    return std::vector<std::string>{ "table", "beam", "condensed" }.at(static_cast<std::size_t>(check_model));
+  }
+
+  double ModelCheck::violation(const std::vector<Demand> &demands) const
+  {
+    double largest = -infinite;
+    for (const auto &demand : demands)
+      if (demand.term.quantity != Q::parameter && !std::isnan(found[demand.term.quantity]))
+        largest = std::max(largest, demand_violation(demand, found[demand.term.quantity]));
+    return largest;
+  }
+
+  DesignChecks::DesignChecks(const Scene &scene_)
+      : design(scene_)
+  {
+  }
+
+  Scene DesignChecks::make_scene(const Proposal &lever, const std::vector<std::string> &changes) const
+  {
+    const std::vector<std::string> without_fields = { "Output/Fields=none" };
+    return prepared(variant(design, joined(joined(changes, without_fields), design_overrides(design, lever))));
+  }
+
+  ModelCheck DesignChecks::check(const CheckModel by, const Proposal &lever, const bool in_time)
+  {
+    ModelCheck check;
+    check.check_model  = by;
+    check.lever        = lever;
+    const double begin = PhaseTimer::cpu_seconds();
+    try
+    {
+      if (by == CheckModel::table)
+        check_table(check);
+      else
+        check_slides(check);
+      if (in_time && check.passes(design.design.demanded))
+        follow_in_time(check);
+    }
+    catch (const AnalysisError &error)
+    {
+      check.failure = error.what();
+    }
+    catch (const InputError &error)
+    {
+      check.failure = error.what();
+    }
+    check.cpu_seconds = PhaseTimer::cpu_seconds() - begin;
+    return check;
+  }
+
+  void DesignChecks::check_table(ModelCheck &check) const
+  {
+    const Scene scene = make_scene(check.lever, { "Analysis/Type=isolation", "Analysis/Model=closed form",
+                                                  "Isolation/Base motion=harmonic", "Isolation/End=steady state" });
+    IsolationFindings found;
+    run_isolation(scene, found, {});
+    check.found[Q::transmissibility]   = found.fundamental;
+    check.found[Q::relative_amplitude] = found.relative_amplitude;
+    if (!found.is_steady)
+      check.failure = "the table's motion does not repeat within Isolation/Duration";
+  }
+
+  void DesignChecks::check_slides(ModelCheck &check)
+  {
+    const Scene scene = make_scene(check.lever, { "Analysis/Type=stability", "Analysis/Model=" + model_name(check.check_model),
+                                                  "Stability/Position=auto", "Stability/Critical=none" });
+    require_memory(scene);
+    auto &maker                 = *in_memory.dynamics;
+    const auto out              = slides_along(scene, Direction::forward, maker);
+    const auto back             = slides_along(scene, Direction::backward, maker);
+    check.found[Q::growth_rate] = std::max(out.growth_rate, back.growth_rate);
+    if (!out.all_unique || !back.all_unique)
+    {
+      check.failure = "there is no unique slide at some x of the stroke: the lever jams";
+      return;
+    }
+    const auto ideal  = lever_quantities(scene);
+    const auto ratios = ratios_near_rest(scene, maker);
+    add_slopes(scene, ratios.forward * ideal[Q::forward_slope], ratios.backward * ideal[Q::backward_slope], check.found);
+    add_forces(scene, out, back, check.found);
+  }
+
+  void DesignChecks::follow_in_time(ModelCheck &check)
+  {
+    const Scene scene = make_scene(check.lever, { "Analysis/Type=transient", "Analysis/Model=" + model_name(check.check_model) });
+    require_memory(scene);
+    Warnings warnings;
+    carry_out(scene, make_options(in_memory), warnings);
+    const auto &summary = in_memory.found.summary;
+    const auto slides   = check.found;
+    take_larger(check.found[Q::largest_force], summary, { "peak_Q_forward", "peak_Q_backward" });
+    take_larger(check.found[Q::largest_normal_force], summary, { "peak_P_forward", "peak_P_backward" });
+    if (is_meshed(scene.analysis.model))
+      take_larger(check.found[Q::largest_pressure], summary, { "largest_pressure" });
+    for (const auto quantity : { Q::largest_force, Q::largest_normal_force, Q::largest_pressure })
+      check.overshoot[quantity] = check.found[quantity] / slides[quantity];
+    check.in_time = true;
+  }
+
+  double DesignChecks::beam_growth(const Scene &scene)
+  {
+    Scene beam          = scene;
+    beam.analysis.type  = AnalysisType::stability;
+    beam.analysis.model = ModelType::beam;
+    double largest      = -infinite;
+    try
+    {
+      for (const auto direction : { Direction::forward, Direction::backward })
+        for (const double x : sample_positions(scene))
+          largest = std::max(largest, compute_growth(slide_at(beam, x, direction, *in_memory.dynamics)));
+    }
+    catch (const AnalysisError &)
+    {
+      return infinite;
+    }
+    return largest;
+  }
+} // namespace sprag

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "analysis/design/design_problem.h"
+#include "run/in_memory.h"
+
+#include <string>
+
+namespace sprag
+{
+  struct Scene;
+
+  /// Result of a check of a proposed lever by a dearer model.
+  struct ModelCheck
+  {
+    CheckModel check_model = CheckModel::beam;
+    unsigned int round     = 1;
+    bool in_time           = false; ///< whether the drive was followed in time
+    Proposal lever;                 ///< with what was expected of it
+    DesignQuantities found;         ///< NaN of what the check model does not tell
+    DesignQuantities overshoot;     ///< of those that are larger in time: over the value of the slides
+    std::string failure;            ///< why it tells nothing; empty: it does
+    double cpu_seconds = 0.;
+
+    /// Returns the largest violation of the demands on what the check model tells; minus infinity without such.
+    double violation(const std::vector<Demand> &demands) const;
+
+    bool passes(const std::vector<Demand> &demands) const
+    {
+      return failure.empty() && violation(demands) <= 0.;
+    }
+  };
+
+  std::string model_name(CheckModel check_model);
+
+  /// Computes levers of a design again by dearer models. Forces come from steady slides at Design/Positions both ways, and one
+  /// near x = 0 for the slopes; in time from the drive followed once.
+  class DesignChecks
+  {
+  public:
+    explicit DesignChecks(const Scene &scene_);
+
+    ModelCheck check(CheckModel by, const Proposal &lever, bool in_time);
+
+    /// Returns the largest growth rate of all slides of a beam of this scene [1/s]; infinite where one of them is not unique or
+    /// not found.
+    double beam_growth(const Scene &scene);
+
+  private:
+    const Scene design;
+    InMemory in_memory = run_in_memory();
+
+    Scene make_scene(const Proposal &lever, const std::vector<std::string> &changes) const;
+    void check_table(ModelCheck &check) const;
+    void check_slides(ModelCheck &check);
+    void follow_in_time(ModelCheck &check);
+  };
+} // namespace sprag

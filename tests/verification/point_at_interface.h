@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "model/dynamic_lever.h"
+#include "model/modal_structure.h"
+
+namespace sprag
+{
+  /// What contacts of verification problems have in common: one point at dof 0, always within reach, that never slides steadily.
+  class PointAtInterface
+  {
+  public:
+    static constexpr bool uses_rates       = false;
+    static constexpr bool keeps_tangent    = false;
+    static constexpr bool stands_for_layer = false;
+    static constexpr unsigned int levers   = 1;
+
+    /// At the end of the step.
+    struct Evaluation
+    {
+      static constexpr bool within_reach = true;
+
+      InterfaceForces forces{ { 0 }, dealii::Vector<double>(1), dealii::FullMatrix<double>(1, 1) };
+      ContactHistory last_history;
+      StepWork works;
+      double stored = 0.;
+      double depth  = 0.;
+
+      std::vector<ContactHistory> history() const
+      {
+        return { last_history };
+      }
+      const StepWork &work() const
+      {
+        return works;
+      }
+      double energy() const
+      {
+        return stored;
+      }
+      double penetration() const
+      {
+        return depth;
+      }
+    };
+
+    double gap_change(const Evaluation &, const dealii::Vector<double> &, unsigned int) const
+    {
+      return 0.;
+    }
+    const DofSelection &candidate_dofs(double, const PerLever &) const
+    {
+      return all;
+    }
+    void serialise_history(Archive &) const
+    {
+    }
+
+    void widen_reach()
+    {
+    }
+    void evaluate_sliding(const SlidingState &, Evaluation &) const
+    {
+    }
+    std::vector<ContactHistory> touch(const dealii::Vector<double> &, const DrivePoint &, Evaluation &) const
+    {
+      return { ContactHistory{} };
+    }
+    double mean_slip(const Evaluation &, const dealii::Vector<double> &, double, const dealii::Vector<double> &, double) const
+    {
+      return 0.;
+    }
+    LinearisedForces linearise(const SlidingState &, Evaluation &) const
+    {
+      return {};
+    }
+    SurfaceShape surface_shape(const dealii::Vector<double> &, unsigned int) const
+    {
+      return {};
+    }
+    FacePoints face_points() const
+    {
+      return {};
+    }
+    FaceState face_state(const Evaluation &, const DrivePoint &) const
+    {
+      return {};
+    }
+    void observe(const Evaluation &, Row &, unsigned int) const
+    {
+    }
+    double drive_force(const Evaluation &) const
+    {
+      return 0.;
+    }
+
+  private:
+    const DofSelection all = { 0 };
+  };
+
+  /// A structure with that contact at its only dof, the rotation of levers.
+  template <class Contact>
+  DynamicLever<ModalStructure, Contact> with_point_at_interface(ModalData structure, const Contact &contact)
+  {
+    structure.layout = { 0, false };
+    LeverFrame frame{ { Geometry{} }, structure.layout, 0., {}, 0., 0., dealii::Vector<double>(1) };
+    frame.lengths = 1.;
+    return { std::make_unique<ModalStructure>(structure), std::make_unique<Contact>(contact), frame };
+  }
+} // namespace sprag
