@@ -4,6 +4,7 @@
 #include "base/system/interrupt.h"
 #include "base/system/open_mpi.h"
 #include "base/system/supervisor.h"
+#include "input/read.h"
 #include "program/cost.h"
 #include "program/memory.h"
 #include "program/outcome.h"
@@ -12,7 +13,6 @@
 #include "program/run_log.h"
 #include "report/warnings.h"
 #include "scene/analysis_use.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 
 #include <csignal>

@@ -7,16 +7,16 @@
 #include "base/system/interrupt.h"
 #include "base/system/open_mpi.h"
 #include "base/system/supervisor.h"
+#include "fe/algebra/first_rank.h"
 #include "fe/fields/help_first_rank.h"
 #include "fe/mesh/geometry_script.h"
-#include "fe/solid/first_rank.h"
+#include "input/read.h"
 #include "program/memory.h"
 #include "program/outcome.h"
 #include "program/output_folder.h"
 #include "program/run_log.h"
 #include "run/run.h"
 #include "scene/analysis_use.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 
 #include <deal.II/base/mpi.h>

@@ -3,9 +3,9 @@
 
 #include "base/phase_timer.h"
 #include "estimate/expected_cost.h"
+#include "input/read.h"
 #include "levers/prepared_scene.h"
 #include "report/percent.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 
 #include <boost/algorithm/string/join.hpp>

@@ -6,7 +6,7 @@
 #include "analysis/stability/stability.h"
 #include "base/errors.h"
 #include "fe/mesh/mesh.h"
-#include "fe/solid/static_lever.h"
+#include "fe/statics/static_lever.h"
 #include "report/percent.h"
 #include "scene/accuracy.h"
 #include "scene/contact_reference.h"

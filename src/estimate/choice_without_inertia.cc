@@ -10,7 +10,7 @@
 #include "estimate/coarser_scene.h"
 #include "estimate/expected_cost.h"
 #include "fe/mesh/mesh.h"
-#include "fe/solid/static_lever.h"
+#include "fe/statics/static_lever.h"
 #include "program/memory.h"
 #include "report/percent.h"
 #include "report/report.h"

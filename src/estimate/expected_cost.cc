@@ -5,6 +5,7 @@
 #include "analysis/study/study_points.h"
 #include "analysis/transient/transient_settings.h"
 #include "base/errors.h"
+#include "input/read.h"
 #include "program/memory.h"
 #include "program/recorder.h"
 #include "scene/analysis_use.h"
@@ -12,7 +13,6 @@
 #include "scene/contact_width.h"
 #include "scene/held_slide.h"
 #include "scene/mirrored_pair.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 
 #include <algorithm>
@@ -129,7 +129,7 @@ namespace sprag
         return work;
       constexpr double damping_values = 7., stick_limits = 2.;
       const double verdict = least_slides(scene);
-      work.slides          = verdict;
+      work.slides          = least_slides(scene, true);
       if (scene.stability.ranges == "none" && scene.stability.damping)
         work.slides += (damping_values + stick_limits) * verdict;
       if (scene.stability.roles)

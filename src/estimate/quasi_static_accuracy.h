@@ -4,7 +4,7 @@
 #include "analysis/statics/quasi_static.h"
 #include "analytic/error_estimate.h"
 #include "estimate/stress_sample.h"
-#include "fe/solid/static_lever.h"
+#include "fe/statics/static_lever.h"
 #include "results/columns.h"
 
 #include <functional>

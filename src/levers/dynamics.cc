@@ -3,11 +3,11 @@
 
 #include "fe/mesh/mesh.h"
 #include "fe/statics/lever_properties.h"
-#include "model/reduced_lever.h"
+#include "input/scene_key.h"
+#include "model/lever/reduced_lever.h"
 #include "scene/contact_reference.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
-#include "scene/scene_key.h"
 
 #include <algorithm>
 #include <ctime>

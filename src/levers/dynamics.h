@@ -3,7 +3,7 @@
 
 #include "base/phase_timer.h"
 #include "fe/dynamics/dynamic_face_lever.h"
-#include "fe/solid/solid_dynamics.h"
+#include "fe/dynamics/solid_dynamics.h"
 
 #include <deque>
 #include <memory>

@@ -2,8 +2,8 @@
 #include "levers/lever_in_hard_contact.h"
 
 #include "fe/mesh/mesh.h"
-#include "fe/solid/static_lever.h"
 #include "fe/statics/contact_penalties.h"
+#include "fe/statics/static_lever.h"
 #include "scene/scene.h"
 
 namespace sprag

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fe/body/dimension.h"
-#include "model/model.h"
+#include "model/step/model.h"
 
 #include <memory>
 

@@ -4,8 +4,8 @@
 #include "base/errors.h"
 #include "fe/leaf/leaf_spring.h"
 #include "fe/mesh/solid_file.h"
+#include "input/check.h"
 #include "scene/analysis_use.h"
-#include "scene/check.h"
 #include "scene/scene.h"
 
 namespace sprag

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/version.h"
+#include "input/read.h"
 #include "program/outcome.h"
-#include "scene/read.h"
 
 #include <CLI/CLI.hpp>
 

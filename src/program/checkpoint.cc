@@ -4,10 +4,10 @@
 #include "base/errors.h"
 #include "base/fingerprint.h"
 #include "base/system/interrupt.h"
+#include "input/read.h"
+#include "input/scene_key.h"
 #include "program/run_files.h"
 #include "results/earlier_result.h"
-#include "scene/read.h"
-#include "scene/scene_key.h"
 
 #include <cerrno>
 #include <cstdlib>

@@ -3,9 +3,9 @@
 
 #include "base/errors.h"
 #include "base/escaped.h"
+#include "input/read.h"
 #include "program/run_options.h"
 #include "results/earlier_result.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 
 #include <iostream>

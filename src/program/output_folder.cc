@@ -3,11 +3,11 @@
 
 #include "base/errors.h"
 #include "base/system/open_file.h"
+#include "input/read.h"
 #include "program/run_files.h"
 #include "program/run_log.h"
 #include "results/earlier_fields.h"
 #include "results/earlier_result.h"
-#include "scene/read.h"
 
 #include <algorithm>
 #include <chrono>

@@ -5,12 +5,12 @@
 #include "base/system/interrupt.h"
 #include "base/system/peak_memory.h"
 #include "base/version.h"
+#include "input/read.h"
 #include "program/in_memory.h"
 #include "report/console_summary.h"
 #include "report/report.h"
 #include "report/summary_table.h"
 #include "results/entries.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 
 #include <petscversion.h>

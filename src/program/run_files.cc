@@ -3,9 +3,9 @@
 
 #include "base/fingerprint.h"
 #include "base/version.h"
+#include "input/scene_key.h"
 #include "program/checkpoint.h"
 #include "scene/scene.h"
-#include "scene/scene_key.h"
 
 #include <fstream>
 #include <unistd.h>

@@ -3,12 +3,12 @@
 
 #include "base/append.h"
 #include "base/text.h"
+#include "input/sections.h"
 #include "laws/friction.h"
 #include "results/columns.h"
 #include "scene/closed_form.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
-#include "scene/sections.h"
 
 #include <boost/algorithm/string/join.hpp>
 

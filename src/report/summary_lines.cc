@@ -2,8 +2,8 @@
 #include "report/summary_lines.h"
 
 #include "base/text.h"
+#include "input/sections.h"
 #include "scene/scene.h"
-#include "scene/sections.h"
 
 #include <ostream>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "report/summary_table.h"
 
+#include "input/sections.h"
 #include "results/page_tables.h"
-#include "scene/sections.h"
 
 #include <cstdlib>
 

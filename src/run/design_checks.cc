@@ -5,6 +5,7 @@
 #include "analytic/isolation.h"
 #include "base/append.h"
 #include "base/errors.h"
+#include "input/read.h"
 #include "levers/prepared_scene.h"
 #include "program/memory.h"
 #include "report/report.h"
@@ -12,7 +13,6 @@
 #include "scene/closed_form.h"
 #include "scene/contact_width.h"
 #include "scene/held_slide.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 
 #include <algorithm>

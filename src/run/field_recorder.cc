@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "run/field_recorder.h"
 
-#include "model/state_archive.h"
+#include "model/step/state_archive.h"
 #include "results/row_archive.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"

@@ -5,7 +5,7 @@
 #include "estimate/stress_sample.h"
 #include "fe/fields/field_frames.h"
 #include "fe/fields/stress_peaks.h"
-#include "model/interface_forces.h"
+#include "model/interface/interface_forces.h"
 
 #include <functional>
 #include <map>

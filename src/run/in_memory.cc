@@ -2,8 +2,8 @@
 #include "run/in_memory.h"
 
 #include "fe/mesh/mesh.h"
+#include "input/scene_key.h"
 #include "scene/scene.h"
-#include "scene/scene_key.h"
 
 #include <ctime>
 

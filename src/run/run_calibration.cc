@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/calibration/calibration.h"
 #include "base/append.h"
+#include "input/read.h"
 #include "levers/prepared_scene.h"
 #include "program/result_writer.h"
 #include "run/analyses.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 
 #include <cmath>

@@ -5,11 +5,11 @@
 #include "base/system/interrupt.h"
 #include "base/text.h"
 #include "base/unknown.h"
+#include "input/read.h"
 #include "program/result_writer.h"
 #include "results/result_file.h"
 #include "run/analyses.h"
 #include "run/design_checks.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 
 #include <algorithm>

@@ -5,13 +5,13 @@
 #include "base/system/interrupt.h"
 #include "base/text.h"
 #include "base/unknown.h"
+#include "input/identification_text.h"
+#include "input/read.h"
 #include "program/result_writer.h"
 #include "report/summary_lines.h"
 #include "results/result_file.h"
 #include "run/analyses.h"
 #include "scene/closed_form.h"
-#include "scene/identification_text.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 
 #include <boost/algorithm/string/join.hpp>

@@ -2,12 +2,12 @@
 #include "analysis/map/map_farm.h"
 #include "base/append.h"
 #include "base/progress.h"
+#include "input/scene_key.h"
 #include "program/result_writer.h"
 #include "program/run_files.h"
 #include "report/summary_lines.h"
 #include "run/analyses.h"
 #include "scene/scene.h"
-#include "scene/scene_key.h"
 
 #include <deal.II/base/mpi.h>
 

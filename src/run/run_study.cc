@@ -6,6 +6,8 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "base/unknown.h"
+#include "input/scene_key.h"
+#include "input/sections.h"
 #include "program/result_writer.h"
 #include "program/run_files.h"
 #include "report/percent.h"
@@ -15,8 +17,6 @@
 #include "run/analyses.h"
 #include "run/study_runs.h"
 #include "scene/scene.h"
-#include "scene/scene_key.h"
-#include "scene/sections.h"
 
 #include <boost/algorithm/string/join.hpp>
 #include <deal.II/base/mpi.h>

@@ -5,9 +5,10 @@
 #include "base/text.h"
 #include "estimate/vibration_accuracy.h"
 #include "fe/fields/mode_frames.h"
+#include "input/read.h"
 #include "laws/friction.h"
 #include "levers/prepared_scene.h"
-#include "model/growth.h"
+#include "model/structure/growth.h"
 #include "program/result_writer.h"
 #include "report/warnings.h"
 #include "run/analyses.h"
@@ -17,7 +18,6 @@
 #include "scene/contact_reference.h"
 #include "scene/held_slide.h"
 #include "scene/mirrored_pair.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 
 #include <algorithm>

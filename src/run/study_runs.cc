@@ -7,12 +7,12 @@
 #include "base/system/peak_memory.h"
 #include "estimate/choice.h"
 #include "estimate/expected_cost.h"
+#include "input/scene_key.h"
 #include "program/memory.h"
 #include "report/warnings.h"
 #include "run/analyses.h"
 #include "scene/analysis_use.h"
 #include "scene/scene.h"
-#include "scene/scene_key.h"
 
 #include <algorithm>
 #include <ctime>

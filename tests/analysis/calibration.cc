@@ -2,8 +2,8 @@
 #include "analysis/calibration/calibration.h"
 
 #include "base/errors.h"
+#include "input/read.h"
 #include "levers/prepared_scene.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 #include "support/params_folder.h"
 

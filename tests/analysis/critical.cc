@@ -3,8 +3,8 @@
 
 #include "analysis/stability/roles.h"
 #include "analytic/jamming.h"
+#include "input/read.h"
 #include "scene/closed_form.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 #include "scenes.h"
 #include "support/params_folder.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/design/design_search.h"
 #include "base/errors.h"
+#include "input/read.h"
 #include "scene/closed_form.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 #include "support/temporary_folder.h"
 

@@ -4,14 +4,14 @@
 #include "base/append.h"
 #include "base/errors.h"
 #include "base/text.h"
+#include "input/read.h"
+#include "input/scene_key.h"
+#include "input/sections.h"
 #include "levers/dynamics.h"
 #include "levers/prepared_scene.h"
 #include "mpi_environment.h"
 #include "scene/held_slide.h"
-#include "scene/read.h"
 #include "scene/scene.h"
-#include "scene/scene_key.h"
-#include "scene/sections.h"
 #include "support/temporary_folder.h"
 
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/transient/growing_modes.h"
 
-#include "model/reduced_lever.h"
+#include "model/lever/reduced_lever.h"
 #include "scene/scene.h"
 #include "scenes.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/errors.h"
-#include "model/model.h"
+#include "model/step/model.h"
 #include "support/small_model.h"
 
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "analytic/step_clock.h"
 #include "base/errors.h"
-#include "model/force_history.h"
+#include "model/step/force_history.h"
 #include "scene/scene.h"
 #include "verification/run_transient.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "bed_of_springs.h"
 #include "cylinder_kinematics.h"
-#include "fe/solid/surface_contact.h"
+#include "fe/contact/surface_contact.h"
 #include "mpi_environment.h"
 
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "fe/contact/face_contact_point.h"
-#include "fe/solid/surface_contact.h"
-#include "model/circle.h"
+#include "fe/contact/surface_contact.h"
+#include "model/contact/circle.h"
 #include "scenes.h"
 #include <cmath>
 #include <deal.II/dofs/dof_handler.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/solid/cylinder_point.h"
+#include "fe/contact/cylinder_point.h"
 
 #include <deal.II/base/tensor.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "fe/solid/element_travel.h"
+#include "fe/contact/element_travel.h"
 
 #include "bed_of_springs.h"
 #include "mpi_environment.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fe/body/friction_face.h"
-#include "model/circle.h"
+#include "model/contact/circle.h"
 
 #include <cmath>
 #include <functional>

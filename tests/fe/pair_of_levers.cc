@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "fe/solid/static_lever.h"
+#include "fe/statics/static_lever.h"
 
 #include "fe/meshed.h"
 #include "mpi_environment.h"

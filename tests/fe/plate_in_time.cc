@@ -2,7 +2,7 @@
 #include "fe/algebra/compressed_rows.h"
 #include "fe/dynamics/condensed_basis.h"
 #include "fe/dynamics/sparse_structure.h"
-#include "model/modal_structure.h"
+#include "model/structure/modal_structure.h"
 #include "mpi_environment.h"
 #include "plate.h"
 #include "scene/scene.h"

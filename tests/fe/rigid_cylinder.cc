@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "cylinder_kinematics.h"
 
-#include "model/circle.h"
+#include "model/contact/circle.h"
 #include "scenes.h"
 
 #include <cmath>

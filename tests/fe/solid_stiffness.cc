@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "fe/solid/solid_stiffness.h"
+#include "fe/body/solid_stiffness.h"
 
 #include "mpi_environment.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "model/beam.h"
+#include "model/structure/beam.h"
 
 #include "scene/contact_reference.h"
 #include "scene/scene.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "model/contact_step.h"
+#include "model/contact/contact_step.h"
 
-#include "model/circle.h"
+#include "model/contact/circle.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "model/dynamic_lever.h"
+#include "model/lever/dynamic_lever.h"
 
 #include <gtest/gtest.h>
 

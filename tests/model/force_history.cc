@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "model/force_history.h"
+#include "model/step/force_history.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "model/frame_coupling.h"
+#include "model/structure/frame_coupling.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "model/growth.h"
+#include "model/structure/growth.h"
 
-#include "model/beam.h"
-#include "model/point_contact.h"
-#include "model/reduced_lever.h"
+#include "model/contact/point_contact.h"
+#include "model/lever/reduced_lever.h"
+#include "model/structure/beam.h"
 #include "scene/closed_form.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"

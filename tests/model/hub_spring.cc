@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "model/hub_spring.h"
+#include "model/structure/hub_spring.h"
 
-#include "model/beam.h"
+#include "model/structure/beam.h"
 #include "scenes.h"
 
 #include "scene/scene.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "model/interface_forces.h"
+#include "model/interface/interface_forces.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "model/modified_newton.h"
+#include "model/step/modified_newton.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "model/beam.h"
-#include "model/frame_coupling.h"
-#include "model/point_contact.h"
+#include "model/contact/point_contact.h"
+#include "model/structure/beam.h"
+#include "model/structure/frame_coupling.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
 

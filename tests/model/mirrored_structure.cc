@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "model/mirrored_structure.h"
+#include "model/structure/mirrored_structure.h"
 
 #include "support/three_modes.h"
 

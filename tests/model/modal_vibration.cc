@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "model/modal_vibration.h"
+#include "model/structure/modal_vibration.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "model/point_contact.h"
+#include "model/contact/point_contact.h"
 
 #include "scene/closed_form.h"
 #include "scene/scene.h"

@@ -176,7 +176,7 @@ class JammedSlide(ProgramTest):
 class Damping(RunTest):
     """A beam of 15 mm moving out at x = 40 mm, which damping of the contact makes grow."""
 
-    ENTRIES = ("growth_rate", "frequency", "contact_damping_limit_low", "contact_damping_limit_high", "contact_loss_factor_limit_high")
+    ENTRIES = ("growth_rate", "frequency", "P", "contact_damping_limit_low", "contact_damping_limit_high", "contact_loss_factor_limit_high")
 
     def summary(self, damping):
         changes = ("Analysis/Model=beam", "Lever/Depth=15", "Stability/Direction=forward", "Stability/Position=40", "Stability/Critical=none")
@@ -192,9 +192,10 @@ class Damping(RunTest):
         self.assertLess(found["growth_rate"], 0)
         limit = found["contact_damping_limit_high"]
         self.assertTrue(0.02 < limit < 0.1, limit)
-        # 2 pi f 2 zeta/(s sqrt(k/J)) at s and the largest P of the closed form, k = dP/d delta of P = 13068.5 N/mm^1.5 delta^1.5.
-        J, s, stiffness = 6.45, 120.05, 1.5 * 13068.5 ** (2 / 3) * 25.71 ** (1 / 3)
-        loss_factor = 4 * math.pi * found["frequency"] * limit / (s * math.sqrt(stiffness / J))
+        # 2 pi f c/k of P = 13068.5 N/mm^1.5 delta^1.5, c = 2 zeta sqrt(k J)/s at the largest P of the closed form and s there.
+        stiffness = lambda P: 1.5 * 13068.5 ** (2 / 3) * P ** (1 / 3)
+        damping = 2 * limit * math.sqrt(stiffness(25.71) * 6.45) / 120.05
+        loss_factor = 2 * math.pi * found["frequency"] * damping / stiffness(found["P"])
         self.assertAlmostEqual(found["contact_loss_factor_limit_high"], loss_factor, delta=0.01 * loss_factor)
         self.assertLess(self.summary(0.99 * limit)["growth_rate"], 0)
         beyond = self.summary(1.01 * limit)
@@ -289,6 +290,10 @@ class Stroke(RunTest):
         table = self.numbers("table")
         corner = [(z == 0.02) == (f == 1) for z, f in zip(table["contact_damping"], table["friction_factor"])]
         self.assertAlmostEqual(found, table["growth_rate"][corner].max(), delta=1e-6 * abs(found))
+        # Levers of 8, 20 and 24 mm are stable there, those between 8 and 14 mm flutter.
+        printed = self.run_with(*self.STROKE, "Lever/Depth=20", "Stability/Position=40", "Stability/Direction=forward", "Stability/Ranges=Lever/Depth 8 24")
+        self.assertRegex(printed, r"verdict +flutter")
+        self.assertRegex(printed, r"Lever/Depth=10\b")
 
 
 class StiffLever(RunTest):

@@ -3,8 +3,8 @@
 
 #include "base/phase_timer.h"
 #include "estimate/expected_cost.h"
+#include "input/read.h"
 #include "mpi_environment.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 #include "support/params_folder.h"
 

@@ -2,12 +2,12 @@
 #include "analysis/stability/stability.h"
 #include "analytic/isolation.h"
 #include "base/errors.h"
+#include "input/read.h"
 #include "levers/prepared_scene.h"
 #include "mpi_environment.h"
 #include "report/report.h"
 #include "run/analyses.h"
 #include "run/design_checks.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 #include "support/temporary_folder.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/errors.h"
+#include "input/read.h"
 #include "levers/prepared_scene.h"
 #include "mpi_environment.h"
 #include "results/hdf5.h"
 #include "run/analyses.h"
 #include "scene/closed_form.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 #include "support/temporary_folder.h"
 

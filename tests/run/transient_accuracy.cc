@@ -4,9 +4,9 @@
 #include "analysis/stability/stability.h"
 #include "analysis/transient/transient_settings.h"
 #include "analytic/oscillation.h"
+#include "input/read.h"
 #include "mpi_environment.h"
 #include "results/row_statistics.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 #include "support/params_folder.h"
 

@@ -307,7 +307,7 @@ TEST(TargetWarnings, WhereATargetIsMissed)
 {
   AccuracySettings asked;
   asked.target                               = 0.01;
-  asked.quantities                           = { "P", "overshoot", "decay" };
+  asked.quantities                           = { "P", "overshoot" };
   const std::vector<ErrorEstimate> estimates = { { "P", "its peak", { { "mesh", 0.009, "" } }, {} },
                                                  { "frequency", "it", { { "mesh", 0.1, "" } }, {} },
                                                  { "decay", "", {}, "No estimate." } };
@@ -318,6 +318,10 @@ TEST(TargetWarnings, WhereATargetIsMissed)
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0].name, "target_missed");
   EXPECT_EQ(warnings[0].remedy, "Finer.");
+  asked.quantities   = { "P", "decay" };
+  const auto unknown = target_warnings(asked, missed);
+  ASSERT_EQ(unknown.size(), 1u);
+  EXPECT_EQ(unknown[0].remedy, "None is known: No estimate.");
   asked.target = 0.;
   EXPECT_TRUE(target_warnings(asked, missed).empty());
 }

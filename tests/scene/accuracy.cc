@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/accuracy.h"
+#include "input/read.h"
 #include "scene/contact_width.h"
-#include "scene/read.h"
 
 #include "base/errors.h"
 #include "scene/scene.h"

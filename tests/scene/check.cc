@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "scene/check.h"
+#include "input/check.h"
 
 #include "base/append.h"
 #include "scene/messages.h"

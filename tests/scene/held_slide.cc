@@ -2,7 +2,7 @@
 #include "scene/held_slide.h"
 #include "laws/friction.h"
 
-#include "scene/read.h"
+#include "input/read.h"
 #include "scene/scene.h"
 #include "scenes.h"
 

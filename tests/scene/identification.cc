@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/text.h"
+#include "input/identification_text.h"
 #include "messages.h"
-#include "scene/identification_text.h"
 #include "scene/scene.h"
 #include "support/temporary_folder.h"
 

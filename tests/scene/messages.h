@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/errors.h"
-#include "scene/read.h"
+#include "input/read.h"
 #include "scene/scene.h"
 #include "support/written.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "scene/own_units.h"
+#include "input/own_units.h"
 
+#include "input/read.h"
 #include "scene/held_slide.h"
 #include "scene/messages.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "scene/read.h"
+#include "input/read.h"
 #include "laws/friction.h"
 
 #include "scene/messages.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "scene/variation.h"
+#include "input/variation.h"
 
 #include "scene/messages.h"
 #include "scene/scene.h"

@@ -11,11 +11,12 @@ ROOT = pathlib.Path(os.environ.get("SPRAG_SOURCE", pathlib.Path(__file__).parent
 
 # A folder of src/ includes itself and what stands before it; the programs include any. An analysis knows no mesh.
 PROGRAMS = ["main.cc", "main_models.cc"]
-ORDER = ["base", "laws", "scene", "results", "analytic", "report", "program", "model", "fe", "levers", "analysis", "estimate", "run"]
+ORDER = ["base", "laws", "scene", "input", "results", "analytic", "report", "program", "model", "fe", "levers", "analysis", "estimate", "run"]
 UNSEEN = {"analysis": ["fe"]}
 # So do the rooms of a folder.
 ROOMS = {
-    "fe": ["algebra", "body", "mesh", "contact", "statics", "dynamics", "solid", "leaf", "fields"],
+    "model": ["interface", "step", "structure", "contact", "lever"],
+    "fe": ["algebra", "body", "mesh", "contact", "statics", "dynamics", "leaf", "fields"],
     "analysis": ["statics", "accuracy", "transient", "isolation", "stability", "limit_cycle", "task_farm", "map", "study", "calibration", "identification", "design"],
 }
 CODE = {".cc", ".h", ".py", ".sh", ".geo", ".cmake", ".txt"}

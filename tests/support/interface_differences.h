@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "model/interface_forces.h"
-#include "model/linearisation.h"
+#include "model/interface/interface_forces.h"
+#include "model/step/linearisation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "model/model.h"
+#include "model/step/model.h"
 
 namespace sprag
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "model/modal_structure.h"
+#include "model/structure/modal_structure.h"
 
 namespace sprag
 {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/calibration/calibration.h"
+#include "input/read.h"
 #include "levers/dynamics.h"
 #include "levers/prepared_scene.h"
 #include "scene/held_slide.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 #include "support/params_folder.h"
 #include "verification/run_transient.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/solid/solid_body.h"
-#include "model/model.h"
+#include "fe/statics/solid_body.h"
+#include "model/step/model.h"
 
 #include <array>
 

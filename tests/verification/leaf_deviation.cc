@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/calibration/calibration.h"
+#include "input/read.h"
 #include "scene/closed_form.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 #include "support/params_folder.h"
 #include "verification/run_scene.h"

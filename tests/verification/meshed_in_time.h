@@ -5,9 +5,9 @@
 #include "fe/dynamics/dynamic_face_lever.h"
 #include "fe/mesh/mesh.h"
 #include "fe/statics/lever_properties.h"
+#include "input/scene_key.h"
 #include "mpi_environment.h"
 #include "scene/scene.h"
-#include "scene/scene_key.h"
 #include "verification/run_transient.h"
 
 namespace sprag

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "model/dynamic_lever.h"
-#include "model/modal_structure.h"
+#include "model/lever/dynamic_lever.h"
+#include "model/structure/modal_structure.h"
 
 namespace sprag
 {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/statics/quasi_static.h"
-#include "fe/solid/static_lever.h"
+#include "fe/statics/static_lever.h"
 #include "scene/scene.h"
 #include "verification/block.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/statics/quasi_static.h"
-#include "model/contact_step.h"
+#include "model/contact/contact_step.h"
 #include "scene/scene.h"
 #include "support/small_model.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/energy_ledger.h"
-#include "model/contact_step.h"
+#include "model/contact/contact_step.h"
 #include "verification/point_at_interface.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include "analysis/statics/quasi_static.h"
 #include "fe/mesh/mesh.h"
-#include "fe/solid/static_lever.h"
+#include "fe/statics/static_lever.h"
 #include "mpi_environment.h"
 #include "report/report.h"
 #include "scene/scene.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/transient/transient.h"
-#include "model/reduced_lever.h"
+#include "model/lever/reduced_lever.h"
 #include "scene/contact_reference.h"
 #include "scene/scene.h"
 #include "scenes.h"

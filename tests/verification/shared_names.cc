@@ -85,6 +85,7 @@ namespace
     { "algorithmic_work", { 0., 0.02 } },
     { "damping_work", { 0., 0.05 } },
     { "creep", { 0. } },
+    { "swing_P", { 0., 0.1 } },
   };
 
   // What a run costs, what a stroke without a reversal does not have, and a determinant of which the sign alone counts.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/solid/solid_stiffness.h"
-#include "fe/solid/surface_contact.h"
+#include "fe/body/solid_stiffness.h"
+#include "fe/contact/surface_contact.h"
 #include "fe/statics/static_interface.h"
-#include "model/newton.h"
+#include "model/interface/newton.h"
 #include "verification/block.h"
 
 #include <deal.II/numerics/vector_tools.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/body/cell_stiffness.h"
-#include "fe/solid/solid_body.h"
+#include "fe/statics/solid_body.h"
 #include "scene/scene.h"
 #include "verification/solid_run.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/fields/body_fields.h"
 #include "fe/fields/device_mesh.h"
-#include "fe/solid/static_lever.h"
+#include "fe/statics/static_lever.h"
 #include "run_scene.h"
 #include "scene/scene.h"
 

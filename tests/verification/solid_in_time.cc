@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "fe/solid/solid_dynamics.h"
+#include "fe/dynamics/solid_dynamics.h"
 
 #include "fe/fields/body_fields.h"
 #include "run_scene.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/solid/static_lever.h"
+#include "fe/statics/static_lever.h"
 #include "scene/scene.h"
 #include "verification/run_scene.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "model/circle.h"
+#include "model/contact/circle.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
 #include "support/turning_axis.h"

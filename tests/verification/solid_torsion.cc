@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/fields/body_fields.h"
 #include "fe/mesh/mesh.h"
-#include "fe/solid/solid_body.h"
+#include "fe/statics/solid_body.h"
 #include "mpi_environment.h"
 #include "scene/scene.h"
 #include "scenes.h"

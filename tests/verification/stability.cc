@@ -2,8 +2,8 @@
 #include "analysis/stability/stability.h"
 
 #include "analysis/statics/contact_law.h"
-#include "model/modal_vibration.h"
-#include "model/reduced_lever.h"
+#include "model/lever/reduced_lever.h"
+#include "model/structure/modal_vibration.h"
 #include "mpi_environment.h"
 #include "scene/contact_reference.h"
 #include "scene/held_slide.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "scene/read.h"
+#include "input/read.h"
 #include "scene/scene.h"
 #include "support/params_folder.h"
 #include "verification/held_slides.h"

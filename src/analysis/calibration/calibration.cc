@@ -3,11 +3,11 @@
 
 #include "base/errors.h"
 #include "base/text.h"
+#include "input/read.h"
 #include "levers/dynamics.h"
 #include "levers/prepared_scene.h"
 #include "scene/closed_form.h"
 #include "scene/held_slide.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 
 #include <boost/math/tools/toms748_solve.hpp>

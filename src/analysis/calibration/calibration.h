@@ -3,7 +3,7 @@
 
 #include "analysis/statics/contact_law.h"
 #include "levers/meshed_constants.h"
-#include "model/dynamic_model.h"
+#include "model/step/dynamic_model.h"
 #include "scene/scene.h"
 
 #include <array>

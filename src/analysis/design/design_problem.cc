@@ -6,10 +6,10 @@
 #include "base/errors.h"
 #include "base/system/interrupt.h"
 #include "base/text.h"
+#include "input/read.h"
 #include "scene/closed_form.h"
 #include "scene/contact_width.h"
 #include "scene/damper.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "base/parameters.h"
+#include "input/sections.h"
 #include "scene/design.h"
 #include "scene/design_quantities.h"
-#include "scene/sections.h"
 
 #include <array>
 #include <functional>

@@ -3,7 +3,7 @@
 
 #include "analysis/identification/stroke_fit.h"
 #include "base/errors.h"
-#include "scene/identification_text.h"
+#include "input/identification_text.h"
 #include "scene/scene.h"
 
 #include <boost/math/distributions/fisher_f.hpp>

@@ -7,10 +7,10 @@
 #include "base/errors.h"
 #include "base/least_squares.h"
 #include "base/text.h"
+#include "input/identification_text.h"
+#include "input/read.h"
+#include "input/sections.h"
 #include "scene/closed_form.h"
-#include "scene/identification_text.h"
-#include "scene/read.h"
-#include "scene/sections.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "analytic/isolation.h"
 #include "base/errors.h"
 #include "base/text.h"
-#include "model/state_archive.h"
+#include "model/step/state_archive.h"
 #include "scene/scene.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "analysis/transient/transient.h"
 #include "analytic/isolated_table.h"
 #include "base/archive.h"
-#include "model/force_history.h"
+#include "model/step/force_history.h"
 #include "scene/drive.h"
 
 #include <array>

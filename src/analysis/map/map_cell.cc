@@ -3,10 +3,10 @@
 
 #include "analysis/stability/sweep.h"
 #include "base/errors.h"
+#include "input/read.h"
 #include "levers/prepared_scene.h"
 #include "scene/closed_form.h"
 #include "scene/held_slide.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 
 #include <algorithm>

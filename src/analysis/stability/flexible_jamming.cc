@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/jamming.h"
 #include "base/errors.h"
-#include "model/reduced_lever.h"
+#include "model/lever/reduced_lever.h"
 #include "scene/contact_reference.h"
 #include "scene/device.h"
 

@@ -2,10 +2,10 @@
 #include "analysis/stability/sweep.h"
 
 #include "base/errors.h"
+#include "input/read.h"
 #include "levers/prepared_scene.h"
 #include "scene/contact_reference.h"
 #include "scene/held_slide.h"
-#include "scene/read.h"
 #include "scene/scene.h"
 
 #include <cmath>
@@ -19,6 +19,12 @@ namespace sprag
     {
       const bool is_cheap = scene.analysis.model != ModelType::finite_element && scene.analysis.dimension == 2;
       return is_cheap ? 33 : 9;
+    }
+
+    /// Values that a verdict looks at inside each of Stability/Ranges.
+    unsigned int values_inside(const Scene &scene)
+    {
+      return is_reduced(scene.analysis.model) ? 7 : 1;
     }
 
     /// Overrides of the scene's own constants, none, of all combinations of the ends of Stability/Ranges and, with `inside`, of
@@ -113,8 +119,7 @@ namespace sprag
     constexpr unsigned int island_steps = 4;
     constexpr double tolerance          = 2e-3;
     SweptSlides result;
-    const unsigned int inside = !finds_edges ? 0 : is_reduced(scene.analysis.model) ? 7 : 1;
-    for (const auto &constants : corners(scene, inside))
+    for (const auto &constants : corners(scene, finds_edges ? values_inside(scene) : 0))
     {
       Scene here          = constants.empty() ? scene : prepared(variant(scene, constants));
       const auto dynamics = maker.make(held_scene(here));
@@ -145,8 +150,8 @@ namespace sprag
       for (std::size_t corner = 0; corner < std::size_t(1) << ranges.size(); ++corner)
         for (std::size_t way = 0; way < n_ways; ++way)
         {
-          const auto &here = worst(corner, way), &antisymmetric = worst(corner ^ std::size_t(1) << i, way);
-          all_alike = all_alike && here && antisymmetric && is_alike(*here, *antisymmetric);
+          const auto &here = worst(corner, way), &other_end = worst(corner ^ std::size_t(1) << i, way);
+          all_alike = all_alike && here && other_end && is_alike(*here, *other_end);
         }
       if (all_alike)
         result.push_back(ranges[i].name);
@@ -154,9 +159,10 @@ namespace sprag
     return result;
   }
 
-  unsigned int least_slides(const Scene &scene)
+  unsigned int least_slides(const Scene &scene, const bool finds_edges)
   {
-    const auto n = static_cast<unsigned int>(corners(scene, 0).size() * held_directions(scene).size());
+    const auto sets = corners(scene, finds_edges ? values_inside(scene) : 0).size();
+    const auto n    = static_cast<unsigned int>(sets * held_directions(scene).size());
     return n * (looks_over_stroke(scene) ? points_along(scene) : 1);
   }
 

@@ -35,7 +35,7 @@ namespace sprag
   std::vector<std::string> ranges_without_effect(const Scene &scene, const SweptSlides &swept);
 
   /// Returns the slides that a sweep checks without those where a growth rate peaks.
-  unsigned int least_slides(const Scene &scene);
+  unsigned int least_slides(const Scene &scene, bool finds_edges = false);
 
   /// Returns whether values inside the range need meshes of their own.
   bool changes_mesh(const Scene &scene, const ParameterRange &range);

@@ -4,7 +4,7 @@
 #include "analysis/statics/quasi_static.h"
 #include "base/least_squares.h"
 #include "levers/lever_in_hard_contact.h"
-#include "model/circle.h"
+#include "model/contact/circle.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"
 #include "scene/scene.h"

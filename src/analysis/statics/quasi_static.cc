@@ -3,7 +3,7 @@
 
 #include "base/errors.h"
 #include "base/text.h"
-#include "model/state_archive.h"
+#include "model/step/state_archive.h"
 #include "results/row_archive.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/progress_keeper.h"
-#include "model/model.h"
-#include "model/newton.h"
+#include "model/interface/newton.h"
+#include "model/step/model.h"
 #include "scene/contact_settings.h"
 #include "scene/drive.h"
 

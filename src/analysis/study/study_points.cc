@@ -2,7 +2,7 @@
 #include "analysis/study/study_points.h"
 
 #include "base/append.h"
-#include "scene/read.h"
+#include "input/read.h"
 #include "scene/scene.h"
 
 #include <algorithm>

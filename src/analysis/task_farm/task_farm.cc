@@ -4,8 +4,8 @@
 #include "base/errors.h"
 #include "base/messages.h"
 #include "base/system/interrupt.h"
+#include "input/scene_key.h"
 #include "scene/scene.h"
-#include "scene/scene_key.h"
 
 #include <deal.II/base/mpi.h>
 

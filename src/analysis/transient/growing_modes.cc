@@ -4,7 +4,7 @@
 #include "base/eigenvalues.h"
 #include "base/errors.h"
 #include "base/text.h"
-#include "model/generalised_alpha.h"
+#include "model/step/generalised_alpha.h"
 
 #include <algorithm>
 #include <cmath>

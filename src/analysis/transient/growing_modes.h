@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "model/dynamic_model.h"
+#include "model/step/dynamic_model.h"
 #include "results/warning.h"
 #include "scene/discretisation_settings.h"
 #include "scene/drive.h"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "analytic/energy_ledger.h"
-#include "model/dynamic_model.h"
-#include "model/force_history.h"
+#include "model/step/dynamic_model.h"
+#include "model/step/force_history.h"
 
 #include <functional>
 #include <optional>

@@ -4,8 +4,8 @@
 #include "analytic/step_clock.h"
 #include "base/errors.h"
 #include "base/text.h"
-#include "model/force_history.h"
-#include "model/state_archive.h"
+#include "model/step/force_history.h"
+#include "model/step/state_archive.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "analytic/energy_ledger.h"
 #include "base/progress_keeper.h"
-#include "model/dynamic_model.h"
+#include "model/step/dynamic_model.h"
 #include "scene/discretisation_settings.h"
 #include "scene/drive.h"
 

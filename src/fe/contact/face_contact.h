@@ -6,7 +6,7 @@
 #include "fe/contact/elastic_counterface.h"
 #include "fe/contact/face_observation.h"
 #include "fe/contact/rigid_counterface.h"
-#include "model/interface_step.h"
+#include "model/step/interface_step.h"
 
 #include <optional>
 #include <variant>

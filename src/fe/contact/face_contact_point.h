@@ -2,9 +2,9 @@
 #pragma once
 
 #include "fe/contact/face_elements.h"
-#include "model/contact_step.h"
-#include "model/interface_coordinates.h"
-#include "model/linearisation.h"
+#include "model/contact/contact_step.h"
+#include "model/interface/interface_coordinates.h"
+#include "model/step/linearisation.h"
 
 #include <algorithm>
 #include <functional>

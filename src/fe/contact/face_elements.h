@@ -3,7 +3,7 @@
 
 #include "base/archive.h"
 #include "fe/body/friction_face.h"
-#include "model/circle.h"
+#include "model/contact/circle.h"
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/lac/vector.h>

@@ -4,7 +4,7 @@
 #include "fe/dynamics/lever_constants.h"
 #include "fe/dynamics/lever_modes.h"
 #include "fe/statics/sensor_forces.h"
-#include "model/modal_structure.h"
+#include "model/structure/modal_structure.h"
 
 #include <string>
 

@@ -3,7 +3,7 @@
 
 #include "fe/dynamics/lever_constants.h"
 #include "fe/statics/contact_penalties.h"
-#include "model/assemble_lever.h"
+#include "model/lever/assemble_lever.h"
 #include "scene/device.h"
 #include "scene/mirrored_pair.h"
 

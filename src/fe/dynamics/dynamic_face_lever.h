@@ -4,8 +4,8 @@
 #include "fe/contact/face_contact.h"
 #include "fe/dynamics/condensed_basis.h"
 #include "fe/dynamics/sparse_structure.h"
-#include "model/dynamic_model.h"
-#include "model/mirrored_structure.h"
+#include "model/step/dynamic_model.h"
+#include "model/structure/mirrored_structure.h"
 
 #include <functional>
 #include <memory>

@@ -4,7 +4,7 @@
 #include "base/archive.h"
 #include "fe/algebra/mumps.h"
 #include "fe/dynamics/lever_interface.h"
-#include "model/interface_forces.h"
+#include "model/interface/interface_forces.h"
 
 #include <map>
 

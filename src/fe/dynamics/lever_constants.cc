@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/lever_constants.h"
 
-#include "model/lever_frame.h"
+#include "model/structure/lever_frame.h"
 #include "scene/device.h"
 
 namespace sprag

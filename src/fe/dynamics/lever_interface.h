@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fe/dynamics/inertial_matrices.h"
-#include "model/interface_layout.h"
+#include "model/interface/interface_layout.h"
 
 #include <deal.II/lac/full_matrix.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fe/body/body_mass.h"
-#include "model/vibration.h"
+#include "model/step/vibration.h"
 
 namespace sprag
 {

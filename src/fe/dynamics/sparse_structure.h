@@ -4,8 +4,8 @@
 #include "fe/algebra/compressed_rows.h"
 #include "fe/dynamics/effective_system.h"
 #include "fe/dynamics/lever_modes.h"
-#include "model/dynamic_model.h"
-#include "model/linearisation.h"
+#include "model/step/dynamic_model.h"
+#include "model/step/linearisation.h"
 
 #include <memory>
 

@@ -4,8 +4,8 @@
 #include "fe/algebra/compressed_rows.h"
 #include "fe/dynamics/effective_system.h"
 #include "fe/dynamics/lever_interface.h"
-#include "model/linearisation.h"
-#include "model/vibration.h"
+#include "model/step/linearisation.h"
+#include "model/step/vibration.h"
 
 #include <functional>
 

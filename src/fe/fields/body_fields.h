@@ -3,7 +3,7 @@
 
 #include "fe/body/elastic_body.h"
 #include "fe/body/friction_face.h"
-#include "fe/solid/solid_body.h"
+#include "fe/statics/solid_body.h"
 
 #include <deal.II/base/symmetric_tensor.h>
 

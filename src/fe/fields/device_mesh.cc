@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/fields/device_mesh.h"
 
-#include "fe/solid/rigid_cylinder.h"
+#include "fe/contact/rigid_cylinder.h"
 #include "scene/device.h"
 #include "scene/mirrored_pair.h"
 

@@ -3,7 +3,7 @@
 
 #include "base/errors.h"
 #include "fe/algebra/matrix_rows.h"
-#include "model/state_archive.h"
+#include "model/step/state_archive.h"
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 

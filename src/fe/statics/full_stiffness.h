@@ -5,8 +5,8 @@
 #include "fe/algebra/mumps.h"
 #include "fe/body/elastic_body.h"
 #include "fe/statics/joint_springs.h"
-#include "model/interface_forces.h"
-#include "model/interface_layout.h"
+#include "model/interface/interface_forces.h"
+#include "model/interface/interface_layout.h"
 #include "results/columns.h"
 
 namespace sprag

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "fe/body/elastic_body.h"
-#include "model/interface_forces.h"
-#include "model/interface_layout.h"
+#include "model/interface/interface_forces.h"
+#include "model/interface/interface_layout.h"
 #include "results/columns.h"
 
 #include <deal.II/lac/full_matrix.h>

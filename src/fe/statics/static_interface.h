@@ -3,8 +3,8 @@
 
 #include "base/archive.h"
 #include "fe/statics/joint_springs.h"
-#include "model/interface_forces.h"
-#include "model/interface_layout.h"
+#include "model/interface/interface_forces.h"
+#include "model/interface/interface_layout.h"
 
 #include <functional>
 

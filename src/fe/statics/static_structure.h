@@ -6,8 +6,8 @@
 #include "fe/body/elastic_body.h"
 #include "fe/statics/sensor_forces.h"
 #include "fe/statics/static_interface.h"
-#include "model/interface_forces.h"
-#include "model/interface_layout.h"
+#include "model/interface/interface_forces.h"
+#include "model/interface/interface_layout.h"
 #include "results/columns.h"
 
 #include <array>

@@ -1,0 +1,600 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "fe/contact/batched_step.h"
+
+#include "laws/friction.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  struct alignas(SimdBatch) BatchedStep::Block
+  {
+    Triple<Batch> position; ///< undeformed
+    SimdBatch weight;       ///< 0 beyond the element's last point
+    Batches<Elements::max_nodes> shapes;
+    Batches<Elements::max_nodes> slopes; ///< of the shapes along xi [1/mm]
+    unsigned int first;                  ///< point
+    unsigned int n;                      ///< of points
+    double clear_until;                  ///< length of the element's travel until which no point comes to the cylinder [mm]
+
+    bool is_clear;        ///< as the element was pressed last: nothing was computed
+    BatchMask takes_part; ///< then
+  };
+
+  struct alignas(SimdBatch) BatchedStep::Begin
+  {
+    Triple<Batch> place;
+    SimdBatch gap;
+    SimdBatch right, upward, along; ///< parts of the place in the cylinder's axes
+    BatchMask known;                ///< whether the point was in contact before
+    SlipHistory<Batch, 2> history;
+    SimdBatch multiplier;                     ///< of the gap [MPa]
+    SimdBatch shift, elastic_shift, by_slope; ///< see SlipShift; with a slope of 0
+    bool is_placed;                           ///< else the rest is unknown
+    bool touches;                             ///< a point does, or was in contact before
+  };
+
+  /// Points where the step ends.
+  template <class N>
+  struct alignas(SimdBatch) BatchedStep::End
+  {
+    Triple<N> place;
+    SeenPoint<N> seen;
+    BatchMask takes_part;
+    N pressure;
+    Several<N, 2> slip; ///< in the step
+    SimdBatch shift;    ///< of the slip round the cylinder, without its elastic part [mm]
+    PointFriction<N, 2> friction;
+
+    // In the step, where forces are balanced.
+    N mean_pressure;
+    Several<N, 2> mean_traction;
+  };
+
+  namespace
+  {
+    using Nodal                    = FaceElements<3>::Nodal;
+    constexpr unsigned int n_nodes = FaceElements<3>::max_nodes;
+
+    SPRAG_PART Triple<Batch> at_points(const Batches<n_nodes> &shapes, const Triple<Batch> &position, const Nodal &displacement)
+    {
+      Triple<Batch> result = position;
+      for (unsigned int a = 0; a < n_nodes; ++a)
+      {
+        result.x += shapes[a] * displacement[3 * a], result.y += shapes[a] * displacement[3 * a + 1],
+            result.z += shapes[a] * displacement[3 * a + 2];
+      }
+      return result;
+    }
+  } // namespace
+
+  BatchedStep::BatchedStep(const FrictionFace<3> &face_, const Elements &grid_, const RigidCylinder &cylinder_)
+      : face(face_)
+      , grid(grid_)
+      , cylinder(cylinder_)
+      , blocks(grid.elements.size())
+  {
+  }
+
+  BatchedStep::~BatchedStep() = default;
+
+  void BatchedStep::make_blocks(const unsigned int element)
+  {
+    const auto &range = grid.elements[element];
+    double farthest = 0., most_shapes = 0.;
+    for (unsigned int q = range.begin; q < range.end; ++q)
+    {
+      farthest         = std::max(farthest, grid.points[q].position.norm());
+      double shape_sum = 0.;
+      for (const double shape : grid.points[q].shapes)
+        shape_sum += std::abs(shape);
+      most_shapes = std::max(most_shapes, shape_sum);
+    }
+    blocks[element].travel = ElementTravel(farthest, most_shapes);
+    for (unsigned int first = range.begin; first < range.end; first += n_lanes)
+    {
+      auto &block = blocks[element].all.emplace_back();
+      block       = Block();
+      block.first = first, block.n = std::min(n_lanes, range.end - first), block.clear_until = -1.;
+      for (unsigned int i = 0; i < n_lanes; ++i)
+      {
+        const unsigned int q = first + std::min(i, block.n - 1);
+        const auto &point    = grid.points[q];
+        const auto &slopes   = face.points[q].slopes;
+        const auto &at       = point.position;
+        block.position.x[i] = at[0], block.position.y[i] = at[1], block.position.z[i] = at[2];
+        block.weight[i] = i < block.n ? point.weight : 0.;
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          block.shapes[a][i] = point.shapes[a];
+        for (unsigned int a = 0; a < slopes.size(); ++a)
+          block.slopes[a][i] = slopes[a];
+      }
+    }
+  }
+
+  void BatchedStep::begin(History history)
+  {
+    begin_history = std::move(history);
+    for (const unsigned int element : placed)
+      blocks[element].first = dealii::numbers::invalid_unsigned_int;
+    placed.clear();
+    n_placed = 0;
+  }
+
+  bool BatchedStep::begins_with(const History &history) const
+  {
+    const auto same = [](const PointHistory<2> &a, const PointHistory<2> &b)
+    {
+      return a.point == b.point && a.step == b.step && a.traction == b.traction && a.slip_speed == b.slip_speed &&
+             a.speed == b.speed && a.normal_multiplier == b.normal_multiplier;
+    };
+    return std::equal(history.begin(), history.end(), begin_history.begin(), begin_history.end(), same);
+  }
+
+  void BatchedStep::set(const Constants &constants)
+  {
+    data             = constants;
+    data.slip.pieces = rising_pieces(data.slip.friction);
+  }
+
+  void BatchedStep::place(const unsigned int element, const Elements::Nodal &nodal, const std::vector<SlipShift> &shifts)
+  {
+    auto &group = blocks[element];
+    if (group.all.empty())
+      make_blocks(element);
+    placed.push_back(element);
+    group.first = n_placed;
+    n_placed += static_cast<unsigned int>(group.all.size());
+    if (n_placed > begins.size())
+      begins.resize(n_placed);
+    group.begin               = nodal;
+    const bool begins_as_ends = data.kind == Kind::slide || data.kind == Kind::touch;
+    if (!begins_as_ends)
+      group.travel.go_to(nodal, data.begin, cylinder.shape());
+    for (unsigned int b = 0; b < group.all.size(); ++b)
+    {
+      auto &begin     = begins[group.first + b];
+      begin           = Begin();
+      begin.is_placed = begins_as_ends;
+      if (!shifts.empty() || (!begins_as_ends && !passes_over(group, b)))
+        place_block(group.all[b], nodal, begin);
+      for (unsigned int i = 0; i < group.all[b].n && !shifts.empty(); ++i)
+      {
+        const auto &shift      = shifts[n_lanes * b + i];
+        begin.shift[i]         = shift.slip;
+        begin.elastic_shift[i] = shift.elastic;
+        begin.by_slope[i]      = shift.d_slope;
+      }
+    }
+    recall(element);
+  }
+
+  /// Without history and shifts. Wherever it is called from it computes with the same round-off.
+  void BatchedStep::place_block(const Block &block, const Elements::Nodal &nodal, Begin &begin) const
+  {
+    begin           = Begin();
+    begin.place     = at_points(block.shapes, block.position, nodal);
+    const auto at   = seen(cylinder.shape(), to_batch(data.begin), begin.place);
+    begin.gap       = at.gap;
+    begin.right     = dot(at.from_centre, data.begin.axes.right);
+    begin.upward    = dot(at.from_centre, data.begin.axes.upward);
+    begin.along     = at.along;
+    begin.is_placed = true;
+    begin.touches   = any(begin.gap < 0.);
+  }
+
+  SPRAG_PART bool BatchedStep::passes_over(const Blocks &group, const unsigned int b) const
+  {
+    return group.travel.length() < group.all[b].clear_until && !begins[group.first + b].touches;
+  }
+
+  void BatchedStep::recall(const unsigned int element)
+  {
+    auto &group              = blocks[element];
+    const unsigned int first = grid.elements[element].begin;
+    for (auto entry = find_history(begin_history, first);
+         entry != begin_history.end() && entry->point < grid.elements[element].end; ++entry)
+    {
+      const unsigned int q = entry->point - first, b = q / n_lanes, i = q % n_lanes;
+      auto &begin = begins[group.first + b];
+      if (!begin.is_placed)
+        place_block(group.all[b], group.begin, begin);
+      begin.touches          = true;
+      begin.known[i]         = -1;
+      begin.history.step[i]  = entry->step;
+      begin.history.speed[i] = entry->speed;
+      begin.multiplier[i]    = entry->normal_multiplier;
+      for (unsigned int s = 0; s < 2; ++s)
+      {
+        begin.history.traction[s][i]   = entry->traction[s];
+        begin.history.slip_speed[s][i] = entry->slip_speed[s];
+      }
+    }
+  }
+
+  SPRAG_PART Several<Batch, 2> BatchedStep::slip_rates(const Block &block) const
+  {
+    const auto &slide = data.slide;
+    Several<Batch, 2> result{ { uniform_batch(slide.speed), SimdBatch{} } };
+    if (slide.rates == nullptr)
+      return result;
+    const unsigned int element = grid.point_element(block.first);
+    const auto place           = at_points(block.shapes, block.position, blocks[element].travel.displacement());
+    const auto rate            = at_points(block.shapes, {}, Elements::nodal(grid.elements[element], *slide.rates));
+    for (unsigned int i = 0; i < n_lanes; ++i)
+    {
+      const auto changes = cylinder.changes(data.end, dealii::Point<3>(place.x[i], place.y[i], place.z[i]),
+                                            dealii::Tensor<1, 3>({ rate.x[i], rate.y[i], rate.z[i] }), slide.x_rate,
+                                            slide.theta_rate, slide.slope_rates);
+      result[0][i] += changes[1];
+      result[1][i] += changes[2];
+    }
+    return result;
+  }
+
+  template <class N>
+  SPRAG_PART void BatchedStep::slide_on(const Block &block, const Part part, End<N> &end) const
+  {
+    auto &friction        = end.friction;
+    friction.slip_speed   = slip_rates(block);
+    const bool rubs       = data.slide.friction == ContactFriction::sliding;
+    const bool is_elastic = data.slip.friction.regularisation_speed == 0.;
+    if (rubs)
+    {
+      const SizeAndDirection<Batch, 2> w(friction.slip_speed);
+      SimdBatch coefficient{}, slope{};
+      for_each_lane(~BatchMask{},
+                    [&](const unsigned int i)
+                    {
+                      const auto found = sliding_friction(data.slip.friction, w.size[i]);
+                      coefficient[i] = found.coefficient, slope[i] = found.derivative;
+                      friction.mu[i] = found.mu;
+                    });
+      const SimdBatch sign = w.is_nothing ? uniform_batch(std::copysign(1., data.slide.speed)) : uniform_batch(1.);
+      friction.slipping    = ~BatchMask{};
+      if (part == Part::friction_rate)
+      {
+        // The slips' derivatives by the coordinates are those of their rates by the coordinates' rates.
+        const SizeAndDirection<N, 2> rate(
+            Several<N, 2>{ { end.slip[0] + friction.slip_speed[0], end.slip[1] + friction.slip_speed[1] } });
+        const N size = chained(coefficient, slope, rate.size);
+        for (unsigned int s = 0; s < 2; ++s)
+          friction.traction[s] = value(end.pressure) * (size * rate.direction[s]);
+      }
+      else
+        for (unsigned int s = 0; s < 2; ++s)
+          friction.traction[s] = SimdBatch(coefficient * sign * w.direction[s]) * end.pressure;
+    }
+    else if (data.slide.friction == ContactFriction::stuck)
+      for (unsigned int s = 0; s < 2; ++s)
+        friction.traction[s] = data.slip.stiffness * end.slip[s];
+    for (unsigned int s = 0; s < 2 && is_elastic; ++s)
+      friction.energy += 0.5 / data.slip.stiffness * value(friction.traction[s]) * value(friction.traction[s]);
+  }
+
+  /// Sets pressure and friction of points that are seen at the end of the step.
+  template <bool in_time, class N, class Pose>
+  SPRAG_PART void BatchedStep::respond(const Block &block, const Begin &begin, const Pose &pose, const Elements::Nodal &nodal,
+                                       const Part part, End<N> &end) const
+  {
+    end.shift    = SimdBatch{};
+    end.friction = {};
+    if (!in_time && data.kind == Kind::slide)
+    {
+      const SimdBatch right  = value(N(dot(end.seen.from_centre, pose.axes.right)));
+      const SimdBatch upward = value(N(dot(end.seen.from_centre, pose.axes.upward)));
+      end.slip               = { { slip_round(cylinder.shape(), right, upward, end.seen.from_centre, pose.axes),
+                                   end.seen.along - value(end.seen.along) } };
+    }
+    else
+      end.slip = { { slip_round(cylinder.shape(), begin.right, begin.upward, end.seen.from_centre, pose.axes) + data.surface_run,
+                     end.seen.along - begin.along } };
+    if constexpr (in_time)
+    {
+      const double delay = data.weights.delay();
+      end.pressure       = spring_force(data.normal, end.seen.gap);
+      end.friction       = end_friction(data.slip, begin.history, end.slip, end.pressure, data.weights.dt);
+      end.mean_pressure =
+          mean_spring_force(data.normal, begin.gap, end.seen.gap) + delay * (end.pressure - spring_force(data.normal, begin.gap));
+      for (unsigned int s = 0; s < 2; ++s)
+        end.mean_traction[s] = (0.5 + delay) * end.friction.traction[s] + (0.5 - delay) * begin.history.traction[s];
+      return;
+    }
+    const N pressure  = begin.multiplier - data.normal.stiffness * end.seen.gap;
+    end.pressure      = select(value(pressure) > 0., pressure, N{});
+    end.mean_pressure = end.pressure;
+    if (data.kind == Kind::slide)
+      slide_on(block, part, end);
+    else
+    {
+      // Derivative of the deformed place along the undeformed face, and of the slip round the cylinder.
+      const auto direction = at_points(block.slopes, { uniform_batch(1.), SimdBatch{}, SimdBatch{} }, nodal);
+      N slope              = cylinder.shape().radius / end.seen.radius * dot(in_world(pose, direction), end.seen.round);
+      if constexpr (!std::is_same_v<N, Batch>)
+        slope.d[std::size(slope.d) - 1] = uniform_batch(1.);
+      const N shift    = begin.by_slope * slope + begin.shift;
+      end.shift        = value(shift);
+      const auto trial = stick_traction(data.slip, begin.history.traction, end.slip);
+      if (data.sticks)
+        end.friction.traction = trial;
+      else
+        end.friction = return_to_cone(data.slip, trial, end.pressure, uniform_batch(data.weights.dt),
+                                      Several<N, 2>{ { shift + begin.elastic_shift, N{} } }, end.slip);
+    }
+    end.mean_traction = end.friction.traction;
+    if (part == Part::pressure)
+      end.mean_traction = Several<N, 2>{};
+    else if (part != Part::all)
+      end.mean_pressure = N{};
+  }
+
+  void BatchedStep::evaluate(const Block &block, const Begin &begin, const Elements::Nodal &nodal, End<Batch> &end) const
+  {
+    const auto pose     = to_batch(data.end);
+    end.place           = at_points(block.shapes, block.position, nodal);
+    end.seen            = seen(cylinder.shape(), pose, end.place);
+    const SimdBatch gap = end.seen.gap;
+    if (data.kind == Kind::in_time)
+      end.takes_part = (gap < 0.) | (begin.gap < 0.) | begin.known;
+    else
+      end.takes_part = data.kind == Kind::touch ? BatchMask{} : begin.multiplier - data.normal.stiffness * gap > 0.;
+    if (!any(end.takes_part))
+      return;
+    if (data.kind == Kind::in_time)
+      respond<true>(block, begin, pose, nodal, Part::all, end);
+    else
+      respond<false>(block, begin, pose, nodal, Part::all, end);
+  }
+
+  bool BatchedStep::press(const unsigned int element, const Elements::Nodal &to, Forces &forces, double &penetration)
+  {
+    constexpr double round_off = 1e-9; // of gaps and travels [mm]
+    const bool in_time         = data.kind == Kind::in_time;
+    const auto balance         = to_batch(data.balance);
+    auto &group                = blocks[element];
+    bool takes_part            = false;
+    Batches<n_coordinates> sums{};
+    group.travel.go_to(to, data.end, cylinder.shape());
+    End<Batch> end;
+    for (unsigned int b = 0; b < group.all.size(); ++b)
+    {
+      auto &block      = group.all[b];
+      auto &begin      = begins[group.first + b];
+      block.is_clear   = passes_over(group, b);
+      block.takes_part = BatchMask{};
+      if (block.is_clear)
+        continue;
+      if (!begin.is_placed)
+        place_block(block, group.begin, begin);
+      evaluate(block, begin, to, end);
+      const SimdBatch gap = end.seen.gap;
+      block.clear_until   = group.travel.length() - largest(-gap) - round_off;
+      block.takes_part    = end.takes_part;
+      if (!any(block.takes_part))
+        continue;
+      takes_part           = true;
+      const SimdBatch most = in_time ? -smaller(gap, begin.gap) : end.pressure / data.normal.stiffness;
+      penetration          = std::max(penetration, largest(most));
+
+      const auto at          = in_time ? begin.place + data.share * (end.place - begin.place) : end.place;
+      const auto balanced    = in_time ? seen(cylinder.shape(), balance, at) : end.seen;
+      const auto force       = point_force(cylinder.shape(), balanced, balance.axes.axis, end.mean_pressure, end.mean_traction);
+      const SimdBatch weight = block.takes_part ? block.weight : SimdBatch{};
+      const auto along       = generalised(balance, at, balanced.from_centre, weight * force);
+      for (unsigned int d = 0; d < 3; ++d)
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          sums[n_nodes * d + a] += along[d] * block.shapes[a];
+      for (unsigned int k = 0; k < 2 + data.slopes; ++k)
+        sums[n_displacements + k] += along[3 + k];
+    }
+    for (unsigned int i = 0; takes_part && i < n_coordinates; ++i)
+      forces[i] += sum(sums[i]);
+    return takes_part;
+  }
+
+  /// Sums over the points of an element: derivatives of its forces by its coordinates.
+  template <int slopes>
+  struct alignas(SimdBatch) BatchedStep::TangentSums
+  {
+    static constexpr unsigned int n = n_displacements + 2 + slopes;
+
+    SimdBatch sums[n][n];
+
+    /// Adds forces on the coordinates of points. Where there is a variable beyond these it is the slip's slope along the face,
+    /// whose derivatives by the face's direction are `by_direction`.
+    template <int variables>
+    SPRAG_PART void add(const Block &block, const Several<Dual<Batch, variables>, 7> &force, const Triple<Batch> &by_direction)
+    {
+      const SimdBatch weight   = block.takes_part ? block.weight : SimdBatch{};
+      const SimdBatch along[3] = { by_direction.x, by_direction.y, by_direction.z };
+      for (unsigned int f = 0; f < 5 + slopes; ++f)
+      {
+        const auto &by = force[f].d;
+        SimdBatch row[n];
+        for (unsigned int d = 0; d < 3; ++d)
+          for (unsigned int a = 0; a < n_nodes; ++a)
+          {
+            row[n_nodes * d + a] = block.shapes[a] * by[d];
+            if constexpr (variables > 5 + slopes)
+              row[n_nodes * d + a] += block.slopes[a] * (along[d] * by[5 + slopes]);
+          }
+        for (unsigned int k = 0; k < 2 + slopes; ++k)
+          row[n_displacements + k] = by[3 + k];
+        const unsigned int first = f < 3 ? n_nodes * f : n_displacements + f - 3;
+        for (unsigned int a = 0; a < (f < 3 ? n_nodes : 1); ++a)
+        {
+          const SimdBatch share = f < 3 ? weight * block.shapes[a] : weight;
+          for (unsigned int j = 0; j < n; ++j)
+            sums[first + a][j] += share * row[j];
+        }
+      }
+    }
+  };
+
+  /// Variables are a point's displacement, theta, x and the slopes and, at the end of a step, the slip's slope along the face.
+  template <int slopes, bool in_time>
+  SPRAG_PART void BatchedStep::find_element_tangents(const Elements::Indices &some, const Part part,
+                                                     const std::function<void(unsigned int, const Tangent &)> &take) const
+  {
+    constexpr int n          = 5 + slopes + (in_time ? 0 : 1);
+    using N                  = Dual<Batch, n>;
+    const auto pose          = to_batch(varied_pose<n, slopes>(cylinder, data.end));
+    const auto pose_balanced = to_batch(varied_pose<n, slopes>(cylinder, data.balance, data.share));
+    for (unsigned int i = 0; i < some.size(); ++i)
+    {
+      const auto &group = blocks[some[i]];
+      const auto &nodal = group.travel.displacement();
+      TangentSums<slopes> sums{};
+      for (unsigned int b = 0; b < group.all.size(); ++b)
+      {
+        const auto &block = group.all[b];
+        const auto &begin = begins[group.first + b];
+        if (!any(block.takes_part))
+          continue;
+        End<N> end;
+        end.place = varied_place<N>(at_points(block.shapes, block.position, nodal));
+        end.seen  = seen(cylinder.shape(), pose, end.place);
+        respond<in_time>(block, begin, pose, nodal, part, end);
+        Triple<N> at = end.place;
+        if constexpr (in_time)
+        {
+          at       = begin.place + data.share * (end.place - begin.place);
+          end.seen = seen(cylinder.shape(), pose_balanced, at);
+        }
+        const auto force = point_force(cylinder.shape(), end.seen, pose_balanced.axes.axis, end.mean_pressure, end.mean_traction);
+        auto along       = generalised(pose_balanced, at, end.seen.from_centre, force);
+        if (part == Part::friction_rate)
+          for (int k = 0; k < 5 + slopes; ++k)
+            along[k] = -end.slip[0].d[k] * end.mean_traction[0] - end.slip[1].d[k] * end.mean_traction[1];
+        const Triple<Batch> round{ value(end.seen.round.x), value(end.seen.round.y), value(end.seen.round.z) };
+        sums.add(block, along, SimdBatch(cylinder.shape().radius / value(end.seen.radius)) * in_lever(to_batch(data.end), round));
+      }
+      Tangent result{};
+      for (unsigned int k = 0; k < sums.n; ++k)
+        for (unsigned int l = 0; l < sums.n; ++l)
+          result[k][l] = sum(sums.sums[k][l]);
+      take(i, result);
+    }
+  }
+
+  void BatchedStep::find_tangents(const Elements::Indices &some, const Part part,
+                                  const std::function<void(unsigned int, const Tangent &)> &take) const
+  {
+    const bool in_time = data.kind == Kind::in_time;
+    if (data.slopes == 0)
+      in_time ? find_element_tangents<0, true>(some, part, take) : find_element_tangents<0, false>(some, part, take);
+    else
+      in_time ? find_element_tangents<2, true>(some, part, take) : find_element_tangents<2, false>(some, part, take);
+  }
+
+  void BatchedStep::add_sums(const unsigned int element, Sums &sums) const
+  {
+    // Second derivatives along the way of the step.
+    using N           = Dual<Dual<Batch, 1>, 1>;
+    using Number      = Dual<Dual<double, 1>, 1>;
+    const auto moving = [](auto number, const auto &rate)
+    {
+      number.v.d[0] = number.d[0].v = rate;
+      return number;
+    };
+    const auto slope = [&](const unsigned int i)
+    { return moving(Number{} + (cylinder.slopes()[i] + data.balance.turned[i]), data.end.turned[i] - data.begin.turned[i]); };
+    const auto pose =
+        to_batch(cylinder_pose(moving(Number{} + data.balance.x, data.end.x - data.begin.x),
+                               moving(Number{} + data.balance.theta, data.end.theta - data.begin.theta), slope(0), slope(1)));
+    const double delay = data.weights.delay();
+    End<Batch> end;
+    for (unsigned int b = 0; b < blocks[element].all.size(); ++b)
+    {
+      const auto &block = blocks[element].all[b];
+      const auto &begin = begins[blocks[element].first + b];
+      if (!any(block.takes_part))
+        continue;
+      evaluate(block, begin, blocks[element].travel.displacement(), end);
+      const auto &friction   = end.friction;
+      const SimdBatch weight = block.takes_part ? block.weight : SimdBatch{};
+      sums.pressure          = std::max(sums.pressure, largest(block.takes_part ? end.pressure : SimdBatch{}));
+      sums.stored += sum(weight * (0.5 / data.normal.stiffness * end.pressure * end.pressure + friction.energy));
+      if (data.kind != Kind::in_time)
+        continue;
+      const auto moved = end.place - begin.place;
+      const auto at    = begin.place + data.share * moved;
+      const auto place = seen(cylinder.shape(), pose,
+                              Triple<N>{ moving(N{} + at.x, moved.x), moving(N{} + at.y, moved.y), moving(N{} + at.z, moved.z) });
+      const N right = dot(place.from_centre, pose.axes.right), upward = dot(place.from_centre, pose.axes.upward);
+      const N slip  = slip_round(cylinder.shape(), value(right), value(upward), place.from_centre, pose.axes);
+      const auto &t = friction.traction, &t_begin = begin.history.traction;
+      const SimdBatch work = (t[0] - t_begin[0]) * end.slip[0] + (t[1] - t_begin[1]) * end.slip[1] +
+                             end.mean_traction[0] * slip.d[0].d[0] + end.mean_traction[1] * place.along.d[0].d[0] -
+                             (end.pressure - spring_force(data.normal, begin.gap)) * (end.seen.gap - begin.gap) -
+                             end.mean_pressure * place.gap.d[0].d[0];
+      const auto balanced = seen(cylinder.shape(), to_batch(data.balance), at);
+      const auto force =
+          point_force(cylinder.shape(), balanced, to_batch(data.balance).axes.axis, end.mean_pressure, end.mean_traction);
+      sums.friction += sum(weight * friction.dissipated);
+      sums.algorithmic += delay * sum(weight * work);
+      sums.drive += sum(weight * (data.surface_run * end.mean_traction[0] + data.advance * force.x));
+      sums.creep = std::max(sums.creep, largest(block.takes_part ? friction.creep : SimdBatch{}));
+    }
+  }
+
+  void BatchedStep::add_points(const unsigned int element, const bool all, std::vector<FacePointState<3>> &points) const
+  {
+    const auto pose = to_batch(data.end);
+    const Begin nowhere{};
+    End<Batch> end{};
+    for (unsigned int b = 0; b < blocks[element].all.size(); ++b)
+    {
+      const auto &block = blocks[element].all[b];
+      if (!all && !any(block.takes_part))
+        continue;
+      const auto &begin = block.is_clear ? nowhere : begins[blocks[element].first + b];
+      evaluate(block, begin, blocks[element].travel.displacement(), end);
+      const auto force = point_force(cylinder.shape(), end.seen, pose.axes.axis, end.pressure, end.friction.traction);
+      const auto along = generalised(pose, end.place, end.seen.from_centre, force);
+      for (unsigned int i = 0; i < block.n; ++i)
+      {
+        auto &state   = points.emplace_back();
+        state.element = element;
+        set_point(block, begin, end, i, state);
+        for (unsigned int k = 0; k < 5 && state.pressure > 0.; ++k)
+          state.end_force[k] = along[k][i];
+      }
+    }
+  }
+
+  void BatchedStep::set_point(const Block &block, const Begin &begin, const End<Batch> &end, const unsigned int i,
+                              FacePointState<3> &state) const
+  {
+    state.index          = block.first + i;
+    state.position       = dealii::Point<3>(end.place.x[i], end.place.y[i], end.place.z[i]);
+    state.gap            = end.seen.gap[i];
+    state.trial_pressure = begin.multiplier[i] - data.normal.stiffness * state.gap;
+    if (!block.takes_part[i])
+      return;
+    const auto &friction = end.friction;
+    state.pressure       = end.pressure[i];
+    state.mu             = friction.mu[i];
+    state.slipping       = friction.slipping[i] != 0;
+    dealii::Tensor<1, 2> begin_traction;
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      state.traction[d]           = friction.traction[d][i];
+      state.history.slip_speed[d] = friction.slip_speed[d][i];
+      state.slip_change[d]        = data.kind == Kind::slide ? friction.slip_speed[d][i] : end.slip[d][i];
+      if (data.augmented)
+        begin_traction[d] = begin.history.traction[d][i];
+    }
+    state.history.traction = state.traction;
+    state.history.speed    = friction.speed[i];
+    state.history.point    = state.index;
+    state.history.step     = data.kind == Kind::in_time ? data.weights.dt : 0.;
+    state.elastic_slip     = (state.traction - begin_traction).norm() / data.slip.stiffness;
+    if (data.kind == Kind::at_end)
+    {
+      state.slip_change[0] += end.shift[i];
+      state.slip_change *= data.speed_ratio;
+    }
+  }
+} // namespace sprag

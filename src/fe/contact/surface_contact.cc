@@ -1,0 +1,525 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "fe/contact/surface_contact.h"
+
+#include "laws/friction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace sprag
+{
+  using dealii::Point;
+  using dealii::Tensor;
+  using dealii::Vector;
+
+  namespace
+  {
+    const std::vector<SurfaceHistory> no_history;
+  } // namespace
+
+  SurfaceContact::SurfaceContact(const FrictionFace<3> &face_, SurfaceContactProperties properties_)
+      : face(face_)
+      , properties(std::move(properties_))
+      , grid(face)
+      , view(face, grid, properties.half)
+      , batched(face, grid, properties.cylinder)
+  {
+    find_ends();
+    for (const auto &element : grid.elements)
+    {
+      std::set<unsigned int> lines;
+      for (unsigned int q = element.begin; q < element.end; ++q)
+        lines.insert(grid.point_lines[q]);
+      element_lines.emplace_back(lines.begin(), lines.end());
+    }
+  }
+
+  void SurfaceContact::find_ends()
+  {
+    const auto is_before = [](const auto &a, const auto &b) { return a.position[0] < b.position[0]; };
+    const auto ends      = std::minmax_element(face.nodes.begin(), face.nodes.end(), is_before);
+    const double first = ends.first->position[0], last = ends.second->position[0];
+    for (const auto &edge : face.edges)
+      is_at_end.push_back(std::any_of(edge.nodes.begin(), edge.nodes.end(),
+                                      [&](const auto &node) { return node.position[0] <= first || node.position[0] >= last; }));
+  }
+
+  RigidCylinder::Pose SurfaceContact::to_pose(const SurfacePlace &place) const
+  {
+    const double u = properties.layout.sprung ? place.displacements[properties.layout.support()] : 0.;
+    return properties.cylinder.pose(place.x - u, properties.rest_inclination + place.displacements[properties.layout.rotation()],
+                                    turned_by(place.displacements));
+  }
+
+  AxisSlopes SurfaceContact::turned_by(const Vector<double> &displacements) const
+  {
+    AxisSlopes result{};
+    for (unsigned int i = 0; i < properties.layout.slopes; ++i)
+      result[i] = displacements[properties.layout.slope(i)];
+    return result;
+  }
+
+  AxisSlopes SurfaceContact::slopes_in(const FaceEvaluation<3> &found) const
+  {
+    auto result = turned_by(found.displacement);
+    for (unsigned int i = 0; i < 2; ++i)
+      result[i] += properties.cylinder.slopes()[i];
+    return result;
+  }
+
+  std::vector<unsigned int> SurfaceContact::nodes_at(const double zeta) const
+  {
+    double closest = std::numeric_limits<double>::max();
+    for (const auto &node : face.nodes)
+      closest = std::min(closest, std::abs(node.position[2] - zeta));
+    std::vector<unsigned int> result;
+    for (unsigned int i = 0; i < face.nodes.size(); ++i)
+      if (std::abs(face.nodes[i].position[2] - zeta) < closest + 1e-6)
+        result.push_back(i);
+    return result;
+  }
+
+  /// Deflection under the contact beyond that on both sides of it, between the nodes closest to these places.
+  double SurfaceContact::indentation(const FaceEvaluation<3> &found, const Row &row) const
+  {
+    if (properties.layer_thickness == 0. || !(row[Column::normal_resultant] > 0.))
+      return 0.;
+    const auto line       = nodes_at(row.across[4]);
+    const double s        = row[Column::s];
+    const double aside    = 0.5 * row[Column::contact_width] + 4. * properties.layer_thickness;
+    const auto deflection = [&](const double xi)
+    {
+      const auto is_closer = [&](const unsigned int a, const unsigned int b)
+      { return std::abs(face.nodes[a].position[0] - xi) < std::abs(face.nodes[b].position[0] - xi); };
+      return found.displacement[3 * *std::min_element(line.begin(), line.end(), is_closer) + 1];
+    };
+    return deflection(s) - 0.5 * (deflection(s - aside) + deflection(s + aside));
+  }
+
+  SurfaceShape SurfaceContact::surface_shape(const Vector<double> &displacements, unsigned int) const
+  {
+    SurfaceShape shape;
+    for (const unsigned int node : nodes_at(0.))
+    {
+      shape.xi.push_back(face.nodes[node].position[0]);
+      shape.along.push_back(displacements[3 * node]);
+      shape.across.push_back(displacements[3 * node + 1]);
+    }
+    return shape;
+  }
+
+  void SurfaceContact::observe(const FaceEvaluation<3> &found, Row &row, unsigned int) const
+  {
+    view.observe(found, row);
+    row[Column::Q]           = drive_force(found);
+    row[Column::indentation] = indentation(found, row);
+    if (!properties.cylinder.has_free_axis())
+      return;
+    const auto slopes = slopes_in(found);
+    row.across.insert(row.across.end(), slopes.begin(), slopes.end());
+  }
+
+  void SurfaceContact::begin_step(const SurfacePlace &begin)
+  {
+    begin_displacements = begin.displacements;
+    begin_x             = begin.x;
+    begin_pose          = to_pose(begin);
+    begin_slips.resize(grid.elements.size());
+    for (auto &element_slips : begin_slips)
+      element_slips.clear();
+    batched.begin({});
+  }
+
+  double SurfaceContact::slip_at_begin(const unsigned int point) const
+  {
+    const unsigned int element = grid.point_element(point);
+    const auto &element_points = grid.elements[element];
+    auto &known                = begin_slips[element];
+    if (known.empty())
+    {
+      const auto nodal = Elements::nodal(element_points, begin_displacements);
+      for (unsigned int q = element_points.begin; q < element_points.end; ++q)
+        known.push_back(properties.cylinder.slip(begin_pose, Elements::position(grid.points[q], nodal)));
+    }
+    return known[point - element_points.begin];
+  }
+
+  /// The gap is convex: over an element it lies above its tangent at the first node. The margin covers bending.
+  SurfaceContact::Elements::Indices SurfaceContact::near(const SurfacePlace &place, const RigidCylinder::Pose &pose) const
+  {
+    const auto position = [&](const FaceEdge<3>::Node &node)
+    {
+      auto result = node.position;
+      if (node.index != FaceEdge<3>::held)
+        for (unsigned int d = 0; d < 3; ++d)
+          result[d] += place.displacements[3 * node.index + d];
+      return result;
+    };
+    const auto distance = [&](const unsigned int element)
+    {
+      const auto &nodes          = face.edges[element].nodes;
+      const Point<3> first       = position(nodes.front());
+      const auto [gap, gradient] = properties.cylinder.gap_and_gradient(pose, first);
+      double fall                = 0.;
+      for (const auto &node : nodes)
+        fall = std::min(fall, gradient * (position(node) - first));
+      return gap + fall - 0.02 * grid.elements[element].length;
+    };
+    const auto centre = properties.centre(pose.x, pose.theta);
+    return grid.find_near({ centre.xi, centre.eta, 0. }, distance);
+  }
+
+  void SurfaceContact::evaluate(const InterfaceStep &step, FaceEvaluation<3> &found, const StaticTerms &terms)
+  {
+    if (begin_x != step.from.x || begin_displacements.size() != step.begin.position.size() ||
+        begin_displacements != step.begin.position || begin_travel != terms.travel || begin_augmented != terms.augmented)
+    {
+      begin_step({ step.begin.position, step.from.x });
+      begin_travel    = terms.travel;
+      begin_augmented = terms.augmented;
+    }
+    found.duration = step.to.time - step.from.time;
+    evaluate({ step.end, step.to.x }, *step.surface_history, step.to.surface - step.from.surface, terms, found);
+    if (terms.augmented) // multipliers spread over the cells
+      add_points(found);
+    else
+      add_points_in_contact(most_pressed, found);
+  }
+
+  void SurfaceContact::evaluate(const SurfacePlace &end, const std::vector<SurfaceHistory> &history, const double surface_run,
+                                const StaticTerms &terms, FaceEvaluation<3> &found)
+  {
+    if (!batched.begins_with(history))
+      batched.begin(history);
+    auto step        = constants(Kind::at_end, end, terms.friction);
+    step.begin       = begin_pose;
+    step.sticks      = terms.mode == FrictionMode::stick;
+    step.weights.dt  = terms.duration;
+    step.surface_run = surface_run;
+    step.augmented   = terms.augmented;
+    step.speed_ratio = terms.speed_ratio;
+    batched.set(step);
+
+    found.displacement     = end.displacements;
+    found.x                = end.x;
+    found.sums.penetration = 0.;
+    found.points.clear();
+    looked_at = reach.clip(near(end, step.end), found.within_reach);
+    for (const unsigned int element : looked_at)
+      if (!batched.is_placed(element))
+        batched.place(element, Elements::nodal(grid.elements[element], begin_displacements),
+                      slip_shifts(element, history, terms));
+    press_elements(end.displacements, found);
+    set_forces(Request::with_tangent, found.forces);
+  }
+
+  /// Constants of a step that is balanced where it ends.
+  BatchedStep::Constants SurfaceContact::constants(const Kind kind, const SurfacePlace &end, const FrictionLaw &friction) const
+  {
+    BatchedStep::Constants result;
+    result.kind  = kind;
+    result.begin = result.balance = result.end = to_pose(end);
+    result.normal                              = { properties.penalties.normal, 1. };
+    result.slip                                = slip_law(friction, properties.penalties.tangential);
+    result.slopes                              = properties.layout.slopes;
+    return result;
+  }
+
+  std::vector<SlipShift> SurfaceContact::slip_shifts(const unsigned int element, const std::vector<SurfaceHistory> &history,
+                                                     const StaticTerms &terms) const
+  {
+    const double stiffness = unwinding_stiffness(terms.augmented, properties.penalties.tangential);
+    std::vector<SlipShift> result;
+    for (unsigned int point = grid.elements[element].begin; point < grid.elements[element].end; ++point)
+      result.push_back(slip_shift(grid, point, 0., terms.travel, stiffness, history,
+                                  [this](const unsigned int q) { return slip_at_begin(q); }));
+    return result;
+  }
+
+  InterfaceCoordinates SurfaceContact::element_coordinates(const unsigned int element) const
+  {
+    InterfaceCoordinates result;
+    const auto &element_points = grid.elements[element];
+    for (unsigned int i = 0; i < 3 * element_points.n_nodes; ++i)
+      result.push_back({ Elements::max_nodes * (i % 3) + i / 3, 3 * element_points.nodes[i / 3] + i % 3, 1. });
+    constexpr unsigned int n_displacements = BatchedStep::n_displacements;
+    add_frame(properties.layout, n_displacements, n_displacements + 1, result);
+    for (unsigned int i = 0; i < properties.layout.slopes; ++i)
+      result.push_back({ n_displacements + 2 + i, properties.layout.slope(i), 1. });
+    return result;
+  }
+
+  const DofSelection &SurfaceContact::candidate_dofs(const double x, const PerLever &theta, const double travel)
+  {
+    constexpr double over_radius = 0.05;
+    constexpr double infinity    = std::numeric_limits<double>::max();
+    const double aside           = reach.factor * over_radius * properties.radius;
+    const double end             = properties.centre(x, theta.front()).xi;
+    const double begin           = end - travel;
+    const auto between           = [&](const double a, const double b) {
+      return grid.elements_in({ { { a - aside, -infinity, -infinity }, { b + aside, infinity, infinity } } });
+    };
+    const auto [first, last] = std::minmax(begin, end);
+    const auto now = last - first > 2. * aside ? united(between(first, first), between(last, last)) : between(first, last);
+    reach.set(grid, now, now, 3 * static_cast<unsigned int>(face.nodes.size()), properties.layout.size());
+    return reach.dofs;
+  }
+
+  BatchedStep::Constants SurfaceContact::step_constants(const InterfaceStep &motion) const
+  {
+    auto result       = constants(Kind::in_time, { motion.end, motion.to.x }, step_friction(properties.friction, motion.to.v));
+    result.weights    = motion.weights;
+    result.begin      = begin_pose;
+    result.share      = motion.weights.stiffness();
+    const auto &begin = result.begin, &end = result.end;
+    const auto balanced = [share = result.share](const double a, const double b) { return (1. - share) * a + share * b; };
+    result.balance =
+        properties.cylinder.pose(balanced(begin.x, end.x), balanced(begin.theta, end.theta),
+                                 { { balanced(begin.turned[0], end.turned[0]), balanced(begin.turned[1], end.turned[1]) } });
+    result.surface_run = motion.to.surface - motion.from.surface;
+    result.advance     = motion.to.x - motion.from.x;
+    return result;
+  }
+
+  void SurfaceContact::evaluate(const InterfaceStep &motion, FaceEvaluation<3> &found)
+  {
+    const auto &history = motion.surface_history != nullptr ? *motion.surface_history : no_history;
+    const bool is_first = begin_displacements.size() != motion.begin.position.size();
+    if (is_first || begin_x != motion.from.x || begin_displacements != motion.begin.position || !batched.begins_with(history))
+    {
+      begin_step({ motion.begin.position, motion.from.x });
+      batched.begin(history);
+      looked_at_first = united(near({ begin_displacements, begin_x }, begin_pose), touched_elements(grid, history));
+    }
+    const auto step = step_constants(motion);
+    batched.set(step);
+
+    found.displacement     = motion.end;
+    found.x                = motion.to.x;
+    found.duration         = motion.weights.dt;
+    found.sums.penetration = 0.;
+    looked_at              = reach.clip(united(near({ motion.end, motion.to.x }, step.end), looked_at_first), found.within_reach);
+    place_elements(motion.begin.position);
+    press_elements(motion.end, found);
+    set_forces(motion.request, found.forces);
+    if (motion.request == Request::complete)
+      complete(found);
+  }
+
+  void SurfaceContact::place_elements(const Vector<double> &begin)
+  {
+    for (const unsigned int element : looked_at)
+      if (!batched.is_placed(element))
+        batched.place(element, Elements::nodal(grid.elements[element], begin));
+  }
+
+  /// Presses the elements that are looked at, which are placed.
+  void SurfaceContact::press_elements(const Vector<double> &end, FaceEvaluation<3> &found)
+  {
+    pressed.clear();
+    most_pressed.reset();
+    Elements::Indices touched;
+    for (const unsigned int element : looked_at)
+    {
+      auto &forces        = pressed.emplace_back();
+      const double before = found.sums.penetration;
+      if (batched.press(element, Elements::nodal(grid.elements[element], end), forces, found.sums.penetration))
+        touched.push_back(element);
+      else
+        pressed.pop_back();
+      if (found.sums.penetration > before)
+        most_pressed = element;
+    }
+    find_summed(std::move(touched));
+  }
+
+  /// The dofs of some elements and the places of their coordinates among these are found again only where the elements change.
+  void SurfaceContact::find_summed(Elements::Indices touched)
+  {
+    if (touched == summed.elements)
+      return;
+    summed = { std::move(touched), {}, {} };
+    for (const unsigned int element : summed.elements)
+    {
+      summed.coordinates.push_back(element_coordinates(element));
+      const auto dofs = collect_dofs(summed.coordinates.back());
+      summed.dofs.insert(summed.dofs.end(), dofs.begin(), dofs.end());
+    }
+    std::sort(summed.dofs.begin(), summed.dofs.end());
+    summed.dofs.erase(std::unique(summed.dofs.begin(), summed.dofs.end()), summed.dofs.end());
+    for (auto &coordinates : summed.coordinates)
+      for (auto &coordinate : coordinates)
+        coordinate.dof = find_index(coordinate.dof, summed.dofs);
+  }
+
+  /// From the elements that were pressed last.
+  void SurfaceContact::set_forces(const Request request, InterfaceForces &forces) const
+  {
+    forces.has_tangent = request == Request::with_tangent;
+    forces.tangent.reinit(0, 0);
+    forces.dofs = summed.dofs;
+    forces.values.reinit(static_cast<unsigned int>(summed.dofs.size()));
+    for (unsigned int i = 0; i < summed.elements.size(); ++i)
+      for (const auto &[index, place, sign] : summed.coordinates[i])
+        forces.values[place] += sign * pressed[i][index];
+    if (forces.has_tangent)
+      forces.tangent = tangent(BatchedStep::Part::all);
+  }
+
+  dealii::FullMatrix<double> SurfaceContact::tangent(const BatchedStep::Part part) const
+  {
+    const auto n = static_cast<unsigned int>(summed.dofs.size());
+    dealii::FullMatrix<double> result(n, n);
+    batched.find_tangents(summed.elements, part,
+                          [&](const unsigned int i, const BatchedStep::Tangent &element_tangent)
+                          {
+                            for (const auto &row : summed.coordinates[i])
+                              for (const auto &column : summed.coordinates[i])
+                                result(row.dof, column.dof) += row.sign * column.sign * element_tangent[row.index][column.index];
+                          });
+    return result;
+  }
+
+  void SurfaceContact::evaluate_sliding(const SlidingState &sliding, FaceEvaluation<3> &found)
+  {
+    press_slide(sliding, found);
+    set_forces(sliding.request, found.forces);
+    if (sliding.request != Request::forces)
+      complete(found);
+  }
+
+  LinearisedForces SurfaceContact::linearise(const SlidingState &sliding, FaceEvaluation<3> &found)
+  {
+    press_slide(sliding, found);
+    set_forces(Request::forces, found.forces);
+    complete(found);
+    add_points(found);
+    LinearisedForces result(found.forces.dofs);
+    result.pressure      = tangent(BatchedStep::Part::pressure);
+    result.friction      = tangent(BatchedStep::Part::friction);
+    result.friction_rate = tangent(BatchedStep::Part::friction_rate);
+    return result;
+  }
+
+  void SurfaceContact::press_slide(const SlidingState &sliding, FaceEvaluation<3> &found)
+  {
+    const SurfacePlace place{ sliding.displacements, sliding.drive.x };
+    found.begin(sliding.displacements, sliding.drive.x, 1.); // slips are those of a second
+    auto step           = constants(Kind::slide, place, slide_friction(properties.friction, sliding));
+    step.slide.speed    = sliding.speed;
+    step.slide.friction = sliding.friction;
+    if (sliding.rates != nullptr)
+    {
+      step.slide.rates       = sliding.rates;
+      step.slide.theta_rate  = (*sliding.rates)[properties.layout.rotation()];
+      step.slide.x_rate      = properties.layout.sprung ? -(*sliding.rates)[properties.layout.support()] : 0.;
+      step.slide.slope_rates = turned_by(*sliding.rates);
+    }
+    press(step, place, reach.clip(near(place, step.end), found.within_reach), found);
+  }
+
+  std::vector<SurfaceHistory> SurfaceContact::touch(const Vector<double> &z, const DrivePoint &drive, FaceEvaluation<3> &found)
+  {
+    const SurfacePlace place{ z, drive.x };
+    const auto step = constants(Kind::touch, place, {});
+    found.begin(z, drive.x, 0.);
+    press(step, place, near(place, step.end), found);
+    add_points(found);
+    return {};
+  }
+
+  /// Presses where the step begins.
+  void SurfaceContact::press(const BatchedStep::Constants &step, const SurfacePlace &place, Elements::Indices elements_near,
+                             FaceEvaluation<3> &found)
+  {
+    looked_at = std::move(elements_near);
+    begin_displacements.reinit(0); // a step in time that follows begins anew
+    batched.set(step);
+    batched.begin({});
+    place_elements(place.displacements);
+    press_elements(place.displacements, found);
+  }
+
+  double SurfaceContact::gap_change(const FaceEvaluation<3> &found, const Vector<double> &change, unsigned int) const
+  {
+    const auto &point =
+        *std::min_element(found.points.begin(), found.points.end(), [](const auto &a, const auto &b) { return a.gap < b.gap; });
+    const auto &element_points = grid.points[point.index];
+    const auto &at             = properties.layout;
+    const auto nodal           = Elements::nodal(grid.elements[point.element], change);
+    return properties.cylinder.changes(to_pose({ found.displacement, found.x }), point.position,
+                                       Elements::position(element_points, nodal) - element_points.position,
+                                       at.sprung ? -change[at.support()] : 0., change[at.rotation()], turned_by(change))[0];
+  }
+
+  double SurfaceContact::mean_slip(const FaceEvaluation<3> &found, const Vector<double> &from, const double from_x,
+                                   const Vector<double> &to, const double to_x) const
+  {
+    double weighted = 0., weights = 0.;
+    for (const auto &point : found.points)
+      if (point.pressure > 0.)
+      {
+        const double weight = face.points[point.index].weight * point.pressure;
+        weighted += weight * (slip_at(point, { to, to_x }) - slip_at(point, { from, from_x }));
+        weights += weight;
+      }
+    return weights > 0. ? weighted / weights : 0.;
+  }
+
+  /// The slip coordinate round the cylinder of a point, in another configuration [mm].
+  double SurfaceContact::slip_at(const FacePointState<3> &point, const SurfacePlace &place) const
+  {
+    const auto nodal = Elements::nodal(grid.elements[point.element], place.displacements);
+    return properties.cylinder.slip(to_pose(place), Elements::position(grid.points[point.index], nodal));
+  }
+
+  void SurfaceContact::add_points(FaceEvaluation<3> &found) const
+  {
+    found.points.clear();
+    for (const unsigned int element : looked_at)
+      batched.add_points(element, true, found.points);
+  }
+
+  bool SurfaceContact::share_line(const unsigned int element, const unsigned int other) const
+  {
+    const auto &a = element_lines[element], &b = element_lines[other];
+    return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
+  }
+
+  /// `peak`: element where the pressure is largest, if there is any.
+  void SurfaceContact::add_points_in_contact(const std::optional<unsigned int> &peak, FaceEvaluation<3> &found) const
+  {
+    found.points.clear();
+    for (const unsigned int element : looked_at)
+      batched.add_points(element, !peak || share_line(element, *peak), found.points);
+  }
+
+  /// Finds works, energy and points of the elements as they were pressed last.
+  void SurfaceContact::complete(FaceEvaluation<3> &found) const
+  {
+    BatchedStep::Sums sums;
+    std::optional<unsigned int> peak;
+    for (const unsigned int element : looked_at)
+    {
+      const double before = sums.pressure;
+      batched.add_sums(element, sums);
+      if (sums.pressure > before)
+        peak = element;
+    }
+    add_points_in_contact(peak, found);
+    found.sums.stored           = sums.stored;
+    found.sums.beyond_face      = reaches_end(found);
+    found.sums.work             = StepWork();
+    found.sums.work.drive       = sums.drive;
+    found.sums.work.friction    = sums.friction;
+    found.sums.work.algorithmic = sums.algorithmic;
+    found.sums.work.creep       = sums.creep;
+  }
+
+  bool SurfaceContact::reaches_end(const FaceEvaluation<3> &found) const
+  {
+    return std::any_of(found.points.begin(), found.points.end(),
+                       [&](const auto &point) { return point.pressure > 0. && is_at_end[point.element]; });
+  }
+} // namespace sprag

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "fe/contact/batched_step.h"
+#include "fe/contact/face_contact.h"
+
+namespace sprag
+{
+  /// Constants of the contact along a surface.
+  struct SurfaceContactProperties
+  {
+    RigidCylinder cylinder;
+    std::function<LeverPoint(double x, double theta)> centre; ///< of the cylinder
+    double radius;                                            ///< R [mm]
+    InterfaceLayout layout;                                   ///< three a node of the face; with slopes where these may change
+    double rest_inclination;                                  ///< theta without moment [rad]
+    ContactPenalties penalties;
+    bool half = false; ///< the face is half of one which is the same on both sides of the middle
+
+    // In time and in steady sliding.
+    FrictionLaw friction   = {};
+    double layer_thickness = 0.; ///< [mm]
+  };
+
+  using SurfaceHistory = PointHistory<2>;
+
+  /// Interface displacements and drive at one end of a step.
+  struct SurfacePlace
+  {
+    const dealii::Vector<double> &displacements;
+    double x; ///< of the drive [mm]
+  };
+
+  /// Contact of a rigid cylinder along the friction face of a body in three dimensions by the penalty method: pressure and, in
+  /// two directions, friction at the points of the face. What FaceContact has as well is as there.
+  class SurfaceContact
+  {
+  public:
+    static constexpr bool uses_rates       = false;
+    static constexpr bool stands_for_layer = false;
+    static constexpr bool keeps_tangent    = true;
+    static constexpr unsigned int levers   = 1;
+
+    using Evaluation = FaceEvaluation<3>;
+
+    /// The face must outlive the contact.
+    SurfaceContact(const FrictionFace<3> &face, SurfaceContactProperties properties);
+
+    /// Evaluates a step without inertia, with its points: where it is augmented all near the cylinder, else those of
+    /// Request::complete.
+    void evaluate(const InterfaceStep &step, FaceEvaluation<3> &found, const StaticTerms &terms);
+
+    /// Sets the accepted state in which the following steps begin.
+    void begin_step(const SurfacePlace &begin);
+
+    /// Evaluates forces, penetration and tangent of the step without inertia that ends at `end`. `history`: of the points in
+    /// contact where it begins. `surface_run`: of the cylinder by turning [mm]. Of the terms `travel` and `augmented` belong to
+    /// the step: they are the same until the next begin_step().
+    void evaluate(const SurfacePlace &end, const std::vector<SurfaceHistory> &history, double surface_run,
+                  const StaticTerms &terms, FaceEvaluation<3> &found);
+
+    /// Evaluates forces and compression of a step in time, and the tangent or what Request::complete adds.
+    void evaluate(const InterfaceStep &step, FaceEvaluation<3> &found);
+
+    /// Finds all points near the cylinder of the last evaluation, in time or without inertia.
+    void add_points(FaceEvaluation<3> &found) const;
+
+    /// Evaluates steady sliding: the cylinder's surface runs round its axis at the slide's speed.
+    void evaluate_sliding(const SlidingState &sliding, FaceEvaluation<3> &found);
+
+    /// The same, with its interface forces linearised. What the spring of stick delays is left out: at a speed v it takes mu p /
+    /// (v times its stiffness), microseconds.
+    LinearisedForces linearise(const SlidingState &sliding, FaceEvaluation<3> &found);
+
+    /// Evaluates the contact at rest without force.
+    std::vector<SurfaceHistory> touch(const dealii::Vector<double> &z, const DrivePoint &drive, FaceEvaluation<3> &found);
+
+    /// Returns by how much a small change of the displacements changes the gap where that is smallest [mm].
+    double gap_change(const FaceEvaluation<3> &found, const dealii::Vector<double> &change, unsigned int lever = 0) const;
+
+    /// Returns the mean slip round the cylinder of the points in contact, weighted with their pressure, from one configuration to
+    /// another [mm].
+    double mean_slip(const FaceEvaluation<3> &found, const dealii::Vector<double> &from, double from_x,
+                     const dealii::Vector<double> &to, double to_x) const;
+
+    /// Returns the dofs near the cylinder at the beginning and at the end of a step in which the contact travels along xi [mm];
+    /// those that it passes between take no part.
+    const DofSelection &candidate_dofs(double x, const PerLever &theta, double travel = 0.);
+
+    /// Doubles how far these dofs reach, from the next call on.
+    void widen_reach()
+    {
+      reach.factor *= 2.;
+    }
+
+    /// The slopes of the cylinder's axis in an evaluation.
+    AxisSlopes slopes_in(const FaceEvaluation<3> &found) const;
+
+    /// Fills the columns of a row that follow from the contact.
+    void observe(const FaceEvaluation<3> &found, Row &row, unsigned int lever = 0) const;
+
+    /// Returns the displacements of the nodes at the middle of the width.
+    SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
+
+    /// Fills those that are sums over the points under pressure.
+    void observe_resultants(const FaceEvaluation<3> &found, Row &row) const
+    {
+      view.observe_resultants(found, row);
+    }
+
+    /// Returns Q at the end of the step [N].
+    double drive_force(const FaceEvaluation<3> &found) const
+    {
+      return view.drive_force(found);
+    }
+
+    const FacePoints &face_points() const
+    {
+      return view.points();
+    }
+    FaceState face_state(const FaceEvaluation<3> &found, const DrivePoint &drive) const
+    {
+      return view.state(found, drive);
+    }
+
+    const ContactPenalties &penalties() const
+    {
+      return properties.penalties;
+    }
+
+    void use_penalties(const ContactPenalties &penalties)
+    {
+      properties.penalties = penalties;
+      begin_displacements.reinit(0); // no step has begun with them
+    }
+
+    /// Serialises how far it reaches.
+    void serialise_history(Archive &archive)
+    {
+      archive(reach.factor);
+      grid.serialise_history(archive);
+    }
+
+  private:
+    using Elements = FaceElements<3>;
+    using Kind     = BatchedStep::Kind;
+
+    void find_ends();
+    void complete(FaceEvaluation<3> &found) const;
+    bool share_line(unsigned int element, unsigned int other) const;
+    void add_points_in_contact(const std::optional<unsigned int> &peak, FaceEvaluation<3> &found) const;
+    RigidCylinder::Pose to_pose(const SurfacePlace &place) const;
+    AxisSlopes turned_by(const dealii::Vector<double> &displacements) const;
+    Elements::Indices near(const SurfacePlace &place, const RigidCylinder::Pose &pose) const;
+    BatchedStep::Constants constants(Kind kind, const SurfacePlace &end, const FrictionLaw &friction) const;
+    std::vector<SlipShift> slip_shifts(unsigned int element, const std::vector<SurfaceHistory> &history,
+                                       const StaticTerms &terms) const;
+    void press_slide(const SlidingState &sliding, FaceEvaluation<3> &found);
+    void press(const BatchedStep::Constants &step, const SurfacePlace &place, Elements::Indices elements_near,
+               FaceEvaluation<3> &found);
+    void place_elements(const dealii::Vector<double> &begin);
+    void press_elements(const dealii::Vector<double> &end, FaceEvaluation<3> &found);
+    BatchedStep::Constants step_constants(const InterfaceStep &step) const;
+    double slip_at(const FacePointState<3> &point, const SurfacePlace &place) const;
+    std::vector<unsigned int> nodes_at(double zeta) const;
+    double indentation(const FaceEvaluation<3> &found, const Row &row) const;
+    void find_summed(Elements::Indices touched);
+    void set_forces(Request request, InterfaceForces &forces) const;
+    dealii::FullMatrix<double> tangent(BatchedStep::Part part) const;
+    bool reaches_end(const FaceEvaluation<3> &found) const;
+    double slip_at_begin(unsigned int point) const;
+    InterfaceCoordinates element_coordinates(unsigned int element) const;
+
+    const FrictionFace<3> &face;
+    SurfaceContactProperties properties;
+    Elements grid;
+    const FaceView<3> view;
+    std::vector<std::vector<unsigned int>> element_lines; ///< increasing
+    std::vector<bool> is_at_end;                          ///< whether an element is at an end of the face along xi
+
+    dealii::Vector<double> begin_displacements;
+    double begin_x = 0.;
+    RigidCylinder::Pose begin_pose{};
+    double begin_travel  = 0.; ///< of the terms without inertia
+    bool begin_augmented = false;
+    mutable std::vector<std::vector<double>> begin_slips; ///< of the points by elements; of those that were looked at
+
+    /// Elements whose forces are summed, and their dofs.
+    struct Summed
+    {
+      Elements::Indices elements;
+      std::vector<unsigned int> dofs;                ///< increasing
+      std::vector<InterfaceCoordinates> coordinates; ///< of the elements, with places among the dofs in place of these
+    };
+
+    BatchedStep batched;
+    Elements::Indices looked_at_first;        ///< elements near where a step in time begins, and where it was in contact
+    Elements::Indices looked_at;              ///< by the last evaluation
+    std::vector<BatchedStep::Forces> pressed; ///< of the elements that are summed
+    std::optional<unsigned int> most_pressed; ///< the one of the largest penetration
+    Summed summed;
+
+    FaceReach<3> reach;
+  };
+} // namespace sprag

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "fe/dynamics/solid_dynamics.h"
+
+#include "base/errors.h"
+#include "base/text.h"
+#include "fe/body/friction_face.h"
+#include "fe/contact/surface_contact.h"
+#include "fe/dynamics/condensed_basis.h"
+#include "fe/dynamics/lever_constants.h"
+#include "fe/statics/contact_penalties.h"
+#include "fe/statics/lever_properties.h"
+#include "model/lever/assemble_lever.h"
+#include "scene/across.h"
+#include "scene/device.h"
+#include "scene/lever_shape.h"
+#include "scene/mirrored_pair.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  using namespace dealii;
+  using dealii::Vector;
+
+  namespace
+  {
+    std::vector<const FaceNode<3> *> edge_nodes(const FrictionFace<3> &face)
+    {
+      const auto is_farther = [](const auto &a, const auto &b) { return a.position[2] < b.position[2]; };
+      const double edge     = std::max_element(face.nodes.begin(), face.nodes.end(), is_farther)->position[2];
+      std::vector<const FaceNode<3> *> result;
+      for (const auto &node : face.nodes)
+        if (node.position[2] > edge - 1e-6)
+          result.push_back(&node);
+      return result;
+    }
+
+    /// Returns a displacement of one lever, see MirroredStructure.
+    double moved_by(const std::vector<const LeverModes *> &structures, const Vector<double> &coordinates,
+                    const unsigned int index, const unsigned int dof)
+    {
+      const auto n  = static_cast<unsigned int>(coordinates.size() / structures.size());
+      double result = 0.;
+      for (unsigned int part = 0; part < structures.size(); ++part)
+      {
+        const auto &displacements = structures[part]->displacements;
+        const double sign         = part == 1 && index == 1 ? -1. : 1.;
+        for (unsigned int j = 0; j < std::min<std::size_t>(n, displacements.size()); ++j)
+          result += sign * coordinates[part * n + j] * displacements[j][dof];
+      }
+      return structures.size() == 2 ? MirroredInterface::share() * result : result;
+    }
+
+    /// Tells the shape along an edge of the whole face, by the modes of the free lever. What these leave out is the dent of the
+    /// layer under the cylinder.
+    void follow_edge(const FrictionFace<3> &face, const std::vector<const LeverModes *> &structures, const Eigenmode &mode,
+                     ModeShape &shape)
+    {
+      const auto nodes = edge_nodes(face);
+      shape.xi.clear();
+      for (const auto *node : nodes)
+        shape.xi.push_back(node->position[0]);
+      for (unsigned int index = 0; index < structures.size(); ++index)
+        for (unsigned int i = 0; i < 2; ++i)
+        {
+          const auto moved = [&](const unsigned int d)
+          {
+            std::vector<double> values;
+            for (const auto *node : nodes)
+              values.push_back(moved_by(structures, mode.mode.coordinates[i], index, node->dofs[d]));
+            return values;
+          };
+          auto &lever       = shape.levers.at(index);
+          lever.along[i]    = moved(0);
+          lever.across[i]   = moved(1);
+          lever.sideways[i] = moved(2);
+        }
+    }
+
+    /// A part of a friction face in three dimensions as a face of its own.
+    struct FaceWindow
+    {
+      FrictionFace<3> face;
+      unsigned int first_node; ///< number of its first node in the whole face; the others follow
+    };
+
+    bool reaches_into(const FaceEdge<3> &edge, const double begin, const double end)
+    {
+      const auto is_before = [](const auto &a, const auto &b) { return a.position[0] < b.position[0]; };
+      const auto ends      = std::minmax_element(edge.nodes.begin(), edge.nodes.end(), is_before);
+      return ends.second->position[0] > begin && ends.first->position[0] < end;
+    }
+
+    /// Returns the part whose elements reach into `begin` ... `end` along xi [mm]. The face's nodes increase along xi. Throws
+    /// AnalysisError where there is no such element.
+    FaceWindow make_window(const FrictionFace<3> &face, const double begin, const double end)
+    {
+      std::vector<std::size_t> chosen;
+      auto first = static_cast<unsigned int>(face.nodes.size()), last = 0u;
+      for (std::size_t i = 0; i < face.edges.size(); ++i)
+        if (reaches_into(face.edges[i], begin, end))
+        {
+          chosen.push_back(i);
+          for (const auto &node : face.edges[i].nodes)
+            if (node.index != FaceEdge<3>::held)
+            {
+              first = std::min(first, node.index);
+              last  = std::max(last, node.index + 1);
+            }
+        }
+      if (first >= last)
+        throw AnalysisError("the friction face ends before the contact at xi = " + mm(0.5 * (begin + end)));
+
+      FaceWindow result{ {}, first };
+      auto &part         = result.face;
+      part.young_modulus = face.young_modulus;
+      part.depth         = face.depth;
+      part.nodes.assign(face.nodes.begin() + first, face.nodes.begin() + last);
+      for (const std::size_t i : chosen)
+      {
+        const auto &element = face.elements[i];
+        const auto from     = static_cast<unsigned int>(part.points.size());
+        for (unsigned int q = element.begin; q < element.end; ++q)
+        {
+          auto &point = part.points.emplace_back(face.points[q]);
+          for (auto &node : point.nodes)
+            node.first -= first;
+        }
+        part.elements.push_back({ from, static_cast<unsigned int>(part.points.size()), element.length });
+        auto &edge = part.edges.emplace_back(face.edges[i]);
+        for (auto &node : edge.nodes)
+          if (node.index != FaceEdge<3>::held)
+            node.index -= first;
+      }
+      return result;
+    }
+
+    DofSelection window_dofs(const FaceWindow &window)
+    {
+      DofSelection result(3 * window.face.nodes.size());
+      for (unsigned int i = 0; i < result.size(); ++i)
+        result[i] = 3 * window.first_node + i;
+      return result;
+    }
+
+    /// Returns the layout of the window, the sensors, the cylinder's axis, the hub and its momentum.
+    InterfaceLayout make_layout(const FaceWindow &window, const SolidInTime &lever, const Device &device)
+    {
+      InterfaceLayout result{ static_cast<unsigned int>(3 * window.face.nodes.size()), true, lever.sensors->number() };
+      result.slopes = lever.body->is_half() || !device.cylinder.has_free_axis() ? 0 : 2;
+      return result;
+    }
+
+    std::unique_ptr<SurfaceContact> make_contact(const Device &device, const SolidInTime &lever, const FrictionFace<3> &face,
+                                                 const InterfaceLayout &layout, const unsigned int index)
+    {
+      const Device own = lever_device(device, index);
+      return std::make_unique<SurfaceContact>(
+          face, SurfaceContactProperties{ RigidCylinder(own.geometry, own.cylinder),
+                                          [geometry = own.geometry](const double x, const double theta)
+                                          { return cylinder_centre(geometry, x, theta); },
+                                          own.geometry.cylinder_radius, layout, rest_inclination(device),
+                                          penalties_in_time(own, lever.body->friction_face()), lever.body->is_half(),
+                                          own.friction, device.layer.thickness });
+    }
+
+    LeverFrame make_frame(const Device &device, const SolidInTime &lever, const InterfaceLayout &layout)
+    {
+      LeverFrame result       = lever_frame(device, layout, lever.modes.total_mass);
+      result.sensor_stiffness = lever.sensors->stiffness();
+      result.tell_sensors     = [is_half = lever.body->is_half()](const std::vector<double> &forces, Row &row)
+      { tell_sides(forces, is_half, row); };
+      return result;
+    }
+
+    MeshedDynamics facts(const Device &device, const SolidInTime &lever, const unsigned int n_modes)
+    {
+      MeshedDynamics result;
+      static_cast<MassSums &>(result) = lever.modes;
+      result.n_coordinates            = count_levers(device) * n_modes + (device.support.type == SupportType::sprung ? 1 : 0);
+      result.penalties                = penalties_in_time(device, lever.body->friction_face());
+      return result;
+    }
+  } // namespace
+
+  std::vector<const LeverModes *> structure_modes(const SolidInTime &lever, const unsigned int levers)
+  {
+    if (levers == 1)
+      return { &lever.modes };
+    return { &lever.modes, lever.swinging ? &*lever.swinging : &lever.modes };
+  }
+
+  SolidInTime make_solid_in_time(const Device &device, const Mesh &plane)
+  {
+    SolidInTime result;
+    result.body                         = std::make_unique<const SolidBody>(device, plane);
+    const double room                   = 0.1 * device.geometry.cylinder_radius;
+    constexpr double spacing_over_depth = 0.5; // ringing adds up what the compliance leaves out
+    const auto [first, last]            = swept_contact(device);
+    result.compliance = std::make_unique<LayeredCompliance>(*result.body, first - room, last + room, spacing_over_depth);
+    result.sensors    = std::make_unique<const SensorForces>(*result.body, make_response(*result.body));
+    const auto modes  = [&](const Device &single)
+    {
+      return lever_modes(*result.body, make_response(*result.body), lever_inertia(single), single.spring.stiffness,
+                         single.condensed.modes);
+    };
+    result.modes = modes(device);
+    if (swings_otherwise(device))
+      result.swinging = modes(swinging_device(device));
+    return result;
+  }
+
+  MeshedDynamics make_solid_dynamics(const Device &device, const SolidInTime &lever, const std::array<double, 2> &reach,
+                                     const double relaxation, const unsigned int n_modes)
+  {
+    const auto window     = std::make_shared<const FaceWindow>(make_window(lever.body->friction_face(), reach[0], reach[1]));
+    const auto &face      = window->face;
+    const auto levers     = count_levers(device);
+    const auto structures = structure_modes(lever, levers);
+    const auto structure  = [&](const unsigned int part)
+    {
+      const auto basis = basis_on(make_layout(*window, lever, device), *structures[part], face_dofs(face),
+                                  *lever.compliance->among(window_dofs(*window)), *lever.sensors, 3 * window->first_node,
+                                  slope_compliances(device.cylinder), device.spring.stiffness);
+      return std::make_unique<ModalStructure>(
+          modal_data(truncated(basis, n_modes), make_lever_dynamics(device, relaxation, basis.total_mass)));
+    };
+    const auto displacement = [&lever, structures, dofs = face_dofs(face)](const unsigned int part, const Motion &motion)
+    { return condensed_displacement(*lever.body, *structures[part], dofs, make_response(*lever.body), motion); };
+    const auto assemble = [&](auto all)
+    {
+      const InterfaceLayout layout = all->layout();
+      const auto contact           = [&](const unsigned int index)
+      { return make_contact(device, lever, face, layout.single_lever(), index); };
+      return assemble_lever(std::move(all), make_frame(device, lever, layout), contact,
+                            static_cast<unsigned int>(face.points.size()));
+    };
+    MeshedDynamics result = facts(device, lever, n_modes);
+    result.face           = std::shared_ptr<const FrictionFace<3>>(window, &face);
+    result.follow_edge    = [&lever, structures](const Eigenmode &mode, ModeShape &shape)
+    { follow_edge(lever.body->friction_face(), structures, mode, shape); };
+    complete_condensed(levers, levers == 2 && structures[0] == structures[1], structure, displacement, assemble, result);
+    return result;
+  }
+
+  FrictionFace<3> reached_face(const std::array<double, 2> &reach, const SolidBody &body)
+  {
+    return make_window(body.friction_face(), reach[0], reach[1]).face;
+  }
+} // namespace sprag

@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "fe/statics/layered_compliance.h"
+
+#include "base/errors.h"
+#include "fe/statics/solid_body.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/lapack_templates.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  /// Smooth loads on the bond between the skin and what is behind it: hats over a grid of xi and zeta, in each of three
+  /// directions. Together they can carry any force and moment.
+  struct BondGrid
+  {
+    double begin;        ///< along xi [mm]
+    double end;          ///< beyond which hats go on as they are [mm]
+    double spacing_xi;   ///< aimed at [mm]
+    double spacing_zeta; ///< aimed at [mm]
+  };
+
+  namespace
+  {
+    /// Hats over some places, of which the first and the last go on as they are beyond them.
+    struct Hats
+    {
+      std::vector<double> places; ///< increasing
+
+      unsigned int number() const
+      {
+        return static_cast<unsigned int>(places.size());
+      }
+
+      double operator()(const unsigned int hat, const double place) const
+      {
+        if (place < places[hat])
+          return hat == 0 ? 1. : std::max(0., (place - places[hat - 1]) / (places[hat] - places[hat - 1]));
+        if (place > places[hat])
+          return hat + 1 == number() ? 1. : std::max(0., (places[hat + 1] - place) / (places[hat + 1] - places[hat]));
+        return 1.;
+      }
+    };
+
+    /// Places between cells of the face along an axis, at least a spacing apart: with fewer hats than cells no two loads are
+    /// the same.
+    Hats hats_between_cells(const FrictionFace<3> &face, const unsigned int axis, const double begin, const double end,
+                            const double spacing)
+    {
+      std::set<long> sides; // in nanometres
+      for (const auto &edge : face.edges)
+      {
+        const auto is_before = [axis](const auto &a, const auto &b) { return a.position[axis] < b.position[axis]; };
+        const auto both      = std::minmax_element(edge.nodes.begin(), edge.nodes.end(), is_before);
+        sides.insert({ std::lround(1e6 * both.first->position[axis]), std::lround(1e6 * both.second->position[axis]) });
+      }
+      Hats result;
+      double last = begin;
+      for (const long side : sides)
+        if (const double place = 1e-6 * static_cast<double>(side); place >= begin && place <= end)
+        {
+          if (result.places.empty() || place >= result.places.back() + 0.999 * spacing)
+            result.places.push_back(place);
+          last = place;
+        }
+      if (result.places.empty())
+        result.places.push_back(0.5 * (begin + end));
+      else if (result.places.size() > 1)
+        result.places.back() = last;
+      return result;
+    }
+
+    bool is_bond(const SolidBody &body, const DoFHandler<3>::active_cell_iterator &cell, const unsigned int f)
+    {
+      return body.is_skin(cell) && !cell->at_boundary(f) && !body.is_skin(cell->neighbor(f));
+    }
+  } // namespace
+
+  /// Returns consistent nodal forces of the hats by the body's degrees of freedom, a column each; those that only the hub carries
+  /// are left out. Empty for a body without skin.
+  SparseColumns bond_loads(const SolidBody &body, const BondGrid &grid)
+  {
+    constexpr double whole = std::numeric_limits<double>::max();
+    const auto along       = hats_between_cells(body.friction_face(), 0, grid.begin, grid.end, grid.spacing_xi);
+    const auto across      = hats_between_cells(body.friction_face(), 2, -whole, whole, grid.spacing_zeta);
+
+    const auto &fe = body.dofs().get_fe();
+    FEFaceValues<3> values(body.cell_mapping(), fe, QGauss<2>(fe.degree + 1),
+                           update_values | update_quadrature_points | update_JxW_values);
+    std::vector<std::map<unsigned int, double>> columns(3 * along.number() * across.number());
+    std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
+    for (const auto &cell : body.dofs().active_cell_iterators())
+      for (const unsigned int f : cell->face_indices())
+        if (is_bond(body, cell, f))
+        {
+          values.reinit(cell, f);
+          cell->get_dof_indices(indices);
+          for (const unsigned int q : values.quadrature_point_indices())
+          {
+            const auto &place = values.quadrature_point(q);
+            for (unsigned int i = 0; i < along.number(); ++i)
+              for (unsigned int k = 0; k < across.number(); ++k)
+                if (const double hat = along(i, place[0]) * across(k, place[2]); hat > 0.)
+                  for (unsigned int a = 0; a < fe.n_dofs_per_face(); ++a)
+                  {
+                    const unsigned int in_cell   = fe.face_to_cell_index(a, f);
+                    const unsigned int direction = fe.system_to_component_index(in_cell).first;
+                    if (!body.is_held(indices[in_cell]))
+                      columns[3 * (i * across.number() + k) + direction][indices[in_cell]] +=
+                          values.JxW(q) * hat * values.shape_value(in_cell, q);
+                  }
+          }
+        }
+    SparseColumns result;
+    for (const auto &column : columns)
+      if (!column.empty())
+      {
+        for (const auto &[dof, force] : column)
+          result.add(dof, force);
+        result.end_column();
+      }
+    return result;
+  }
+
+  namespace
+  {
+    /// Surroundings of a column that must be alike for it to answer alike, over the depth of the skin. What lies further away
+    /// differs in the length of its cells, if at all.
+    constexpr double surroundings_over_depth = 0.3;
+
+    /// Displacements of the near part that count, over its largest.
+    constexpr double negligible = 1e-9;
+
+    /// Columns solved for together, which bounds the memory that they take.
+    constexpr int chunk = 64;
+
+    long rounded(const double place)
+    {
+      return std::lround(1e6 * place);
+    }
+
+    struct SkinCell
+    {
+      double begin, end; ///< along xi
+      std::vector<Point<3>> corners;
+    };
+
+    std::vector<SkinCell> skin_cells(const SolidBody &body)
+    {
+      std::vector<SkinCell> result;
+      for (const auto &cell : body.dofs().active_cell_iterators())
+        if (body.is_skin(cell))
+        {
+          const double middle = cell->center()[0], half = 0.5 * cell->extent_in_direction(0);
+          auto &found = result.emplace_back(SkinCell{ middle - half, middle + half, {} });
+          for (const unsigned int v : cell->vertex_indices())
+            found.corners.push_back(cell->vertex(v));
+        }
+      return result;
+    }
+
+    /// The corners of the cells near a place, seen from there.
+    std::set<std::vector<long>> find_surroundings(const double xi, const double distance, const std::vector<SkinCell> &cells)
+    {
+      std::set<std::vector<long>> result;
+      for (const auto &cell : cells)
+        if (cell.begin < xi + distance && cell.end > xi - distance)
+        {
+          std::vector<long> corners;
+          for (const auto &corner : cell.corners)
+            for (unsigned int d = 0; d < 3; ++d)
+              corners.push_back(rounded(corner[d] - (d == 0 ? xi : 0.)));
+          result.insert(corners);
+        }
+      return result;
+    }
+  } // namespace
+
+  LayeredCompliance::LayeredCompliance(const SolidBody &body_, const double begin, const double end,
+                                       const double spacing_over_depth)
+      : body(body_)
+      , dofs(surface_dofs(body))
+  {
+    find_blocks(surroundings_over_depth * body.skin());
+    if (body.has_skin())
+      find_basis(begin, end, spacing_over_depth * body.skin());
+  }
+
+  void LayeredCompliance::find_blocks(const double surroundings)
+  {
+    const auto &nodes = body.friction_face().nodes;
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+    {
+      const double xi = nodes[i].position[0];
+      if (blocks.empty() || rounded(blocks.back().xi) != rounded(xi))
+        blocks.push_back({ xi, 3 * i, 3 * i, static_cast<unsigned int>(blocks.size()) });
+      blocks.back().end = 3 * (i + 1);
+    }
+
+    if (!body.has_skin())
+      return;
+    const auto cells = skin_cells(body);
+    std::map<std::set<std::vector<long>>, std::vector<unsigned int>> alike;
+    for (unsigned int t = 0; t < blocks.size(); ++t)
+      alike[find_surroundings(blocks[t].xi, surroundings, cells)].push_back(t);
+    for (const auto &[around, some] : alike)
+      for (const unsigned int t : some)
+      {
+        blocks[t].like    = some[some.size() / 2];
+        blocks[t].n_alike = static_cast<unsigned int>(some.size());
+      }
+  }
+
+  void LayeredCompliance::find_basis(const double begin, const double end, const double spacing)
+  {
+    constexpr double beyond = 4.; // how far what the skin hands on spreads, over its depth
+    const double depth      = body.skin();
+    const auto loads        = bond_loads(body, { begin - beyond * depth, end + beyond * depth, spacing, depth });
+    const int n             = loads.size();
+    const auto n_surface    = static_cast<unsigned int>(dofs.size());
+    FullMatrix<double> face_response(n_surface, n);
+    LAPACKFullMatrix<double> products(n);
+    for (int first = 0; first < n; first += chunk)
+    {
+      const int last = std::min(n, first + chunk);
+      SparseColumns some;
+      for (int j = first; j < last; ++j)
+      {
+        for (int k = loads.begin[j]; k < loads.begin[j + 1]; ++k)
+          some.add(loads.row[k - 1] - 1, loads.value[k - 1]);
+        some.end_column();
+      }
+      const auto responses = body.respond(some);
+      for (int j = first; j < last; ++j)
+      {
+        const double *const response = &responses[static_cast<std::size_t>(j - first) * body.n_dofs()];
+        for (unsigned int surface_dof = 0; surface_dof < n_surface; ++surface_dof)
+          face_response(surface_dof, j) = response[dofs[surface_dof]];
+        for (int i = 0; i < n; ++i)
+          for (int k = loads.begin[i]; k < loads.begin[i + 1]; ++k)
+            products(i, j) += loads.value[k - 1] * response[loads.row[k - 1] - 1];
+      }
+    }
+
+    // B^T K^-1 B = L L^T, Z = (K^-1 B)_face L^-T.
+    products.set_property(LAPACKSupport::symmetric);
+    products.compute_cholesky_factorization();
+    LAPACKFullMatrix<double> lower(n), transposed(n, n_surface);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j <= i; ++j)
+        lower(i, j) = products(i, j);
+    for (unsigned int surface_dof = 0; surface_dof < n_surface; ++surface_dof)
+      for (int j = 0; j < n; ++j)
+        transposed(j, surface_dof) = face_response(surface_dof, j);
+    lower.set_property(LAPACKSupport::lower_triangular);
+    lower.solve(transposed);
+    basis.reinit(n_surface, n);
+    for (unsigned int surface_dof = 0; surface_dof < n_surface; ++surface_dof)
+      for (int j = 0; j < n; ++j)
+        basis(surface_dof, j) = transposed(j, surface_dof);
+  }
+
+  unsigned int LayeredCompliance::containing_block(const unsigned int surface_dof) const
+  {
+    const auto after = std::upper_bound(blocks.begin(), blocks.end(), surface_dof,
+                                        [](const unsigned int value, const Block &range) { return value < range.begin; });
+    return static_cast<unsigned int>(after - blocks.begin()) - 1;
+  }
+
+  DofSelection LayeredCompliance::whole_blocks(const DofSelection &surface_dofs) const
+  {
+    DofSelection result;
+    for (const unsigned int surface_dof : surface_dofs)
+      if (result.empty() || surface_dof > result.back())
+        for (unsigned int i = blocks[containing_block(surface_dof)].begin; i < blocks[containing_block(surface_dof)].end; ++i)
+          result.push_back(i);
+    return result;
+  }
+
+  LayeredCompliance::NearColumns LayeredCompliance::find_near_columns(const unsigned int block_index) const
+  {
+    SparseColumns loads;
+    for (unsigned int surface_dof = blocks[block_index].begin; surface_dof < blocks[block_index].end; ++surface_dof)
+    {
+      if (const int number = body.number_near(dofs[surface_dof]); number >= 0)
+        loads.add(static_cast<unsigned int>(number), 1.);
+      loads.end_column();
+    }
+    const int n            = loads.size();
+    const auto responses   = body.respond_near(loads);
+    const auto near_matrix = [&](const Block &other)
+    {
+      FullMatrix<double> result(other.end - other.begin, n);
+      for (unsigned int i = 0; i < result.m(); ++i)
+        if (const int number = body.number_near(dofs[other.begin + i]); number >= 0)
+          for (unsigned int j = 0; j < result.n(); ++j)
+            result(i, j) = responses[j * static_cast<std::size_t>(body.n_near()) + number];
+      return result;
+    };
+    NearColumns result{ 0, { near_matrix(blocks[block_index]) } };
+    const double least  = body.has_skin() ? negligible * result.block_matrices.front().linfty_norm() : 0.;
+    const auto add_side = [&](const int step, const auto &add)
+    {
+      for (int other = static_cast<int>(block_index) + step; other >= 0 && other < static_cast<int>(blocks.size()); other += step)
+      {
+        auto matrix = near_matrix(blocks[other]);
+        if (body.has_skin() && matrix.linfty_norm() < least)
+          break;
+        add(std::move(matrix));
+      }
+    };
+    add_side(1, [&](auto matrix) { result.block_matrices.push_back(std::move(matrix)); });
+    std::vector<FullMatrix<double>> before;
+    add_side(-1, [&](auto matrix) { before.push_back(std::move(matrix)); });
+    result.first = -static_cast<int>(before.size());
+    result.block_matrices.insert(result.block_matrices.begin(), std::make_move_iterator(before.rbegin()),
+                                 std::make_move_iterator(before.rend()));
+    return result;
+  }
+
+  const LayeredCompliance::NearColumns &LayeredCompliance::near_columns(const unsigned int block_index)
+  {
+    const auto found = known.find(block_index);
+    return found != known.end() ? found->second : known.emplace(block_index, find_near_columns(block_index)).first->second;
+  }
+
+  /// Returns true if the columns of the like tile serve for a column's tile: the row then lies in the same place about both.
+  bool LayeredCompliance::is_like(const unsigned int row_block, const unsigned int column_block) const
+  {
+    const unsigned int like = blocks[column_block].like;
+    const int other         = static_cast<int>(like) + static_cast<int>(row_block) - static_cast<int>(column_block);
+    return other >= 0 && other < static_cast<int>(blocks.size()) &&
+           rounded(blocks[other].xi - blocks[like].xi) == rounded(blocks[row_block].xi - blocks[column_block].xi);
+  }
+
+  /// The tile whose columns stand for those of another at a row.
+  unsigned int LayeredCompliance::stand_in(const unsigned int row_block, const unsigned int column_block) const
+  {
+    return is_like(row_block, column_block) ? blocks[column_block].like : column_block;
+  }
+
+  /// Displacements of a tile by forces on another; none where they are negligible.
+  const FullMatrix<double> *LayeredCompliance::near_block(const unsigned int row_block, const unsigned int column_block)
+  {
+    const auto &columns    = near_columns(stand_in(row_block, column_block));
+    const int number       = static_cast<int>(row_block) - static_cast<int>(column_block) - columns.first;
+    const bool is_far_away = number < 0 || number >= static_cast<int>(columns.block_matrices.size());
+    return is_far_away ? nullptr : &columns.block_matrices[number];
+  }
+
+  /// Returns the displacement of a dof by a unit force on each, of the skin alone.
+  const std::vector<double> &LayeredCompliance::near_row(const unsigned int surface_dof)
+  {
+    const auto [found, is_new] = known_rows.try_emplace(surface_dof, dofs.size());
+    if (const int own = body.number_near(dofs[surface_dof]); is_new && own >= 0)
+    {
+      SparseColumns load;
+      load.add(static_cast<unsigned int>(own), 1.);
+      load.end_column();
+      const auto response = body.respond_near(load);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        if (const int number = body.number_near(dofs[i]); number >= 0)
+          found->second[i] = response[number];
+    }
+    return found->second;
+  }
+
+  FullMatrix<double> LayeredCompliance::block(const unsigned int row_block, const unsigned int column_block)
+  {
+    const auto &rows    = blocks[row_block];
+    const auto &columns = blocks[column_block];
+    const int n_rows = static_cast<int>(rows.end - rows.begin), n_columns = static_cast<int>(columns.end - columns.begin),
+              n = static_cast<int>(basis.n());
+    FullMatrix<double> result(rows.end - rows.begin, columns.end - columns.begin);
+    if (n > 0)
+    {
+      const double once = 1., none = 0.; // row by row is column by column of what is transposed
+      gemm("T", "N", &n_columns, &n_rows, &n, &once, &basis(columns.begin, 0), &n, &basis(rows.begin, 0), &n, &none,
+           &result(0, 0), &n_columns);
+    }
+    // It is symmetric: where columns of another tile do not serve, those for the row may. Of two that must be solved for, the
+    // kind that is rarer is met again.
+    const bool by_column =
+        is_like(row_block, column_block) || (!is_like(column_block, row_block) && columns.n_alike <= rows.n_alike);
+    const auto *const near = by_column ? near_block(row_block, column_block) : near_block(column_block, row_block);
+    if (near != nullptr && by_column)
+      result.add(1., *near);
+    else if (near != nullptr)
+      result.Tadd(1., *near);
+    return result;
+  }
+
+  std::vector<unsigned int> LayeredCompliance::block_numbers(const DofSelection &whole_blocks) const
+  {
+    std::vector<unsigned int> result;
+    for (unsigned int place = 0; place < whole_blocks.size(); place += blocks[result.back()].end - blocks[result.back()].begin)
+      result.push_back(containing_block(whole_blocks[place]));
+    return result;
+  }
+
+  std::shared_ptr<const FullMatrix<double>> LayeredCompliance::among(const DofSelection &whole_blocks)
+  {
+    const auto n = static_cast<unsigned int>(whole_blocks.size());
+    if (spare_matrix.use_count() != 1)
+      spare_matrix = std::make_shared<FullMatrix<double>>();
+    auto &result = *spare_matrix;
+    result.TableBase<2, double>::reinit({ n, n }, true); // all of it is set below
+    // Most of it was found last time, in one piece.
+    const auto first  = std::find_if(whole_blocks.begin(), whole_blocks.end(),
+                                     [&](const unsigned int surface_dof)
+                                     { return std::binary_search(last_dofs.begin(), last_dofs.end(), surface_dof); });
+    const auto begin  = static_cast<unsigned int>(first - whole_blocks.begin());
+    const auto before = begin < n ? find_index(*first, last_dofs) : 0;
+    unsigned int end  = begin;
+    while (end < n && before + end - begin < last_dofs.size() && last_dofs[before + end - begin] == whole_blocks[end])
+      ++end;
+    for (unsigned int row = begin; row < end; ++row)
+      std::copy_n(&(*last_matrix)(before + row - begin, before), end - begin, &result(row, begin));
+
+    const auto all      = block_numbers(whole_blocks);
+    const auto is_known = [&](const unsigned int place) { return begin <= place && place < end; };
+    for (unsigned int i = 0, row = 0; i < all.size(); row += blocks[all[i]].end - blocks[all[i]].begin, ++i)
+      for (unsigned int j = 0, column = 0; j <= i; column += blocks[all[j]].end - blocks[all[j]].begin, ++j)
+        if (!is_known(row) || !is_known(column))
+        {
+          const auto fresh = block(all[i], all[j]);
+          for (unsigned int a = 0; a < fresh.m(); ++a)
+            for (unsigned int b = 0; b < fresh.n() && column + b <= row + a; ++b)
+              result(row + a, column + b) = result(column + b, row + a) = fresh(a, b);
+        }
+    last_dofs = whole_blocks;
+    std::swap(last_matrix, spare_matrix);
+    return last_matrix;
+  }
+
+  Vector<double> LayeredCompliance::displacements(const DofSelection &surface_dofs, const DofLoads &forces)
+  {
+    Vector<double> amplitudes(basis_size()), result(static_cast<unsigned int>(surface_dofs.size()));
+    for (unsigned int a = 0; a < forces.dofs.size(); ++a)
+      for (unsigned int j = 0; j < basis.n(); ++j)
+        amplitudes[j] += basis(forces.dofs[a], j) * forces.values[a];
+    for (unsigned int i = 0; i < surface_dofs.size(); ++i)
+    {
+      for (unsigned int j = 0; j < basis.n(); ++j)
+        result[i] += basis(surface_dofs[i], j) * amplitudes[j];
+      result[i] += near_displacement(surface_dofs[i], forces);
+    }
+    return result;
+  }
+
+  /// Returns the displacement of a dof by the loads near it. If the columns of other tiles do not serve, a row costs less than
+  /// all columns.
+  double LayeredCompliance::near_displacement(const unsigned int surface_dof, const DofLoads &forces)
+  {
+    const unsigned int to = containing_block(surface_dof);
+    double result         = 0.;
+    for (unsigned int a = 0; a < forces.dofs.size(); ++a)
+    {
+      const unsigned int by = forces.dofs[a], from = containing_block(by);
+      if (!is_like(to, from))
+        result += near_row(surface_dof)[by] * forces.values[a];
+      else if (const auto *const block = near_block(to, from))
+        result += (*block)(surface_dof - blocks[to].begin, by - blocks[from].begin) * forces.values[a];
+    }
+    return result;
+  }
+} // namespace sprag

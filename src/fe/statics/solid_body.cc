@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "fe/statics/solid_body.h"
+
+#include "base/errors.h"
+#include "base/messages.h"
+#include "fe/body/solid_stiffness.h"
+#include "fe/statics/lever_properties.h"
+#include "scene/across.h"
+#include "scene/analysis_use.h"
+#include "scene/device.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  void serialise(Archive &archive, SolidProperties &properties)
+  {
+    auto &body = properties.body;
+    archive(body.degree, body.plane, body.material, body.width, body.curved, body.point_spacing, body.constants,
+            properties.interface_offset, properties.layer, properties.skin, properties.folder);
+  }
+
+  namespace
+  {
+    void add_guide(const ElasticBody<3> &body, const Device &device, const bool is_half, std::vector<Connector> &result)
+    {
+      const auto &plate      = device.plate;
+      const double half      = 0.5 * device.lever.width;
+      const double xi        = 0.5 * plate.sensor_length;
+      const double stiffness = plate.guide_stiffness;
+      const FacingPads<3> pads(ConnectorType::guide,
+                               { { { plate.guide - xi, is_half ? 0. : -half } }, { { plate.guide + xi, half } } }, body);
+      result.push_back(connector(ConnectorType::guide, stiffness, pads.shift(0)));
+      if (is_half)
+        return;
+      result.push_back(connector(ConnectorType::guide, stiffness, pads.shift(1)));
+      result.push_back(connector(ConnectorType::guide, stiffness * half * half / 3., pads.turn()));
+    }
+
+    /// Finds the connectors of the scene's friction plate; none without one. First come the sensors, of each place along the
+    /// lever that on the left (zeta < 0) and that on the right, half as stiff as the place each; of a half, which is the same on
+    /// both sides of the middle and has zeta >= 0, the right one alone, which stands for both. Then comes the guide, over the
+    /// whole width: a spring along the lever, and of a whole also one across it, as stiff, and one against turning about eta, as
+    /// of springs along the lever spread over the width [N mm]. Throws InputError as FacingPads.
+    std::vector<Connector> find_connectors(const ElasticBody<3> &body, const Device &device, const bool is_half)
+    {
+      const auto &plate = device.plate;
+      std::vector<Connector> result;
+      if (plate.type == PlateType::none)
+        return result;
+      const double middle = sensors_across(device), xi = 0.5 * plate.sensor_length, zeta = 0.5 * plate.sensor_width;
+      for (const double place : plate.sensors)
+        for (const double side : { -1., 1. })
+        {
+          if (is_half && side < 0.)
+            continue;
+          const FacingPads<3> pads(ConnectorType::sensor,
+                                   { { { place - xi, side * middle - zeta } }, { { place + xi, side * middle + zeta } } }, body);
+          const double share = is_half ? 1. : 0.5;
+          result.push_back(connector(ConnectorType::sensor, share * plate.sensor_stiffness, pads.approach()));
+        }
+      add_guide(body, device, is_half, result);
+      return result;
+    }
+
+    /// Adds the stiffness of a connector to that of its body.
+    void add(const Connector &connector, MatrixEntries &stiffness)
+    {
+      for (const auto &[row, row_weight] : connector.row)
+        for (const auto &[column, column_weight] : connector.row)
+          if (row <= column)
+            stiffness.add(row, column, connector.stiffness * row_weight * column_weight);
+    }
+  } // namespace
+
+  BodyFactors::BodyFactors(const ElasticBody<3> &body_, const std::vector<int> &numbers, const SharedTask solve,
+                           const BodyCalls &calls)
+      : body(body_)
+      , number_in_part(numbers)
+      , task(solve)
+      , call_others(calls)
+  {
+  }
+
+  void BodyFactors::factorise(const std::vector<Connector> &connectors, const std::string &folder)
+  {
+    release();
+    auto entries = assemble_stiffness(body, number_in_part);
+    n            = entries.size;
+    for (const auto &connector : connectors)
+      add(connector, entries);
+    factors = std::make_unique<Mumps>(MatrixKind::solid_stiffness, call_others.ranks, folder);
+    factors->factorise(std::move(entries));
+  }
+
+  void BodyFactors::solve(std::vector<double> &columns) const
+  {
+    call_others(task);
+    factors->solve(columns);
+  }
+
+  std::vector<double> BodyFactors::solve(const SparseColumns &columns) const
+  {
+    call_others(task);
+    return factors->solve(columns);
+  }
+
+  void BodyFactors::take_part() const
+  {
+    factors->take_part();
+  }
+
+  void BodyFactors::release()
+  {
+    factors.reset();
+  }
+
+  namespace
+  {
+    BodyProperties solid_properties(const Device &device)
+    {
+      auto result  = lever_properties(device).body;
+      result.plane = PlaneState::strain; // its constants are those of the body
+      result.planes.clear();
+      result.width = 1.;
+      result.widths.clear();
+      result.connectors.clear(); // has its own
+      result.curved = false;
+      if (device.analysis.type != AnalysisType::quasi_static)
+        result.point_spacing = device.geometry.cylinder_radius / 1000.; // as of levers in a plane in time
+      return result;
+    }
+
+    /// Returns how far the skin of a lever reaches from its friction face where nothing forbids it [mm]: beyond the layer as far
+    /// as the pressure of a contact is more than its resultant.
+    double skin_depth(const Device &device)
+    {
+      constexpr double over_radius = 0.08;
+      return device.layer.thickness + over_radius * device.geometry.cylinder_radius;
+    }
+
+    /// Returns true if the side of a cell away from the friction face is free.
+    bool has_free_back(const DoFHandler<3>::active_cell_iterator &cell)
+    {
+      const auto is_back = [&](const auto &face)
+      {
+        const auto way = face->center() - cell->center();
+        return way[1] > std::abs(way[0]) && way[1] > std::abs(way[2]);
+      };
+      const auto faces = cell->face_iterators();
+      return std::any_of(faces.begin(), faces.end(), [&](const auto &face) { return face->at_boundary() && is_back(face); });
+    }
+
+    SolidProperties make_properties(const Device &device, const std::string &folder)
+    {
+      return { solid_properties(device), device.geometry.interface_offset, device.layer.thickness, skin_depth(device), folder };
+    }
+
+    /// Returns those that the first rank has, which calls the others to build the body.
+    SolidProperties shared(const BodyCalls &call_others, SolidProperties properties)
+    {
+      call_others(SharedTask::build);
+      return broadcast(call_others.ranks, std::move(properties));
+    }
+
+    /// Stiffness and areas of a half stand for the whole.
+    BodyProperties to_whole(BodyProperties properties, const bool is_half)
+    {
+      properties.width = is_half ? 2. : 1.;
+      return properties;
+    }
+  } // namespace
+
+  SharedSolid::SharedSolid(const BodyCalls &calls, SolidProperties first_data, const Device *const device,
+                           const Mesh *const plane)
+      : call_others(calls)
+      , solid(shared(calls, std::move(first_data)))
+      , mesh(calls.ranks, SolidMesh::none, false, SolidMesh::Settings::partition_zorder)
+      , half(device != nullptr ? make_solid_mesh(*device, *plane, mesh) : receive_solid_mesh(mesh))
+  {
+  }
+
+  SolidBody::SolidBody(const Device &device, const Mesh &plane, const std::string &folder)
+      : SolidBody(BodyCalls(), make_properties(device, folder), &device, &plane)
+  {
+    use_connectors(find_connectors(*this, device, half));
+    call_others(SharedTask::factorise);
+    factorise();
+  }
+
+  SolidBody::SolidBody(const MPI_Comm ranks)
+      : SolidBody(BodyCalls(ranks), SolidProperties(), nullptr, nullptr)
+  {
+  }
+
+  SolidBody::SolidBody(const BodyCalls &calls, SolidProperties first_data, const Device *const device, const Mesh *const plane)
+      : SharedSolid(calls, std::move(first_data), device, plane)
+      , ElasticBody<3>(mesh, to_whole(solid.body, half))
+      , skin_thickness(solid.skin)
+      , factors(*this, all, SharedTask::solve_whole, call_others)
+      , skin_factors(*this, number_in_skin, SharedTask::solve_near, call_others)
+  {
+    find_ends();
+    find_skin();
+  }
+
+  /// Factors of the whole come first: nothing else takes memory then.
+  void SolidBody::factorise()
+  {
+    factors.factorise(connectors(), solid.folder);
+    if (has_skin())
+      skin_factors.factorise({}, {});
+  }
+
+  /// Mesh and factors are given back by all ranks together.
+  SolidBody::~SolidBody()
+  {
+    call_others(SharedTask::release);
+  }
+
+  void SolidBody::find_ends()
+  {
+    face_begin = std::numeric_limits<double>::max();
+    face_end   = -face_begin;
+    for (const auto &edge : friction_face().edges)
+      for (const auto &node : edge.nodes)
+      {
+        face_begin = std::min(face_begin, node.position[0]);
+        face_end   = std::max(face_end, node.position[0]);
+      }
+  }
+
+  /// Makes the skin shallower until it is bonded everywhere; where it never is, there is none.
+  void SolidBody::find_skin()
+  {
+    constexpr double least = 1e-3;
+    while (!number_skin())
+    {
+      if (skin_thickness < solid.layer + least)
+        return number_in_skin.clear();
+      skin_thickness = solid.layer + 0.5 * (skin_thickness - solid.layer);
+    }
+  }
+
+  /// Numbers what belongs to the skin alone, all three displacements of its nodes. A lever that is no deeper has none. Returns
+  /// false where a part of it has nothing behind it, as a flange beside a web or a plate.
+  bool SolidBody::number_skin()
+  {
+    std::vector<char> in_skin(n_dofs(), 0), elsewhere(n_dofs(), 0);
+    std::vector<types::global_dof_index> indices(dofs().get_fe().n_dofs_per_cell());
+    bool is_bonded = true;
+    for (const auto &cell : dofs().active_cell_iterators())
+      if (cell->material_id() != material_id::hub)
+      {
+        cell->get_dof_indices(indices);
+        for (const auto index : indices)
+          (is_skin(cell) ? in_skin : elsewhere)[index] = 1;
+        is_bonded = is_bonded && !(is_skin(cell) && has_free_back(cell));
+      }
+    int number = 0;
+    number_in_skin.assign(n_dofs(), -1);
+    for (unsigned int dof = 0; dof < n_dofs(); ++dof)
+      if (in_skin[dof] && !elsewhere[dof])
+        number_in_skin[dof] = number++;
+    const bool is_all = std::find(elsewhere.begin(), elsewhere.end(), 1) == elsewhere.end();
+    if (number == 0 || is_all)
+      number_in_skin.clear();
+    return is_bonded || number_in_skin.empty();
+  }
+
+  bool SolidBody::is_skin(const DoFHandler<3>::active_cell_iterator &cell) const
+  {
+    const auto centre = cell->center();
+    return cell->material_id() != material_id::hub && centre[1] > solid.interface_offset &&
+           centre[1] < solid.interface_offset + skin_thickness && centre[0] > face_begin && centre[0] < face_end;
+  }
+
+  int SolidBody::number_near(const unsigned int dof) const
+  {
+    if (is_held(dof))
+      return -1;
+    return has_skin() ? number_in_skin[dof] : static_cast<int>(dof);
+  }
+
+  unsigned int SolidBody::n_near() const
+  {
+    return has_skin() ? skin_factors.size() : n_dofs();
+  }
+
+  void SolidBody::respond(std::vector<double> &loads) const
+  {
+    factors.solve(loads);
+  }
+
+  std::vector<double> SolidBody::respond(const SparseColumns &loads) const
+  {
+    return factors.solve(loads);
+  }
+
+  std::vector<double> SolidBody::respond_near(const SparseColumns &loads) const
+  {
+    return has_skin() ? skin_factors.solve(loads) : respond(loads);
+  }
+
+  void SolidBody::release_factors()
+  {
+    call_others(SharedTask::release_factors);
+    release();
+  }
+
+  void SolidBody::release()
+  {
+    factors.release();
+    skin_factors.release();
+  }
+
+  void SolidBody::take_part(const SharedTask task)
+  {
+    switch (task)
+    {
+    case SharedTask::solve_whole:
+      return factors.take_part();
+    case SharedTask::solve_near:
+      return skin_factors.take_part();
+    case SharedTask::factorise:
+      return factorise();
+    default:
+      return release();
+    }
+  }
+} // namespace sprag

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "fe/statics/solid_structure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  FiniteStrain::FiniteStrain(const SolidBody &body_)
+      : body(body_)
+      , surface(surface_dofs(body))
+      , stiffness(body)
+      , elasticity(body.cell_mapping(), body.dofs().get_fe(), body.body_properties())
+      , cell_displacement(body.dofs().get_fe().n_dofs_per_cell())
+  {
+    for (const auto &cell : body.dofs().active_cell_iterators())
+      if (cell->material_id() != material_id::hub)
+      {
+        std::vector<types::global_dof_index> dofs(cell_displacement.size());
+        cell->get_dof_indices(dofs);
+        cells.push_back({ cell, std::move(dofs), &stiffness(cell) });
+      }
+  }
+
+  const Vector<double> &FiniteStrain::cell_values(const Cell &cell, const Vector<double> &displacement)
+  {
+    for (unsigned int i = 0; i < cell.dofs.size(); ++i)
+      cell_displacement[i] = displacement[cell.dofs[i]];
+    return cell_displacement;
+  }
+
+  void FiniteStrain::add(const DofLoads &on_face, std::vector<double> &loads) const
+  {
+    for (unsigned int i = 0; i < on_face.dofs.size(); ++i)
+      if (const unsigned int dof = surface[on_face.dofs[i]]; !body.is_held(dof))
+        loads[dof] += on_face.values[i];
+  }
+
+  Vector<double> FiniteStrain::strain_residual(const Vector<double> &displacement, const DofLoads &on_face)
+  {
+    std::vector<double> loads(body.n_dofs(), 0.);
+    Vector<double> internal(cell_displacement.size()), stiffness_forces(cell_displacement.size());
+    for (const auto &cell : cells)
+    {
+      elasticity.reinit(cell.cell, cell_values(cell, displacement));
+      elasticity.find_forces(internal);
+      cell.stiffness->vmult(stiffness_forces, cell_displacement);
+      internal -= stiffness_forces;
+      for (unsigned int i = 0; i < cell.dofs.size(); ++i)
+        if (!body.is_held(cell.dofs[i]))
+          loads[cell.dofs[i]] += internal[i];
+    }
+    for (double &load : loads)
+      load = -load;
+    add(on_face, loads);
+    body.respond(loads);
+    Vector<double> result(loads.begin(), loads.end());
+    result -= displacement;
+    return result;
+  }
+
+  Vector<double> FiniteStrain::correction(const Vector<double> &strain_residual, const DofLoads &change) const
+  {
+    std::vector<double> loads(body.n_dofs(), 0.);
+    add(change, loads);
+    body.respond(loads);
+    Vector<double> result(loads.begin(), loads.end());
+    return result += strain_residual;
+  }
+
+  namespace
+  {
+    std::vector<std::vector<unsigned int>> lines_along(const FrictionFace<3> &face)
+    {
+      std::map<long, std::vector<unsigned int>> by_zeta;
+      for (unsigned int i = 0; i < face.nodes.size(); ++i)
+        by_zeta[std::lround(1e6 * face.nodes[i].position[2])].push_back(i);
+      std::vector<std::vector<unsigned int>> result;
+      for (const auto &line : by_zeta)
+        if (line.second.size() >= 3)
+          result.push_back(line.second);
+      return result;
+    }
+  } // namespace
+
+  SolidStructure::SolidStructure(const SolidBody &body_, const double begin, const double end, const InterfaceLayout &layout_,
+                                 const JointSprings &springs_)
+      : StaticInterface(layout_, springs_,
+                        { { layout_.surface, [this](const DofSelection &some) { return compliance.whole_blocks(some); },
+                            [this](const DofSelection &blocks) { return compliance.among(blocks); } } })
+      , body(body_)
+      , surface(surface_dofs(body))
+      , compliance(body, begin, end)
+      , node_lines(lines_along(body.friction_face()))
+      , sensors(body, make_response(body))
+  {
+    if (body.body_properties().material != MaterialModel::linear)
+      finite.emplace(body);
+  }
+
+  /// Index among the coordinates, at finite strain, of the first displacement of a lever's body.
+  unsigned int SolidStructure::first_body_coordinate(const unsigned int lever) const
+  {
+    return StaticInterface::n_coordinates() + lever * body.n_dofs();
+  }
+
+  unsigned int SolidStructure::n_coordinates() const
+  {
+    return finite ? first_body_coordinate(layout.levers) : StaticInterface::n_coordinates();
+  }
+
+  Vector<double> SolidStructure::lever_displacement(const Vector<double> &coordinates, const unsigned int lever) const
+  {
+    const auto first = coordinates.begin() + first_body_coordinate(lever);
+    return Vector<double>(first, first + body.n_dofs());
+  }
+
+  void SolidStructure::set_faces(const DofLoads &forces, const DofSelection &near, Vector<double> &coordinates)
+  {
+    if (!finite)
+      return StaticInterface::set_faces(forces, near, coordinates);
+    for (unsigned int i = 0; i < layout.levers; ++i)
+      for (unsigned int dof = 0; dof < layout.surface; ++dof)
+        coordinates[layout.first(i) + dof] = coordinates[first_body_coordinate(i) + surface[dof]];
+  }
+
+  Residual SolidStructure::residual(const Vector<double> &coordinates, const InterfaceForces &forces, const DofSelection &near)
+  {
+    if (!finite)
+      return StaticInterface::residual(coordinates, forces, near);
+    Vector<double> face_displacements(layout.size()), strain_parts(n_coordinates());
+    for (unsigned int i = 0; i < layout.levers; ++i)
+    {
+      const auto displacement = lever_displacement(coordinates, i);
+      const auto strain_part  = finite->strain_residual(displacement, on_surface({ forces.dofs, forces.values }, i));
+      std::copy(strain_part.begin(), strain_part.end(), strain_parts.begin() + first_body_coordinate(i));
+      for (unsigned int dof = 0; dof < layout.surface; ++dof)
+        face_displacements[layout.first(i) + dof] = displacement[surface[dof]] + strain_part[surface[dof]];
+    }
+    auto result = StaticInterface::residual(coordinates, forces, near, &face_displacements);
+    result.norm = std::hypot(result.norm, strain_parts.l2_norm());
+    std::copy(result.values.begin(), result.values.end(), strain_parts.begin());
+    result.values = std::move(strain_parts);
+    return result;
+  }
+
+  Vector<double> SolidStructure::correction(const Residual &residual, const InterfaceForces &forces, const DofSelection &near)
+  {
+    auto result = StaticInterface::correction(residual, forces, near);
+    if (!finite)
+      return result;
+    DofLoads change{ forces.dofs, Vector<double>(forces.values.size()) };
+    Vector<double> moved(forces.values.size());
+    result.extract_subvector_to(forces.dofs.begin(), forces.dofs.end(), moved.begin());
+    forces.tangent.vmult(change.values, moved);
+    result.grow_or_shrink(n_coordinates());
+    for (unsigned int i = 0; i < layout.levers; ++i)
+    {
+      const auto strain_part = finite->correction(lever_displacement(residual.values, i), on_surface(change, i));
+      std::copy(strain_part.begin(), strain_part.end(), result.begin() + first_body_coordinate(i));
+    }
+    return result;
+  }
+
+  void SolidStructure::tell_sensors(const unsigned int lever, const Vector<double> &coordinates, const DofLoads &forces,
+                                    Row &row) const
+  {
+    tell_sides(finite ? body.sensor_forces(lever_displacement(coordinates, lever)) : sensors(on_surface(forces, lever)),
+               body.is_half(), row);
+  }
+
+  const std::vector<unsigned int> &SolidStructure::line_at(const double zeta) const
+  {
+    const auto &nodes    = body.friction_face().nodes;
+    const auto distance  = [&](const auto &line) { return std::abs(nodes[line.front()].position[2] - zeta); };
+    const auto is_closer = [&](const auto &a, const auto &b) { return distance(a) < distance(b); };
+    return *std::min_element(node_lines.begin(), node_lines.end(), is_closer);
+  }
+
+  /// Returns the dofs and shares of three nodes of a line by which the displacement along eta between nodes follows.
+  DofLoads SolidStructure::interpolation(const std::vector<unsigned int> &line, const double xi) const
+  {
+    const auto &nodes    = body.friction_face().nodes;
+    const auto xi_at     = [&](const std::size_t i) { return nodes[line[i]].position[0]; };
+    const auto is_before = [&](const unsigned int node, const double value) { return nodes[node].position[0] < value; };
+    const auto after     = std::lower_bound(line.begin(), line.end(), xi, is_before) - line.begin();
+    const auto first     = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - 1, 0, line.size() - 3));
+    DofLoads result{ {}, Vector<double>(3) };
+    for (std::size_t i = first; i < first + 3; ++i)
+    {
+      double share = 1.;
+      for (std::size_t j = first; j < first + 3; ++j)
+        if (j != i)
+          share *= (xi - xi_at(j)) / (xi_at(i) - xi_at(j));
+      result.dofs.push_back(3 * line[i] + 1);
+      result.values[static_cast<unsigned int>(i - first)] = share;
+    }
+    return result;
+  }
+
+  double SolidStructure::indentation(const unsigned int lever, const double thickness, const Vector<double> &coordinates,
+                                     const DofLoads &forces, const Row &row) const
+  {
+    const auto acting = on_surface(forces, lever);
+    if (thickness == 0. || acting.dofs.empty() || node_lines.empty())
+      return 0.;
+    const auto displacements = [&](const DofSelection &some)
+    {
+      if (!finite)
+        return compliance.displacements(some, acting);
+      Vector<double> result(static_cast<unsigned int>(some.size()));
+      for (unsigned int i = 0; i < result.size(); ++i)
+        result[i] = coordinates[first_body_coordinate(lever) + surface[some[i]]];
+      return result;
+    };
+    const auto &line   = line_at(row.across[4]);
+    const double s     = row[Column::s];
+    const double aside = 0.5 * row[Column::contact_width] + 4. * thickness;
+    const auto at      = [&](const double xi)
+    {
+      const auto shares = interpolation(line, xi);
+      return shares.values * displacements(shares.dofs);
+    };
+    return at(s) - 0.5 * (at(s - aside) + at(s + aside));
+  }
+
+  std::vector<Vector<double>> SolidStructure::body_displacements(const Vector<double> &coordinates, const DofLoads &forces) const
+  {
+    std::vector<Vector<double>> result;
+    if (finite)
+    {
+      for (unsigned int i = 0; i < layout.levers; ++i)
+        result.push_back(lever_displacement(coordinates, i));
+      return result;
+    }
+    std::vector<DofLoads> loads;
+    for (unsigned int i = 0; i < layout.levers; ++i)
+      loads.push_back(on_surface(forces, i));
+    const auto lever_responses = responses(loads);
+    for (auto column = lever_responses.begin(); column != lever_responses.end(); column += body.n_dofs())
+      result.emplace_back(column, column + body.n_dofs());
+    return result;
+  }
+
+  /// Displacements of all degrees of freedom of the whole body by forces on the face, one after another.
+  std::vector<double> SolidStructure::responses(const std::vector<DofLoads> &on_faces) const
+  {
+    SparseColumns loads;
+    for (const auto &acting : on_faces)
+    {
+      for (unsigned int i = 0; i < acting.dofs.size(); ++i)
+        if (const unsigned int dof = surface[acting.dofs[i]]; !body.is_held(dof))
+          loads.add(dof, acting.values[i]);
+      loads.end_column();
+    }
+    return body.respond(loads);
+  }
+
+  std::vector<FaceSample> SolidStructure::samples(const Vector<double> &coordinates, const DofLoads &forces) const
+  {
+    std::vector<FaceSample> result;
+    for (unsigned int lever = 0; lever < layout.levers; ++lever)
+    {
+      result.push_back({ on_surface(forces, lever), {} });
+      auto &[acting, displacements] = result.back();
+      displacements.reinit(static_cast<unsigned int>(acting.dofs.size()));
+      for (unsigned int i = 0; i < displacements.size(); ++i)
+        displacements[i] = coordinates[layout.first(lever) + acting.dofs[i]];
+    }
+    return result;
+  }
+
+  SolidStructure::Exactness SolidStructure::exactness(const std::vector<FaceSample> &samples) const
+  {
+    std::vector<DofLoads> loads;
+    for (const auto &sample : samples)
+      loads.push_back(sample.first);
+    const auto whole_responses = responses(loads);
+
+    Exactness result{};
+    for (std::size_t k = 0; k < samples.size(); ++k)
+    {
+      const auto &[acting, displacements] = samples[k];
+      double difference = 0., largest = 0., missed = 0., work = 0.;
+      for (unsigned int i = 0; i < acting.dofs.size(); ++i)
+      {
+        const double exact = whole_responses[k * body.n_dofs() + surface[acting.dofs[i]]];
+        difference         = std::max(difference, std::abs(exact - displacements[i]));
+        largest            = std::max(largest, std::abs(exact));
+        missed += (exact - displacements[i]) * acting.values[i];
+        work += exact * acting.values[i];
+      }
+      result.displacement = std::max(result.displacement, largest > 0. ? difference / largest : 0.);
+      result.work         = std::max(result.work, work > 0. ? std::abs(missed) / work : 0.);
+    }
+    return result;
+  }
+} // namespace sprag

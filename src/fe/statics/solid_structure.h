@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "fe/body/cell_stiffness.h"
+#include "fe/statics/layered_compliance.h"
+#include "fe/statics/sensor_forces.h"
+#include "fe/statics/solid_body.h"
+#include "fe/statics/static_interface.h"
+#include "model/interface/interface_forces.h"
+
+#include <optional>
+
+namespace sprag
+{
+  /// A body at finite strain under forces f on its friction face, by the factors of its stiffness K without load: what its
+  /// internal forces R differ from K u by are loads,
+  ///   u = K^-1 (f + K u - R(u)).
+  /// Displacements u are those of all degrees of freedom [mm]. Of the first rank.
+  class FiniteStrain
+  {
+  public:
+    /// The body must outlive this.
+    explicit FiniteStrain(const SolidBody &body);
+
+    /// Returns by how much a displacement falls short of what its own strain and the forces make of it,
+    /// K^-1 (f + K u - R(u)) - u. Throws AnalysisError where an element turned inside out.
+    dealii::Vector<double> strain_residual(const dealii::Vector<double> &displacement, const DofLoads &on_face);
+
+    /// Returns the correction by an unbalance and a change of the forces that goes with it.
+    dealii::Vector<double> correction(const dealii::Vector<double> &strain_residual, const DofLoads &change) const;
+
+  private:
+    struct Cell
+    {
+      dealii::DoFHandler<3>::active_cell_iterator cell;
+      std::vector<dealii::types::global_dof_index> dofs;
+      const dealii::FullMatrix<double> *stiffness; ///< without load
+    };
+
+    const dealii::Vector<double> &cell_values(const Cell &cell, const dealii::Vector<double> &displacement);
+    void add(const DofLoads &on_face, std::vector<double> &loads) const;
+
+    const SolidBody &body;
+    const std::vector<unsigned int> surface; ///< the body's degrees of freedom on the faces
+    CellStiffness<3> stiffness;
+    CellElasticity<3> elasticity;
+    std::vector<Cell> cells;
+    dealii::Vector<double> cell_displacement;
+  };
+
+  /// Forces on the face of a lever, and the displacements of their dofs.
+  using FaceSample = std::pair<DofLoads, dealii::Vector<double>>;
+
+  /// One or both levers of a pair in three dimensions in statics, seen through a window of the dofs of their faces. At finite
+  /// strain the displacements of the whole body of each lever follow those of the interface among the coordinates. To be made and
+  /// used by the first rank.
+  class SolidStructure : public StaticInterface
+  {
+  public:
+    /// The body must outlive this. `begin` and `end`: where on the face forces may act [mm].
+    SolidStructure(const SolidBody &body, double begin, double end, const InterfaceLayout &layout, const JointSprings &springs);
+    SolidStructure(const SolidStructure &)            = delete;
+    SolidStructure &operator=(const SolidStructure &) = delete;
+
+    unsigned int n_coordinates() const;
+
+    /// See StaticInterface; at finite strain sets the interface to where the bodies are.
+    void set_faces(const DofLoads &forces, const DofSelection &near, dealii::Vector<double> &coordinates);
+
+    Residual residual(const dealii::Vector<double> &coordinates, const InterfaceForces &forces, const DofSelection &near);
+    dealii::Vector<double> correction(const Residual &residual, const InterfaceForces &forces, const DofSelection &near);
+
+    /// Returns the displacement of all degrees of freedom of each lever's body in its axes [mm]; of a linear one by a
+    /// back-substitution with the whole.
+    std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
+                                                           const DofLoads &forces) const;
+
+    /// Tells a row the forces of the sensors of a lever [N].
+    void tell_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const DofLoads &forces, Row &row) const;
+
+    /// Returns the deflection of a lever's face where the pressure is largest over that aside of the contact [mm]; 0 without a
+    /// layer. The row holds place and width of the contact.
+    double indentation(unsigned int lever, double layer_thickness, const dealii::Vector<double> &coordinates,
+                       const DofLoads &forces, const Row &row) const;
+
+    bool is_linear() const
+    {
+      return !finite;
+    }
+
+    const LayeredCompliance &face_compliance() const
+    {
+      return compliance;
+    }
+
+    /// Returns a state's forces on the face of each lever and the displacements where they act.
+    std::vector<FaceSample> samples(const dealii::Vector<double> &coordinates, const DofLoads &forces) const;
+
+    /// The error of the compliance of the face of a linear body against a solve with the whole body, the worst of some
+    /// states.
+    struct Exactness
+    {
+      double displacement; ///< largest difference over the largest displacement [-]
+      double work;         ///< of the forces on the differences over that on the displacements [-]
+    };
+    Exactness exactness(const std::vector<FaceSample> &samples) const;
+
+  private:
+    unsigned int first_body_coordinate(unsigned int lever) const;
+    dealii::Vector<double> lever_displacement(const dealii::Vector<double> &coordinates, unsigned int lever) const;
+    std::vector<double> responses(const std::vector<DofLoads> &on_faces) const;
+    const std::vector<unsigned int> &line_at(double zeta) const;
+    DofLoads interpolation(const std::vector<unsigned int> &line, double xi) const;
+
+    const SolidBody &body;
+    const std::vector<unsigned int> surface;           ///< the body's degrees of freedom on a lever's faces
+    mutable LayeredCompliance compliance;              ///< of a face; remembers what it found
+    std::vector<std::vector<unsigned int>> node_lines; ///< nodes of the face with the same zeta, along xi; three and more
+    const SensorForces sensors;
+    mutable std::optional<FiniteStrain> finite; ///< of a body that is not linear
+  };
+} // namespace sprag

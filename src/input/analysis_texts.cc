@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "input/analysis_texts.h"
+
+#include "base/errors.h"
+#include "base/parameters.h"
+#include "base/text.h"
+#include "input/identification_text.h"
+#include "input/isolation_tables.h"
+#include "scene/design.h"
+#include "scene/design_quantities.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <vector>
+
+namespace sprag
+{
+  namespace
+  {
+    const std::set<std::string> free_sections = { "Geometry",          "Lever",   "Friction layer",
+                                                  "Rotational spring", "Contact", "Isolation" };
+    const std::string free_friction           = "Friction/Factor";
+
+    bool can_be_free(const Parameter &parameter)
+    {
+      const bool is_number = parameter.rule.kind == Rule::Kind::number || parameter.rule.kind == Rule::Kind::number_or_auto;
+      return is_number && (free_sections.count(parameter.section) > 0 || full_name(parameter) == free_friction);
+    }
+
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+    /// Reads all texts; a mistake is reported against the parameter that is being read.
+    struct DesignReader
+    {
+      DesignSettings &settings;
+      const std::vector<Parameter> &declared;
+      const ReportMistake &report;
+      std::string reading    = {};
+      mutable bool is_faulty = false;
+
+      void mistake(const std::string &what) const
+      {
+        is_faulty = true;
+        report("Design/" + reading, what);
+      }
+
+      void read()
+      {
+        reading = "Free";
+        for (const auto &part : split(settings.free, ';'))
+          read_free(part);
+        if (settings.free_parameters.empty() && !is_faulty)
+          mistake("must name a parameter and its bounds: Section/Name = FROM ... TO");
+        reading = "Demands";
+        for (const auto &part : split(settings.demands, ';'))
+          read_demand(single_spaced(part));
+        reading = "Aim";
+        read_aim(single_spaced(settings.aim));
+        reading = "Second aim";
+        if (!settings.second_aim.empty())
+          read_aim(single_spaced(settings.second_aim));
+        reading = "Judges";
+        read_models();
+        check_models();
+      }
+
+      /// A number, with or without a unit, in that of a quantity; not a number where the text is another. None where the unit
+      /// does not fit, which is told.
+      std::optional<double> number_in(const std::string &unit, const std::string &text, const std::string &what) const
+      {
+        Rule rule;
+        rule.kind = Rule::Kind::number;
+        rule.unit = unit == "1" ? "" : unit;
+        try
+        {
+          return leading_number(text) ? leading_number(kept_value(rule, text))->value : none;
+        }
+        catch (const InputError &error)
+        {
+          mistake("'" + what + "': " + text + ' ' + error.what());
+          return {};
+        }
+      }
+
+      void read_free(const std::string &part)
+      {
+        if (part.empty())
+          return;
+        const auto equals = part.find('='), dots = part.find("...");
+        if (dots == std::string::npos || equals > dots)
+          return mistake("'" + part + "' must have the form Section/Name = FROM ... TO");
+        const auto name            = single_spaced(part.substr(0, equals));
+        const Parameter *parameter = free_parameter(name);
+        if (parameter == nullptr)
+          return;
+        const auto from = number_in(parameter->rule.unit, trim(part.substr(equals + 1, dots - equals - 1)), name);
+        const auto to   = number_in(parameter->rule.unit, trim(part.substr(dots + 3)), name);
+        if (!from || !to)
+          return;
+        if (std::isnan(*from) || std::isnan(*to))
+          return mistake("'" + part + "' must have the form Section/Name = FROM ... TO");
+        for (const double value : { *from, *to })
+          if (const auto broken = violation(parameter->rule, number_text(value)))
+            return mistake(name + " = " + number_text(value) + " " + *broken);
+        if (!(*from < *to))
+          return mistake(name + " must have bounds of which the second is larger");
+        settings.free_parameters.push_back({ name, *from, *to, parameter->rule.unit.empty() ? "1" : parameter->rule.unit });
+      }
+
+      const Parameter *free_parameter(const std::string &name) const
+      {
+        std::vector<std::string> names;
+        const Parameter *found = find_parameter(declared, name);
+        for (const auto &parameter : declared)
+          if (can_be_free(parameter))
+            names.push_back(full_name(parameter));
+        if (found == nullptr || !can_be_free(*found))
+        {
+          mistake("'" + name + "' is no parameter that can be free" + did_you_mean(nearest(name, names)));
+          return nullptr;
+        }
+        const auto is_same = [&](const FreeParameter &free) { return free.name == name; };
+        if (std::any_of(settings.free_parameters.begin(), settings.free_parameters.end(), is_same))
+        {
+          mistake(name + " must be there once only");
+          return nullptr;
+        }
+        return found;
+      }
+
+      std::optional<DesignTerm> parse_term(const std::string &name) const
+      {
+        if (const auto quantity = find_design_quantity(name))
+          return DesignTerm{ *quantity, 0 };
+        const auto &free = settings.free_parameters;
+        for (std::size_t i = 0; i < free.size(); ++i)
+          if (free[i].name == name)
+            return DesignTerm{ DesignQuantity::parameter, i };
+        std::vector<std::string> names;
+        for (const auto &info : design_quantities())
+          names.push_back(info.name);
+        for (const auto &parameter : free)
+          names.push_back(parameter.name);
+        mistake("'" + name + "' is neither a quantity nor a free parameter" + did_you_mean(nearest(name, names)));
+        return {};
+      }
+
+      void read_demand(const std::string &text)
+      {
+        const auto sign = text.find_first_of("<>=");
+        if (text.empty())
+          return;
+        if (sign == std::string::npos)
+          return mistake("'" + text + "' must have the form QUANTITY <= VALUE, >= VALUE or = VALUE +- TOLERANCE");
+        const bool is_equal = text[sign] == '=';
+        const auto behind   = text.find_first_not_of("=", sign + 1);
+        const auto right    = behind == std::string::npos ? std::string() : text.substr(behind);
+        const auto within   = right.find("+-");
+        const auto term     = parse_term(trim(text.substr(0, sign)));
+        if (!term)
+          return;
+        const auto &free = settings.free_parameters;
+        const auto &unit =
+            term->quantity == DesignQuantity::parameter ? free[term->parameter].unit : design_quantity_info(term->quantity).unit;
+        const auto target = number_in(unit, trim(right.substr(0, within)), text);
+        const auto margin = number_in(unit, within == std::string::npos ? "" : trim(right.substr(within + 2)), text);
+        if (!target || !margin)
+          return;
+        if (std::isnan(*target) || (is_equal ? !(*margin > 0.) : within != std::string::npos))
+          return mistake("'" + text + "' must have " +
+                         (is_equal ? "a value and a tolerance > 0 behind =: VALUE +- TOLERANCE" : "a single number at its end"));
+        const auto kind = is_equal ? DemandKind::equal : text[sign] == '<' ? DemandKind::at_most : DemandKind::at_least;
+        settings.demanded.push_back({ *term, kind, *target, is_equal ? *margin : 0., text });
+      }
+
+      void read_aim(const std::string &text)
+      {
+        const auto blank      = text.find(' ');
+        const std::string way = text.substr(0, blank);
+        if (blank == std::string::npos || (way != "minimise" && way != "maximise"))
+          return mistake("must be minimise QUANTITY or maximise QUANTITY");
+        if (const auto term = parse_term(text.substr(blank + 1)))
+          settings.aims.push_back({ *term, way == "maximise", text });
+      }
+
+      void read_models()
+      {
+        const std::vector<std::pair<std::string, CheckModel>> words = { { "table", CheckModel::table },
+                                                                        { "beam", CheckModel::beam },
+                                                                        { "condensed", CheckModel::condensed } };
+        std::vector<std::string> names                              = { "none", "table", "beam", "condensed" };
+        const auto listed                                           = split(settings.checks, ',');
+        if (listed == std::vector<std::string>{ "none" })
+          return;
+        for (const auto &[word, check_model] : words)
+          if (std::find(listed.begin(), listed.end(), word) != listed.end())
+            settings.check_models.push_back(check_model);
+        for (const auto &word : listed)
+          if (word == "none" || std::find(names.begin(), names.end(), word) == names.end())
+            mistake("'" + word + "' is no judge beside others" + did_you_mean(nearest(word, { names.begin() + 1, names.end() })));
+      }
+
+      void check_models() const
+      {
+        const auto asks = [&](const DesignQuantity quantity)
+        {
+          const auto is_it = [&](const auto &asked) { return asked.term.quantity == quantity; };
+          return std::any_of(settings.demanded.begin(), settings.demanded.end(), is_it) ||
+                 std::any_of(settings.aims.begin(), settings.aims.end(), is_it);
+        };
+        const auto has = [&](const CheckModel check_model) {
+          return std::find(settings.check_models.begin(), settings.check_models.end(), check_model) !=
+                 settings.check_models.end();
+        };
+        for (const auto &aim : settings.aims)
+          if (aim.term.quantity == DesignQuantity::growth_rate)
+            report(&aim == &settings.aims.front() ? "Design/Aim" : "Design/Second aim",
+                   "can be any quantity but the growth rate, which can be demanded");
+        if (asks(DesignQuantity::growth_rate) && !has(CheckModel::beam))
+          mistake("must have beam where a growth rate is asked for, which the closed form does not know");
+        if (has(CheckModel::table) && !asks(DesignQuantity::transmissibility) && !asks(DesignQuantity::relative_amplitude))
+          mistake("table counts only where transmissibility or relative amplitude is asked for");
+      }
+    };
+
+    /// Reads the texts of the settings into free parameters, demands, aims and check models, and reports what is wrong with them.
+    /// Free are numbers of the lever, its contact and the isolated table; the drive says what is asked of the lever and stays.
+    void read_design(DesignSettings &settings, const std::vector<Parameter> &declared, const ReportMistake &report)
+    {
+      DesignReader{ settings, declared, report }.read();
+    }
+  } // namespace
+
+  void read_analysis_texts(Scene &scene, const std::vector<Parameter> &declared, const ReportMistake &report)
+  {
+    // A design may ask for what an isolated table does.
+    const auto type = scene.analysis.type;
+    if (type == AnalysisType::isolation || type == AnalysisType::design)
+      read_isolation_tables(scene.isolation, scene.unused_columns, report);
+    if (type == AnalysisType::design)
+      read_design(scene.design, declared, report);
+    if (type == AnalysisType::identification)
+      read_identification(scene.identification, scene.unused_columns, report);
+  }
+} // namespace sprag

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "input/variation.h"
+
+#include "base/errors.h"
+#include "base/text.h"
+
+#include <boost/algorithm/string/join.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+namespace sprag
+{
+  namespace
+  {
+    const std::string dots = "...";
+
+    std::vector<std::string> split_parts(const std::string &text, const char separator)
+    {
+      std::vector<std::string> parts;
+      std::size_t begin = 0;
+      for (std::size_t end = 0; end != std::string::npos; begin = end + 1)
+      {
+        end = text.find(separator, begin);
+        parts.push_back(trim(text.substr(begin, end == std::string::npos ? end : end - begin)));
+      }
+      return parts;
+    }
+
+    bool has_number(const Rule &rule)
+    {
+      return rule.kind == Rule::Kind::number || rule.kind == Rule::Kind::integer || rule.kind == Rule::Kind::number_or_auto;
+    }
+
+    /// A number that is no more exact than its ends make it, so that it is short where they are.
+    /// A number between two others, as short as can be.
+    std::string short_text(const double value, const int digits)
+    {
+      return number_text(leading_number(formatted("%.*g", digits, value))->value);
+    }
+
+    std::optional<double> number_alone(const std::string &text)
+    {
+      const auto number = leading_number(text);
+      return number && number->rest.empty() ? std::make_optional(number->value) : std::nullopt;
+    }
+
+    /// A number alone or with a unit, in that of the rule; none where the text is another.
+    std::optional<double> number_in_unit(const Rule &rule, const std::string &text)
+    {
+      const auto number = leading_number(text);
+      return number && !number->rest.empty() ? number_alone(kept_value(rule, text)) : number_alone(text);
+    }
+
+    /// The values of FIRST ... LAST : NUMBER [log]; none where the text is another. Throws InputError where a unit does not fit.
+    std::vector<std::string> range_values(const Rule &rule, const std::string &text)
+    {
+      const auto middle = text.find(dots);
+      const auto colon  = text.find(':', middle);
+      if (colon == std::string::npos)
+        return {};
+      const auto first = number_in_unit(rule, trim(text.substr(0, middle)));
+      const auto last  = number_in_unit(rule, trim(text.substr(middle + dots.size(), colon - middle - dots.size())));
+      const auto count = leading_number(trim(text.substr(colon + 1)));
+      if (!first || !last || !count || (!count->rest.empty() && count->rest != "log"))
+        return {};
+      const bool by_ratio = count->rest == "log";
+      const double n      = count->value;
+      if (n < 2. || n > most_runs || n != std::floor(n) || (by_ratio && !(*first > 0. && *last > 0.)))
+        return {};
+      std::vector<std::string> values = { number_text(*first) };
+      for (double i = 1.; i < n - 1.; ++i)
+      {
+        const double share = i / (n - 1.);
+        values.push_back(by_ratio ? short_text(*first * std::pow(*last / *first, share), 6)
+                                  : short_text(*first + share * (*last - *first), 12));
+      }
+      values.push_back(number_text(*last));
+      return values;
+    }
+
+    /// Reads one of the two kinds of text.
+    struct VariationReader
+    {
+      const std::vector<Parameter> &declared;
+      const std::string &folder;
+      const bool lists;
+      Variation result = {};
+
+      void mistake(const std::string &what)
+      {
+        result.mistakes.push_back(what);
+      }
+
+      void read(const std::string &text)
+      {
+        std::set<std::string> seen;
+        for (const auto &part : split_parts(text, ';'))
+        {
+          const auto equals = part.find('=');
+          if (part.empty())
+            continue;
+          if (equals == std::string::npos)
+          {
+            mistake("'" + part + "' must have the form Section/Name = " + (lists ? "VALUES" : "VALUE"));
+            continue;
+          }
+          const std::string name = single_spaced(part.substr(0, equals));
+          if (!seen.insert(name).second)
+            mistake(name + " must be there once only");
+          else if (const Parameter *parameter = declared_parameter(name))
+            take(*parameter, trim(part.substr(equals + 1)));
+        }
+      }
+
+      const Parameter *declared_parameter(const std::string &name)
+      {
+        const Parameter *found = find_parameter(declared, name);
+        if (found == nullptr)
+        {
+          mistake("'" + name + "' is no parameter" + did_you_mean(nearest_name(name)));
+          return nullptr;
+        }
+        if (const auto reason = reason_against(*found); !reason.empty())
+        {
+          mistake(name + " " + reason);
+          return nullptr;
+        }
+        return found;
+      }
+
+      /// The full name of a parameter whose name stands alone, else the one that looks most like it.
+      std::optional<std::string> nearest_name(const std::string &name) const
+      {
+        std::vector<std::string> names;
+        for (const auto &parameter : declared)
+        {
+          if (parameter.name == name)
+            return full_name(parameter);
+          names.push_back(full_name(parameter));
+        }
+        return nearest(name, names);
+      }
+
+      std::string reason_against(const Parameter &parameter) const
+      {
+        if (full_name(parameter) == "Analysis/Type")
+          return "is Study/Type in a study";
+        if (parameter.section == "Map" || parameter.section == "Study")
+          return "belongs to no run of a study";
+        if (parameter.section == "Output")
+          return "does not count: the runs of a study write no fields";
+        if (lists && parameter.rule.kind == Rule::Kind::numbers)
+          return "holds a list itself and cannot be varied";
+        return {};
+      }
+
+      void take(const Parameter &parameter, const std::string &text)
+      {
+        VariedParameter varied{ full_name(parameter), {} };
+        for (const auto &item : lists ? split_parts(text, ',') : std::vector<std::string>{ text })
+          if (lists && has_number(parameter.rule) && item.find(dots) != std::string::npos)
+            take_range(item, parameter, varied);
+          else
+            take_value(item, parameter, varied);
+        result.parameters.push_back(varied);
+      }
+
+      void take_range(const std::string &item, const Parameter &parameter, VariedParameter &varied)
+      {
+        std::vector<std::string> values;
+        try
+        {
+          values = range_values(parameter.rule, item);
+        }
+        catch (const InputError &broken)
+        {
+          return mistake(varied.name + " = " + item + " " + broken.what());
+        }
+        if (values.empty())
+          mistake(varied.name + " = " + item +
+                  " must have the form FIRST ... LAST : NUMBER, with an integer >= 2, or FIRST ... LAST : NUMBER log between "
+                  "numbers > 0");
+        for (const auto &value : values)
+          if (!take_value(value, parameter, varied))
+            return; // the others break the rule as well
+      }
+
+      bool take_value(const std::string &value, const Parameter &parameter, VariedParameter &varied)
+      {
+        try
+        {
+          const auto kept = kept_value(parameter.rule, value);
+          if (const auto broken = violation(parameter.rule, kept))
+            throw InputError(*broken); // a unit that depends on other parameters
+          varied.values.push_back(parameter.rule.kind == Rule::Kind::file && !value.empty() ? resolve_path(value) : kept);
+          return true;
+        }
+        catch (const InputError &broken)
+        {
+          mistake(varied.name + " = " + value + " " + broken.what());
+          return false;
+        }
+      }
+
+      std::string resolve_path(const std::string &file) const
+      {
+        return (std::filesystem::path(folder) / file).lexically_normal().string();
+      }
+    };
+
+    Variation read(const std::string &text, const std::vector<Parameter> &declared, const std::string &folder, const bool lists)
+    {
+      VariationReader reader{ declared, folder, lists };
+      reader.read(text);
+      return reader.result;
+    }
+  } // namespace
+
+  Variation parse_variation(const std::string &text, const std::vector<Parameter> &declared, const std::string &folder)
+  {
+    auto result = read(text, declared, folder, true);
+    if (result.parameters.empty() && result.mistakes.empty())
+      result.mistakes.push_back("must name a parameter and its values: Section/Name = VALUES");
+    return result;
+  }
+
+  Variation parse_settings(const std::string &text, const std::vector<Parameter> &declared, const std::string &folder)
+  {
+    return read(text, declared, folder, false);
+  }
+
+  std::vector<std::string> combination_mistakes(const StudySettings &study)
+  {
+    double product = 1.;
+    std::set<std::size_t> lengths;
+    std::vector<std::string> counts;
+    for (const auto &[name, values] : study.varied)
+    {
+      product *= static_cast<double>(values.size());
+      lengths.insert(values.size());
+      counts.push_back(name + " has " + std::to_string(values.size()));
+    }
+    if (study.combine == Combination::list && lengths.size() > 1)
+      return { "must give each parameter as many values with Combine = list: " + boost::algorithm::join(counts, ", ") };
+    if (study.combine == Combination::grid && product > most_runs)
+      return { "makes " + rounded_text(product) + " runs, of which a study may have " + rounded_text(most_runs) };
+    return {};
+  }
+
+  std::vector<std::string> reference_mistakes(const StudySettings &study)
+  {
+    if (study.reference.empty() || study.type != AnalysisType::slope)
+      return {};
+    return { "must be empty where Type = slope: curves of the closed form have no error" };
+  }
+
+  std::string variation_text(const std::vector<VariedParameter> &parameters)
+  {
+    std::vector<std::string> parts;
+    for (const auto &[name, values] : parameters)
+      parts.push_back(name + " = " + boost::algorithm::join(values, ", "));
+    return boost::algorithm::join(parts, "; ");
+  }
+} // namespace sprag

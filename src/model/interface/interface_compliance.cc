@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "model/interface/interface_compliance.h"
+
+#include <algorithm>
+
+namespace sprag
+{
+  using dealii::FullMatrix;
+
+  unsigned int find_index(const unsigned int dof, const DofSelection &dofs)
+  {
+    return static_cast<unsigned int>(std::lower_bound(dofs.begin(), dofs.end(), dof) - dofs.begin());
+  }
+
+  void InterfaceCompliance::append(std::shared_ptr<const FullMatrix<double>> matrix)
+  {
+    diagonal.push_back({ size(), std::move(matrix) });
+  }
+
+  void InterfaceCompliance::append(FullMatrix<double> matrix)
+  {
+    append(std::make_shared<const FullMatrix<double>>(std::move(matrix)));
+  }
+
+  void InterfaceCompliance::append(const double compliance)
+  {
+    append(FullMatrix<double>(1, 1, &compliance));
+  }
+
+  const std::vector<InterfaceCompliance::Block> &InterfaceCompliance::blocks() const
+  {
+    return diagonal;
+  }
+
+  unsigned int InterfaceCompliance::size() const
+  {
+    return diagonal.empty() ? 0 : diagonal.back().end();
+  }
+
+  double InterfaceCompliance::operator()(const unsigned int row_dof, const unsigned int column_dof) const
+  {
+    const auto block =
+        std::find_if(diagonal.begin(), diagonal.end(), [&](const auto &candidate) { return row_dof < candidate.end(); });
+    if (column_dof < block->begin || column_dof >= block->end())
+      return 0.;
+    return (*block->matrix)(row_dof - block->begin, column_dof - block->begin);
+  }
+} // namespace sprag

@@ -1,0 +1,512 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "base/errors.h"
+#include "model/contact/circle.h"
+#include "model/contact/contact_of_levers.h"
+#include "model/interface/interface_newton.h"
+#include "model/lever/steady_slides.h"
+#include "model/step/dynamic_model.h"
+#include "model/step/interface_step.h"
+#include "model/step/linearisation.h"
+#include "model/step/modified_newton.h"
+#include "model/structure/frame_coupling.h"
+#include "model/structure/growth.h"
+#include "model/structure/hub_spring.h"
+#include "model/structure/lever_frame.h"
+#include "scene/closed_form.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace sprag
+{
+  /// An equilibrium on the way from no friction to the scene's.
+  struct BranchPoint
+  {
+    double share;       ///< of the friction
+    double penetration; ///< [mm]
+  };
+
+  /// The share of the friction up to which such a branch was followed, and whether it jams there.
+  struct BranchEnd
+  {
+    double share;
+    bool jams;
+  };
+
+  /// Returns the share of friction from the last of these points to a fold, at which the branch turns back: there the share's
+  /// slope over the penetration, a straight line near the fold, falls to 0. Infinite where it does not fall. The slopes are those
+  /// between points whose penetrations are a tenth apart, over which elements that come into contact count for little.
+  inline double distance_to_fold(const std::vector<BranchPoint> &branch)
+  {
+    constexpr double none = std::numeric_limits<double>::infinity(), apart = 0.9;
+    std::vector<BranchPoint> p; // the last first
+    for (auto point = branch.rbegin(); point != branch.rend() && p.size() < 3; ++point)
+      if (p.empty() || point->penetration <= apart * p.back().penetration)
+        p.push_back(*point);
+    if (p.size() < 3)
+      return none;
+    const auto slope = [&](const unsigned int i)
+    { return (p[i].share - p[i + 1].share) / (p[i].penetration - p[i + 1].penetration); };
+    const double bend         = (slope(1) - slope(0)) / (0.5 * (p[0].penetration - p[2].penetration));
+    const double slope_at_end = slope(0) - 0.5 * bend * (p[0].penetration - p[1].penetration);
+    if (!(bend > 0.))
+      return none;
+    return slope_at_end > 0. ? 0.5 * slope_at_end * slope_at_end / bend : 0.;
+  }
+
+  /// A linear structure, a lever or a mirrored pair of them, in unilateral frictional contact, in time. The forces, speed and
+  /// slip that a slide is described by are those of the first lever; sliding at one speed, both have the same. Structure: see
+  /// ModalStructure. Contact: see PointContact, MirroredContact.
+  template <class Structure, class Contact>
+  class DynamicLever : public DynamicModel
+  {
+  public:
+    DynamicLever(std::unique_ptr<Structure> structure_, std::unique_ptr<Contact> contact_, LeverFrame frame_)
+        : structure(std::move(structure_))
+        , contact(std::move(contact_))
+        , frame(std::move(frame_))
+        , coupling(frame.layout, frame.rest_inclination)
+        , hub_spring(frame.layout, frame.spring, frame.joined)
+        , slides(*structure, *contact, found, frame, hub_spring)
+    {
+    }
+
+    Motion initial_motion(const DrivePoint &drive) override
+    {
+      if (drive.v == 0.)
+        return start_at_rest(drive);
+      // Velocity and acceleration from equilibria to both sides; far enough apart to average over single points of a face.
+      const double h     = 1e-3 * frame.geometries.front().cylinder_radius;
+      const double ratio = slides.speed_ratio(drive, h);
+      const auto before  = sliding(moved(drive, -h), ratio);
+      const auto after   = sliding(moved(drive, h), ratio);
+      auto here          = sliding(drive, ratio);
+      if (!before || !after || !here)
+        throw AnalysisError("no equilibrium of steady sliding at x = " + std::to_string(drive.x) +
+                            " mm. Try less friction, another Drive/Start or, where given, Contact/Penalty = auto.");
+      auto &q    = here->coordinates;
+      q.velocity = after->coordinates.position;
+      q.velocity -= before->coordinates.position;
+      q.velocity *= drive.v / (2. * h);
+      q.acceleration = after->coordinates.position;
+      q.acceleration += before->coordinates.position;
+      q.acceleration.add(-2., q.position);
+      q.acceleration *= drive.v * drive.v / (h * h);
+      return *here;
+    }
+
+    StepOutcome step(const Motion &accepted, const DrivePoint &to, const StepWeights &weights) override
+    {
+      structure->use_step(weights);
+      const bool rates = Contact::uses_rates || frame.layout.sprung;
+      const auto &near = candidate_dofs(accepted);
+      Kinematic begin  = rates ? structure->kinematics(accepted) : Kinematic{ structure->positions(accepted, near), {}, {} };
+      const Kinematic drifted = rates ? unaccelerated(begin, weights) : Kinematic{};
+      const auto free         = structure->free_displacements(accepted, near);
+      const PerLever turned   = lever_rotations(frame.layout, begin.position);
+      dealii::Vector<double> rate;
+      const auto evaluate = [&](const dealii::Vector<double> &z,
+                                const Request request = Request::with_tangent) -> InterfaceEvaluation
+      {
+        if (rates)
+        {
+          rate = drifted.velocity;
+          rate.add(weights.rate(), z, -weights.rate(), drifted.position);
+        }
+        contact->evaluate(
+            InterfaceStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights, &accepted.surface_contact, request },
+            found);
+        coupling.add_forces(begin, z, weights, found.forces);
+        hub_spring.add_forces(turned, lever_rotations(frame.layout, z), weights, found.forces);
+        return { &found.forces, found.penetration() };
+      };
+
+      StepOutcome outcome;
+      dealii::Vector<double> z;
+      auto tangent       = accepted.tangent;
+      const auto solved  = solve_step<Contact::keeps_tangent>({ structure->compliance(), free, frame.lengths, near }, evaluate,
+                                                             weights, accepted.forces, factors, tangent, z);
+      outcome.iterations = solved.newton.iterations;
+      if (!solved.newton.converged)
+        return outcome;
+      if (!found.within_reach)
+      {
+        contact->widen_reach();
+        return step(accepted, to, weights);
+      }
+
+      if constexpr (Contact::keeps_tangent)
+        evaluate(z, Request::complete);
+      Motion motion  = completed(structure->advance(accepted, *solved.forces, to), to, *solved.forces);
+      motion.tangent = std::move(tangent);
+      structure->add_work(accepted, motion, outcome.work);
+      outcome.work += found.work();
+      coupling.add_work(begin, z, weights, outcome.work);
+      hub_spring.add_work(turned, lever_rotations(frame.layout, z), weights, outcome.work);
+      outcome.error  = weights.wants_error ? largest_gap_change(*contact, found, structure->local_error(accepted, motion)) : 0.;
+      outcome.motion = std::move(motion);
+      return outcome;
+    }
+
+    std::optional<SlidingForces> sliding_forces(const DrivePoint &drive) override
+    {
+      // There a lever touches without force.
+      if (drive.v == 0. && drive.x == 0. && frame.layout.levers == 1)
+        return SlidingForces{ 0., 0. };
+      if (slides.follow(drive) == nullptr)
+        return {};
+      return observed_forces();
+    }
+
+    std::optional<HeldSlide> hold(const DrivePoint &drive, const ContactFriction friction) override
+    {
+      if (friction != ContactFriction::sliding)
+        return slide_at(drive, friction, 1.);
+      const auto frictionless = slides.solve(drive, 1., ContactFriction::none);
+      const double P_free     = frictionless == nullptr ? 0. : observed_forces().P;
+      const double nearby     = 1e-3 * frame.geometries.front().cylinder_radius;
+      auto slide              = slide_at(drive, friction, slides.speed_ratio(drive, nearby));
+      if (!slide || !(slide->uniqueness > 0.))
+      {
+        const auto end = grow_friction(drive);
+        if (end.share < 1. && !slide && !end.jams)
+          throw no_equilibrium(drive, end.share);
+        if (end.share < 1.)
+          return slide;
+        const auto grown   = slides.last_equilibrium();
+        const double ratio = slides.speed_ratio(drive, nearby);
+        slides.start_from(grown);
+        slide = slide_at(drive, friction, ratio);
+        if (!slide)
+          throw no_equilibrium(drive, 1.);
+      }
+      slide->margin = P_free / slide->forces.P;
+      return slide;
+    }
+
+    std::vector<Eigenmode> vibrations(const HeldSlide &slide, const bool in_contact, const unsigned int number) override
+    {
+      const auto forces = perturbation(sliding_state(slide), in_contact);
+      return explained(*structure, structure->vibrations(forces, number), forces, frame.layout);
+    }
+
+    std::vector<std::complex<double>> eigenvalues(const HeldSlide &slide, const unsigned int number) override
+    {
+      std::vector<std::complex<double>> result;
+      for (const auto &mode : structure->vibrations(perturbation(sliding_state(slide), true), number))
+        result.push_back(mode.eigenvalue);
+      return result;
+    }
+
+    Motion perturbed(const HeldSlide &slide, const Eigenmode &eigenmode, const double amplitude) override
+    {
+      contact->evaluate_sliding(sliding_state(slide), found);
+      const std::complex<double> size = amplitude / largest_gap_change(*contact, found, eigenmode.displacements);
+      Motion motion                   = slide.motion;
+      add_mode(size, eigenmode.mode, motion);
+      dealii::Vector<double> displacements = slide.displacements;
+      dealii::Vector<double> rates(displacements.size());
+      add_real_part(size, eigenmode.displacements, displacements);
+      add_real_part(size * eigenmode.mode.eigenvalue, eigenmode.displacements, rates);
+      contact->evaluate_sliding(SlidingState{ displacements, slide.drive, slide.speed, &rates, slide.friction }, found);
+      store_history(found.history(), motion);
+      return motion;
+    }
+
+    ModeShape mode_shape(const Eigenmode &mode) const override
+    {
+      const auto at = [&](const unsigned int i)
+      { return std::complex<double>(mode.displacements[0][i], mode.displacements[1][i]); };
+      ModeShape result;
+      for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
+      {
+        const auto real      = contact->surface_shape(mode.displacements[0], lever);
+        const auto imaginary = contact->surface_shape(mode.displacements[1], lever);
+        result.xi            = real.xi;
+        result.levers.push_back(
+            { { { real.along, imaginary.along } }, { { real.across, imaginary.across } }, {}, at(frame.layout.rotation(lever)) });
+      }
+      result.support = frame.layout.sprung ? at(frame.layout.support()) : 0.;
+      return result;
+    }
+
+    StoredEnergy stored_energy(const Motion &motion) const override
+    {
+      StoredEnergy energy = structure->stored_energy(motion);
+      (Contact::stands_for_layer ? energy.elastic : energy.contact) += found.energy();
+      if (Contact::stands_for_layer)
+        energy.layer = found.energy();
+      energy.spring += hub_spring.energy(turns(motion));
+      if (frame.layout.sprung)
+        energy.kinetic += coupling.kinetic_energy(structure->kinematics(motion));
+      return energy;
+    }
+
+    void observe(const Motion &motion, Row &row) const override
+    {
+      DofState support{};
+      if (frame.layout.sprung)
+        support = structure->dof_state(motion, frame.layout.support());
+      const double x = motion.drive.x - support.position;
+      observe_lever(motion, 0, x, row);
+      if (frame.layout.levers == 2)
+      {
+        Row second;
+        observe_lever(motion, 1, x, second);
+        row.add_second_lever(second);
+      }
+      const double support_force        = frame.support_stiffness * support.position + frame.support_damping * support.velocity;
+      row[Column::support_displacement] = support.position;
+      row[Column::Q_support]            = (frame.layout.sprung ? support_force : row.drive_force()) / frame.layout.levers;
+    }
+
+    double drive_force(const Motion &) const override
+    {
+      return contact->drive_force(found);
+    }
+
+    FacePoints face_points() const override
+    {
+      return contact->face_points();
+    }
+
+    FaceState face_state(const Motion &motion) const override
+    {
+      return contact->face_state(found, motion.drive);
+    }
+
+    void serialise_history(Archive &archive) override
+    {
+      structure->serialise_history(archive);
+      contact->serialise_history(archive);
+      slides.serialise_history(archive);
+    }
+
+  private:
+    const std::unique_ptr<Structure> structure;
+    const std::unique_ptr<Contact> contact;
+    typename Contact::Evaluation found; ///< of the last step or equilibrium
+    const LeverFrame frame;
+    FrameCoupling coupling;
+    HubSpringExcess hub_spring;
+    SteadySlides<Structure, Contact> slides;
+    JacobianFactors factors;
+
+    PerLever turns(const Motion &motion) const
+    {
+      DofSelection rotations;
+      for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
+        rotations.push_back(frame.layout.rotation(lever));
+      return lever_rotations(frame.layout, structure->positions(motion, rotations));
+    }
+
+    /// `x` from the pivot frame's origin.
+    void observe_lever(const Motion &motion, const unsigned int lever, const double x, Row &row) const
+    {
+      const auto hub          = structure->dof_state(motion, frame.layout.rotation(lever));
+      row[Column::theta]      = frame.rest_inclination + hub.position;
+      row[Column::theta_rate] = hub.velocity;
+      contact->observe(found, row, lever);
+      row[Column::centre_offset] = row[Column::s] - cylinder_centre(frame.geometries[lever], x, row[Column::theta]).xi;
+      if (frame.layout.sensors == 0)
+        return;
+      DofSelection sensors;
+      for (unsigned int i = 0; i < frame.layout.sensors; ++i)
+        sensors.push_back(frame.layout.sensor(i, lever));
+      const auto compressions = structure->positions(motion, sensors);
+      std::vector<double> forces;
+      for (const unsigned int dof : sensors)
+        forces.push_back(frame.sensor_stiffness * compressions[dof]);
+      frame.tell_sensors(std::move(forces), row);
+    }
+
+    const DofSelection &candidate_dofs(const Motion &motion) const
+    {
+      const double u = frame.layout.sprung ? structure->dof_state(motion, frame.layout.support()).position : 0.;
+      return contact->candidate_dofs(motion.drive.x - u, compute_inclinations(frame, turns(motion)));
+    }
+
+    /// Touching at x = 0. Further on as slowly slid there from x = 0, with friction as in a motion forward and mu at rest.
+    Motion start_at_rest(const DrivePoint &drive)
+    {
+      const bool is_preloaded = frame.spring.moment(0.) > 0.;
+      if (drive.x > 0. || is_preloaded)
+        return pressed_at_rest(drive, ContactFriction::sliding);
+      Motion motion = structure->rest();
+      motion.drive  = drive;
+      // A cylinder out of the mirror plane presses on one lever from the beginning.
+      if (frame.layout.levers == 2 && penetrates(structure->positions(motion), drive))
+        return pressed_at_rest(drive, ContactFriction::none);
+      store_history(contact->touch(structure->positions(motion), drive, found), motion);
+      return motion;
+    }
+
+    bool penetrates(const dealii::Vector<double> &displacements, const DrivePoint &drive)
+    {
+      contact->evaluate_sliding(SlidingState{ displacements, drive, 1., nullptr, ContactFriction::none }, found);
+      return found.penetration() > 1e-9 * frame.geometries.front().cylinder_radius;
+    }
+
+    Motion pressed_at_rest(const DrivePoint &drive, const ContactFriction friction)
+    {
+      const InterfaceForces *const forces = slides.solve({ drive.time, drive.x, 0., 0. }, 1., friction);
+      if (forces == nullptr)
+        throw AnalysisError("no equilibrium at rest. Try another Drive/Start or a smaller Mirrored pair/Cylinder offset.");
+      return completed(structure->deform(*forces), drive, *forces);
+    }
+
+    /// Forces on the first lever at the last evaluation of the contact.
+    SlidingForces observed_forces() const
+    {
+      Row row;
+      contact->observe(found, row, 0);
+      return { row[Column::P], row[Column::Q] };
+    }
+
+    static SlidingState sliding_state(const HeldSlide &slide)
+    {
+      return { slide.displacements, slide.drive, slide.speed, nullptr, slide.friction };
+    }
+
+    /// The contact's forces about a held slide, those of the hub's spring and the coupling with a sprung support.
+    LinearisedForces perturbation(const SlidingState &slide, const bool in_contact)
+    {
+      const auto slide_rotations = lever_rotations(frame.layout, slide.displacements);
+      const auto theta           = compute_inclinations(frame, slide_rotations);
+      contact->candidate_dofs(slide.drive.x, theta);
+      const auto contact_perturbation = in_contact ? contact->linearise(slide, found) : LinearisedForces();
+      auto dofs                       = contact_perturbation.dofs;
+      for (const auto &others : { coupling.coupled_dofs(), hub_spring.loaded_dofs() })
+        dofs.insert(dofs.end(), others.begin(), others.end());
+      std::sort(dofs.begin(), dofs.end());
+      dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
+
+      LinearisedForces result(std::move(dofs));
+      result.add(contact_perturbation);
+      coupling.add_inertia(result.dofs, theta, result.inertia);
+      hub_spring.add_stiffness(result.dofs, slide_rotations, result.pressure);
+      return result;
+    }
+
+    /// The determinant that HeldSlide describes.
+    double uniqueness(const SlidingState &slide)
+    {
+      structure->use_statics();
+      const auto forces = perturbation(slide, true);
+      return interface_determinant(structure->compliance(), forces.dofs, forces.stiffness()) /
+             interface_determinant(structure->compliance(), forces.dofs, forces.pressure);
+    }
+
+    /// Finds the slide at a ratio of speeds, see SteadySlides::speed_ratio(), from the last equilibrium; none where none is
+    /// found, or with a layer pressed too far. Its margin is 1.
+    std::optional<HeldSlide> slide_at(const DrivePoint &drive, const ContactFriction friction, const double ratio)
+    {
+      const bool with_friction = friction == ContactFriction::sliding;
+      const auto law           = with_friction ? friction : ContactFriction::none;
+      const auto *force        = slides.solve(drive, ratio, law);
+      // If the structure's answer differs from its compliance by round-off, the forces are corrected.
+      constexpr unsigned int most_corrections = 2;
+      dealii::Vector<double> round_off(frame.layout.size());
+      for (unsigned int i = 0; i < most_corrections && force != nullptr; ++i)
+      {
+        auto change = structure->positions(structure->deform(*force));
+        change -= slides.last_equilibrium().displacements;
+        const auto counts = [&](const unsigned int dof)
+        { return std::abs(frame.lengths[dof] * change[dof]) > 1e-10 * found.penetration(); };
+        if (std::none_of(force->dofs.begin(), force->dofs.end(), counts))
+          break;
+        round_off += change;
+        force = slides.solve(drive, ratio, law, &round_off);
+      }
+      if (force == nullptr)
+        return {};
+      HeldSlide slide;
+      slide.drive         = drive;
+      slide.motion        = completed(structure->deform(*force), { drive.time, drive.x, 0., 0. }, *force);
+      slide.displacements = slides.last_equilibrium().displacements;
+      slide.friction      = friction;
+      slide.speed         = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
+      slide.penetration   = found.penetration();
+      Row row;
+      contact->observe(found, row, 0);
+      slide.indentation = row[Column::indentation];
+      if (with_friction && slide.indentation > frame.largest_indentation)
+        return {};
+      slide.margin     = 1.;
+      slide.mu         = with_friction ? row[Column::mu] : 0.;
+      slide.forces     = { row[Column::P], row[Column::Q] };
+      slide.uniqueness = uniqueness(sliding_state(slide));
+      return slide;
+    }
+
+    /// The failure of the method, beyond a share of friction at which there is an equilibrium.
+    static AnalysisError no_equilibrium(const DrivePoint &drive, const double share)
+    {
+      return AnalysisError("no equilibrium found at x = " + std::to_string(drive.x) + " mm beyond " + std::to_string(share) +
+                           " times the friction, where the lever does not jam. Try another mesh or Stability/Position.");
+    }
+
+    /// Physical compression of the layer in the last equilibrium [mm].
+    double indentation() const
+    {
+      Row row;
+      contact->observe(found, row, 0);
+      return row[Column::indentation];
+    }
+
+    /// Follows the equilibrium from no friction to the scene's, in steps that are halved where Newton's method fails or has left
+    /// the branch. It jams where the branch ends at a fold, or with a layer pressed too far. Where it ends elsewhere another
+    /// branch crosses it, or the method fails.
+    BranchEnd grow_friction(const DrivePoint &drive)
+    {
+      constexpr double smallest_step = 1e-4, near_fold = 1e-2; // shares of the friction
+      slides.solve(drive, 1., ContactFriction::none);
+      const double speed   = sliding_speed(frame.geometries.front(), drive.x, drive.v);
+      const auto is_unique = [&](const double share)
+      {
+        const auto displacements = slides.last_equilibrium().displacements;
+        return uniqueness({ displacements, drive, speed, nullptr, ContactFriction::sliding, Request::with_tangent, share }) > 0.;
+      };
+      std::vector<BranchPoint> branch = { { 0., found.penetration() } };
+      for (double step = 0.25; branch.back().share < 1. && step > smallest_step;)
+      {
+        const double next = std::min(1., branch.back().share + step);
+        const auto before = slides.last_equilibrium();
+        if (slides.solve_with_share(drive, next) != nullptr && is_unique(next))
+        {
+          if (indentation() > frame.largest_indentation)
+            return { branch.back().share, true };
+          branch.push_back({ next, found.penetration() });
+          step *= 1.5;
+        }
+        else
+        {
+          slides.start_from(before);
+          step *= 0.5;
+        }
+      }
+      return { branch.back().share, !(distance_to_fold(branch) > near_fold) };
+    }
+
+    std::optional<Motion> sliding(const DrivePoint &drive, const double ratio)
+    {
+      const InterfaceForces *const forces = slides.solve(drive, ratio);
+      if (forces == nullptr)
+        return {};
+      return completed(structure->deform(*forces), drive, *forces);
+    }
+
+    /// Adds to a motion what the structure does not know: drive, history of the contact and its forces.
+    Motion completed(Motion motion, const DrivePoint &drive, const InterfaceForces &forces) const
+    {
+      motion.drive  = drive;
+      motion.forces = { forces.dofs, forces.values };
+      store_history(found.history(), motion);
+      return motion;
+    }
+  };
+} // namespace sprag

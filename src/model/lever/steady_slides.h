@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "model/contact/circle.h"
+#include "model/contact/contact_of_levers.h"
+#include "model/step/force_history.h"
+#include "model/step/interface_step.h"
+#include "model/step/linearisation.h"
+#include "model/step/modified_newton.h"
+#include "model/step/state_archive.h"
+#include "model/structure/hub_spring.h"
+#include "model/structure/joined_interfaces.h"
+#include "model/structure/lever_frame.h"
+#include "scene/closed_form.h"
+
+namespace sprag
+{
+  /// Inclinations of the levers by turns of their hubs [rad].
+  inline PerLever compute_inclinations(const LeverFrame &frame, const PerLever &turns)
+  {
+    return { { frame.rest_inclination + turns[0], frame.rest_inclination + turns[1] } };
+  }
+
+  /// The drive at another position.
+  inline DrivePoint moved(DrivePoint drive, const double dx)
+  {
+    drive.x += dx;
+    return drive;
+  }
+
+  /// Equilibria of a structure in contact with the cylinder that slides on it steadily, each sought from the one before.
+  /// Structure and Contact: see DynamicLever.
+  template <class Structure, class Contact>
+  class SteadySlides
+  {
+  public:
+    struct Equilibrium
+    {
+      dealii::Vector<double> displacements;
+      DofLoads forces;
+      PerLever ideal{}; ///< inclinations of the levers in ideal contact
+    };
+
+    /// All are kept by reference.
+    SteadySlides(Structure &structure_, Contact &contact_, typename Contact::Evaluation &found_, const LeverFrame &frame_,
+                 HubSpringExcess &hub_spring_)
+        : structure(structure_)
+        , contact(contact_)
+        , found(found_)
+        , frame(frame_)
+        , hub_spring(hub_spring_)
+    {
+    }
+
+    /// Finds the equilibrium of steady sliding at a ratio of speeds, see speed_ratio(). Returns its forces, for which the contact
+    /// was evaluated last, and null where none is found. `round_off`: displacements that the interface has besides.
+    const InterfaceForces *solve(const DrivePoint &drive, const double ratio,
+                                 const ContactFriction friction          = ContactFriction::sliding,
+                                 const dealii::Vector<double> *round_off = nullptr)
+    {
+      if (const auto *forces = solve_from_last(drive, ratio, friction, round_off))
+        return forces;
+      // Between points that just touch Newton's method may go round in a circle; from a neighbour it comes another way.
+      const double nearby = 1e-3 * frame.geometries.front().cylinder_radius;
+      for (const double dx : { -nearby, nearby })
+        if (solve_from_last(moved(drive, dx), ratio, friction, nullptr) != nullptr)
+          if (const auto *forces = solve_from_last(drive, ratio, friction, round_off))
+            return forces;
+      return nullptr;
+    }
+
+    /// Does as solve() with a share of the friction, 0 to 1, from the last equilibrium alone.
+    const InterfaceForces *solve_with_share(const DrivePoint &drive, const double share)
+    {
+      return solve_from_last(drive, 1., ContactFriction::sliding, nullptr, share);
+    }
+
+    /// Does as solve() for one drive after another: to what a step in time leaves out, from a kept tangent where the contact
+    /// keeps one.
+    const InterfaceForces *follow(const DrivePoint &drive)
+    {
+      if constexpr (Contact::keeps_tangent)
+      {
+        const auto *forces = solve_with_stored_jacobian(drive);
+        if (forces == nullptr)
+          forces = solve(drive, 1.);
+        if (forces != nullptr)
+          followed.accept_at({ forces->dofs, forces->values }, drive.x, goes_on(drive));
+        followed_speed = drive.v;
+        return forces;
+      }
+      else
+        return solve(drive, 1.);
+    }
+
+    /// Slip speed of the deformable lever over that of the rigid one, by equilibria at a distance h [mm] to both sides.
+    double speed_ratio(const DrivePoint &drive, const double h)
+    {
+      const bool before = solve(moved(drive, -h), 1.) != nullptr;
+      const auto from   = last.displacements;
+      const bool after  = solve(moved(drive, h), 1.) != nullptr;
+      if (!before || !after)
+        return 1.;
+      const double slip = contact.mean_slip(found, from, drive.x - h, last.displacements, drive.x + h);
+      return slip / (2. * h * sliding_speed(frame.geometries.front(), drive.x, 1.));
+    }
+
+    const Equilibrium &last_equilibrium() const
+    {
+      return last;
+    }
+
+    /// Seeks the next equilibrium from this one.
+    void start_from(Equilibrium equilibrium)
+    {
+      last = std::move(equilibrium);
+    }
+
+    /// Serialises the equilibrium from which the next one is sought.
+    void serialise_history(Archive &archive)
+    {
+      archive(last.displacements, last.forces, last.ideal, followed, followed_speed);
+      serialise(archive, kept);
+    }
+
+  private:
+    Structure &structure;
+    Contact &contact;
+    typename Contact::Evaluation &found; ///< the model's
+    const LeverFrame &frame;
+    HubSpringExcess &hub_spring;
+    Equilibrium last;           ///< from which the next one starts
+    ForceHistory followed;      ///< by follow(), where the contact keeps a tangent
+    double followed_speed = 0.; ///< v of the last of them
+    std::shared_ptr<const StoredJacobian> kept;
+    JacobianFactors factors;
+
+    /// Returns true if a drive goes on from the last that was followed.
+    bool goes_on(const DrivePoint &drive) const
+    {
+      return followed.size() > 0 && (drive.x - followed.last().place) * drive.v > 0. && drive.v * followed_speed > 0.;
+    }
+
+    /// A turn of the hub, from the last equilibrium with the change of ideal contact.
+    double guessed_turn(const unsigned int lever, const PerLever &ideal) const
+    {
+      const unsigned int hub = frame.layout.rotation(lever);
+      return (last.displacements.size() > 0 ? last.displacements[hub] - last.ideal[lever] : -frame.rest_inclination) +
+             ideal[lever];
+    }
+
+    /// Evaluates the contact at interface displacements.
+    InterfaceEvaluation evaluate(const SlidingState &state)
+    {
+      contact.evaluate_sliding(state, found);
+      hub_spring.add_forces(lever_rotations(frame.layout, state.displacements), true, found.forces);
+      return { &found.forces, found.penetration() };
+    }
+
+    /// See follow(). Null where that does not converge.
+    const InterfaceForces *solve_with_stored_jacobian(const DrivePoint &drive)
+    {
+      if (last.forces.dofs.empty())
+        return nullptr;
+      structure.use_statics();
+      const auto ideal                  = ideal_inclinations(drive.x);
+      const auto &near                  = contact.candidate_dofs(drive.x, ideal);
+      const dealii::Vector<double> free = structure.positions(structure.rest(), near);
+      const bool in_line                = goes_on(drive) && followed.size() > 1;
+      const DofLoads guess              = in_line ? followed.guess_at(drive.x) : turned_forces(free, near, ideal);
+      dealii::Vector<double> z          = free;
+      const double speed                = sliding_speed(frame.geometries.front(), drive.x, drive.v);
+      const auto at                     = [&](const dealii::Vector<double> &displacements, const Request request) {
+        return evaluate({ displacements, drive, speed, nullptr, ContactFriction::sliding, request });
+      };
+      const auto solved = ModifiedNewton({ structure.compliance(), free, frame.lengths, near }, at, StepWeights{}, factors)
+                              .solve(guess, kept, z, left_out_in_time);
+      if (!solved.newton.converged || !found.within_reach)
+      {
+        kept.reset();
+        return nullptr;
+      }
+      at(z, Request::complete);
+      return accept(z, ideal, *solved.forces);
+    }
+
+    /// The last forces, those of each lever as much larger as its hub turns.
+    DofLoads turned_forces(const dealii::Vector<double> &free, const DofSelection &near, const PerLever &ideal) const
+    {
+      dealii::Vector<double> z(free.size());
+      add_response(structure.compliance(), last.forces.dofs, last.forces.values, near, z);
+      PerLever growth{ { 1., 1. } };
+      for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
+        if (const unsigned int hub = frame.layout.rotation(lever); z[hub] != 0.)
+          growth[lever] = (guessed_turn(lever, ideal) - free[hub]) / z[hub];
+      DofLoads result = last.forces;
+      for (unsigned int i = 0; i < result.dofs.size(); ++i)
+        result.values[i] *= growth[std::min(frame.layout.lever_index(result.dofs[i]), frame.layout.levers - 1)];
+      return result;
+    }
+
+    const InterfaceForces *accept(const dealii::Vector<double> &z, const PerLever &ideal, const InterfaceForces &forces)
+    {
+      last = { z, { forces.dofs, forces.values }, ideal };
+      return &forces;
+    }
+
+    /// See solve(), from the last equilibrium.
+    const InterfaceForces *solve_from_last(const DrivePoint &drive, const double ratio, const ContactFriction friction,
+                                           const dealii::Vector<double> *round_off, const double share = 1.)
+    {
+      structure.use_statics();
+      const auto ideal            = ideal_inclinations(drive.x);
+      const auto &near            = contact.candidate_dofs(drive.x, ideal);
+      dealii::Vector<double> free = structure.positions(structure.rest(), near);
+      if (round_off != nullptr)
+        for (const unsigned int dof : near)
+          free[dof] += (*round_off)[dof];
+      dealii::Vector<double> z = free;
+      add_response(structure.compliance(), last.forces.dofs, last.forces.values, near, z);
+      for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
+        z[frame.layout.rotation(lever)] = guessed_turn(lever, ideal);
+
+      const double speed = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
+      const auto at      = [&](const dealii::Vector<double> &displacements) {
+        return evaluate({ displacements, drive, speed, nullptr, friction, Request::with_tangent, share });
+      };
+      const auto solved = solve_interface({ structure.compliance(), free, frame.lengths, near }, at, z);
+      if (!solved.newton.converged)
+        return nullptr;
+      if (!found.within_reach)
+      {
+        contact.widen_reach();
+        return solve_from_last(drive, ratio, friction, round_off, share);
+      }
+      return accept(z, ideal, *solved.forces);
+    }
+
+    /// Inclinations of the levers in ideal contact [rad].
+    PerLever ideal_inclinations(const double x) const
+    {
+      PerLever result{};
+      for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
+        result[lever] = kinematics(frame.geometries[lever], x).theta;
+      return result;
+    }
+  };
+} // namespace sprag

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "base/archive.h"
+#include "model/interface/interface_factors.h"
+#include "model/interface/interface_forces.h"
+#include "model/step/generalised_alpha.h"
+
+#include <memory>
+#include <optional>
+
+namespace sprag
+{
+  /// Derivative of the contact's forces by interface displacements that steps in time take from one to the next: a contact
+  /// wanders little in a step, so that it serves the corrections of several.
+  struct StoredJacobian
+  {
+    std::vector<unsigned int> dofs; ///< increasing
+    dealii::FullMatrix<double> matrix;
+  };
+
+  void serialise(Archive &archive, std::shared_ptr<const StoredJacobian> &kept);
+
+  /// Factors of 1 - G A of the kept tangent A used last, with the compliance G of steps of one length.
+  class JacobianFactors
+  {
+  public:
+    /// Makes the factors of a tangent with the compliance of a step with these weights, unless they are there. Returns whether
+    /// there are any: none where the matrix is singular.
+    bool use(std::shared_ptr<const StoredJacobian> kept, const InterfaceCompliance &compliance, const StepWeights &weights);
+
+    const StoredJacobian &tangent() const;
+
+    /// Returns InterfaceFactors::reaction() of the tangent.
+    dealii::Vector<double> reaction(const dealii::Vector<double> &displacements) const;
+
+  private:
+    std::shared_ptr<const StoredJacobian> stored;
+    double dt      = 0.;
+    double alpha_f = 0.;
+    std::optional<InterfaceFactors> factors;
+  };
+} // namespace sprag

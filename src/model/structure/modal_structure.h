@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "model/interface/interface_layout.h"
+#include "model/step/dynamic_model.h"
+#include "model/step/linearisation.h"
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <memory>
+#include <vector>
+
+namespace sprag
+{
+  /// A linear lever in the coordinates of its free vibration (mass 1 each): all modes of a beam, or some of a mesh together with
+  /// the static shapes of what the others would do. A sprung support is one more mode, of which the lever feels nothing but
+  /// through the forces at its interface.
+  struct ModalData
+  {
+    InterfaceLayout layout;
+    std::vector<double> stiffness;      ///< omega^2 [1/s^2], > 0
+    dealii::FullMatrix<double> damping; ///< symmetric [1/s]
+    dealii::FullMatrix<double> shapes;  ///< a row a dof, a column a mode
+    dealii::FullMatrix<double>
+        face_compliance;           ///< static shapes: of the dofs to the last rotation's [mm/N], symmetric; empty without
+    double relaxation       = 0.;  ///< damping of the static shapes, over their stiffness [s]
+    double spring_stiffness = 0.;  ///< of the rotation [N mm/rad], part of `stiffness` already
+    unsigned int support    = -1u; ///< mode that is the support's, the last; -1u without
+  };
+
+  /// Answers of a ModalData to forces at its interface, static or in steps of the generalised-alpha method.
+  class ModalStructure
+  {
+  public:
+    static constexpr unsigned int levers = 1;
+    static constexpr bool is_small       = true; ///< vibrations of two can be found together
+
+    explicit ModalStructure(ModalData data);
+
+    const InterfaceLayout &layout() const;
+
+    /// The motion at rest without force.
+    Motion rest() const;
+
+    /// Makes the compliance that of statics, or of a step.
+    void use_statics();
+    void use_step(const StepWeights &weights);
+    const InterfaceCompliance &compliance() const;
+
+    /// Motion and interface displacements at rest under forces, after use_statics().
+    Motion deform(const InterfaceForces &forces) const;
+
+    dealii::Vector<double> positions(const Motion &motion) const;
+    dealii::Vector<double> positions(const Motion &motion, const DofSelection &selected) const;
+
+    /// Returns position and rate of one dof, without the static shapes' rate.
+    DofState dof_state(const Motion &motion, unsigned int dof) const;
+
+    /// Returns positions of the interface, and their rates and accelerations without the static shapes.
+    Kinematic kinematics(const Motion &motion) const;
+
+    /// Returns the displacements of the selected dofs at the end of a step without forces in it.
+    dealii::Vector<double> free_displacements(const Motion &accepted, const DofSelection &selected) const;
+
+    /// Completes the step that free_displacements() began under its forces.
+    Motion advance(const Motion &accepted, const InterfaceForces &forces, const DrivePoint &to) const;
+
+    /// Adds the structure's damping and algorithmic work of the step.
+    void add_work(const Motion &begin, const Motion &end, StepWork &work) const;
+
+    StoredEnergy stored_energy(const Motion &motion) const;
+
+    /// Returns the displacements by the local error of a step, of the dofs that free_displacements() was asked for.
+    dealii::Vector<double> local_error(const Motion &begin, const Motion &end) const;
+
+    /// Returns all vibrations under linear forces at the interface.
+    std::vector<StructureMode> vibrations(const LinearisedForces &forces, unsigned int number) const;
+
+    /// Returns the vibrations of this and another structure under forces that couple them. The other's dofs are counted from the
+    /// number of this one's on, and its coordinates and static forces follow this one's.
+    std::vector<StructureMode> vibrations_with(const ModalStructure &other, const LinearisedForces &forces) const;
+
+    /// v^T C v with the motion's positions as velocities v: twice the power that damping takes.
+    double damping_form(const Motion &velocities) const;
+
+    unsigned int n_modes() const;
+
+    /// There is nothing to serialise, as all that it stores follows from the step at hand.
+    void serialise_history(Archive &)
+    {
+    }
+
+  private:
+    struct Step
+    {
+      StepWeights weights{};
+      dealii::FullMatrix<double> inverse; ///< of the effective matrix
+      InterfaceCompliance compliance;
+    };
+
+    unsigned int n_interface() const;
+
+    /// Adds the displacements of selected dofs by modes.
+    void add_positions(const dealii::Vector<double> &coordinates, const DofSelection &selected,
+                       dealii::Vector<double> &result) const;
+
+    /// Returns the dofs with static forces, which move those of the face; none where no dof from `first_selected` on is of it.
+    DofSelection loaded_dofs(const Motion &motion, unsigned int first_selected) const;
+    double interface_displacement(const Motion &motion, const std::vector<unsigned int> &loaded, unsigned int dof) const;
+    std::unique_ptr<Step> make_step(const StepWeights &weights) const;
+    InterfaceCompliance interface_compliance(const dealii::FullMatrix<double> &inverse, double static_share) const;
+    dealii::Vector<double> modal_forces(const InterfaceForces &forces) const;
+    double static_weight(const StepWeights &w) const;
+
+    /// The share of static forces at the beginning of a step that is left of them at its end where no others act.
+    double kept_share(const StepWeights &w) const;
+
+    const ModalData data;
+    Step statics;
+    std::vector<std::unique_ptr<Step>> steps; ///< the latest last
+    const Step *current = nullptr;
+    mutable dealii::Vector<double> free_motion; ///< modal, of the last free_displacements()
+    mutable DofSelection looked_at;             ///< by it
+  };
+} // namespace sprag
