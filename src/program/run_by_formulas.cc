@@ -15,11 +15,11 @@ namespace sprag
   {
     using FindMargin = std::function<JammingMargin(const Device &)>;
 
-    /// The margin of the lever of a pair that is closer to jamming.
-    JammingMargin least_margin(const Device &device, const FindMargin &margin)
+    /// Tells the margin of the lever of a pair that is closer to jamming.
+    std::string least_margin(const Device &device, const FindMargin &margin)
     {
       if (count_levers(device) == 1)
-        return margin(device);
+        return jamming_text(margin(device));
       const auto lever_margin = [&](const unsigned int lever)
       {
         Device alone = lever_device(device, lever);
@@ -28,7 +28,7 @@ namespace sprag
       };
       const auto first  = lever_margin(0);
       const auto second = lever_margin(1);
-      return first.margin() <= second.margin() ? first : second;
+      return first.margin() <= second.margin() ? jamming_text(first) : jamming_text(second) + ", all of the second lever";
     }
 
     /// Before every run in which friction moves a lever along the drive, once nothing is left for which it could be refused.
@@ -40,7 +40,7 @@ namespace sprag
         return;
       require_writable(options.folder);
       if (options.is_first)
-        std::cout << jamming_text(least_margin(scene, margin)) << '\n' << std::flush;
+        std::cout << least_margin(scene, margin) << '\n' << std::flush;
     }
 
     /// Warnings and, in the last line, their number.

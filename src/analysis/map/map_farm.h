@@ -24,7 +24,7 @@ namespace sprag
     /// then with the cells checked and those asked for.
     MapFarm(const Scene &scene, const ResultsLog *results_log, std::function<void(std::size_t, std::size_t)> report);
 
-    /// Checks what is not known yet. Throws what Team::carry_out() does; cells finished until then are kept.
+    /// Checks what is not known yet. Throws what TaskFarm::carry_out() does; cells finished until then are kept.
     void check(const std::vector<MapSite> &sites);
 
     const MapCells &cells() const

@@ -25,8 +25,8 @@ namespace sprag
     /// Forgets what was found and begins another evaluation.
     void begin(const dealii::Vector<double> &displacements, double at_x, double duration_);
 
-    /// Returns the history of the points in contact, by increasing point. Throws AnalysisError where there is an
-    /// check_validity().
+    /// Returns the history of the points in contact, by increasing point. Throws AnalysisError where
+    /// check_validity() objects.
     std::vector<PointHistory<dim - 1>> history() const;
 
     /// Tells why the contact goes beyond what can touch; empty if it does not.
