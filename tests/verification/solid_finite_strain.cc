@@ -60,7 +60,7 @@ TEST(SolidFiniteStrain, WorkIsStoredOrRubbedAwaySlow)
 }
 
 // As the plate's forces are those on its undeformed places.
-TEST(SolidFiniteStrain, SensorsCarryTheForceOnThePlate)
+TEST(SolidFiniteStrain, SensorsCarryTheForceOnThePlateSlow)
 {
   Scene scene                = tilted(at_finite_strain(0.2), 2e-4);
   scene.mesh.elements_across = 2;

@@ -205,7 +205,7 @@ TEST(SolidPartsInTime, ALeverMovesAsInThePlane)
   EXPECT_LT(difference(runs.plane, runs.solid, Column::kinetic_energy), 2e-6);
 }
 
-TEST(SolidPartsInTime, ALeafSpringAndATipMassMoveAsInThePlane)
+TEST(SolidPartsInTime, ALeafSpringAndATipMassMoveAsInThePlaneSlow)
 {
   const auto runs = run_both(on_leaf_with_tip(hardly_ringing()));
   for (const Column column : { Column::P, Column::Q, Column::theta, Column::Q_support, Column::kinetic_energy })
