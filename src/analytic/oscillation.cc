@@ -323,7 +323,7 @@ namespace sprag
     {
       return std::any_of(reversals.begin(), reversals.end(),
                          [&](const Oscillation &found)
-                         { return time >= found.time - reversal_duration && time <= found.window_end; });
+                         { return time >= found.time - 0.5 * reversal_duration && time <= found.window_end; });
     };
     Swing result;
     std::optional<double> extreme; // the last one

@@ -4,8 +4,6 @@
 #include "base/text.h"
 
 #include <cctype>
-#include <cstdlib>
-#include <unistd.h>
 
 namespace sprag
 {
@@ -66,12 +64,5 @@ namespace sprag
       else
         result += text[i];
     return result;
-  }
-
-  std::string coloured(const std::string &text, const int descriptor, const char *const colour)
-  {
-    const char *const refused = std::getenv("NO_COLOR");
-    const bool has_colours    = ::isatty(descriptor) != 0 && (refused == nullptr || *refused == '\0');
-    return has_colours ? std::string("\033[") + colour + 'm' + text + "\033[0m" : text;
   }
 } // namespace sprag

@@ -14,11 +14,4 @@ namespace sprag
 
   /// Returns what a value of a parameter file means: the inverse of escaped().
   std::string unescaped(const std::string &text);
-
-  /// ANSI colours of what a terminal shows.
-  inline constexpr const char *warning_colour = "33";
-  inline constexpr const char *error_colour   = "31";
-
-  /// Returns the text in a colour if the descriptor of its stream is a terminal's and the environment has no NO_COLOR.
-  std::string coloured(const std::string &text, int descriptor, const char *colour);
 } // namespace sprag

@@ -3,6 +3,7 @@
 
 #include "base/errors.h"
 #include "base/escaped.h"
+#include "base/system/coloured.h"
 #include "input/read.h"
 #include "program/run_options.h"
 #include "results/earlier_result.h"

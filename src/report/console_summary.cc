@@ -82,7 +82,8 @@ namespace sprag
         continue;
       missed +=
           (missed.empty() ? "" : ", ") + estimate.quantity + ' ' + (is_unknown ? "unknown" : percent(total_error(estimate)));
-      remedy = !remedy.empty() ? remedy : is_unknown ? "None is known: " + estimate.unknown : largest_part(estimate).remedy;
+      if (remedy.empty())
+        remedy = is_unknown ? estimate.unknown : largest_part(estimate).remedy;
     }
     if (missed.empty())
       return {};

@@ -329,12 +329,13 @@ namespace sprag
     /// vibration. Beyond L / v, L Friction/Memory length, the slip runs away at once.
     void add_falling_friction(const Scene &scene, const Row &slide, Warnings &warnings)
     {
-      const double speed = std::abs(slide[Column::v_rel]);
-      const double slope = -friction_coefficient(scene.friction, speed).derivative;
-      if (!falls_with_speed(scene.friction) || !(slope > 0.))
+      const auto friction = step_friction(scene.friction, slide[Column::v]);
+      const double speed  = std::abs(slide[Column::v_rel]);
+      const double slope  = -friction_coefficient(friction, speed).derivative;
+      if (!falls_with_speed(friction) || !(slope > 0.))
         return;
       const double shear  = slope * slide[Column::P] / contact_reference(scene).tangential;
-      const double memory = scene.friction.memory_length / speed;
+      const double memory = friction.memory_length / speed;
       if (is_reduced(scene.analysis.model))
         warnings.push_back({ "shear_left_out",
                              "Friction falls with speed " + place(slide) + ", mu by " + rounded_text(slope) +

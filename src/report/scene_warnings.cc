@@ -326,7 +326,7 @@ namespace sprag
                            "Give Drive/Smoothing, some 30 times the rows' distance in time, if the real motion is smooth." });
     }
 
-    /// Slides are held at one speed, and friction over the speeds between a turn and that may do otherwise.
+    /// A slide is held at the largest speed. Near its ends such a drive is slower, where a mu that depends on speed is another.
     void add_largest_speed(const Scene &scene, Warnings &warnings)
     {
       const auto profile   = scene.drive.profile();

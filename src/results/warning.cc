@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "results/warning.h"
 
-#include "base/escaped.h"
+#include "base/system/coloured.h"
 
 #include <sstream>
 #include <unistd.h>

@@ -127,12 +127,18 @@ namespace sprag
       return result;
     }
 
+    /// Returns whether a memory of friction counts, which eigenvalues in three dimensions leave out.
+    bool has_memory(const Scene &scene)
+    {
+      return falls_with_speed(step_friction(scene.friction, scene.drive.peak_speed())) && scene.analysis.dimension == 2;
+    }
+
     /// Checks with a spring of stick ten times as soft as it is, and rigid. The mesh of a meshed lever has the layer's own shear:
-    /// its stick is checked rigid alone.
-    StickLimits stick_limits(const Scene &scene, DynamicsMaker &maker)
+    /// its stick is checked rigid alone. Where mu falls with speed, its memory is a tenth and ten times as long.
+    UnmeasuredLimits unmeasured_limits(const Scene &scene, DynamicsMaker &maker)
     {
       constexpr double soft = 0.1, rigid = 1e6;
-      StickLimits result;
+      UnmeasuredLimits result;
       Scene changed = scene;
       if (is_meshed(scene.analysis.model))
         changed.contact.tangential_penalty = rigid * contact_reference(scene).stiffness;
@@ -144,14 +150,15 @@ namespace sprag
         changed.contact.tangential_stiffness = rigid * own;
       }
       result.rigid = compute_growth(changed, maker);
-      if (falls_with_speed(scene.friction) && scene.analysis.dimension == 2)
-        for (const auto &[limit, share] :
-             { std::pair<double *, double>{ &result.short_memory, 0.1 }, { &result.long_memory, 10. } })
-        {
-          changed = scene;
-          changed.friction.memory_length *= share;
-          *limit = compute_growth(changed, maker);
-        }
+      if (has_memory(scene))
+      {
+        constexpr double tenth = 0.1;
+        changed                = scene;
+        changed.friction.memory_length *= tenth;
+        result.short_memory            = compute_growth(changed, maker);
+        changed.friction.memory_length = scene.friction.memory_length / tenth;
+        result.long_memory             = compute_growth(changed, maker);
+      }
       return result;
     }
 
@@ -286,9 +293,9 @@ namespace sprag
           options.in_memory == nullptr)
       {
         const auto range  = timed(maker, [&] { return damping_range(whole, swept.worst(), maker); });
-        const auto limits = timed(maker, [&] { return stick_limits(whole, maker); });
+        const auto limits = timed(maker, [&] { return unmeasured_limits(whole, maker); });
         append(result.summary, damping_entries(range));
-        append(result.summary, stick_entries(limits));
+        append(result.summary, unmeasured_entries(limits));
       }
       if (scene.stability.roles)
         append(result.summary, role_entries(roles(scene, found, maker)));

@@ -407,7 +407,7 @@ namespace sprag
     return result;
   }
 
-  std::vector<Entry> stick_entries(const StickLimits &limits)
+  std::vector<Entry> unmeasured_entries(const UnmeasuredLimits &limits)
   {
     return { { "growth_rate_soft_stick", limits.soft },
              { "growth_rate_rigid_stick", limits.rigid },

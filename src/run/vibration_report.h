@@ -59,7 +59,7 @@ namespace sprag
 
   /// Growth at the limits of the contact's stiffness in stick, through which friction lags behind the pressure, and of the memory
   /// of a mu that falls with speed.
-  struct StickLimits
+  struct UnmeasuredLimits
   {
     double soft  = std::numeric_limits<double>::quiet_NaN(); ///< a tenth of it [1/s]; NaN where a mesh has the layer's shear
     double rigid = std::numeric_limits<double>::quiet_NaN(); ///< no lag [1/s]
@@ -73,7 +73,7 @@ namespace sprag
   std::vector<Entry> sweep_entries(const SweptSlides &swept);
 
   std::vector<Entry> damping_entries(const DampingRange &range);
-  std::vector<Entry> stick_entries(const StickLimits &limits);
+  std::vector<Entry> unmeasured_entries(const UnmeasuredLimits &limits);
   std::vector<Entry> role_entries(const std::vector<Role> &roles);
 
   std::vector<Entry> critical_entries(const std::vector<CriticalSearch> &searches);

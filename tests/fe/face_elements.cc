@@ -45,7 +45,7 @@ TEST(FacePatches, AreFoundByBoxInThreeDimensions)
   EXPECT_EQ(face.point_element(7), 7u);
 }
 
-// Where displacements move the face, a sphere touches what a search of all elements finds, also across a slit.
+// If displacements move the face, a sphere touches what a search of all elements finds, also across a slit.
 TEST(FacePatches, NearASphereAreThoseOfASearchOfAll)
 {
   for (const double slit : { 0., 0.7 })

@@ -125,7 +125,7 @@ namespace
   }
 } // namespace
 
-// What is left out moves no point by more than 1e-8 of the penetration; a few times as much is allowed.
+// The remaining residual moves no point by more than 1e-8 of the penetration; a few times as much is allowed.
 TEST(KeptIteration, FindsWhatNewtonsMethodFinds)
 {
   JacobianFactors factors;

@@ -321,7 +321,7 @@ TEST(TargetWarnings, WhereATargetIsMissed)
   asked.quantities   = { "P", "decay" };
   const auto unknown = target_warnings(asked, missed);
   ASSERT_EQ(unknown.size(), 1u);
-  EXPECT_EQ(unknown[0].remedy, "None is known: No estimate.");
+  EXPECT_EQ(unknown[0].remedy, "No estimate.");
   asked.target = 0.;
   EXPECT_TRUE(target_warnings(asked, missed).empty());
 }

@@ -6,7 +6,7 @@
 
 namespace sprag
 {
-  /// What contacts of verification problems have in common: one point at dof 0, always within reach, that never slides steadily.
+  /// Base of the contacts of verification problems: one point at dof 0, always within reach, that never slides steadily.
   class PointAtInterface
   {
   public:

@@ -195,7 +195,7 @@ namespace
   }
 } // namespace
 
-// What steps of the plane leave out, 1e-8 of the penetration, makes up to 7e-7 of the peak of P, more or less by the kernels of
+// The residual of steps of the plane, 1e-8 of the penetration, makes up to 7e-7 of the peak of P, more or less by the kernels of
 // OpenBLAS, and twice that of the kinetic energy.
 TEST(SolidPartsInTime, ALeverMovesAsInThePlane)
 {

@@ -29,7 +29,7 @@ namespace sprag
 
     /// Overrides of the scene's own constants, none, of all combinations of the ends of Stability/Ranges and, with `inside`, of
     /// so many values inside each range alone.
-    std::vector<std::vector<std::string>> corners(const Scene &scene, const unsigned int inside)
+    std::vector<std::vector<std::string>> constant_sets(const Scene &scene, const unsigned int inside)
     {
       std::vector<std::vector<std::string>> result = { {} };
       const auto ranges                            = uncertain_ranges(scene).value_or(std::vector<ParameterRange>());
@@ -114,20 +114,19 @@ namespace sprag
     return sum;
   }
 
-  SweptSlides sweep(const Scene &scene, DynamicsMaker &maker, const bool finds_edges)
+  SweptSlides sweep(const Scene &scene, DynamicsMaker &maker, const bool in_full)
   {
     constexpr unsigned int island_steps = 4;
     constexpr double tolerance          = 2e-3;
     SweptSlides result;
-    for (const auto &constants : corners(scene, finds_edges ? values_inside(scene) : 0))
+    for (const auto &constants : constant_sets(scene, in_full ? values_inside(scene) : 0))
     {
       Scene here          = constants.empty() ? scene : prepared(variant(scene, constants));
       const auto dynamics = maker.make(held_scene(here));
       for (const auto direction : held_directions(scene))
       {
         here.stability.direction = direction;
-        SweptWay way{ direction, constants,
-                      slides_along(here, dynamics.model(), { finds_edges ? tolerance : 0., island_steps }) };
+        SweptWay way{ direction, constants, slides_along(here, dynamics.model(), { in_full ? tolerance : 0., island_steps }) };
         if (way.along.worst)
           way.along.worst->constants = constants;
         result.ways.push_back(std::move(way));
@@ -159,9 +158,9 @@ namespace sprag
     return result;
   }
 
-  unsigned int least_slides(const Scene &scene, const bool finds_edges)
+  unsigned int least_slides(const Scene &scene, const bool in_full)
   {
-    const auto sets = corners(scene, finds_edges ? values_inside(scene) : 0).size();
+    const auto sets = constant_sets(scene, in_full ? values_inside(scene) : 0).size();
     const auto n    = static_cast<unsigned int>(sets * held_directions(scene).size());
     return n * (looks_over_stroke(scene) ? points_along(scene) : 1);
   }

@@ -16,7 +16,7 @@ namespace sprag
   };
 
   /// The slides that a verdict looks at: of Stability/Position or the whole stroke, of Stability/Direction or both, with the
-  /// constants of the scene and each combination of the ends of Stability/Ranges; with `finds_edges` see sweep().
+  /// constants of the scene and each combination of the ends of Stability/Ranges.
   struct SweptSlides
   {
     std::vector<SweptWay> ways;
@@ -27,15 +27,15 @@ namespace sprag
     unsigned int slides() const; ///< checked
   };
 
-  /// Checks them. `finds_edges`: whether the x are sought, too, where the kind changes, and values inside each of the ranges are
-  /// checked: seven of a reduced lever, else the middle.
-  SweptSlides sweep(const Scene &scene, DynamicsMaker &maker, bool finds_edges = false);
+  /// Checks them. `in_full`: also finds the x where the kind changes, and checks values inside each range, the other constants
+  /// being the scene's own: seven of a reduced lever, else the middle.
+  SweptSlides sweep(const Scene &scene, DynamicsMaker &maker, bool in_full = false);
 
   /// Returns the names of those of Stability/Ranges whose ends give the same slides, to the last digit.
   std::vector<std::string> ranges_without_effect(const Scene &scene, const SweptSlides &swept);
 
   /// Returns the slides that a sweep checks without those where a growth rate peaks.
-  unsigned int least_slides(const Scene &scene, bool finds_edges = false);
+  unsigned int least_slides(const Scene &scene, bool in_full = false);
 
   /// Returns whether values inside the range need meshes of their own.
   bool changes_mesh(const Scene &scene, const ParameterRange &range);

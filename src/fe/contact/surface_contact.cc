@@ -353,7 +353,7 @@ namespace sprag
         coordinate.dof = find_index(coordinate.dof, summed.dofs);
   }
 
-  /// From the elements that were pressed last.
+  /// Sums forces, and the tangent where it is asked for, over the elements as they were pressed last.
   void SurfaceContact::set_forces(const Request request, InterfaceForces &forces) const
   {
     forces.has_tangent = request == Request::with_tangent;
