@@ -226,10 +226,10 @@ TEST(CondensedBasis, LeftoversOfKilledProcessesAreRemoved)
       std::filesystem::last_write_time(path, old);
     return path;
   };
-  const auto left                                 = written("basis-0123456789abcdef.h5.4711", true);
-  const std::vector<std::filesystem::path> others = { written("basis-0123456789abcdef.h5.4712", false),
-                                                      written("basis-0123456789abcdef.h5", true), written("mine.h5.1", true) };
-  const auto at_work                              = written("basis-fedcba9876543210.h5.4713", true);
+  const auto left                                 = written("basis-0123456789abcdef.bin.4711", true);
+  const std::vector<std::filesystem::path> others = { written("basis-0123456789abcdef.bin.4712", false),
+                                                      written("basis-0123456789abcdef.bin", true), written("mine.bin.1", true) };
+  const auto at_work                              = written("basis-fedcba9876543210.bin.4713", true);
   const int writer                                = ::open(at_work.c_str(), O_RDWR);
   ASSERT_EQ(::flock(writer, LOCK_EX), 0);
   EXPECT_EQ(condensed_basis(*MeshedBar({}), make_settings(3, folder.path)).message, "");

@@ -107,19 +107,19 @@ namespace
 
   TEST_F(DamagedFiles, BasesAreTakenWholeOrNotAtAll)
   {
-    StoredArrays arrays;
-    for (const std::string name : { "shapes", "frequencies", "inverse" })
-      for (unsigned int i = 0; i < 300; ++i)
-        arrays[name].push_back(i * 0.37 + static_cast<double>(name.size()));
-    ASSERT_EQ(store_arrays(folder, "key", arrays), "");
-    ASSERT_EQ(load_arrays(folder, "key"), arrays);
+    std::string bytes;
+    for (unsigned int i = 0; i < 7200; ++i)
+      bytes.push_back(static_cast<char>(i * 37));
+    ASSERT_EQ(store_basis(folder, "key", bytes), "");
+    ASSERT_EQ(load_basis(folder, "key"), bytes);
+    EXPECT_EQ(load_basis(folder, "another key"), std::nullopt);
     unsigned int refused = 0;
-    for_all_damages(folder / "basis-key.h5", 120,
+    for_all_damages(folder / "basis-key.bin", 120,
                     [&]
                     {
-                      const auto found = load_arrays(folder, "key");
+                      const auto found = load_basis(folder, "key");
                       refused += found ? 0 : 1;
-                      EXPECT_TRUE(!found || *found == arrays);
+                      EXPECT_TRUE(!found || *found == bytes);
                     });
     EXPECT_GT(refused, 60u);
   }

@@ -221,13 +221,13 @@ class Caches(StrangerTest):
         """In a folder of bases that is somebody else's, only bases are counted and removed."""
         cache = self.folder / "cache"
         cache.mkdir()
-        names = ("basis-notes.h5.txt", "basis-0123456789abcdef.h5.bak", "basis-0123456789abcdef.h5", "basis-1.h5.2", "notes.h5")
+        names = ("basis-notes.bin.txt", "basis-0123456789abcdef.bin.bak", "basis-0123456789abcdef.bin", "basis-1.bin.2", "notes.bin")
         for name in names:
             (cache / name).write_text("mine")
-        (cache / "basis-fedcba9876543210.h5").symlink_to("notes.h5")
+        (cache / "basis-fedcba9876543210.bin").symlink_to("notes.bin")
         for path in cache.iterdir():
             os.utime(path, (0, 0), follow_symlinks=False)
-        with open(cache / "basis-0123456789abcdef.h5", "ab") as file:
+        with open(cache / "basis-0123456789abcdef.bin", "ab") as file:
             file.truncate(2 << 30)  # more than the bases may have
         before = {path.name: os.lstat(path).st_mtime for path in cache.iterdir()}
         self.scene("subsection Condensed\n  set Cache = cache\n  set Modes = 4\nend\nsubsection Mesh\n  set Face size = 6\nend\n")

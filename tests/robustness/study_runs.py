@@ -147,9 +147,8 @@ class StudyTest(RunTest):
     def test_bases_are_of_a_build_and_bounded(self):
         cache = self.folder / "cache"
         cache.mkdir()
-        oldest = cache / f"basis-{0:016x}.h5"
-        with h5py.File(oldest, "w") as file:
-            file["checksum"] = [0.0]
+        oldest = cache / f"basis-{0:016x}.bin"
+        oldest.write_text("sprag basis ")
         os.truncate(oldest, 2 << 30)
         os.utime(oldest, (1, 1))
         changes = {**COARSE, "Analysis/Type": "modal", "Analysis/Model": "condensed", "Condensed/Modes": "4", "Condensed/Cache": str(cache)}

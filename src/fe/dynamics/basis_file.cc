@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/basis_file.h"
 
+#include "base/archive.h"
 #include "base/errors.h"
-#include "base/fingerprint.h"
-#include "base/system/child_process.h"
-#include "base/system/confinement.h"
+#include "base/system/file_content.h"
 #include "base/system/open_file.h"
-#include "results/hdf5.h"
 
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <map>
 #include <regex>
 #include <unistd.h>
 
@@ -21,28 +22,17 @@ namespace sprag
 {
   namespace
   {
+    /// Begins each file, before the key and the bytes.
+    constexpr char signature[] = "sprag basis ";
+
+    /// Bounds the size of all bases in a folder.
+    constexpr std::uintmax_t most_bytes = std::uintmax_t(1) << 30;
+
+    const std::regex basis_name(R"(basis-[0-9a-f]{16}\.bin)"), temporary_name(R"(basis-[0-9a-f]{16}\.bin\.[0-9]+)");
+
     std::string cache_path(const std::string &folder, const std::string &key)
     {
-      return folder + "/basis-" + key + ".h5";
-    }
-
-    double checksum(const std::string &key, const StoredArrays &arrays)
-    {
-      Fingerprint sum;
-      sum.add(key.data(), key.size());
-      for (const auto &[name, values] : arrays)
-      {
-        sum.add(name.data(), name.size());
-        sum.add(values.data(), values.size() * sizeof(double));
-      }
-      // Below 2^53 whole numbers are exact.
-      return static_cast<double>(sum.value() >> 11);
-    }
-
-    /// Written here first, each process to its own.
-    std::string temporary_path(const std::string &folder, const std::string &key)
-    {
-      return cache_path(folder, key) + "." + std::to_string(::getpid());
+      return folder + "/basis-" + key + ".bin";
     }
 
     /// Returns whether a file in the folder, and no link, has a name like ours.
@@ -53,57 +43,21 @@ namespace sprag
              entry.symlink_status(ignored).type() == std::filesystem::file_type::regular;
     }
 
-    const std::regex &basis_name()
-    {
-      static const std::regex name(R"(basis-[0-9a-f]{16}\.h5)");
-      return name;
-    }
-
-    const std::regex &temporary_name()
-    {
-      static const std::regex name(R"(basis-[0-9a-f]{16}\.h5\.[0-9]+)");
-      return name;
-    }
-
-    std::optional<std::vector<double>> read_array(const hid_t file, const std::string &name)
-    {
-      const hid_t opened = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
-      if (opened < 0)
-        return {};
-      const hdf5::Handle dataset(opened, H5Dclose);
-      const hdf5::Handle space(H5Dget_space(dataset.id()), H5Sclose);
-      const auto count = H5Sget_simple_extent_npoints(space.id());
-      if (count < 0)
-        return {};
-      std::vector<double> values(static_cast<std::size_t>(count));
-      if (H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-        return {};
-      return values;
-    }
-
-    /// A damaged file may keep HDF5 busy for ever [s], or ask for all the memory there is [bytes].
-    constexpr double file_patience  = 10.;
-    constexpr std::size_t file_room = std::size_t(1) << 28;
-
-    /// Returns whether a file was written here, by what it holds.
+    /// Returns whether a file was written here, by how it begins.
     bool holds_basis(const std::string &path)
     {
-      const auto look = [&]
-      {
-        confine({ path });
-        const hdf5::Handle file = hdf5::open_to_read(path);
-        return std::string(hdf5::has(file, "checksum") ? "is one" : "");
-      };
-      return !in_child_process(look, file_patience).text.empty();
+      std::string beginning(std::strlen(signature), '\0');
+      std::ifstream(path, std::ios::binary).read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+      return beginning == signature;
     }
 
-    /// Removes bases that were used longest ago, until those that stay have no more than `most` bytes.
-    void prune(const std::string &folder, const std::uintmax_t most)
+    /// Removes bases that were used longest ago, until those that stay have no more than `most_bytes`.
+    void prune(const std::string &folder)
     {
       std::multimap<std::filesystem::file_time_type, std::filesystem::directory_entry, std::greater<>> latest_first;
       std::error_code error;
       for (std::filesystem::directory_iterator entry(folder, error), end; entry != end; entry.increment(error))
-        if (is_called(basis_name(), *entry))
+        if (is_called(basis_name, *entry))
           latest_first.emplace(entry->last_write_time(error), *entry);
       std::uintmax_t sum = 0;
       for (const auto &[time, entry] : latest_first)
@@ -111,68 +65,11 @@ namespace sprag
         const auto size = entry.file_size(error);
         if (error)
           continue;
-        if (sum + size <= most)
+        if (sum + size <= most_bytes)
           sum += size;
         else if (holds_basis(entry.path().string()))
           std::filesystem::remove(entry.path(), error);
       }
-    }
-
-    /// None if the file is damaged as far as HDF5 or the checksum can tell.
-    std::optional<StoredArrays> read_file(const std::string &path, const std::string &key)
-    {
-      const hid_t opened = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-      if (opened < 0)
-        return {};
-      const hdf5::Handle file(opened, H5Fclose);
-      StoredArrays arrays;
-      for (const auto &name : hdf5::names_in(file))
-      {
-        auto values = read_array(file.id(), name);
-        if (!values)
-          return {};
-        arrays[name] = std::move(*values);
-      }
-      const auto found = arrays.find("checksum");
-      if (found == arrays.end() || found->second.size() != 1)
-        return {};
-      const double stored = found->second.front();
-      arrays.erase(found);
-      if (stored != checksum(key, arrays))
-        return {};
-      return arrays;
-    }
-
-    /// Bytes of the arrays: of each its name, a zero, the number of values and these.
-    std::string packed(const std::optional<StoredArrays> &arrays)
-    {
-      std::string bytes;
-      if (arrays)
-        for (const auto &[name, values] : *arrays)
-        {
-          const std::size_t count = values.size();
-          bytes.append(name.c_str(), name.size() + 1);
-          bytes.append(reinterpret_cast<const char *>(&count), sizeof count);
-          bytes.append(reinterpret_cast<const char *>(values.data()), count * sizeof(double));
-        }
-      return bytes;
-    }
-
-    std::optional<StoredArrays> unpacked(const std::string &bytes)
-    {
-      StoredArrays arrays;
-      for (std::size_t at = 0; at < bytes.size();)
-      {
-        auto &values = arrays[bytes.data() + at];
-        at           = bytes.find('\0', at) + 1;
-        std::size_t count;
-        std::memcpy(&count, bytes.data() + at, sizeof count);
-        at += sizeof count;
-        values.resize(count);
-        std::memcpy(values.data(), bytes.data() + at, count * sizeof(double));
-        at += count * sizeof(double);
-      }
-      return arrays.empty() ? std::nullopt : std::optional(std::move(arrays));
     }
   } // namespace
 
@@ -187,25 +84,22 @@ namespace sprag
     return {};
   }
 
-  std::optional<StoredArrays> load_arrays(const std::string &folder, const std::string &key)
+  std::optional<std::string> load_basis(const std::string &folder, const std::string &key)
   {
-    const std::string path = cache_path(folder, key);
-    std::error_code ignored;
-    if (folder.empty() || !std::filesystem::is_regular_file(path, ignored))
-      return {};
-    const auto bytes  = std::filesystem::file_size(path, ignored);
-    const auto answer = in_child_process(
-        [&]
-        {
-          limit_growth(file_room + 20 * bytes);
-          confine({ path });
-          return packed(read_file(path, key));
-        },
-        file_patience + 1e-7 * static_cast<double>(bytes));
-    const auto found = answer.failure.empty() ? unpacked(answer.text) : std::nullopt;
-    if (found) // what was used is pruned last
+    const std::string path = cache_path(folder, key), head = signature + key;
+    try
+    {
+      const auto content = unsealed(read_whole_file(path, most_bytes));
+      if (!content || content->compare(0, head.size(), head) != 0)
+        return {};
+      std::error_code ignored; // what was used is pruned last
       std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now(), ignored);
-    return found;
+      return content->substr(head.size());
+    }
+    catch (const InputError &)
+    {
+      return {};
+    }
   }
 
   void remove_abandoned(const std::string &folder)
@@ -217,18 +111,17 @@ namespace sprag
     {
       const auto written = entry->last_write_time(ignored);
       const bool old     = !ignored && std::filesystem::file_time_type::clock::now() - written > young;
-      if (old && is_called(temporary_name(), *entry))
+      if (old && is_called(temporary_name, *entry))
         if (const OpenFile file(entry->path().string(), O_RDWR); file.is_open() && file.lock())
           std::filesystem::remove(entry->path(), ignored);
     }
   }
 
-  std::string store_arrays(const std::string &folder, const std::string &key, const StoredArrays &arrays,
-                           const std::uintmax_t most_bytes)
+  std::string store_basis(const std::string &folder, const std::string &key, const std::string &bytes)
   {
     if (folder.empty())
       return "there is no cache folder";
-    const std::string temporary = temporary_path(folder, key);
+    const std::string temporary = cache_path(folder, key) + "." + std::to_string(::getpid()); // each process writes to its own
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     std::filesystem::remove(temporary, error); // what is there is no process's any more, or a link
@@ -236,21 +129,17 @@ namespace sprag
     if (!writer.is_open())
       return temporary + " cannot be made";
     writer.lock(); // until it is closed nobody takes the file for abandoned
-    try
+    std::string trouble;
+    if (!writer.write(sealed(signature + key + bytes)))
+      trouble = std::strerror(errno);
+    else if (std::filesystem::rename(temporary, cache_path(folder, key), error); error)
+      trouble = error.message();
+    if (trouble.empty())
     {
-      auto file = hdf5::create_file(temporary);
-      for (const auto &[name, values] : arrays)
-        hdf5::write_dataset(file, name, values);
-      hdf5::write_dataset(file, "checksum", checksum(key, arrays));
-      file.close();
-      std::filesystem::rename(temporary, cache_path(folder, key));
-      prune(folder, most_bytes);
+      prune(folder);
+      return {};
     }
-    catch (const std::exception &failure)
-    {
-      std::filesystem::remove(temporary, error);
-      return failure.what();
-    }
-    return {};
+    std::filesystem::remove(temporary, error);
+    return temporary + " cannot be written: " + trouble;
   }
 } // namespace sprag

@@ -3,6 +3,7 @@
 
 #include "base/fingerprint.h"
 #include "fe/dynamics/basis_file.h"
+#include "model/step/state_archive.h"
 
 #include <deal.II/base/timer.h>
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -15,9 +16,6 @@ namespace sprag
 
   namespace
   {
-    /// Version of the content of stored files and of the numbers in them.
-    constexpr double format_version = 5.;
-
     void add_mesh(const Triangulation<2> &triangulation, Fingerprint &key)
     {
       for (const auto &vertex : triangulation.get_vertices())
@@ -34,145 +32,21 @@ namespace sprag
       }
     }
 
-    void add_leaf(const LeafBehaviour &leaf, Fingerprint &key)
-    {
-      for (const double value : { leaf.mass, leaf.inertia, leaf.momentum[0], leaf.momentum[1] })
-        key.add(value);
-      for (const auto &mode : leaf.modes)
-        for (const double value : { mode.stiffness, mode.participation, mode.momentum[0], mode.momentum[1] })
-          key.add(value);
-    }
-
     std::string make_key(const ElasticBody<2> &body, const BasisSettings &settings)
     {
+      auto [modes, spring_stiffness, inertia, cache, origin] = settings;
+      auto properties                                        = body.body_properties();
+      auto program                                           = program_fingerprint();
+      Archive content;
+      content(program, origin, properties.degree, properties.plane, properties.width, properties.widths, properties.planes,
+              properties.constants, inertia.densities, inertia.tip_mass, inertia.moment_of_inertia, inertia.source, inertia.hub,
+              inertia.leaf.mass, inertia.leaf.inertia, inertia.leaf.momentum, inertia.leaf.modes, spring_stiffness, modes);
+      for (auto &[type, middle, length, stiffness] : properties.connectors)
+        content(type, middle, length, stiffness);
       Fingerprint key;
-      key.add(format_version);
-      key.add(program_fingerprint());
-      key.add(settings.origin);
-      const auto &properties = body.body_properties();
-      key.add(properties.degree);
-      key.add(static_cast<double>(properties.plane));
-      key.add(properties.width);
-      for (const auto &[material, width] : properties.widths)
-      {
-        key.add(material);
-        key.add(width);
-      }
-      for (const auto &[material, plane] : properties.planes)
-      {
-        key.add(material);
-        key.add(static_cast<double>(plane));
-      }
-      for (const auto &connector : properties.connectors)
-      {
-        key.add(static_cast<double>(connector.type));
-        key.add(connector.middle);
-        key.add(connector.length);
-        key.add(connector.stiffness);
-      }
-      for (const auto &[material, constants] : properties.constants)
-      {
-        key.add(material);
-        key.add(constants.young_modulus);
-        key.add(constants.poisson_ratio);
-      }
-      for (const auto &[material, density] : settings.inertia.densities)
-      {
-        key.add(material);
-        key.add(density);
-      }
-      key.add(settings.inertia.tip_mass);
-      key.add(settings.inertia.moment_of_inertia);
-      key.add(static_cast<double>(settings.inertia.source));
-      key.add(settings.inertia.hub);
-      add_leaf(settings.inertia.leaf, key);
-      key.add(settings.spring_stiffness);
-      key.add(settings.modes);
+      key.add(content.bytes());
       add_mesh(body.dofs().get_triangulation(), key);
       return key.text();
-    }
-
-    std::vector<double> flat(const FullMatrix<double> &matrix)
-    {
-      std::vector<double> result;
-      result.reserve(matrix.m() * matrix.n());
-      for (unsigned int i = 0; i < matrix.m(); ++i)
-        result.insert(result.end(), &matrix(i, 0), &matrix(i, 0) + matrix.n());
-      return result;
-    }
-
-    std::vector<double> flat(const std::vector<Vector<double>> &columns)
-    {
-      std::vector<double> result;
-      for (const auto &column : columns)
-        result.insert(result.end(), column.begin(), column.end());
-      return result;
-    }
-
-    std::vector<double> upper_triangle(const FullMatrix<double> &matrix)
-    {
-      std::vector<double> result;
-      for (unsigned int i = 0; i < matrix.m(); ++i)
-        result.insert(result.end(), &matrix(i, i), &matrix(i, 0) + matrix.n());
-      return result;
-    }
-
-    /// False if the sizes do not fit.
-    bool unpack(const std::vector<double> &values, const unsigned int rows, const unsigned int columns,
-                FullMatrix<double> &matrix)
-    {
-      if (values.size() != std::size_t(rows) * columns)
-        return false;
-      matrix.reinit(rows, columns);
-      matrix.fill(values.data());
-      return true;
-    }
-
-    bool unpack_symmetric(const std::vector<double> &values, const unsigned int n, FullMatrix<double> &matrix)
-    {
-      if (values.size() != std::size_t(n) * (n + 1) / 2)
-        return false;
-      matrix.reinit(n, n);
-      auto value = values.begin();
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = i; j < n; ++j)
-          matrix(i, j) = matrix(j, i) = *value++;
-      return true;
-    }
-
-    StoredArrays to_arrays(const CondensedBasis &basis)
-    {
-      return { { "stiffness", basis.stiffness },
-               { "shapes", flat(basis.shapes) },
-               { "layer_stiffness", flat(basis.layer_stiffness) },
-               { "face_compliance", upper_triangle(basis.face_compliance) },
-               { "displacements", flat(basis.displacements) },
-               { "scalars", { basis.density_factor, basis.total_mass, basis.moment_of_inertia, basis.cpu_seconds } } };
-    }
-
-    std::optional<CondensedBasis> to_basis(StoredArrays arrays, const unsigned int n_face, const unsigned int n_dofs)
-    {
-      CondensedBasis basis;
-      basis.stiffness     = arrays["stiffness"];
-      const auto m        = static_cast<unsigned int>(basis.stiffness.size());
-      const auto &scalars = arrays["scalars"];
-      if (m == 0 || scalars.size() != 4 || !unpack(arrays["shapes"], n_face + 2, m, basis.shapes) ||
-          !unpack(arrays["layer_stiffness"], m, m, basis.layer_stiffness) ||
-          !unpack_symmetric(arrays["face_compliance"], n_face, basis.face_compliance) ||
-          arrays["displacements"].size() != std::size_t(m) * n_dofs)
-        return {};
-      for (unsigned int j = 0; j < m; ++j)
-      {
-        const auto first = arrays["displacements"].begin() + std::ptrdiff_t(j) * n_dofs;
-        basis.displacements.emplace_back(first, first + n_dofs);
-        basis.rotation.push_back(basis.shapes(n_face - 1, j));
-      }
-      basis.density_factor    = scalars[0];
-      basis.total_mass        = scalars[1];
-      basis.moment_of_inertia = scalars[2];
-      basis.cpu_seconds       = scalars[3];
-      basis.from_cache        = true;
-      return basis;
     }
 
     /// Compliance of the surface with the hub held [mm/N].
@@ -192,6 +66,12 @@ namespace sprag
     }
   } // namespace
 
+  void serialise(Archive &archive, CondensedBasis &basis)
+  {
+    archive(basis.stiffness, basis.displacements, basis.rotation, static_cast<MassSums &>(basis), basis.shapes,
+            basis.layer_stiffness, basis.face_compliance, basis.layout, basis.cpu_seconds);
+  }
+
   Response make_response(const ElasticBody<2> &body)
   {
     return make_response(body.factorised());
@@ -203,8 +83,7 @@ namespace sprag
   {
     const auto m = static_cast<unsigned int>(modes.stiffness.size()), n = layout.rotation() + 1;
     CondensedBasis result;
-    result.sensors                  = layout.sensors;
-    result.slopes                   = layout.slopes;
+    result.layout                   = layout;
     result.stiffness                = modes.stiffness;
     result.layer_stiffness          = modes.layer_stiffness;
     static_cast<MassSums &>(result) = modes;
@@ -263,18 +142,17 @@ namespace sprag
     const std::string folder = cache_folder(settings.cache);
     const std::string key    = make_key(body, settings);
     remove_abandoned(folder);
-    if (auto stored = load_arrays(folder, key))
+    if (auto stored = load_basis(folder, key))
     {
-      const auto n_sensors = static_cast<unsigned int>(body.sensors().size());
-      const auto n_face    = static_cast<unsigned int>(surface_dofs(body).size()) + n_sensors + 1;
-      if (auto basis = to_basis(std::move(*stored), n_face, body.n_dofs()))
-      {
-        basis->sensors = n_sensors;
-        return *basis;
-      }
+      CondensedBasis basis;
+      Archive(std::move(*stored))(basis);
+      basis.from_cache = true;
+      return basis;
     }
-    CondensedBasis basis      = make_basis(body, settings);
-    const std::string trouble = store_arrays(folder, key, to_arrays(basis));
+    CondensedBasis basis = make_basis(body, settings);
+    Archive archive;
+    archive(basis);
+    const std::string trouble = store_basis(folder, key, archive.bytes());
     if (!trouble.empty())
       basis.message = "the condensed basis was not stored in '" + folder + "': " + trouble;
     return basis;
@@ -309,9 +187,7 @@ namespace sprag
     const auto n_lever   = static_cast<unsigned int>(basis.stiffness.size());
     const unsigned int n = n_lever + (constants.sprung ? 1 : 0);
     ModalData data;
-    data.layout.sensors   = basis.sensors;
-    data.layout.slopes    = basis.slopes;
-    data.layout.surface   = static_cast<unsigned int>(basis.face_compliance.m()) - 1 - basis.sensors - basis.slopes;
+    data.layout           = basis.layout;
     data.layout.sprung    = constants.sprung;
     data.stiffness        = basis.stiffness;
     data.face_compliance  = basis.face_compliance;

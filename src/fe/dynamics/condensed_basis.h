@@ -17,10 +17,9 @@ namespace sprag
     dealii::FullMatrix<double> shapes;          ///< a row a dof, momentum included and support not; a column a mode
     dealii::FullMatrix<double> layer_stiffness; ///< of the friction layer, in the modes
     dealii::FullMatrix<double> face_compliance; ///< residual, of face, sensors, slopes and rotation [mm/N]
-    unsigned int sensors = 0;
-    unsigned int slopes  = 0;  ///< of the cylinder's axis, which no mode moves
-    double cpu_seconds   = 0.; ///< that it took to make
-    bool from_cache      = false;
+    InterfaceLayout layout;                     ///< of these, without the support
+    double cpu_seconds = 0.;                    ///< that it took to make
+    bool from_cache    = false;
     std::string message; ///< why it was not stored, empty if it was
   };
 
