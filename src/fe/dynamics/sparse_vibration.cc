@@ -15,276 +15,252 @@ namespace sprag
 {
   using namespace dealii;
 
-  /// State of the first-order problem: displacements, velocities and the tractions of friction's delays.
-  struct SparseState
-  {
-    dealii::Vector<double> q, rate, traction;
-
-    void add(double factor, const SparseState &other);
-    void scale(double factor);
-    double operator*(const SparseState &other) const;
-  };
-
-  /// The linearised problem E s' = A s of a sparse structure under forces at its interface, s = (q, q', tau): products with A^-1
-  /// E, whose eigenvalues are 1 / lambda.
-  ///
-  /// States are measured by their energy, q^T K q + q'^T M q' + tau^2 over the stiffness of stick, K with the contact's springs.
-  /// Without friction and damping the products are skew in it: their eigenvectors are orthogonal, and what is stiff is small.
-  class InverseProblem
-  {
-  public:
-    /// Arguments must outlive the problem. Throws AnalysisError if there is a mode without stiffness.
-    InverseProblem(const SparseOperator &structure, const LinearisedForces &forces);
-
-    unsigned int size() const; ///< of the state
-    SparseState zero() const;
-
-    /// The state that leads to the given one: displacements -K^-1 (C q + M q' + delayed tractions).
-    SparseState apply(const SparseState &state) const;
-
-    /// Energy's derivative: its product with a state is twice their mutual energy.
-    SparseState momenta(const SparseState &state) const;
-
-    /// square q^T M q + q'^T M q'. Unlike energy it does not see round-off of displacements, of which stiffness makes 1e-9 of it.
-    double mass_form(const SparseState &state, double square) const;
-
-  private:
-    const SparseOperator &structure;
-    const LinearisedForces &forces;
-    const dealii::FullMatrix<double> stiffness;
-    const dealii::FullMatrix<double> damping;
-    const unsigned int n_forces;
-    dealii::FullMatrix<double> springs;            ///< of the contact, those that are not negative
-    std::vector<double> tractions;                 ///< energy of the delays' tractions by their square
-    std::vector<dealii::Vector<double>> responses; ///< of the structure to unit forces at the interface
-    dealii::LAPACKFullMatrix<double> portable;     ///< factors of 1 - G df/dz
-
-    void find_springs();
-    void find_responses();
-    unsigned int n_delays() const;
-    dealii::Vector<double> displacements(const SparseState &state) const;
-    void mass_product(const dealii::Vector<double> &rate, dealii::Vector<double> &momentum) const;
-    void add_delayed(const dealii::Vector<double> &rates, dealii::Vector<double> &sum) const;
-    dealii::Vector<double> loaded_displacements(const dealii::Vector<double> &q) const;
-    void add_interface_forces(const dealii::FullMatrix<double> &matrix, double factor, const dealii::Vector<double> &q,
-                              dealii::Vector<double> &sum) const;
-    void solve(const dealii::Vector<double> &right_hand_side, dealii::Vector<double> &q) const;
-  };
-
-  void SparseState::add(const double factor, const SparseState &other)
-  {
-    q.add(factor, other.q);
-    rate.add(factor, other.rate);
-    if (traction.size() > 0)
-      traction.add(factor, other.traction);
-  }
-
-  void SparseState::scale(const double factor)
-  {
-    q *= factor;
-    rate *= factor;
-    if (traction.size() > 0)
-      traction *= factor;
-  }
-
-  double SparseState::operator*(const SparseState &other) const
-  {
-    return q * other.q + rate * other.rate + (traction.size() > 0 ? traction * other.traction : 0.);
-  }
-
-  InverseProblem::InverseProblem(const SparseOperator &sparse_structure, const LinearisedForces &interface_forces)
-      : structure(sparse_structure)
-      , forces(interface_forces)
-      , stiffness(forces.stiffness())
-      , damping(forces.damping())
-      , n_forces(static_cast<unsigned int>(forces.dofs.size()))
-      , springs(n_forces, n_forces)
-      , portable(n_forces)
-  {
-    if (n_forces > 0)
-    {
-      find_springs();
-      find_responses();
-    }
-    for (const auto &delay : forces.delays)
-      tractions.push_back(delay.time * delay.force.l2_norm() / delay.rate_row.l2_norm());
-  }
-
-  unsigned int InverseProblem::size() const
-  {
-    return 2 * structure.size + n_delays();
-  }
-
-  SparseState InverseProblem::zero() const
-  {
-    return { Vector<double>(structure.size), Vector<double>(structure.size), Vector<double>(n_delays()) };
-  }
-
-  unsigned int InverseProblem::n_delays() const
-  {
-    return static_cast<unsigned int>(forces.delays.size());
-  }
-
-  void InverseProblem::find_springs()
-  {
-    LAPACKFullMatrix<double> symmetric(n_forces);
-    for (unsigned int a = 0; a < n_forces; ++a)
-      for (unsigned int b = 0; b < n_forces; ++b)
-        symmetric(a, b) = -0.5 * (forces.pressure(a, b) + forces.pressure(b, a));
-    Vector<double> values;
-    FullMatrix<double> vectors;
-    symmetric.compute_eigenvalues_symmetric(0., std::numeric_limits<double>::max(), 0., values, vectors);
-    for (unsigned int i = 0; i < values.size(); ++i)
-      for (unsigned int a = 0; a < n_forces; ++a)
-        for (unsigned int b = 0; b < n_forces; ++b)
-          springs(a, b) += values[i] * vectors(a, i) * vectors(b, i);
-  }
-
-  void InverseProblem::find_responses()
-  {
-    FullMatrix<double> compliance(n_forces, n_forces);
-    Vector<double> load(structure.size);
-    for (unsigned int b = 0; b < n_forces; ++b)
-    {
-      load = 0.;
-      structure.interface.add_force(forces.dofs[b], 1., load);
-      responses.emplace_back(structure.size);
-      structure.solve(load, responses.back());
-      const auto z = loaded_displacements(responses.back());
-      for (unsigned int a = 0; a < n_forces; ++a)
-        compliance(a, b) = z[a];
-    }
-    FullMatrix<double> matrix(n_forces, n_forces);
-    compliance.mmult(matrix, stiffness);
-    matrix *= -1.;
-    for (unsigned int a = 0; a < n_forces; ++a)
-      matrix(a, a) += 1.;
-    portable = matrix;
-    try
-    {
-      portable.compute_lu_factorization();
-    }
-    catch (const ExceptionBase &)
-    {
-      throw AnalysisError("the slide is at the limit of its stability: it has a mode without stiffness");
-    }
-  }
-
-  SparseState InverseProblem::apply(const SparseState &state) const
-  {
-    SparseState result{ displacements(state), state.q, Vector<double>(n_delays()) };
-    if (n_delays() == 0)
-      return result;
-    const auto before = loaded_displacements(state.q);
-    const auto after  = loaded_displacements(result.q);
-    for (unsigned int k = 0; k < n_delays(); ++k)
-    {
-      const auto &delay  = forces.delays[k];
-      result.traction[k] = delay.stiffness_row * after + delay.rate_row * before - delay.time * state.traction[k];
-    }
-    return result;
-  }
-
-  SparseState InverseProblem::momenta(const SparseState &state) const
-  {
-    SparseState result = zero();
-    structure.stiffness(state.q, result.q);
-    add_interface_forces(springs, 1., state.q, result.q);
-    mass_product(state.rate, result.rate);
-    for (unsigned int k = 0; k < n_delays(); ++k)
-      result.traction[k] = tractions[k] * state.traction[k];
-    return result;
-  }
-
-  double InverseProblem::mass_form(const SparseState &state, const double square) const
-  {
-    Vector<double> momentum(structure.size);
-    mass_product(state.q, momentum);
-    const double displacement_part = momentum * state.q;
-    mass_product(state.rate, momentum);
-    return square * displacement_part + momentum * state.rate;
-  }
-
-  void InverseProblem::mass_product(const Vector<double> &rate, Vector<double> &momentum) const
-  {
-    structure.mass(rate, momentum);
-    add_interface_forces(forces.inertia, 1., rate, momentum);
-  }
-
-  /// The rotational spring is so soft beside the contact that solutions without the contact have lost half their digits: what
-  /// they leave out of balance is solved for once more.
-  Vector<double> InverseProblem::displacements(const SparseState &state) const
-  {
-    Vector<double> load(structure.size), left(structure.size), correction(structure.size), result(structure.size);
-    structure.damping(state.q, load);
-    mass_product(state.rate, left);
-    load += left;
-    load *= -1.;
-    add_interface_forces(damping, 1., state.q, load);
-    add_delayed(state.traction, load);
-    solve(load, result);
-
-    constexpr unsigned int corrections = 2;
-    for (unsigned int i = 0; i < corrections; ++i)
-    {
-      structure.stiffness(result, left);
-      left.sadd(-1., 1., load);
-      add_interface_forces(stiffness, 1., result, left);
-      solve(left, correction);
-      result += correction;
-    }
-    return result;
-  }
-
-  /// Adds what the rates of tractions take off the forces that follow displacements and velocities at once.
-  void InverseProblem::add_delayed(const Vector<double> &rates, Vector<double> &sum) const
-  {
-    if (n_delays() == 0)
-      return;
-    Vector<double> values(n_forces);
-    for (unsigned int k = 0; k < n_delays(); ++k)
-      values.add(-forces.delays[k].time * rates[k], forces.delays[k].force);
-    for (unsigned int a = 0; a < n_forces; ++a)
-      structure.interface.add_force(forces.dofs[a], values[a], sum);
-  }
-
-  Vector<double> InverseProblem::loaded_displacements(const Vector<double> &q) const
-  {
-    const auto all = structure.interface.displacements(q);
-    Vector<double> z(n_forces);
-    for (unsigned int a = 0; a < z.size(); ++a)
-      z[a] = all[forces.dofs[a]];
-    return z;
-  }
-
-  void InverseProblem::add_interface_forces(const FullMatrix<double> &matrix, const double factor, const Vector<double> &q,
-                                            Vector<double> &sum) const
-  {
-    if (n_forces == 0)
-      return;
-    const auto z = loaded_displacements(q);
-    Vector<double> values(z.size());
-    matrix.vmult(values, z);
-    for (unsigned int a = 0; a < n_forces; ++a)
-      structure.interface.add_force(forces.dofs[a], factor * values[a], sum);
-  }
-
-  /// With the stiffness of structure and forces: f = A (1 - G A)^-1 z where the structure alone went to z.
-  void InverseProblem::solve(const Vector<double> &right_hand_side, Vector<double> &q) const
-  {
-    structure.solve(right_hand_side, q);
-    if (n_forces == 0)
-      return;
-    auto z = loaded_displacements(q);
-    portable.solve(z);
-    Vector<double> values(n_forces);
-    stiffness.vmult(values, z);
-    for (unsigned int a = 0; a < n_forces; ++a)
-      q.add(values[a], responses[a]);
-  }
-
   namespace
   {
+    /// State of the first-order problem: displacements, velocities and the tractions of friction's delays.
+    struct SparseState
+    {
+      Vector<double> q, rate, traction;
+
+      void add(const double factor, const SparseState &other)
+      {
+        q.add(factor, other.q);
+        rate.add(factor, other.rate);
+        if (traction.size() > 0)
+          traction.add(factor, other.traction);
+      }
+
+      void scale(const double factor)
+      {
+        q *= factor;
+        rate *= factor;
+        if (traction.size() > 0)
+          traction *= factor;
+      }
+
+      double operator*(const SparseState &other) const
+      {
+        return q * other.q + rate * other.rate + (traction.size() > 0 ? traction * other.traction : 0.);
+      }
+    };
+
+    /// The linearised problem E s' = A s of a sparse structure under forces at its interface, s = (q, q', tau): products with
+    /// A^-1 E, whose eigenvalues are 1 / lambda.
+    ///
+    /// States are measured by their energy, q^T K q + q'^T M q' + tau^2 over the stiffness of stick, K with the contact's
+    /// springs. Without friction and damping the products are skew in it: their eigenvectors are orthogonal, and what is stiff is
+    /// small.
+    class InverseProblem
+    {
+    public:
+      /// Arguments must outlive the problem. Throws AnalysisError if there is a mode without stiffness.
+      InverseProblem(const SparseOperator &sparse_structure, const LinearisedForces &interface_forces)
+          : structure(sparse_structure)
+          , forces(interface_forces)
+          , stiffness(forces.stiffness())
+          , damping(forces.damping())
+          , n_forces(static_cast<unsigned int>(forces.dofs.size()))
+          , springs(n_forces, n_forces)
+          , portable(n_forces)
+      {
+        if (n_forces > 0)
+        {
+          find_springs();
+          find_responses();
+        }
+        for (const auto &delay : forces.delays)
+          tractions.push_back(delay.time * delay.force.l2_norm() / delay.rate_row.l2_norm());
+      }
+
+      /// Returns the size of the state.
+      unsigned int size() const
+      {
+        return 2 * structure.size + n_delays();
+      }
+
+      SparseState zero() const
+      {
+        return { Vector<double>(structure.size), Vector<double>(structure.size), Vector<double>(n_delays()) };
+      }
+
+      /// Returns the state that leads to the given one: displacements -K^-1 (C q + M q' + delayed tractions).
+      SparseState apply(const SparseState &state) const
+      {
+        SparseState result{ displacements(state), state.q, Vector<double>(n_delays()) };
+        if (n_delays() == 0)
+          return result;
+        const auto before = loaded_displacements(state.q);
+        const auto after  = loaded_displacements(result.q);
+        for (unsigned int k = 0; k < n_delays(); ++k)
+        {
+          const auto &delay  = forces.delays[k];
+          result.traction[k] = delay.stiffness_row * after + delay.rate_row * before - delay.time * state.traction[k];
+        }
+        return result;
+      }
+
+      /// Returns the energy's derivative: its product with a state is twice their mutual energy.
+      SparseState momenta(const SparseState &state) const
+      {
+        SparseState result = zero();
+        structure.stiffness(state.q, result.q);
+        add_interface_forces(springs, state.q, result.q);
+        mass_product(state.rate, result.rate);
+        for (unsigned int k = 0; k < n_delays(); ++k)
+          result.traction[k] = tractions[k] * state.traction[k];
+        return result;
+      }
+
+      /// Returns square q^T M q + q'^T M q'. Unlike energy it does not see round-off of displacements, of which stiffness makes
+      /// 1e-9 of it.
+      double mass_form(const SparseState &state, const double square) const
+      {
+        Vector<double> momentum(structure.size);
+        mass_product(state.q, momentum);
+        const double displacement_part = momentum * state.q;
+        mass_product(state.rate, momentum);
+        return square * displacement_part + momentum * state.rate;
+      }
+
+    private:
+      const SparseOperator &structure;
+      const LinearisedForces &forces;
+      const FullMatrix<double> stiffness;
+      const FullMatrix<double> damping;
+      const unsigned int n_forces;
+      FullMatrix<double> springs;            ///< of the contact, those that are not negative
+      std::vector<double> tractions;         ///< energy of the delays' tractions by their square
+      std::vector<Vector<double>> responses; ///< of the structure to unit forces at the interface
+      LAPACKFullMatrix<double> portable;     ///< factors of 1 - G df/dz
+
+      unsigned int n_delays() const
+      {
+        return static_cast<unsigned int>(forces.delays.size());
+      }
+
+      void find_springs()
+      {
+        LAPACKFullMatrix<double> symmetric(n_forces);
+        for (unsigned int a = 0; a < n_forces; ++a)
+          for (unsigned int b = 0; b < n_forces; ++b)
+            symmetric(a, b) = -0.5 * (forces.pressure(a, b) + forces.pressure(b, a));
+        Vector<double> values;
+        FullMatrix<double> vectors;
+        symmetric.compute_eigenvalues_symmetric(0., std::numeric_limits<double>::max(), 0., values, vectors);
+        for (unsigned int i = 0; i < values.size(); ++i)
+          for (unsigned int a = 0; a < n_forces; ++a)
+            for (unsigned int b = 0; b < n_forces; ++b)
+              springs(a, b) += values[i] * vectors(a, i) * vectors(b, i);
+      }
+
+      void find_responses()
+      {
+        FullMatrix<double> compliance(n_forces, n_forces);
+        Vector<double> load(structure.size);
+        for (unsigned int b = 0; b < n_forces; ++b)
+        {
+          load = 0.;
+          structure.interface.add_force(forces.dofs[b], 1., load);
+          responses.emplace_back(structure.size);
+          structure.solve(load, responses.back());
+          const auto z = loaded_displacements(responses.back());
+          for (unsigned int a = 0; a < n_forces; ++a)
+            compliance(a, b) = z[a];
+        }
+        FullMatrix<double> matrix(n_forces, n_forces);
+        compliance.mmult(matrix, stiffness);
+        matrix *= -1.;
+        for (unsigned int a = 0; a < n_forces; ++a)
+          matrix(a, a) += 1.;
+        portable = matrix;
+        try
+        {
+          portable.compute_lu_factorization();
+        }
+        catch (const ExceptionBase &)
+        {
+          throw AnalysisError("the slide is at the limit of its stability: it has a mode without stiffness");
+        }
+      }
+
+      void mass_product(const Vector<double> &rate, Vector<double> &momentum) const
+      {
+        structure.mass(rate, momentum);
+        add_interface_forces(forces.inertia, rate, momentum);
+      }
+
+      /// The rotational spring is so soft beside the contact that solutions without the contact have lost half their digits: what
+      /// they leave out of balance is solved for once more.
+      Vector<double> displacements(const SparseState &state) const
+      {
+        Vector<double> load(structure.size), left(structure.size), correction(structure.size), result(structure.size);
+        structure.damping(state.q, load);
+        mass_product(state.rate, left);
+        load += left;
+        load *= -1.;
+        add_interface_forces(damping, state.q, load);
+        add_delayed(state.traction, load);
+        solve(load, result);
+
+        constexpr unsigned int corrections = 2;
+        for (unsigned int i = 0; i < corrections; ++i)
+        {
+          structure.stiffness(result, left);
+          left.sadd(-1., 1., load);
+          add_interface_forces(stiffness, result, left);
+          solve(left, correction);
+          result += correction;
+        }
+        return result;
+      }
+
+      /// Adds what the rates of tractions take off the forces that follow displacements and velocities at once.
+      void add_delayed(const Vector<double> &rates, Vector<double> &sum) const
+      {
+        if (n_delays() == 0)
+          return;
+        Vector<double> values(n_forces);
+        for (unsigned int k = 0; k < n_delays(); ++k)
+          values.add(-forces.delays[k].time * rates[k], forces.delays[k].force);
+        for (unsigned int a = 0; a < n_forces; ++a)
+          structure.interface.add_force(forces.dofs[a], values[a], sum);
+      }
+
+      Vector<double> loaded_displacements(const Vector<double> &q) const
+      {
+        const auto all = structure.interface.displacements(q);
+        Vector<double> z(n_forces);
+        for (unsigned int a = 0; a < z.size(); ++a)
+          z[a] = all[forces.dofs[a]];
+        return z;
+      }
+
+      void add_interface_forces(const FullMatrix<double> &matrix, const Vector<double> &q, Vector<double> &sum) const
+      {
+        if (n_forces == 0)
+          return;
+        const auto z = loaded_displacements(q);
+        Vector<double> values(z.size());
+        matrix.vmult(values, z);
+        for (unsigned int a = 0; a < n_forces; ++a)
+          structure.interface.add_force(forces.dofs[a], values[a], sum);
+      }
+
+      /// With the stiffness of structure and forces: f = A (1 - G A)^-1 z where the structure alone went to z.
+      void solve(const Vector<double> &right_hand_side, Vector<double> &q) const
+      {
+        structure.solve(right_hand_side, q);
+        if (n_forces == 0)
+          return;
+        auto z = loaded_displacements(q);
+        portable.solve(z);
+        Vector<double> values(n_forces);
+        stiffness.vmult(values, z);
+        for (unsigned int a = 0; a < n_forces; ++a)
+          q.add(values[a], responses[a]);
+      }
+    };
+
     using Complex = std::complex<double>;
 
     /// Relative residual at which the method of Arnoldi has found an eigenpair. Solutions have errors of this size.
