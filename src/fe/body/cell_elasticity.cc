@@ -85,19 +85,6 @@ namespace sprag
   template class DilatationSpace<2>;
   template class DilatationSpace<3>;
 
-  namespace
-  {
-    template <int dim>
-    double energy_density(const MaterialModel model, const Lame &constants, const Tensor<2, dim> &displacement_gradient)
-    {
-      if (model == MaterialModel::linear)
-        return 0.5 * scalar_product(linear_elastic<dim>(constants, displacement_gradient).piola, displacement_gradient);
-      if (model == MaterialModel::neo_hookean)
-        return neo_hookean_energy<dim>(constants, Tensor<2, dim>(unit_symmetric_tensor<dim>()) + displacement_gradient);
-      return st_venant_kirchhoff_energy<dim>(constants, displacement_gradient);
-    }
-  } // namespace
-
   bool is_nearly_incompressible(const BodyProperties &properties, const types::material_id id)
   {
     return properties.plane_state(id) == PlaneState::strain && properties.material != MaterialModel::st_venant_kirchhoff &&

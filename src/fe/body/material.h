@@ -33,34 +33,20 @@ namespace sprag
     dealii::Tensor<2, dim * dim> tangent;
   };
 
-  /// Returns the stress sigma = lambda tr(eps) I + 2 mu eps with eps the symmetric part of the displacement gradient.
-  template <int dim>
-  Stress<dim> linear_elastic(const Lame &constants, const dealii::Tensor<2, dim> &displacement_gradient);
-
-  /// Returns the stress of the compressible neo-Hookean solid, W = mu/2 (tr F^T F - dim) - mu ln J + lambda/2 (ln J)^2; in two
-  /// dimensions plane strain:
-  ///   P = mu (F - F^-T) + lambda ln J F^-T
-  /// Throws AnalysisError where J <= 0, so that the step is cut back.
-  template <int dim>
-  Stress<dim> neo_hookean(const Lame &constants, const dealii::Tensor<2, dim> &deformation_gradient);
-
-  /// Returns W of neo_hookean() [mJ/mm^3].
-  template <int dim>
-  double neo_hookean_energy(const Lame &constants, const dealii::Tensor<2, dim> &deformation_gradient);
-
-  /// Returns the stress of the St. Venant-Kirchhoff solid, for large rotations and small strains: S = lambda tr(E) I + 2 mu E, P
-  /// = F S with the Green-Lagrange strain E = (F^T F - I)/2; in plane strain, or in plane stress (S_33 = 0, the width taken as it
-  /// was), as the constants are.
-  template <int dim>
-  Stress<dim> st_venant_kirchhoff(const Lame &constants, const dealii::Tensor<2, dim> &displacement_gradient);
-
-  /// Returns W = lambda/2 tr(E)^2 + mu E : E of st_venant_kirchhoff() [mJ/mm^3].
-  template <int dim>
-  double st_venant_kirchhoff_energy(const Lame &constants, const dealii::Tensor<2, dim> &displacement_gradient);
-
-  /// Returns the stress of one of these materials.
+  /// Returns the stress of a material:
+  ///   linear              P = sigma = lambda tr(eps) I + 2 mu eps, eps the symmetric part of the displacement gradient
+  ///   neo-Hookean         P = mu (F - F^-T) + lambda ln J F^-T
+  ///   St.Venant-Kirchhoff P = F S, S = lambda tr(E) I + 2 mu E, with the Green-Lagrange strain E = (F^T F - I)/2
+  /// The neo-Hookean solid is compressible and in two dimensions in plane strain; it throws AnalysisError where J <= 0, so that
+  /// the step is cut back. The last is for large rotations and small strains, in plane strain, or in plane stress (S_33 = 0, the
+  /// width taken as it was), as the constants are.
   template <int dim>
   Stress<dim> compute_stress(MaterialModel model, const Lame &constants, const dealii::Tensor<2, dim> &displacement_gradient);
+
+  /// Returns the energy W of a material [mJ/mm^3]: sigma : eps / 2, mu/2 (tr F^T F - dim) - mu ln J + lambda/2 (ln J)^2, or
+  /// lambda/2 tr(E)^2 + mu E : E.
+  template <int dim>
+  double energy_density(MaterialModel model, const Lame &constants, const dealii::Tensor<2, dim> &displacement_gradient);
 
   /// The dilatation theta with which the volumetric part of a material's energy is lambda/2 theta^2, and its derivative by F.
   template <int dim>
