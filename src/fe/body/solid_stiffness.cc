@@ -11,14 +11,6 @@ namespace sprag
 
   namespace
   {
-    /// Growing vectors would take twice the memory, which is what limits a run.
-    void reserve(const std::size_t n, MatrixEntries &entries)
-    {
-      entries.row.reserve(n);
-      entries.column.reserve(n);
-      entries.value.reserve(n);
-    }
-
     /// Adds a cell's part of the upper triangle on those of its displacements that have numbers.
     void add(const FullMatrix<double> &cell_matrix, const std::vector<int> &numbers, MatrixEntries &entries)
     {
@@ -56,7 +48,8 @@ namespace sprag
     MatrixEntries result;
     result.size = number_in_part.empty() ? body.n_dofs() : 1 + *std::max_element(number_in_part.begin(), number_in_part.end());
     const std::size_t n = body.dofs().get_fe().n_dofs_per_cell();
-    reserve(cells.size() * n * (n + 1) / 2 + body.held().n_constraints(), result);
+    // Growing vectors would take twice the memory, which is what limits a run.
+    result.reserve(cells.size() * n * (n + 1) / 2 + body.held().n_constraints());
     CellStiffness<3> stiffness(body);
     for (const auto &[cell, numbers] : cells)
       add(stiffness(cell), numbers, result);

@@ -75,52 +75,7 @@ namespace sprag
           if (row <= column)
             stiffness.add(row, column, connector.stiffness * row_weight * column_weight);
     }
-  } // namespace
 
-  BodyFactors::BodyFactors(const ElasticBody<3> &body_, const std::vector<int> &numbers, const SharedTask solve,
-                           const BodyCalls &calls)
-      : body(body_)
-      , number_in_part(numbers)
-      , task(solve)
-      , call_others(calls)
-  {
-  }
-
-  void BodyFactors::factorise(const std::vector<Connector> &connectors, const std::string &folder)
-  {
-    release();
-    auto entries = assemble_stiffness(body, number_in_part);
-    n            = entries.size;
-    for (const auto &connector : connectors)
-      add(connector, entries);
-    factors = std::make_unique<Mumps>(MatrixKind::solid_stiffness, call_others.ranks, folder);
-    factors->factorise(std::move(entries));
-  }
-
-  void BodyFactors::solve(std::vector<double> &columns) const
-  {
-    call_others(task);
-    factors->solve(columns);
-  }
-
-  std::vector<double> BodyFactors::solve(const SparseColumns &columns) const
-  {
-    call_others(task);
-    return factors->solve(columns);
-  }
-
-  void BodyFactors::take_part() const
-  {
-    factors->take_part();
-  }
-
-  void BodyFactors::release()
-  {
-    factors.reset();
-  }
-
-  namespace
-  {
     BodyProperties solid_properties(const Device &device)
     {
       auto result  = lever_properties(device).body;
@@ -201,19 +156,30 @@ namespace sprag
       : SharedSolid(calls, std::move(first_data), device, plane)
       , ElasticBody<3>(mesh, to_whole(solid.body, half))
       , skin_thickness(solid.skin)
-      , factors(*this, all, SharedTask::solve_whole, call_others)
-      , skin_factors(*this, number_in_skin, SharedTask::solve_near, call_others)
   {
     find_ends();
     find_skin();
   }
 
+  /// Returns factors of the stiffness of a part, see assemble_stiffness(), with connectors of the whole body, which the first
+  /// rank gives. With a folder they are kept in files there, else in memory.
+  std::unique_ptr<Mumps> SolidBody::factorised_part(const std::vector<int> &number_in_part,
+                                                    const std::vector<Connector> &connectors, const std::string &folder) const
+  {
+    auto entries = assemble_stiffness(*this, number_in_part);
+    for (const auto &connector : connectors)
+      add(connector, entries);
+    auto result = std::make_unique<Mumps>(MatrixKind::solid_stiffness, call_others.ranks, folder);
+    result->factorise(std::move(entries));
+    return result;
+  }
+
   /// Factors of the whole come first: nothing else takes memory then.
   void SolidBody::factorise()
   {
-    factors.factorise(connectors(), solid.folder);
+    factors = factorised_part({}, connectors(), solid.folder);
     if (has_skin())
-      skin_factors.factorise({}, {});
+      skin_factors = factorised_part(number_in_skin, {}, {});
   }
 
   /// Mesh and factors are given back by all ranks together.
@@ -261,13 +227,13 @@ namespace sprag
           (is_skin(cell) ? in_skin : elsewhere)[index] = 1;
         is_bonded = is_bonded && !(is_skin(cell) && has_free_back(cell));
       }
-    int number = 0;
+    n_skin = 0;
     number_in_skin.assign(n_dofs(), -1);
     for (unsigned int dof = 0; dof < n_dofs(); ++dof)
       if (in_skin[dof] && !elsewhere[dof])
-        number_in_skin[dof] = number++;
+        number_in_skin[dof] = static_cast<int>(n_skin++);
     const bool is_all = std::find(elsewhere.begin(), elsewhere.end(), 1) == elsewhere.end();
-    if (number == 0 || is_all)
+    if (n_skin == 0 || is_all)
       number_in_skin.clear();
     return is_bonded || number_in_skin.empty();
   }
@@ -286,24 +252,24 @@ namespace sprag
     return has_skin() ? number_in_skin[dof] : static_cast<int>(dof);
   }
 
-  unsigned int SolidBody::n_near() const
-  {
-    return has_skin() ? skin_factors.size() : n_dofs();
-  }
-
   void SolidBody::respond(std::vector<double> &loads) const
   {
-    factors.solve(loads);
+    call_others(SharedTask::solve_whole);
+    factors->solve(loads);
   }
 
   std::vector<double> SolidBody::respond(const SparseColumns &loads) const
   {
-    return factors.solve(loads);
+    call_others(SharedTask::solve_whole);
+    return factors->solve(loads);
   }
 
   std::vector<double> SolidBody::respond_near(const SparseColumns &loads) const
   {
-    return has_skin() ? skin_factors.solve(loads) : respond(loads);
+    if (!has_skin())
+      return respond(loads);
+    call_others(SharedTask::solve_near);
+    return skin_factors->solve(loads);
   }
 
   void SolidBody::release_factors()
@@ -314,8 +280,8 @@ namespace sprag
 
   void SolidBody::release()
   {
-    factors.release();
-    skin_factors.release();
+    factors.reset();
+    skin_factors.reset();
   }
 
   void SolidBody::take_part(const SharedTask task)
@@ -323,9 +289,9 @@ namespace sprag
     switch (task)
     {
     case SharedTask::solve_whole:
-      return factors.take_part();
+      return factors->take_part();
     case SharedTask::solve_near:
-      return skin_factors.take_part();
+      return skin_factors->take_part();
     case SharedTask::factorise:
       return factorise();
     default:

@@ -15,45 +15,6 @@ namespace sprag
 {
   struct Device;
 
-  /// Factors of the stiffness of a body or of a part of it, by which all ranks solve together.
-  class BodyFactors
-  {
-  public:
-    /// The first rank calls the others to `task` for each solve. Body, `number_in_part`, see assemble_stiffness(), and calls must
-    /// outlive this.
-    BodyFactors(const ElasticBody<3> &body, const std::vector<int> &number_in_part, SharedTask task, const BodyCalls &calls);
-
-    /// Factorises, with connectors of the whole body, which the first rank gives. With a folder the factors are kept in files
-    /// there, else in memory. To be called by all ranks. Throws AnalysisError.
-    void factorise(const std::vector<Connector> &connectors, const std::string &folder);
-
-    /// Solves with some columns, one after another, in place. Throws AnalysisError. To be called by the first rank.
-    void solve(std::vector<double> &columns) const;
-
-    /// Returns the solutions for sparse columns, one after another, likewise.
-    std::vector<double> solve(const SparseColumns &columns) const;
-
-    /// Takes part in a solve of the first rank.
-    void take_part() const;
-
-    /// Gives the factors back. To be called by all ranks.
-    void release();
-
-    /// Number of displacements in a column.
-    unsigned int size() const
-    {
-      return n;
-    }
-
-  private:
-    const ElasticBody<3> &body;
-    const std::vector<int> &number_in_part;
-    const SharedTask task;
-    const BodyCalls &call_others;
-    unsigned int n = 0;
-    std::unique_ptr<Mumps> factors;
-  };
-
   /// A mesh of three dimensions, which every rank knows whole and shares the work on.
   using SolidMesh = dealii::parallel::shared::Triangulation<3>;
 
@@ -142,7 +103,10 @@ namespace sprag
     std::vector<double> respond_near(const SparseColumns &loads) const;
 
     /// Number of displacements in a column of respond_near().
-    unsigned int n_near() const;
+    unsigned int n_near() const
+    {
+      return has_skin() ? n_skin : n_dofs();
+    }
 
     /// Gives the factors back, after which nothing responds.
     void release_factors();
@@ -158,6 +122,8 @@ namespace sprag
 
   private:
     SolidBody(const BodyCalls &calls, SolidProperties first_data, const Device *device, const Mesh *plane);
+    std::unique_ptr<Mumps> factorised_part(const std::vector<int> &number_in_part, const std::vector<Connector> &connectors,
+                                           const std::string &folder) const;
     void factorise();
     void release();
     void find_ends();
@@ -168,9 +134,9 @@ namespace sprag
     double face_begin = 0.; ///< along xi [mm]
     double face_end   = 0.;
     std::vector<int> number_in_skin;
-    const std::vector<int> all; ///< no numbers
-    BodyFactors factors;
-    BodyFactors skin_factors;
+    unsigned int n_skin = 0; ///< such numbers
+    std::unique_ptr<Mumps> factors;
+    std::unique_ptr<Mumps> skin_factors;
   };
 
   /// Returns the answer by the factors of a body, which must outlive it.
