@@ -376,8 +376,7 @@ TEST_P(BatchedStepOfAnAxis, PointsInContactTellWhatAllPointsTell)
   const std::vector<ContactHistory> none;
   const std::vector<SurfaceHistory> nothing;
   Bed bed(short_barrel(GetParam()), 12.5, 6, friction);
-  const FaceElements<3> grid(bed.friction_face());
-  const FaceView<3> view(bed.friction_face(), grid);
+  const ContactFace<3> view(bed.friction_face());
   for (const double penetration : { 0.06, 0.02, -0.01 })
   {
     const auto begin = bed.pressed(penetration - 0.01), end = bed.pressed(penetration);
@@ -399,8 +398,8 @@ TEST_P(BatchedStepOfAnAxis, PointsInContactTellWhatAllPointsTell)
     };
     EXPECT_EQ(deepest(found)->index, deepest(all)->index);
     Row some_row, all_row;
-    view.observe(found, some_row);
-    view.observe(all, all_row);
+    view.observe_face(found, some_row);
+    view.observe_face(all, all_row);
     EXPECT_GE(all_row[Column::active_points], penetration > 0. ? 100. : 0.);
     for (std::size_t i = 0; i < n_columns; ++i)
     {

@@ -13,42 +13,31 @@ namespace sprag
 
   void FaceContact::observe(const FaceEvaluation<2> &found, Row &row, unsigned int) const
   {
-    view.observe(found, row);
-    row[Column::Q]           = drive_force(found);
-    row[Column::indentation] = indentation(body.friction_face(), found, row, properties.layer_thickness);
+    observe_face(found, row);
+    row[Column::indentation] = indentation(face, found, row, properties.layer_thickness);
   }
 
   SurfaceShape FaceContact::surface_shape(const dealii::Vector<double> &displacements, unsigned int) const
   {
-    SurfaceShape shape;
-    const auto &nodes = body.friction_face().nodes;
-    for (unsigned int node = 0; node < nodes.size(); ++node)
-    {
-      shape.xi.push_back(nodes[node].position[0]);
-      shape.along.push_back(displacements[2 * node]);
-      shape.across.push_back(displacements[2 * node + 1]);
-    }
-    return shape;
+    return node_shape(all_dofs(static_cast<unsigned int>(face.nodes.size())), displacements);
   }
 
   namespace
   {
-    std::variant<RigidCounterface, ElasticCounterface> make_counterface(const ElasticBody<2> &body, const FaceElements<2> &face,
+    std::variant<RigidCounterface, ElasticCounterface> make_counterface(const ElasticBody<2> &body, const FaceElements<2> &grid,
                                                                         const FaceContactProperties &properties)
     {
       using Counterfaces = std::variant<RigidCounterface, ElasticCounterface>;
       if (body.cylinder_face().elements.empty())
-        return Counterfaces(std::in_place_type<RigidCounterface>, body.friction_face(), face, properties);
-      return Counterfaces(std::in_place_type<ElasticCounterface>, body.friction_face(), body.cylinder_face(), face, properties);
+        return Counterfaces(std::in_place_type<RigidCounterface>, body.friction_face(), grid, properties);
+      return Counterfaces(std::in_place_type<ElasticCounterface>, body.friction_face(), body.cylinder_face(), grid, properties);
     }
   } // namespace
 
-  FaceContact::FaceContact(const ElasticBody<2> &body_, FaceContactProperties properties_)
-      : body(body_)
+  FaceContact::FaceContact(const ElasticBody<2> &body, FaceContactProperties properties_)
+      : ContactFace<2>(body.friction_face())
       , properties(std::move(properties_))
-      , face(body.friction_face())
-      , view(body.friction_face(), face)
-      , counterface(make_counterface(body, face, properties))
+      , counterface(make_counterface(body, grid, properties))
       , dof_places(properties.layout.size())
   {
   }
@@ -129,7 +118,7 @@ namespace sprag
   {
     auto elements = near();
     if (balance != ForceBalance::end)
-      elements = united(elements, touched_elements(face, history));
+      elements = united(elements, touched_elements(grid, history));
     return reach.clip(std::move(elements), found.within_reach);
   }
 
@@ -147,8 +136,8 @@ namespace sprag
   {
     const double penalty    = properties.penalties.normal;
     const bool ends_balance = step.law.balance == ForceBalance::end;
-    auto known              = find_history(step.history, face.elements[element].begin);
-    for (unsigned int q = face.elements[element].begin; q < face.elements[element].end; ++q)
+    auto known              = find_history(step.history, grid.elements[element].begin);
+    for (unsigned int q = grid.elements[element].begin; q < grid.elements[element].end; ++q)
     {
       auto &state            = add_point(element, q, found);
       const bool can_touch   = below.place(state);
@@ -191,7 +180,7 @@ namespace sprag
     visit_elements(reach.clip(near(), found.within_reach),
                    [&](auto &below, const unsigned int element)
                    {
-                     for (unsigned int q = face.elements[element].begin; q < face.elements[element].end; ++q)
+                     for (unsigned int q = grid.elements[element].begin; q < grid.elements[element].end; ++q)
                      {
                        auto &state = add_point(element, q, found);
                        below.place(state);
@@ -214,10 +203,10 @@ namespace sprag
     const auto elements_within = [&](const double distance)
     {
       constexpr double infinity = std::numeric_limits<double>::max();
-      return face.elements_in({ { { xi - distance, -infinity }, { xi + distance, infinity } } });
+      return grid.elements_in({ { { xi - distance, -infinity }, { xi + distance, infinity } } });
     };
-    reach.set(face, elements_within(near_distance), elements_within(near_distance + aside),
-              2 * static_cast<unsigned int>(body.friction_face().nodes.size()), properties.layout.size());
+    reach.set(grid, elements_within(near_distance), elements_within(near_distance + aside),
+              2 * static_cast<unsigned int>(face.nodes.size()), properties.layout.size());
     return reach.dofs;
   }
 
@@ -230,7 +219,7 @@ namespace sprag
     visit_elements(near(),
                    [&](auto &below, const unsigned int element)
                    {
-                     for (unsigned int q = face.elements[element].begin; q < face.elements[element].end; ++q)
+                     for (unsigned int q = grid.elements[element].begin; q < grid.elements[element].end; ++q)
                        below.place(add_point(element, q, found));
                    });
     sum_forces(found.sums.loaded, dof_places, found.forces);
@@ -271,23 +260,18 @@ namespace sprag
                                 const Vector<double> &to, const double to_x) const
   {
     enter({ configuration(from, from_x), configuration(to, to_x) });
-    double weighted = 0.;
-    double weights  = 0.;
-    std::visit(
+    return std::visit(
         [&](auto &below)
         {
           unsigned int element = dealii::numbers::invalid_unsigned_int;
-          for (const auto &point : found.points)
-            if (point.pressure > 0.)
-            {
-              if (point.element != element)
-                below.enter(element = point.element);
-              const double weight = face.points[point.index].weight * point.pressure;
-              weighted += weight * below.slip(point);
-              weights += weight;
-            }
+          return pressure_mean(found,
+                               [&](const FacePointState<2> &point)
+                               {
+                                 if (point.element != element)
+                                   below.enter(element = point.element);
+                                 return below.slip(point);
+                               });
         },
         counterface);
-    return weights > 0. ? weighted / weights : 0.;
   }
 } // namespace sprag

@@ -28,18 +28,13 @@ namespace sprag
   /// over points denser than the nodes, by the penalty method and with multipliers if the history has some. The counterface is
   /// elastic where the body has a cylinder's face. Its position counts from the pivot frame's origin, which a sprung support
   /// moves.
-  class FaceContact
+  class FaceContact : public ContactFace<2>
   {
   public:
-    static constexpr bool uses_rates       = false;
-    static constexpr bool stands_for_layer = false; ///< its springs are penalties
-    static constexpr bool keeps_tangent    = false;
-    static constexpr unsigned int levers   = 1;
+    static constexpr bool keeps_tangent = false;
 
     /// The body must outlive the contact.
     FaceContact(const ElasticBody<2> &body, FaceContactProperties properties);
-
-    using Evaluation = FaceEvaluation<2>;
 
     /// Evaluates a step: in time, or without inertia, where the rates do not count.
     void evaluate(const InterfaceStep &step, FaceEvaluation<2> &found, const std::optional<StaticTerms> &statics = {}) const;
@@ -53,12 +48,6 @@ namespace sprag
     /// Returns the dofs near the cylinder at x from the pivot frame's origin and inclination theta. They reach far beyond the
     /// contact's width and to where it may have been `travel` before [mm]. Evaluations that follow look at those alone.
     const DofSelection &candidate_dofs(double x, const PerLever &theta, double travel = 0.);
-
-    /// Doubles how far these dofs reach, from the next call on. To be called where an evaluation was not within them.
-    void widen_reach()
-    {
-      reach.factor *= 2.;
-    }
 
     /// Evaluates the contact at rest without force.
     std::vector<ContactHistory> touch(const dealii::Vector<double> &displacements, const DrivePoint &drive,
@@ -86,35 +75,8 @@ namespace sprag
     /// Fills the columns of a row that follow from the contact.
     void observe(const FaceEvaluation<2> &found, Row &row, unsigned int lever = 0) const;
 
-    /// Fills those that are sums over the points under pressure.
-    void observe_resultants(const FaceEvaluation<2> &found, Row &row) const
-    {
-      view.observe_resultants(found, row);
-    }
-
-    /// Returns Q at the end of the step [N].
-    double drive_force(const FaceEvaluation<2> &found) const
-    {
-      return view.drive_force(found);
-    }
-
     /// Returns the displacements of the face's nodes.
     SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
-    const FacePoints &face_points() const
-    {
-      return view.points();
-    }
-    FaceState face_state(const FaceEvaluation<2> &found, const DrivePoint &drive) const
-    {
-      return view.state(found, drive);
-    }
-
-    /// Serialises how far it reaches and where it was last.
-    void serialise_history(Archive &archive)
-    {
-      archive(reach.factor);
-      face.serialise_history(archive);
-    }
 
   private:
     FaceConfiguration configuration(const dealii::Vector<double> &displacements, double x) const;
@@ -132,15 +94,10 @@ namespace sprag
     FaceElements<2>::Indices near() const;
     static FacePointState<2> &add_point(unsigned int element, unsigned int point, FaceEvaluation<2> &found);
 
-    const ElasticBody<2> &body;
     FaceContactProperties properties;
-    FaceElements<2> face;
-    const FaceView<2> view;
 
     // Workspace of evaluations; nothing of it is a result.
     mutable std::variant<RigidCounterface, ElasticCounterface> counterface; ///< looks at one element after the other
     mutable std::vector<unsigned int> dof_places;                           ///< among those summed
-
-    FaceReach<2> reach;
   };
 } // namespace sprag

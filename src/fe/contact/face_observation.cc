@@ -131,17 +131,31 @@ namespace sprag
   }
 
   template <int dim>
-  FaceView<dim>::FaceView(const FrictionFace<dim> &face_, const FaceElements<dim> &grid_, const bool half)
+  ContactFace<dim>::ContactFace(const FrictionFace<dim> &face_, const bool half)
       : face(face_)
-      , grid(grid_)
+      , grid(face)
       , is_half(half)
       , parts(face_parts(face))
   {
   }
 
+  template <int dim>
+  SurfaceShape ContactFace<dim>::node_shape(const std::vector<unsigned int> &nodes,
+                                            const dealii::Vector<double> &displacements) const
+  {
+    SurfaceShape shape;
+    for (const unsigned int node : nodes)
+    {
+      shape.xi.push_back(face.nodes[node].position[0]);
+      shape.along.push_back(displacements[dim * node]);
+      shape.across.push_back(displacements[dim * node + 1]);
+    }
+    return shape;
+  }
+
   /// The pressure is told as recovered in a plane, on a surface as it is.
   template <int dim>
-  FaceState FaceView<dim>::state(const FaceEvaluation<dim> &found, const DrivePoint &drive) const
+  FaceState ContactFace<dim>::face_state(const FaceEvaluation<dim> &found, const DrivePoint &drive) const
   {
     const std::vector<double> nothing(parts.points.xi.size(), 0.);
     FaceState result{ drive.time, drive.x, nothing, nothing, {}, {}, {} };
@@ -171,7 +185,7 @@ namespace sprag
   }
 
   template <int dim>
-  double FaceView<dim>::drive_force(const FaceEvaluation<dim> &found) const
+  double ContactFace<dim>::drive_force(const FaceEvaluation<dim> &found) const
   {
     double sum = 0.;
     for (const auto &point : found.points)
@@ -180,14 +194,15 @@ namespace sprag
   }
 
   template <int dim>
-  void FaceView<dim>::observe(const FaceEvaluation<dim> &found, Row &row) const
+  void ContactFace<dim>::observe_face(const FaceEvaluation<dim> &found, Row &row) const
   {
     observe_resultants(found, row);
     observe_pressure(found, row);
+    row[Column::Q] = drive_force(found);
   }
 
   template <int dim>
-  void FaceView<dim>::observe_resultants(const FaceEvaluation<dim> &found, Row &row) const
+  void ContactFace<dim>::observe_resultants(const FaceEvaluation<dim> &found, Row &row) const
   {
     double normal = 0., speed = 0., mu = 0., power = 0., energy = 0., active = 0.;
     double elastic_slip = 0., penetration = 0., excess = 0., cone = 0.;
@@ -259,7 +274,7 @@ namespace sprag
   }
 
   template <int dim>
-  PressureSamples FaceView<dim>::pressure_samples(const FaceEvaluation<dim> &found, const unsigned int line) const
+  PressureSamples ContactFace<dim>::pressure_samples(const FaceEvaluation<dim> &found, const unsigned int line) const
   {
     PressureSamples samples;
     for (const auto &point : found.points)
@@ -278,7 +293,7 @@ namespace sprag
 
   /// On a surface the pressure is recovered as in a plane, along the points with the zeta where it is largest.
   template <int dim>
-  void FaceView<dim>::observe_pressure(const FaceEvaluation<dim> &found, Row &row) const
+  void ContactFace<dim>::observe_pressure(const FaceEvaluation<dim> &found, Row &row) const
   {
     row[Column::contact_width] = row[Column::largest_pressure] = 0.;
     const auto by_pressure = [](const auto &a, const auto &b) { return a.pressure < b.pressure; };
@@ -294,6 +309,6 @@ namespace sprag
       row.across[4] = largest->position[2];
   }
 
-  template class FaceView<2>;
-  template class FaceView<3>;
+  template class ContactFace<2>;
+  template class ContactFace<3>;
 } // namespace sprag

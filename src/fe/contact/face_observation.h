@@ -51,42 +51,82 @@ namespace sprag
     }
   };
 
-  /// A friction face as results show it: the means over its FaceParts.
+  /// A friction face in contact, of a plane or in space: its elements, how far contact is sought on it, and its FaceParts, which
+  /// results show.
   template <int dim>
-  class FaceView
+  class ContactFace
   {
   public:
-    /// Face and elements must outlive this. `half`: the face is half of one which is the same on both sides of the middle.
-    FaceView(const FrictionFace<dim> &face, const FaceElements<dim> &grid, bool half = false);
+    static constexpr bool uses_rates       = false;
+    static constexpr bool stands_for_layer = false; ///< its springs are penalties
+    static constexpr unsigned int levers   = 1;
+    using Evaluation                       = FaceEvaluation<dim>;
+
+    /// The face must outlive this. `half`: it is half of one which is the same on both sides of the middle.
+    explicit ContactFace(const FrictionFace<dim> &face, bool half = false);
+
+    /// Doubles how far candidate dofs reach, from the next call on. To be called where an evaluation was not within them.
+    void widen_reach()
+    {
+      reach.factor *= 2.;
+    }
 
     /// Fills the columns that follow from tractions and positions on the face.
-    void observe(const FaceEvaluation<dim> &found, Row &row) const;
+    void observe_face(const Evaluation &found, Row &row) const;
 
     /// Fills those of them that are sums over the points under pressure.
-    void observe_resultants(const FaceEvaluation<dim> &found, Row &row) const;
+    void observe_resultants(const Evaluation &found, Row &row) const;
 
     /// Returns the parts of the face.
-    const FacePoints &points() const
+    const FacePoints &face_points() const
     {
       return parts.points;
     }
 
-    FaceState state(const FaceEvaluation<dim> &found, const DrivePoint &drive) const;
+    FaceState face_state(const Evaluation &found, const DrivePoint &drive) const;
 
     /// Returns Q at the end of the step [N].
-    double drive_force(const FaceEvaluation<dim> &found) const;
+    double drive_force(const Evaluation &found) const;
 
-  private:
-    void observe_pressure(const FaceEvaluation<dim> &found, Row &row) const;
-    PressureSamples pressure_samples(const FaceEvaluation<dim> &found, unsigned int line) const;
+    /// Serialises how far contact is sought and where it was last.
+    void serialise_history(Archive &archive)
+    {
+      archive(reach.factor);
+      grid.serialise_history(archive);
+    }
+
+  protected:
+    /// Returns the displacements of some nodes along the lever.
+    SurfaceShape node_shape(const std::vector<unsigned int> &nodes, const dealii::Vector<double> &displacements) const;
+
+    /// Returns the mean of `value`(point) over the points in contact, weighted with their pressure; 0 without any.
+    template <class Value>
+    double pressure_mean(const Evaluation &found, const Value &value) const
+    {
+      double weighted = 0., weights = 0.;
+      for (const auto &point : found.points)
+        if (point.pressure > 0.)
+        {
+          const double weight = face.points[point.index].weight * point.pressure;
+          weighted += weight * value(point);
+          weights += weight;
+        }
+      return weights > 0. ? weighted / weights : 0.;
+    }
 
     const FrictionFace<dim> &face;
-    const FaceElements<dim> &grid;
+    FaceElements<dim> grid;
+    FaceReach<dim> reach;
+
+  private:
+    void observe_pressure(const Evaluation &found, Row &row) const;
+    PressureSamples pressure_samples(const Evaluation &found, unsigned int line) const;
+
     const bool is_half;
     const FaceParts parts;
   };
 
   /// Returns the deflection of a layer's face in a plane at the centre of pressure over that aside of the contact, from the
-  /// columns that FaceView fills [mm]; 0 without a layer.
+  /// columns that ContactFace fills [mm]; 0 without a layer.
   double indentation(const FrictionFace<2> &face, const FaceEvaluation<2> &found, const Row &row, double layer_thickness);
 } // namespace sprag

@@ -19,10 +19,8 @@ namespace sprag
   } // namespace
 
   SurfaceContact::SurfaceContact(const FrictionFace<3> &face_, SurfaceContactProperties properties_)
-      : face(face_)
+      : ContactFace<3>(face_, properties_.half)
       , properties(std::move(properties_))
-      , grid(face)
-      , view(face, grid, properties.half)
       , batched(face, grid, properties.cylinder)
   {
     find_ends();
@@ -99,20 +97,12 @@ namespace sprag
 
   SurfaceShape SurfaceContact::surface_shape(const Vector<double> &displacements, unsigned int) const
   {
-    SurfaceShape shape;
-    for (const unsigned int node : nodes_at(0.))
-    {
-      shape.xi.push_back(face.nodes[node].position[0]);
-      shape.along.push_back(displacements[3 * node]);
-      shape.across.push_back(displacements[3 * node + 1]);
-    }
-    return shape;
+    return node_shape(nodes_at(0.), displacements);
   }
 
   void SurfaceContact::observe(const FaceEvaluation<3> &found, Row &row, unsigned int) const
   {
-    view.observe(found, row);
-    row[Column::Q]           = drive_force(found);
+    observe_face(found, row);
     row[Column::indentation] = indentation(found, row);
     if (!properties.cylinder.has_free_axis())
       return;
@@ -456,15 +446,10 @@ namespace sprag
   double SurfaceContact::mean_slip(const FaceEvaluation<3> &found, const Vector<double> &from, const double from_x,
                                    const Vector<double> &to, const double to_x) const
   {
-    double weighted = 0., weights = 0.;
-    for (const auto &point : found.points)
-      if (point.pressure > 0.)
-      {
-        const double weight = face.points[point.index].weight * point.pressure;
-        weighted += weight * (slip_at(point, { to, to_x }) - slip_at(point, { from, from_x }));
-        weights += weight;
-      }
-    return weights > 0. ? weighted / weights : 0.;
+    return pressure_mean(found,
+                         [&](const FacePointState<3> &point) {
+                           return slip_at(point, { to, to_x }) - slip_at(point, { from, from_x });
+                         });
   }
 
   /// The slip coordinate round the cylinder of a point, in another configuration [mm].

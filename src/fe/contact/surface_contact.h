@@ -33,15 +33,10 @@ namespace sprag
 
   /// Contact of a rigid cylinder along the friction face of a body in three dimensions by the penalty method: pressure and, in
   /// two directions, friction at the points of the face. What FaceContact has as well is as there.
-  class SurfaceContact
+  class SurfaceContact : public ContactFace<3>
   {
   public:
-    static constexpr bool uses_rates       = false;
-    static constexpr bool stands_for_layer = false;
-    static constexpr bool keeps_tangent    = true;
-    static constexpr unsigned int levers   = 1;
-
-    using Evaluation = FaceEvaluation<3>;
+    static constexpr bool keeps_tangent = true;
 
     /// The face must outlive the contact.
     SurfaceContact(const FrictionFace<3> &face, SurfaceContactProperties properties);
@@ -87,12 +82,6 @@ namespace sprag
     /// those that it passes between take no part.
     const DofSelection &candidate_dofs(double x, const PerLever &theta, double travel = 0.);
 
-    /// Doubles how far these dofs reach, from the next call on.
-    void widen_reach()
-    {
-      reach.factor *= 2.;
-    }
-
     /// The slopes of the cylinder's axis in an evaluation.
     AxisSlopes slopes_in(const FaceEvaluation<3> &found) const;
 
@@ -101,27 +90,6 @@ namespace sprag
 
     /// Returns the displacements of the nodes at the middle of the width.
     SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
-
-    /// Fills those that are sums over the points under pressure.
-    void observe_resultants(const FaceEvaluation<3> &found, Row &row) const
-    {
-      view.observe_resultants(found, row);
-    }
-
-    /// Returns Q at the end of the step [N].
-    double drive_force(const FaceEvaluation<3> &found) const
-    {
-      return view.drive_force(found);
-    }
-
-    const FacePoints &face_points() const
-    {
-      return view.points();
-    }
-    FaceState face_state(const FaceEvaluation<3> &found, const DrivePoint &drive) const
-    {
-      return view.state(found, drive);
-    }
 
     const ContactPenalties &penalties() const
     {
@@ -132,13 +100,6 @@ namespace sprag
     {
       properties.penalties = penalties;
       begin_displacements.reinit(0); // no step has begun with them
-    }
-
-    /// Serialises how far it reaches.
-    void serialise_history(Archive &archive)
-    {
-      archive(reach.factor);
-      grid.serialise_history(archive);
     }
 
   private:
@@ -171,10 +132,7 @@ namespace sprag
     double slip_at_begin(unsigned int point) const;
     InterfaceCoordinates element_coordinates(unsigned int element) const;
 
-    const FrictionFace<3> &face;
     SurfaceContactProperties properties;
-    Elements grid;
-    const FaceView<3> view;
     std::vector<std::vector<unsigned int>> element_lines; ///< increasing
     std::vector<bool> is_at_end;                          ///< whether an element is at an end of the face along xi
 
@@ -199,7 +157,5 @@ namespace sprag
     std::vector<BatchedStep::Forces> pressed; ///< of the elements that are summed
     std::optional<unsigned int> most_pressed; ///< the one of the largest penetration
     Summed summed;
-
-    FaceReach<3> reach;
   };
 } // namespace sprag
