@@ -30,7 +30,10 @@ namespace sprag
   inline FaceContactProperties make_properties(const ElasticBody<2> &body, const bool sprung, const double regularisation_speed)
   {
     FaceContactProperties result;
-    set_cylinder(cylinder_below_bar(), result);
+    const auto geometry     = cylinder_below_bar();
+    result.counterface      = cylinder(geometry);
+    result.centre           = [geometry](const double x, const double theta) { return cylinder_centre(geometry, x, theta); };
+    result.radius           = geometry.cylinder_radius;
     result.layout           = { static_cast<unsigned int>(surface_dofs(body).size()), sprung };
     result.rest_inclination = rest_inclination;
     result.penalties        = { 240., 120. };

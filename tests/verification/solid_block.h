@@ -300,14 +300,15 @@ namespace sprag
       Cylinder barrel;
       barrel.crown_radius = counterface.crown_radius;
       barrel.length       = counterface.length;
-      return { RigidCylinder(geometry, barrel),
-               [R = counterface.radius](double, double) {
-                 return LeverPoint{ 0., -R };
-               },
-               counterface.radius,
-               layout,
-               0.,
-               { counterface.penalty, counterface.penalty } };
+      return { { [R = counterface.radius](double, double) {
+                  return LeverPoint{ 0., -R };
+                },
+                 counterface.radius,
+                 layout,
+                 0.,
+                 { counterface.penalty, counterface.penalty },
+                 {} },
+               RigidCylinder(geometry, barrel) };
     }
 
     struct Pressed

@@ -17,13 +17,6 @@ namespace sprag
     };
   }
 
-  void set_cylinder(const Geometry &geometry, FaceContactProperties &properties)
-  {
-    properties.counterface = cylinder(geometry);
-    properties.centre      = [geometry](const double x, const double theta) { return cylinder_centre(geometry, x, theta); };
-    properties.radius      = geometry.cylinder_radius;
-  }
-
   template <int dim>
   SlipShift slip_shift(const FaceElements<dim> &face, const unsigned int point, const double slope, const double travel,
                        const double stiffness, const std::vector<PointHistory<dim - 1>> &history,

@@ -59,10 +59,9 @@ namespace sprag
     double tangential;
   };
 
-  /// Constants of the contact of a meshed lever.
-  struct FaceContactProperties
+  /// Constants of the contact of a meshed lever, in a plane or in space.
+  struct ContactProperties
   {
-    Counterface counterface;                                  ///< an elastic one as it is without load
     std::function<LeverPoint(double x, double theta)> centre; ///< of the counterface
     double radius = 0.; ///< R: how far the counterface's surface runs in its axes as they turn by 1, 0 if it turns with them [mm]
     InterfaceLayout layout;
@@ -72,11 +71,13 @@ namespace sprag
     double layer_thickness = 0.; ///< [mm]
   };
 
+  struct FaceContactProperties : ContactProperties
+  {
+    Counterface counterface; ///< an elastic one as it is without load
+  };
+
   /// The damper's cylinder.
   Counterface cylinder(const Geometry &geometry);
-
-  /// Sets counterface, centre and radius to it.
-  void set_cylinder(const Geometry &geometry, FaceContactProperties &properties);
 
   /// A point of the friction face in an evaluation, with its tractions at the end.
   template <int dim>

@@ -6,20 +6,11 @@
 
 namespace sprag
 {
-  /// Constants of the contact along a surface.
-  struct SurfaceContactProperties
+  /// Constants of the contact along a surface. The layout has three dofs a node of the face, with slopes where these may change.
+  struct SurfaceContactProperties : ContactProperties
   {
     RigidCylinder cylinder;
-    std::function<LeverPoint(double x, double theta)> centre; ///< of the cylinder
-    double radius;                                            ///< R [mm]
-    InterfaceLayout layout;                                   ///< three a node of the face; with slopes where these may change
-    double rest_inclination;                                  ///< theta without moment [rad]
-    ContactPenalties penalties;
     bool half = false; ///< the face is half of one which is the same on both sides of the middle
-
-    // In time and in steady sliding.
-    FrictionLaw friction   = {};
-    double layer_thickness = 0.; ///< [mm]
   };
 
   using SurfaceHistory = PointHistory<2>;

@@ -19,20 +19,6 @@ namespace sprag
       return { device.condensed.modes, device.spring.stiffness, lever_inertia(device), device.condensed.cache, {} };
     }
 
-    FaceContactProperties make_contact(const Device &device, const InterfaceLayout &layout, const ContactPenalties &penalties,
-                                       const unsigned int lever)
-    {
-      const Device own = lever_device(device, lever);
-      FaceContactProperties result;
-      set_cylinder(own.geometry, result);
-      result.layout           = layout;
-      result.rest_inclination = rest_inclination(device);
-      result.penalties        = penalties;
-      result.friction         = own.friction;
-      result.layer_thickness  = device.layer.thickness;
-      return result;
-    }
-
     MeshedDynamics facts(const Device &device, const ElasticBody<2> &body, const std::vector<double> &omega_squared,
                          const MassSums &mass)
     {
@@ -50,7 +36,11 @@ namespace sprag
     {
       const InterfaceLayout layout = structure->layout();
       const auto contact           = [&](const unsigned int lever)
-      { return std::make_unique<FaceContact>(body, make_contact(device, layout.single_lever(), facts.penalties, lever)); };
+      {
+        return std::make_unique<FaceContact>(
+            body, FaceContactProperties{ contact_in_time(device, layout.single_lever(), facts.penalties, lever),
+                                         cylinder(lever_device(device, lever).geometry) });
+      };
       return assemble_lever(std::move(structure), lever_frame(device, layout, facts.total_mass), contact,
                             static_cast<unsigned int>(body.friction_face().points.size()));
     }

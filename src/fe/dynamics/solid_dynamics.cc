@@ -155,14 +155,11 @@ namespace sprag
     std::unique_ptr<SurfaceContact> make_contact(const Device &device, const SolidInTime &lever, const FrictionFace<3> &face,
                                                  const InterfaceLayout &layout, const unsigned int index)
     {
-      const Device own = lever_device(device, index);
-      return std::make_unique<SurfaceContact>(
-          face, SurfaceContactProperties{ RigidCylinder(own.geometry, own.cylinder),
-                                          [geometry = own.geometry](const double x, const double theta)
-                                          { return cylinder_centre(geometry, x, theta); },
-                                          own.geometry.cylinder_radius, layout, rest_inclination(device),
-                                          penalties_in_time(own, lever.body->friction_face()), lever.body->is_half(),
-                                          own.friction, device.layer.thickness });
+      const Device own     = lever_device(device, index);
+      const auto penalties = penalties_in_time(device, lever.body->friction_face());
+      return std::make_unique<SurfaceContact>(face, SurfaceContactProperties{ contact_in_time(device, layout, penalties, index),
+                                                                              RigidCylinder(own.geometry, own.cylinder),
+                                                                              lever.body->is_half() });
     }
 
     LeverFrame make_frame(const Device &device, const SolidInTime &lever, const InterfaceLayout &layout)

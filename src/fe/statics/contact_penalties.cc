@@ -2,6 +2,7 @@
 #include "fe/statics/contact_penalties.h"
 
 #include "scene/device.h"
+#include "scene/mirrored_pair.h"
 
 #include <algorithm>
 
@@ -69,6 +70,19 @@ namespace sprag
   {
     const double factor = device.mesh.degree == 1 ? in_time_linear : in_time;
     return contact_penalties(source, device.contact, device.layer.thickness, factor);
+  }
+
+  ContactProperties contact_in_time(const Device &device, const InterfaceLayout &layout, const ContactPenalties &penalties,
+                                    const unsigned int lever)
+  {
+    const Device own = lever_device(device, lever);
+    return { [geometry = own.geometry](const double x, const double theta) { return cylinder_centre(geometry, x, theta); },
+             own.geometry.cylinder_radius,
+             layout,
+             rest_inclination(device),
+             penalties,
+             own.friction,
+             device.layer.thickness };
   }
 
   template ContactPenalties penalties_in_time(const Device &, const ElasticBody<2> &);

@@ -29,4 +29,8 @@ namespace sprag
   /// The same in time, of a face in space or a body in a plane.
   template <class Source>
   ContactPenalties penalties_in_time(const Device &device, const Source &source);
+
+  /// Returns the properties of the contact of a lever (0, of a pair also 1) in time.
+  ContactProperties contact_in_time(const Device &device, const InterfaceLayout &layout, const ContactPenalties &penalties,
+                                    unsigned int lever);
 } // namespace sprag

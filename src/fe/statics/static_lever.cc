@@ -92,23 +92,29 @@ namespace sprag
       return result;
     }
 
+    template <class Source>
+    ContactProperties contact_properties(const Source &source, const LeverProperties &properties, const InterfaceLayout &layout)
+    {
+      return { properties.centre,
+               properties.radius,
+               layout,
+               properties.spring.rest,
+               contact_penalties(source, properties.contact, properties.layer_thickness, properties.penalty_factor,
+                                 properties.longest_face),
+               properties.friction,
+               properties.layer_thickness };
+    }
+
     FaceContact make_contact(const ElasticBody<2> &body, const LeverProperties &properties, const InterfaceLayout &layout)
     {
-      return { body,
-               { properties.counterface, properties.centre, properties.radius, layout, properties.spring.rest,
-                 contact_penalties(body, properties.contact, properties.layer_thickness, properties.penalty_factor,
-                                   properties.longest_face),
-                 properties.friction, properties.layer_thickness } };
+      return { body, { contact_properties(body, properties, layout), properties.counterface } };
     }
 
     SurfaceContact make_contact(const SolidBody &body, const LeverProperties &properties, const InterfaceLayout &layout)
     {
       return { body.friction_face(),
-               { RigidCylinder(*properties.geometry, properties.cylinder), properties.centre, properties.radius, layout,
-                 properties.spring.rest,
-                 contact_penalties(body.friction_face(), properties.contact, properties.layer_thickness,
-                                   properties.penalty_factor, properties.longest_face),
-                 body.is_half() } };
+               { contact_properties(body.friction_face(), properties, layout),
+                 RigidCylinder(*properties.geometry, properties.cylinder), body.is_half() } };
     }
 
     LeverParts<2>::Structure make_structure(const ElasticBody<2> &body, const LeverProperties &properties,
