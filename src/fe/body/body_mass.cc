@@ -146,12 +146,6 @@ namespace sprag
   }
 
   template <int dim>
-  bool BodyMass<dim>::turns(const Cell &cell) const
-  {
-    return axes[cell.dofs.front()[0]] >= 0;
-  }
-
-  template <int dim>
   Vector<double> BodyMass<dim>::operator()(const Vector<double> &displacement) const
   {
     Vector<double> result(displacement.size());
@@ -174,12 +168,6 @@ namespace sprag
       }
     }
     return result;
-  }
-
-  template <int dim>
-  double BodyMass<dim>::sum_along(const unsigned int axis, const Vector<double> &dof_values) const
-  {
-    return translation(axis) * dof_values;
   }
 
   template <int dim>

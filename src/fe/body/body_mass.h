@@ -75,7 +75,10 @@ namespace sprag
     }
 
     /// Returns the sum of forces or impulses along an axis.
-    double sum_along(unsigned int axis, const dealii::Vector<double> &dof_values) const;
+    double sum_along(const unsigned int axis, const dealii::Vector<double> &dof_values) const
+    {
+      return translation(axis) * dof_values;
+    }
 
     /// Returns a unit displacement of all that turns along an axis.
     dealii::Vector<double> translation(unsigned int axis) const;
@@ -85,7 +88,11 @@ namespace sprag
   private:
     void add_cells(const ElasticBody<dim> &body, const LeverInertia &inertia);
     void add_tip(const ElasticBody<dim> &body, double tip_mass, const CellFaces<dim> &tip);
-    bool turns(const Cell &cell) const;
+
+    bool turns(const Cell &cell) const
+    {
+      return axes[cell.dofs.front()[0]] >= 0;
+    }
 
     std::list<dealii::FullMatrix<double>> masses; ///< of unit density, in space one for cells that are alike
     std::vector<Cell> all_cells;

@@ -93,22 +93,12 @@ namespace sprag
     pair.find_facets(element, end.at, end.element_facets);
   }
 
-  const Facet &ElasticCounterface::facet_at_end(const unsigned int point) const
-  {
-    return end.element_facets.facets[point - first];
-  }
-
   bool ElasticCounterface::place(FacePointState<2> &state) const
   {
     const auto &facet = facet_at_end(state.index);
     state.position    = FaceElements<2>::position(face.points[state.index], nodal);
     state.gap         = facet.gap;
     return facet.opposed;
-  }
-
-  double ElasticCounterface::gap_at_begin(const unsigned int point)
-  {
-    return places.moves() ? facets_at_begin(element).facets[point - first].gap : facet_at_end(point).gap;
   }
 
   /// Returns how far the cylinder's undeformed surface has run past a facet, from where its first node without load counts 0
@@ -128,11 +118,6 @@ namespace sprag
     const unsigned int element_index = face.point_element(point);
     const auto &facets               = facets_at_begin(element_index).facets;
     return slip_coordinate(facets[point - face.elements[element_index].begin], begin_side.at.at, begin_side.first_slip, point);
-  }
-
-  double ElasticCounterface::slip_at_end(const unsigned int point) const
-  {
-    return slip_coordinate(facet_at_end(point), places.end, end.first_slip, point);
   }
 
   double ElasticCounterface::slip(const FacePointState<2> &state)

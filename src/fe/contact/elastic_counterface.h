@@ -22,7 +22,12 @@ namespace sprag
     FaceElements<2>::Indices near() const;
     void enter(unsigned int element);
     bool place(FacePointState<2> &state) const;
-    double gap_at_begin(unsigned int point);
+
+    double gap_at_begin(const unsigned int point)
+    {
+      return places.moves() ? facets_at_begin(element).facets[point - first].gap : facet_at_end(point).gap;
+    }
+
     void step(FacePointState<2> &state, const ContactHistory &history, const FaceStep &step, ContactSums &sums);
     void slide(FacePointState<2> &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums);
     void leave(ContactSums &sums);
@@ -43,13 +48,23 @@ namespace sprag
     void enter_balance();
     const ElementFacets &facets_at_begin(unsigned int element_index);
     double slip_at_begin(unsigned int point);
-    double slip_at_end(unsigned int point) const;
+
+    double slip_at_end(const unsigned int point) const
+    {
+      return slip_coordinate(facet_at_end(point), places.end, end.first_slip, point);
+    }
+
     double slip_coordinate(const Facet &facet, const FaceConfiguration &at, double slip_offset, unsigned int point) const;
     std::array<unsigned int, 2> neighbours(unsigned int point) const;
     double distance(unsigned int from, unsigned int to) const;
     double slope(unsigned int point) const;
     void touch();
-    const Facet &facet_at_end(unsigned int point) const;
+
+    const Facet &facet_at_end(const unsigned int point) const
+    {
+      return end.element_facets.facets[point - first];
+    }
+
     void add_tangent(const StepResponse<2> &response, const Facet &facet, double stretch, double run, double end_stretch);
     void add_shift(const Facet &facet, unsigned int point, const SlipShift &shift, double d_shift);
     dealii::Tensor<1, 4> on_lever(double normal, double along_slip, const FacetRows &rows) const;

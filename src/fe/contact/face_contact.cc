@@ -17,11 +17,6 @@ namespace sprag
     row[Column::indentation] = indentation(face, found, row, properties.layer_thickness);
   }
 
-  SurfaceShape FaceContact::surface_shape(const dealii::Vector<double> &displacements, unsigned int) const
-  {
-    return node_shape(all_dofs(static_cast<unsigned int>(face.nodes.size())), displacements);
-  }
-
   namespace
   {
     std::variant<RigidCounterface, ElasticCounterface> make_counterface(const ElasticBody<2> &body, const FaceElements<2> &grid,
@@ -40,16 +35,6 @@ namespace sprag
       , counterface(make_counterface(body, grid, properties))
       , dof_places(properties.layout.size())
   {
-  }
-
-  void FaceContact::enter(const StepPlaces &places) const
-  {
-    std::visit([&](auto &below) { below.enter(places); }, counterface);
-  }
-
-  FaceElements<2>::Indices FaceContact::near() const
-  {
-    return std::visit([](const auto &below) { return below.near(); }, counterface);
   }
 
   FaceConfiguration FaceContact::configuration(const Vector<double> &displacements, const double x) const
@@ -153,11 +138,6 @@ namespace sprag
       below.step(state, history, step, found.sums);
     }
     below.leave(found.sums);
-  }
-
-  void FaceContact::evaluate_sliding(const SlidingState &state, FaceEvaluation<2> &found) const
-  {
-    slide(state, false, found);
   }
 
   LinearisedForces FaceContact::linearise(const SlidingState &state, FaceEvaluation<2> &found) const

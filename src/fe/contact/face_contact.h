@@ -40,7 +40,10 @@ namespace sprag
     void evaluate(const InterfaceStep &step, FaceEvaluation<2> &found, const std::optional<StaticTerms> &statics = {}) const;
 
     /// Evaluates steady sliding.
-    void evaluate_sliding(const SlidingState &state, FaceEvaluation<2> &found) const;
+    void evaluate_sliding(const SlidingState &state, FaceEvaluation<2> &found) const
+    {
+      slide(state, false, found);
+    }
 
     /// Evaluates steady sliding and linearises its interface forces. Friction delays at each point in contact.
     LinearisedForces linearise(const SlidingState &state, FaceEvaluation<2> &found) const;
@@ -76,7 +79,10 @@ namespace sprag
     void observe(const FaceEvaluation<2> &found, Row &row, unsigned int lever = 0) const;
 
     /// Returns the displacements of the face's nodes.
-    SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
+    SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int /*lever*/ = 0) const
+    {
+      return node_shape(all_dofs(static_cast<unsigned int>(face.nodes.size())), displacements);
+    }
 
   private:
     FaceConfiguration configuration(const dealii::Vector<double> &displacements, double x) const;
@@ -90,8 +96,17 @@ namespace sprag
     template <class CounterfaceBelow>
     void step_element(CounterfaceBelow &below, unsigned int element, const FaceStep &step, FaceEvaluation<2> &found) const;
     void slide(const SlidingState &sliding, bool in_parts, FaceEvaluation<2> &found) const;
-    void enter(const StepPlaces &places) const;
-    FaceElements<2>::Indices near() const;
+
+    void enter(const StepPlaces &places) const
+    {
+      std::visit([&](auto &below) { below.enter(places); }, counterface);
+    }
+
+    FaceElements<2>::Indices near() const
+    {
+      return std::visit([](const auto &below) { return below.near(); }, counterface);
+    }
+
     static FacePointState<2> &add_point(unsigned int element, unsigned int point, FaceEvaluation<2> &found);
 
     FaceContactProperties properties;

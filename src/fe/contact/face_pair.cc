@@ -101,11 +101,6 @@ namespace sprag
     return { nodes[0], 4. * to_next - to_last, 4. * to_last - 8. * to_next };
   }
 
-  EdgeCurve FacePair::deformed_curve(const Edge &edge, const Vector<double> &displacements)
-  {
-    return edge_curve(edge.n_nodes, deformed(edge, displacements).data());
-  }
-
   PairConfiguration FacePair::configuration(const FaceConfiguration &at) const
   {
     PairConfiguration result{ at, Vector2({ std::cos(at.theta), -std::sin(at.theta) }), {}, {} };
@@ -127,17 +122,6 @@ namespace sprag
     for (auto &tangent : result.tangents)
       tangent /= tangent.norm();
     return result;
-  }
-
-  double FacePair::beyond(const Vector2 &position, const unsigned int vertex, const PairConfiguration &at) const
-  {
-    return (position - at.nodes[vertex * degree]) * at.tangents[vertex];
-  }
-
-  /// Returns how far a position lies beside the whole chain, <= 0 above it [mm].
-  double FacePair::outside(const Vector2 &position, const PairConfiguration &at) const
-  {
-    return std::max(-beyond(position, 0, at), beyond(position, static_cast<unsigned int>(chain.size()), at));
   }
 
   /// Moves `place` to the edge below a position; from one edge to a neighbour at the near end.

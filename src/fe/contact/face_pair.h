@@ -6,6 +6,7 @@
 #include <deal.II/base/tensor.h>
 #include <deal.II/lac/full_matrix.h>
 
+#include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <vector>
@@ -187,13 +188,27 @@ namespace sprag
     static Edge copy(const FaceEdge<2> &edge, unsigned int first_node);
     static Nodes deformed(const Edge &edge, const dealii::Vector<double> &displacements);
     static EdgeCurve edge_curve(unsigned int n_nodes, const Vector2 *nodes);
-    static EdgeCurve deformed_curve(const Edge &edge, const dealii::Vector<double> &displacements);
+
+    static EdgeCurve deformed_curve(const Edge &edge, const dealii::Vector<double> &displacements)
+    {
+      return edge_curve(edge.n_nodes, deformed(edge, displacements).data());
+    }
+
     void check_chain();
     static void average(const ElementFacets &element_facets, Facet &facet);
 
     /// Signed distance of a position along xi from a vertex of the chain.
-    double beyond(const Vector2 &position, unsigned int vertex, const PairConfiguration &at) const;
-    double outside(const Vector2 &position, const PairConfiguration &at) const;
+    double beyond(const Vector2 &position, const unsigned int vertex, const PairConfiguration &at) const
+    {
+      return (position - at.nodes[vertex * degree]) * at.tangents[vertex];
+    }
+
+    /// Returns how far a position lies beside the whole chain, <= 0 above it [mm].
+    double outside(const Vector2 &position, const PairConfiguration &at) const
+    {
+      return std::max(-beyond(position, 0, at), beyond(position, static_cast<unsigned int>(chain.size()), at));
+    }
+
     void go_to(const Vector2 &position, const PairConfiguration &at, PairPlace &place) const;
     double vertex_above(unsigned int vertex, const EdgeCurve &curve, const PairConfiguration &at, const Segment &within) const;
     PairPoint project(const Vector2 &position, const PairConfiguration &at, PairPlace &place) const;

@@ -122,16 +122,6 @@ namespace sprag
     return found->second;
   }
 
-  const RigidCounterface::BeginPoint &RigidCounterface::at_begin(const unsigned int point) const
-  {
-    return (*element_begin_points)[point - face.elements[element].begin];
-  }
-
-  double RigidCounterface::gap_at_begin(const unsigned int point) const
-  {
-    return element_begin_points ? at_begin(point).gap : end.gap(last_place);
-  }
-
   StepKinematics<4> RigidCounterface::over_step(const FacePointState<2> &state, const double slip_change) const
   {
     auto result = step_to(placed, placed.slip - slip_change);

@@ -31,7 +31,10 @@ namespace sprag
     bool place(FacePointState<2> &state);
 
     /// Returns the gap of a point of the element, by its index in the face, at the beginning of the step [mm].
-    double gap_at_begin(unsigned int point) const;
+    double gap_at_begin(const unsigned int point) const
+    {
+      return element_begin_points ? at_begin(point).gap : end.gap(last_place);
+    }
 
     /// Response of the point placed last to the step, and its forces.
     void step(FacePointState<2> &state, const ContactHistory &history, const FaceStep &step, ContactSums &sums);
@@ -66,7 +69,12 @@ namespace sprag
     FaceElements<2>::Indices near(const FaceConfiguration &at, const PlacedCounterface &counterface) const;
     void enter_begin(const FaceConfiguration &at);
     const std::vector<BeginPoint> &points_at_begin(unsigned int element_index);
-    const BeginPoint &at_begin(unsigned int point) const;
+
+    const BeginPoint &at_begin(const unsigned int point) const
+    {
+      return (*element_begin_points)[point - face.elements[element].begin];
+    }
+
     StepKinematics<4> over_step(const FacePointState<2> &state, double slip_change) const;
     using Slopes = std::array<double, FaceElements<2>::max_nodes>;
 

@@ -95,11 +95,6 @@ namespace sprag
     return deflection(s) - 0.5 * (deflection(s - aside) + deflection(s + aside));
   }
 
-  SurfaceShape SurfaceContact::surface_shape(const Vector<double> &displacements, unsigned int) const
-  {
-    return node_shape(nodes_at(0.), displacements);
-  }
-
   void SurfaceContact::observe(const FaceEvaluation<3> &found, Row &row, unsigned int) const
   {
     observe_face(found, row);

@@ -80,7 +80,10 @@ namespace sprag
     void observe(const FaceEvaluation<3> &found, Row &row, unsigned int lever = 0) const;
 
     /// Returns the displacements of the nodes at the middle of the width.
-    SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
+    SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int /*lever*/ = 0) const
+    {
+      return node_shape(nodes_at(0.), displacements);
+    }
 
     const ContactPenalties &penalties() const
     {

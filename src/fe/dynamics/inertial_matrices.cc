@@ -22,26 +22,7 @@ namespace sprag
       if (body.is_held(dof))
         movers[dof] = { rotation(), arms[dof] };
   }
-  unsigned int TotalCoordinates::size() const
-  {
-    return n_free + n_attached + 1;
-  }
-  unsigned int TotalCoordinates::rotation() const
-  {
-    return n_free + n_attached;
-  }
-  unsigned int TotalCoordinates::attached(const unsigned int i) const
-  {
-    return n_free + i;
-  }
-  const TotalCoordinates::Mover &TotalCoordinates::mover(const unsigned int dof) const
-  {
-    return movers[dof];
-  }
-  double TotalCoordinates::arm(const unsigned int dof) const
-  {
-    return arms[dof];
-  }
+
   std::vector<std::pair<unsigned int, double>> TotalCoordinates::row(const Connector &connector) const
   {
     std::vector<std::pair<unsigned int, double>> result;
@@ -54,6 +35,7 @@ namespace sprag
     result.emplace_back(rotation(), rotation_weight);
     return result;
   }
+
   Vector<double> TotalCoordinates::rigid_rotation() const
   {
     Vector<double> result(size());
@@ -62,6 +44,7 @@ namespace sprag
     result[rotation()] = 1.;
     return result;
   }
+
   Vector<double> TotalCoordinates::collect(const Vector<double> &dof_values) const
   {
     Vector<double> result(size());
@@ -69,6 +52,7 @@ namespace sprag
       result[movers[dof].coordinate] += movers[dof].share * dof_values[dof];
     return result;
   }
+
   void TotalCoordinates::scatter(const std::vector<types::global_dof_index> &dofs, const FullMatrix<double> &local,
                                  PETScMatrix &matrix) const
   {
@@ -81,6 +65,7 @@ namespace sprag
         scaled(i, j) *= movers[dofs[i]].share * movers[dofs[j]].share;
     matrix.add(indices, scaled, false);
   }
+
   Vector<double> TotalCoordinates::total(const Vector<double> &elastic, const std::vector<double> &attached_values,
                                          const double rotation_value) const
   {
@@ -92,6 +77,7 @@ namespace sprag
     result[rotation()] = rotation_value;
     return result;
   }
+
   Vector<double> TotalCoordinates::elastic_displacement(const Vector<double> &total) const
   {
     Vector<double> result(static_cast<unsigned int>(movers.size()));
@@ -105,6 +91,7 @@ namespace sprag
       : InertialMatrices(body, BodyMass<2>(body, inertia), inertia.leaf)
   {
   }
+
   InertialMatrices::InertialMatrices(const ElasticBody<2> &body, const BodyMass<2> &body_mass, const LeafBehaviour &leaf)
       : MassSums(body_mass)
       , coordinates(body, static_cast<unsigned int>(leaf.modes.size()))
@@ -120,6 +107,7 @@ namespace sprag
     for (auto *const matrix : { &mass, &stiffness, &layer_stiffness })
       matrix->compress(VectorOperation::add);
   }
+
   void InertialMatrices::find_pattern(const ElasticBody<2> &body)
   {
     pattern.reinit(coordinates.size(), coordinates.size());
@@ -149,6 +137,7 @@ namespace sprag
       pattern.add(hub, attached);
     }
   }
+
   void InertialMatrices::sum(const Weights &weights, PETScMatrix &result) const
   {
     const std::pair<const PETScMatrix &, double> parts[] = { { mass, weights.mass },
@@ -162,6 +151,7 @@ namespace sprag
     result.add(coordinates.rotation(), coordinates.rotation(), weights.rotation);
     result.compress(VectorOperation::add);
   }
+
   void InertialMatrices::assemble_mass(const BodyMass<2> &body_mass)
   {
     for (const auto &[unit, density, dofs] : body_mass.cells())
@@ -177,6 +167,7 @@ namespace sprag
       }
     }
   }
+
   void InertialMatrices::assemble_stiffness(const ElasticBody<2> &body)
   {
     const auto &fe = body.dofs().get_fe();
@@ -205,6 +196,7 @@ namespace sprag
           stiffness.add(i, j, connector.stiffness * weight_i * weight_j);
     }
   }
+
   void InertialMatrices::attach(const double hub_inertia, const LeafBehaviour &leaf)
   {
     const unsigned int hub  = coordinates.rotation();

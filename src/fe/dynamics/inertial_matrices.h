@@ -19,13 +19,22 @@ namespace sprag
     explicit TotalCoordinates(const ElasticBody<2> &body, unsigned int attached = 0);
 
     /// Number of coordinates, the rotation included.
-    unsigned int size() const;
+    unsigned int size() const
+    {
+      return n_free + n_attached + 1;
+    }
 
     /// Index of the rotation.
-    unsigned int rotation() const;
+    unsigned int rotation() const
+    {
+      return n_free + n_attached;
+    }
 
     /// Index of the i-th attached coordinate.
-    unsigned int attached(unsigned int i) const;
+    unsigned int attached(const unsigned int i) const
+    {
+      return n_free + i;
+    }
 
     /// The coordinate that moves a degree of freedom of the body, and by how much a unit of it does.
     struct Mover
@@ -34,10 +43,16 @@ namespace sprag
       double share;
     };
 
-    const Mover &mover(unsigned int dof) const;
+    const Mover &mover(const unsigned int dof) const
+    {
+      return movers[dof];
+    }
 
     /// Displacement of a degree of freedom by a unit of rigid rotation [mm].
-    double arm(unsigned int dof) const;
+    double arm(const unsigned int dof) const
+    {
+      return arms[dof];
+    }
 
     /// The row of a connector: its product with the coordinates is the compression.
     std::vector<std::pair<unsigned int, double>> row(const Connector &connector) const;

@@ -22,11 +22,6 @@ namespace sprag
       momentum = { { matrices.momentum[1], matrices.momentum[0] } };
   }
 
-  unsigned int LeverInterface::n_coordinates() const
-  {
-    return n_lever + (numbering.sprung ? 1 : 0);
-  }
-
   Vector<double> LeverInterface::displacements(const Vector<double> &q) const
   {
     Vector<double> result(numbering.size());
@@ -72,11 +67,6 @@ namespace sprag
     std::vector<unsigned int> result = coordinates;
     result.push_back(n_lever - 1);
     return result;
-  }
-
-  unsigned int LeverInterface::face_dof(const unsigned int i) const
-  {
-    return i < numbering.surface ? i : numbering.rotation();
   }
 
   void LeverInterface::transform(FullMatrix<double> &compliance) const

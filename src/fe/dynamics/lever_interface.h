@@ -22,7 +22,10 @@ namespace sprag
     }
 
     /// Number of coordinates, the support's included.
-    unsigned int n_coordinates() const;
+    unsigned int n_coordinates() const
+    {
+      return n_lever + (numbering.sprung ? 1 : 0);
+    }
 
     dealii::Vector<double> displacements(const dealii::Vector<double> &coordinates) const;
 
@@ -33,7 +36,10 @@ namespace sprag
     std::vector<unsigned int> face_coordinates() const;
 
     /// Returns the dof of the i-th of those coordinates.
-    unsigned int face_dof(unsigned int i) const;
+    unsigned int face_dof(const unsigned int i) const
+    {
+      return i < numbering.surface ? i : numbering.rotation();
+    }
 
     /// Turns the compliance of those coordinates into that of their dofs.
     void transform(dealii::FullMatrix<double> &compliance) const;

@@ -292,11 +292,6 @@ namespace sprag
     }
   }
 
-  const InterfaceLayout &SparseStructure::layout() const
-  {
-    return lever_interface.layout();
-  }
-
   Motion SparseStructure::rest() const
   {
     Motion motion;
@@ -361,11 +356,6 @@ namespace sprag
     if (constants.sprung)
       result.append(1. / support_stiffness);
     return result;
-  }
-
-  const InterfaceCompliance &SparseStructure::compliance() const
-  {
-    return current->compliance;
   }
 
   double SparseStructure::effective_support(const StepWeights &w) const
@@ -510,10 +500,5 @@ namespace sprag
     motion.coordinates = unaccelerated(accepted.coordinates, w);
     set_position(motion.coordinates, position, w);
     return motion;
-  }
-
-  Vector<double> SparseStructure::elastic_displacement(const Motion &motion, unsigned int) const
-  {
-    return matrices->coordinates.elastic_displacement(motion.coordinates.position);
   }
 } // namespace sprag

@@ -37,7 +37,10 @@ namespace sprag
     SparseStructure(const ElasticBody<2> &body, std::shared_ptr<const InertialMatrices> matrices, const LeverModes &modes,
                     const LeverDynamics &constants);
 
-    const InterfaceLayout &layout() const;
+    const InterfaceLayout &layout() const
+    {
+      return lever_interface.layout();
+    }
 
     /// The motion at rest without force.
     Motion rest() const;
@@ -45,7 +48,11 @@ namespace sprag
     /// Makes the compliance that of statics, or of a step.
     void use_statics();
     void use_step(const StepWeights &weights);
-    const InterfaceCompliance &compliance() const;
+
+    const InterfaceCompliance &compliance() const
+    {
+      return current->compliance;
+    }
 
     /// Motion at rest under forces, after use_statics().
     Motion deform(const InterfaceForces &forces) const;
@@ -76,7 +83,10 @@ namespace sprag
     double damping_form(const Motion &velocities) const;
 
     /// Elastic displacement of all degrees of freedom of the body, in lever axes [mm]. Of a pair's structure that of a lever.
-    dealii::Vector<double> elastic_displacement(const Motion &motion, unsigned int lever = 0) const;
+    dealii::Vector<double> elastic_displacement(const Motion &motion, unsigned int /*lever*/ = 0) const
+    {
+      return matrices->coordinates.elastic_displacement(motion.coordinates.position);
+    }
 
     /// Serialises the steps whose factors are kept, and what is kept with them.
     void serialise_history(Archive &archive);

@@ -74,16 +74,6 @@ namespace sprag
       couple(layout.support(), layout.support());
   }
 
-  unsigned int FullStiffness::first_coordinate(const unsigned int lever) const
-  {
-    return lever * (body.n_dofs() + 1);
-  }
-
-  unsigned int FullStiffness::n_coordinates() const
-  {
-    return first_coordinate(layout.levers) + (layout.sprung ? 1 : 0);
-  }
-
   unsigned int FullStiffness::coordinate(const unsigned int dof) const
   {
     if (dof == layout.support())

@@ -21,7 +21,10 @@ namespace sprag
     /// The body must outlive this; that of a pair's second lever is alike.
     FullStiffness(const ElasticBody<2> &body, const InterfaceLayout &layout, const JointSprings &springs);
 
-    unsigned int n_coordinates() const;
+    unsigned int n_coordinates() const
+    {
+      return first_coordinate(layout.levers) + (layout.sprung ? 1 : 0);
+    }
 
     /// Returns the index of the coordinate of a dof.
     unsigned int coordinate(unsigned int dof) const;
@@ -45,7 +48,11 @@ namespace sprag
     void serialise_history(Archive &archive);
 
   private:
-    unsigned int first_coordinate(unsigned int lever) const;
+    unsigned int first_coordinate(const unsigned int lever) const
+    {
+      return lever * (body.n_dofs() + 1);
+    }
+
     void couple_interface();
     void find_places(unsigned int lever);
     std::shared_ptr<dealii::PETScWrappers::SparseMatrix> free_matrix();

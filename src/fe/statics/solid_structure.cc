@@ -101,17 +101,6 @@ namespace sprag
       finite.emplace(body);
   }
 
-  /// Index among the coordinates, at finite strain, of the first displacement of a lever's body.
-  unsigned int SolidStructure::first_body_coordinate(const unsigned int lever) const
-  {
-    return StaticInterface::n_coordinates() + lever * body.n_dofs();
-  }
-
-  unsigned int SolidStructure::n_coordinates() const
-  {
-    return finite ? first_body_coordinate(layout.levers) : StaticInterface::n_coordinates();
-  }
-
   Vector<double> SolidStructure::lever_displacement(const Vector<double> &coordinates, const unsigned int lever) const
   {
     const auto first = coordinates.begin() + first_body_coordinate(lever);

@@ -62,7 +62,10 @@ namespace sprag
     SolidStructure(const SolidStructure &)            = delete;
     SolidStructure &operator=(const SolidStructure &) = delete;
 
-    unsigned int n_coordinates() const;
+    unsigned int n_coordinates() const
+    {
+      return finite ? first_body_coordinate(layout.levers) : StaticInterface::n_coordinates();
+    }
 
     /// See StaticInterface; at finite strain sets the interface to where the bodies are.
     void set_faces(const DofLoads &forces, const DofSelection &near, dealii::Vector<double> &coordinates);
@@ -106,7 +109,12 @@ namespace sprag
     Exactness exactness(const std::vector<FaceSample> &samples) const;
 
   private:
-    unsigned int first_body_coordinate(unsigned int lever) const;
+    /// Index among the coordinates, at finite strain, of the first displacement of a lever's body.
+    unsigned int first_body_coordinate(const unsigned int lever) const
+    {
+      return StaticInterface::n_coordinates() + lever * body.n_dofs();
+    }
+
     dealii::Vector<double> lever_displacement(const dealii::Vector<double> &coordinates, unsigned int lever) const;
     std::vector<double> responses(const std::vector<DofLoads> &on_faces) const;
     const std::vector<unsigned int> &line_at(double zeta) const;

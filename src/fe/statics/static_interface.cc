@@ -16,21 +16,6 @@ namespace sprag
   {
   }
 
-  unsigned int StaticInterface::n_coordinates() const
-  {
-    return layout.size();
-  }
-
-  unsigned int StaticInterface::coordinate(const unsigned int dof) const
-  {
-    return dof;
-  }
-
-  const Vector<double> &StaticInterface::interface_displacements(const Vector<double> &coordinates) const
-  {
-    return coordinates;
-  }
-
   /// Moves the window where it lacks some dofs. Returns their places.
   DofSelection StaticInterface::look_at(const DofSelection &near)
   {

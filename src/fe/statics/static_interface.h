@@ -31,12 +31,21 @@ namespace sprag
     /// `faces`: those of a lever in the order of their dofs, the same for both of a pair.
     StaticInterface(const InterfaceLayout &layout, const JointSprings &springs, std::vector<FaceResponse> faces);
 
-    unsigned int n_coordinates() const;
+    unsigned int n_coordinates() const
+    {
+      return layout.size();
+    }
 
     /// Returns the index of the coordinate of a dof.
-    unsigned int coordinate(unsigned int dof) const;
+    unsigned int coordinate(const unsigned int dof) const
+    {
+      return dof;
+    }
 
-    const dealii::Vector<double> &interface_displacements(const dealii::Vector<double> &coordinates) const;
+    const dealii::Vector<double> &interface_displacements(const dealii::Vector<double> &coordinates) const
+    {
+      return coordinates;
+    }
 
     /// Sets the displacements of those dofs of the faces that are looked at to G f.
     void set_faces(const DofLoads &forces, const DofSelection &near, dealii::Vector<double> &coordinates);

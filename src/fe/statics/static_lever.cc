@@ -227,12 +227,6 @@ namespace sprag
     return step;
   }
 
-  template <int dim>
-  bool StaticLever<dim>::looks_at_some() const
-  {
-    return std::visit([](const auto &s) { return s.looks_at_some; }, own_structure);
-  }
-
   /// Makes contacts and step look at the candidate dofs of the contacts. New ones of a face begin at the displacements by the
   /// forces there.
   template <int dim>
@@ -250,12 +244,6 @@ namespace sprag
     for (const unsigned int dof : step.near)
       if (layout.is_surface(dof) && !std::binary_search(before.begin(), before.end(), dof))
         step.trial.coordinates[dof] = step.displacements[dof];
-  }
-
-  template <int dim>
-  Vector<double> StaticLever<dim>::interface_displacements(const Vector<double> &coordinates) const
-  {
-    return std::visit([&](const auto &s) -> Vector<double> { return s.interface_displacements(coordinates); }, own_structure);
   }
 
   /// Finds the candidate dofs of the contacts in a step that ends near its trial state, and those of the forces it begins with.
@@ -332,22 +320,10 @@ namespace sprag
   }
 
   template <int dim>
-  const typename StaticLever<dim>::Balance &StaticLever<dim>::get_balance(const Evaluation &evaluation)
-  {
-    return std::any_cast<const Balance &>(evaluation.model_data);
-  }
-
-  template <int dim>
   Vector<double> StaticLever<dim>::correction(const Evaluation &evaluation)
   {
     const auto &[found, forces, near, residual] = get_balance(evaluation);
     return std::visit([&, &f = forces, &n = near, &r = residual](auto &s) { return s.correction(r, f, n); }, own_structure);
-  }
-
-  template <int dim>
-  unsigned int StaticLever<dim>::rotation(const unsigned int lever) const
-  {
-    return std::visit([&](const auto &s) { return s.coordinate(layout.rotation(lever)); }, own_structure);
   }
 
   template <int dim>
@@ -357,13 +333,6 @@ namespace sprag
     for (unsigned int i = 0; i < layout.levers; ++i)
       result[i] = state.coordinates[rotation(i)];
     return result;
-  }
-
-  /// Returns u along x by the interface displacements [mm].
-  template <int dim>
-  double StaticLever<dim>::support_displacement(const Vector<double> &displacements) const
-  {
-    return layout.sprung ? displacements[layout.support()] : 0.;
   }
 
   template <int dim>
@@ -381,12 +350,6 @@ namespace sprag
   double StaticLever<dim>::length_scale() const
   {
     return springs.arm;
-  }
-
-  template <int dim>
-  bool StaticLever<dim>::augments() const
-  {
-    return levers.front().properties.contact.enforcement == Enforcement::augmented_lagrangian;
   }
 
   template <int dim>
@@ -523,12 +486,6 @@ namespace sprag
   }
 
   template <int dim>
-  unsigned int StaticLever<dim>::n_face_points() const
-  {
-    return static_cast<unsigned int>(own_body.friction_face().points.size());
-  }
-
-  template <int dim>
   FacePoints StaticLever<dim>::face_points() const
   {
     return levers.front().contact.face_points();
@@ -551,23 +508,10 @@ namespace sprag
   }
 
   template <int dim>
-  const ContactPenalties &StaticLever<dim>::penalties() const
-  {
-    return levers.front().contact.penalties();
-  }
-
-  template <int dim>
   void StaticLever<dim>::use_penalties(const ContactPenalties &penalties)
   {
     for (auto &lever : levers)
       lever.contact.use_penalties(penalties);
-  }
-
-  template <int dim>
-  std::vector<Vector<double>> StaticLever<dim>::body_displacements(const Vector<double> &coordinates,
-                                                                   const DofLoads &forces) const
-  {
-    return std::visit([&](const auto &s) { return s.body_displacements(coordinates, forces); }, own_structure);
   }
 
   template class StaticLever<2>;

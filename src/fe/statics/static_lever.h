@@ -82,7 +82,10 @@ namespace sprag
     FaceState face_state(const State &state, const Evaluation &evaluation) const override;
     void serialise_history(Archive &archive) override;
 
-    const ContactPenalties &penalties() const;
+    const ContactPenalties &penalties() const
+    {
+      return levers.front().contact.penalties();
+    }
 
     /// Evaluates with other penalties from now on [N/mm^3], > 0.
     void use_penalties(const ContactPenalties &penalties);
@@ -100,10 +103,16 @@ namespace sprag
 
     /// Returns the displacement of all degrees of freedom of each lever in its axes [mm].
     std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
-                                                           const DofLoads &forces) const;
+                                                           const DofLoads &forces) const
+    {
+      return std::visit([&](const auto &s) { return s.body_displacements(coordinates, forces); }, own_structure);
+    }
 
     /// Returns the index of a hub's turn from the spring's rest among the coordinates.
-    unsigned int rotation(unsigned int lever = 0) const;
+    unsigned int rotation(const unsigned int lever = 0) const
+    {
+      return std::visit([&](const auto &s) { return s.coordinate(layout.rotation(lever)); }, own_structure);
+    }
 
   private:
     using History = std::vector<PointHistory<dim - 1>>;
@@ -134,21 +143,49 @@ namespace sprag
 
     StaticLever(const typename Parts::Source &source, std::vector<LeverProperties> properties, bool swings,
                 const std::array<double, 2> &swept);
-    static const Balance &get_balance(const Evaluation &evaluation);
-    dealii::Vector<double> interface_displacements(const dealii::Vector<double> &coordinates) const;
-    bool looks_at_some() const;
+
+    static const Balance &get_balance(const Evaluation &evaluation)
+    {
+      return std::any_cast<const Balance &>(evaluation.model_data);
+    }
+
+    dealii::Vector<double> interface_displacements(const dealii::Vector<double> &coordinates) const
+    {
+      return std::visit([&](const auto &s) -> dealii::Vector<double> { return s.interface_displacements(coordinates); },
+                        own_structure);
+    }
+
+    bool looks_at_some() const
+    {
+      return std::visit([](const auto &s) { return s.looks_at_some; }, own_structure);
+    }
+
     void look_at(Step &step);
     DofSelection reachable(const Step &step);
     void evaluate_contacts(Step &step, FrictionMode mode, Balance &found);
     History joined(const std::function<History(std::size_t)> &history) const;
     History augmented(const Evaluation &evaluation) const;
     PerLever turns(const State &state) const;
-    double support_displacement(const dealii::Vector<double> &displacements) const;
+
+    /// Returns u along x by the interface displacements [mm].
+    double support_displacement(const dealii::Vector<double> &displacements) const
+    {
+      return layout.sprung ? displacements[layout.support()] : 0.;
+    }
+
     double cylinder_energy(unsigned int lever, const State &state) const;
     std::string check_validity(unsigned int lever, const DrivePoint &drive, const typename Parts::Evaluation &found) const;
     void observe(unsigned int lever, const State &state, const typename Parts::Evaluation &found, Row &row) const;
-    bool augments() const;
-    unsigned int n_face_points() const;
+
+    bool augments() const
+    {
+      return levers.front().properties.contact.enforcement == Enforcement::augmented_lagrangian;
+    }
+
+    unsigned int n_face_points() const
+    {
+      return static_cast<unsigned int>(own_body.friction_face().points.size());
+    }
 
     typename Parts::KeptBody own_body;
     const InterfaceLayout layout;

@@ -55,11 +55,6 @@ namespace sprag
   {
   }
 
-  bool HubSpringExcess::is_active() const
-  {
-    return joined || !law.is_linear();
-  }
-
   void HubSpringExcess::add(const Moments &moments, InterfaceForces &forces) const
   {
     add_dofs(loaded_dofs(), forces);

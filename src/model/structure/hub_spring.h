@@ -47,7 +47,11 @@ namespace sprag
       std::array<PerLever, 2> tangent{};
     };
 
-    bool is_active() const;
+    bool is_active() const
+    {
+      return joined || !law.is_linear();
+    }
+
     Moments step_moments(const PerLever &begin, const PerLever &end, const StepWeights &weights) const;
     Moments at(const PerLever &turns, bool swing_is_held) const;
     Moments spread(double excess, double stiffness, double moment, double moment_stiffness) const;

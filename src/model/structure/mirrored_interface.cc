@@ -34,31 +34,6 @@ namespace sprag
     pair.levers = 2;
   }
 
-  const InterfaceLayout &MirroredInterface::layout() const
-  {
-    return pair;
-  }
-
-  double MirroredInterface::share()
-  {
-    return std::sqrt(0.5);
-  }
-
-  unsigned int MirroredInterface::structure_size() const
-  {
-    return pair.dofs_per_lever() + (pair.sprung ? 1 : 0);
-  }
-
-  bool MirroredInterface::is_support(const unsigned int pair_dof) const
-  {
-    return pair.sprung && pair_dof == pair.support();
-  }
-
-  unsigned int MirroredInterface::structure_dof(const unsigned int pair_dof) const
-  {
-    return is_support(pair_dof) ? pair.dofs_per_lever() : pair_dof % pair.dofs_per_lever();
-  }
-
   DofSelection MirroredInterface::structure_dofs(const DofSelection &paired) const
   {
     const auto second = std::lower_bound(paired.begin(), paired.end(), pair.first(1));

@@ -6,6 +6,7 @@
 #include "model/step/dynamic_model.h"
 #include "model/step/linearisation.h"
 
+#include <cmath>
 #include <utility>
 
 namespace sprag
@@ -20,10 +21,16 @@ namespace sprag
     explicit MirroredInterface(const InterfaceLayout &lever_layout);
 
     /// The layout of the pair.
-    const InterfaceLayout &layout() const;
+    const InterfaceLayout &layout() const
+    {
+      return pair;
+    }
 
     /// Share of a structure's motion in each lever's: 1/sqrt(2), apart from the sign of the second lever's.
-    static double share();
+    static double share()
+    {
+      return std::sqrt(0.5);
+    }
 
     /// Returns the dofs of a structure that dofs of the pair depend on.
     DofSelection structure_dofs(const DofSelection &paired) const;
@@ -35,7 +42,10 @@ namespace sprag
     /// Returns the state of a dof of the pair by that of the structures' dof, see structure_dof().
     DofState state(unsigned int pair_dof, const DofState &symmetric, const DofState &antisymmetric) const;
 
-    unsigned int structure_dof(unsigned int pair_dof) const;
+    unsigned int structure_dof(const unsigned int pair_dof) const
+    {
+      return is_support(pair_dof) ? pair.dofs_per_lever() : pair_dof % pair.dofs_per_lever();
+    }
 
     /// Returns forces on the pair as those on a structure, without their tangent.
     InterfaceForces forces(const InterfaceForces &paired, unsigned int motion) const;
@@ -57,8 +67,16 @@ namespace sprag
   private:
     InterfaceLayout pair;
 
-    unsigned int structure_size() const;
-    bool is_support(unsigned int pair_dof) const;
+    unsigned int structure_size() const
+    {
+      return pair.dofs_per_lever() + (pair.sprung ? 1 : 0);
+    }
+
+    bool is_support(const unsigned int pair_dof) const
+    {
+      return pair.sprung && pair_dof == pair.support();
+    }
+
     dealii::FullMatrix<double> displacements_by(const DofSelection &both_dofs, const DofSelection &paired) const;
     std::pair<unsigned int, unsigned int> range(const LinearisedForces &both, unsigned int motion) const;
     bool acts_on_first_lever(const DofSelection &dofs, const FrictionDelay &delay) const;

@@ -95,21 +95,6 @@ namespace sprag
     current            = &statics;
   }
 
-  unsigned int ModalStructure::n_modes() const
-  {
-    return static_cast<unsigned int>(data.stiffness.size());
-  }
-
-  unsigned int ModalStructure::n_interface() const
-  {
-    return data.layout.size();
-  }
-
-  const InterfaceLayout &ModalStructure::layout() const
-  {
-    return data.layout;
-  }
-
   Motion ModalStructure::rest() const
   {
     Motion motion;
@@ -142,17 +127,6 @@ namespace sprag
     return result;
   }
 
-  /// f = K (u_f + relaxation [u] / dt) of the static shapes: weight of the elastic force at the end of the step.
-  double ModalStructure::static_weight(const StepWeights &w) const
-  {
-    return w.stiffness() + data.relaxation / w.dt;
-  }
-
-  double ModalStructure::kept_share(const StepWeights &w) const
-  {
-    return -(w.alpha_f - data.relaxation / w.dt) / static_weight(w);
-  }
-
   std::unique_ptr<ModalStructure::Step> ModalStructure::make_step(const StepWeights &weights) const
   {
     auto step     = std::make_unique<Step>();
@@ -166,20 +140,10 @@ namespace sprag
     return step;
   }
 
-  void ModalStructure::use_statics()
-  {
-    current = &statics;
-  }
-
   void ModalStructure::use_step(const StepWeights &weights)
   {
     constexpr std::size_t kept = 16;
     current                    = step_among(steps, weights, kept, [&] { return make_step(weights); });
-  }
-
-  const InterfaceCompliance &ModalStructure::compliance() const
-  {
-    return current->compliance;
   }
 
   Vector<double> ModalStructure::modal_forces(const InterfaceForces &forces) const

@@ -37,15 +37,26 @@ namespace sprag
 
     explicit ModalStructure(ModalData data);
 
-    const InterfaceLayout &layout() const;
+    const InterfaceLayout &layout() const
+    {
+      return data.layout;
+    }
 
     /// The motion at rest without force.
     Motion rest() const;
 
     /// Makes the compliance that of statics, or of a step.
-    void use_statics();
+    void use_statics()
+    {
+      current = &statics;
+    }
+
     void use_step(const StepWeights &weights);
-    const InterfaceCompliance &compliance() const;
+
+    const InterfaceCompliance &compliance() const
+    {
+      return current->compliance;
+    }
 
     /// Motion and interface displacements at rest under forces, after use_statics().
     Motion deform(const InterfaceForces &forces) const;
@@ -83,7 +94,10 @@ namespace sprag
     /// v^T C v with the motion's positions as velocities v: twice the power that damping takes.
     double damping_form(const Motion &velocities) const;
 
-    unsigned int n_modes() const;
+    unsigned int n_modes() const
+    {
+      return static_cast<unsigned int>(data.stiffness.size());
+    }
 
     /// There is nothing to serialise, as all that it stores follows from the step at hand.
     void serialise_history(Archive &)
@@ -98,7 +112,10 @@ namespace sprag
       InterfaceCompliance compliance;
     };
 
-    unsigned int n_interface() const;
+    unsigned int n_interface() const
+    {
+      return data.layout.size();
+    }
 
     /// Adds the displacements of selected dofs by modes.
     void add_positions(const dealii::Vector<double> &coordinates, const DofSelection &selected,
@@ -110,10 +127,18 @@ namespace sprag
     std::unique_ptr<Step> make_step(const StepWeights &weights) const;
     InterfaceCompliance interface_compliance(const dealii::FullMatrix<double> &inverse, double static_share) const;
     dealii::Vector<double> modal_forces(const InterfaceForces &forces) const;
-    double static_weight(const StepWeights &w) const;
+
+    /// f = K (u_f + relaxation [u] / dt) of the static shapes: weight of the elastic force at the end of the step.
+    double static_weight(const StepWeights &w) const
+    {
+      return w.stiffness() + data.relaxation / w.dt;
+    }
 
     /// The share of static forces at the beginning of a step that is left of them at its end where no others act.
-    double kept_share(const StepWeights &w) const;
+    double kept_share(const StepWeights &w) const
+    {
+      return -(w.alpha_f - data.relaxation / w.dt) / static_weight(w);
+    }
 
     const ModalData data;
     Step statics;
