@@ -41,7 +41,7 @@ namespace sprag
     if (scene.analysis.model == ModelType::condensed && scene.condensed.modes > 1)
     {
       other.condensed.modes = scene.condensed.modes / 2;
-      const auto dynamics   = maker.make_with_modes(scene, other.condensed.modes);
+      const auto dynamics   = maker.make(scene, other.condensed.modes);
       result.other_modes    = check_slide(dynamics.model(), held_drive(scene), checked_modes(scene));
     }
     else if (scene.analysis.model == ModelType::condensed)

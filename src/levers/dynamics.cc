@@ -36,7 +36,7 @@ namespace sprag
   {
   }
 
-  Dynamics DynamicsMaker::make(const Scene &scene)
+  Dynamics DynamicsMaker::make(const Scene &scene, const std::optional<unsigned int> &fewer_modes)
   {
     Dynamics result;
     if (!is_meshed(scene.analysis.model))
@@ -45,13 +45,17 @@ namespace sprag
       return result;
     }
     if (scene.analysis.dimension == 3)
-      return make_solid(scene, scene.condensed.modes);
+      return make_solid(scene, fewer_modes.value_or(scene.condensed.modes));
     result.lever = find_meshed_lever(scene);
     const PhaseTimer::Scope scope(time, "model");
     const double relaxation = contact_reference(scene).relaxation;
-    result.meshed           = scene.analysis.model == ModelType::condensed
-                                  ? make_condensed_dynamics(scene, *result.lever->body, result.lever->condensed, relaxation)
-                                  : make_finite_element_dynamics(scene, *result.lever->body, result.lever->elements, relaxation);
+    const auto &bases       = result.lever->condensed;
+    const auto lowest       = [&](const auto &basis)
+    { return basis && fewer_modes ? std::make_shared<const CondensedBasis>(truncated(*basis, *fewer_modes)) : basis; };
+    result.meshed =
+        scene.analysis.model == ModelType::condensed
+            ? make_condensed_dynamics(scene, *result.lever->body, { lowest(bases.lever), lowest(bases.swinging) }, relaxation)
+            : make_finite_element_dynamics(scene, *result.lever->body, result.lever->elements, relaxation);
     return result;
   }
 
@@ -69,21 +73,6 @@ namespace sprag
     result.solid = solid.second;
     result.meshed =
         make_solid_dynamics(scene, *result.solid, reachable_contact(scene), contact_reference(scene).relaxation, n_modes);
-    return result;
-  }
-
-  Dynamics DynamicsMaker::make_with_modes(const Scene &scene, const unsigned int modes)
-  {
-    if (scene.analysis.dimension == 3)
-      return make_solid(scene, modes);
-    Dynamics result;
-    result.lever = find_meshed_lever(scene);
-    const PhaseTimer::Scope scope(time, "model");
-    const auto &all   = result.lever->condensed;
-    const auto lowest = [&](const auto &basis)
-    { return basis ? std::make_shared<const CondensedBasis>(truncated(*basis, modes)) : nullptr; };
-    result.meshed = make_condensed_dynamics(scene, *result.lever->body, { lowest(all.lever), lowest(all.swinging) },
-                                            contact_reference(scene).relaxation);
     return result;
   }
 

@@ -7,6 +7,7 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -56,11 +57,9 @@ namespace sprag
     /// Makes models; with `store_bases` condensed bases go to the cache on disk. The last `kept_meshes` meshed levers are kept.
     explicit DynamicsMaker(bool store_bases = true, std::size_t kept_meshes = 1);
 
-    /// Throws InputError for a mesh that cannot be used, AnalysisError if a factorisation fails.
-    Dynamics make(const Scene &scene);
-
-    /// Makes a condensed scene's model with the lowest so many of its modes alone, at least one, by its own bases.
-    Dynamics make_with_modes(const Scene &scene, unsigned int modes);
+    /// Throws InputError for a mesh that cannot be used, AnalysisError if a factorisation fails. Of a condensed scene
+    /// `fewer_modes` leaves the lowest so many of its modes alone, at least one, by its own bases.
+    Dynamics make(const Scene &scene, const std::optional<unsigned int> &fewer_modes = {});
 
     /// Measures the wall and CPU time spent on meshes and models.
     PhaseTimer &timer()

@@ -82,7 +82,7 @@ namespace
     const auto found = maker.make(scene).solid->modes.stiffness;
     const auto number =
         std::count_if(found.begin(), found.end(), [&](const double value) { return value < 1.00001 * stiffness; });
-    return maker.make_with_modes(scene, static_cast<unsigned int>(number));
+    return maker.make(scene, static_cast<unsigned int>(number));
   }
 
   BothRuns run_both(const Scene &scene)
