@@ -58,6 +58,37 @@ namespace sprag
       archive(answer.mistakes, answer.materials, answer.boundaries, answer.mesh);
     }
 
+    /// Elements of a dimension by their types, those of one entity or all.
+    struct GmshElements
+    {
+      std::vector<int> types;
+      std::vector<std::vector<std::size_t>> tags, nodes;
+
+      explicit GmshElements(const int dim, const int entity = -1)
+      {
+        gmsh::model::mesh::getElements(types, tags, nodes, dim, entity);
+      }
+    };
+
+    struct GmshNodes
+    {
+      std::vector<std::size_t> tags;
+      std::vector<double> positions; ///< three a node
+
+      GmshNodes()
+      {
+        std::vector<double> parametric;
+        gmsh::model::mesh::getNodes(tags, positions, parametric);
+      }
+    };
+
+    gmsh::vectorpair find_entities(const int dim)
+    {
+      gmsh::vectorpair result;
+      gmsh::model::getEntities(result, dim);
+      return result;
+    }
+
     /// Elements of a dimension by their nodes, to tell those that two groups with a meaning claim.
     struct Claims
     {
@@ -70,9 +101,7 @@ namespace sprag
         gmsh::model::getEntitiesForPhysicalGroup(dim, tag, entities);
         for (const int entity : entities)
         {
-          std::vector<int> types;
-          std::vector<std::vector<std::size_t>> elements, nodes;
-          gmsh::model::mesh::getElements(types, elements, nodes, dim, entity);
+          const auto [types, elements, nodes] = GmshElements(dim, entity);
           for (std::size_t i = 0; i < types.size(); ++i)
           {
             const std::size_t n = nodes[i].size() / std::max<std::size_t>(1, elements[i].size());
@@ -93,15 +122,11 @@ namespace sprag
     std::size_t number_without_group(const int dim)
     {
       std::size_t result = 0;
-      gmsh::vectorpair entities;
-      gmsh::model::getEntities(entities, dim);
-      for (const auto &[entity_dim, entity] : entities)
+      for (const auto &[entity_dim, entity] : find_entities(dim))
       {
-        std::vector<int> groups, types;
-        std::vector<std::vector<std::size_t>> elements, nodes;
+        std::vector<int> groups;
         gmsh::model::getPhysicalGroupsForEntity(entity_dim, entity, groups);
-        gmsh::model::mesh::getElements(types, elements, nodes, entity_dim, entity);
-        for (const auto &type_elements : elements)
+        for (const auto &type_elements : GmshElements(entity_dim, entity).tags)
           result += groups.empty() ? type_elements.size() : 0;
       }
       return result;
@@ -157,9 +182,7 @@ namespace sprag
 
     void refuse_other_elements(const std::string &file)
     {
-      std::vector<int> types;
-      std::vector<std::vector<std::size_t>> tags, nodes;
-      gmsh::model::mesh::getElements(types, tags, nodes, 2);
+      const auto types        = GmshElements(2).types;
       const int quadrilateral = gmsh::model::mesh::getElementType("quadrangle", 1);
       for (const int type : types)
         if (type != quadrilateral)
@@ -171,10 +194,8 @@ namespace sprag
 
     void refuse_other_solids(const std::string &file)
     {
-      std::vector<int> types;
-      std::vector<std::vector<std::size_t>> tags, nodes;
-      gmsh::model::mesh::getElements(types, tags, nodes, 3);
-      const int hexahedron = gmsh::model::mesh::getElementType("hexahedron", 1);
+      const auto [types, tags, nodes] = GmshElements(3);
+      const int hexahedron            = gmsh::model::mesh::getElementType("hexahedron", 1);
       std::vector<std::string> others;
       for (std::size_t i = 0; i < types.size(); ++i)
         if (types[i] != hexahedron)
@@ -196,12 +217,7 @@ namespace sprag
 
     bool open_model_has_volumes()
     {
-      std::vector<int> types;
-      std::vector<std::vector<std::size_t>> tags, corners;
-      gmsh::model::mesh::getElements(types, tags, corners, 3);
-      gmsh::vectorpair volumes;
-      gmsh::model::getEntities(volumes, 3);
-      return !types.empty() || !volumes.empty();
+      return !GmshElements(3).types.empty() || !find_entities(3).empty();
     }
 
     void refuse_volumes(const std::string &file)
@@ -214,9 +230,7 @@ namespace sprag
     /// A plane lever's mesh lies in z = 0: another would be read as its shadow.
     void refuse_third_dimension(const std::string &file)
     {
-      std::vector<std::size_t> nodes;
-      std::vector<double> positions, parametric;
-      gmsh::model::mesh::getNodes(nodes, positions, parametric);
+      const auto positions = GmshNodes().positions;
       double size = 0., farthest = 0.;
       for (std::size_t i = 0; i < positions.size(); ++i)
       {
@@ -238,16 +252,13 @@ namespace sprag
       std::size_t n_elements = 0;
       for (int entities_dim = 1; entities_dim <= dim; ++entities_dim)
       {
-        gmsh::vectorpair entities;
-        gmsh::model::getEntities(entities, entities_dim);
-        for (const auto &[entity_dim, entity] : entities)
+        for (const auto &[entity_dim, entity] : find_entities(entities_dim))
         {
-          std::vector<int> groups, types;
-          std::vector<std::vector<std::size_t>> tags, corners;
+          std::vector<int> groups;
           gmsh::model::getPhysicalGroupsForEntity(entity_dim, entity, groups);
           if (groups.empty())
             continue;
-          gmsh::model::mesh::getElements(types, tags, corners, entity_dim, entity);
+          const auto [types, tags, corners] = GmshElements(entity_dim, entity);
           for (std::size_t i = 0; i < types.size(); ++i)
             for (std::size_t j = 0; j < tags[i].size(); ++j)
             {
@@ -263,9 +274,7 @@ namespace sprag
             }
         }
       }
-      std::vector<std::size_t> tags;
-      std::vector<double> positions, parametric;
-      gmsh::model::mesh::getNodes(tags, positions, parametric);
+      const auto [tags, positions] = GmshNodes();
       for (std::size_t i = 0; i < tags.size(); ++i)
         if (used.count(tags[i]) > 0)
         {
@@ -382,10 +391,7 @@ namespace sprag
 
     Answer meshed(const std::string &file, const MeshGroups &groups, const int dim)
     {
-      std::vector<std::size_t> nodes;
-      std::vector<double> positions, parametric;
-      gmsh::model::mesh::getNodes(nodes, positions, parametric);
-      if (nodes.empty())
+      if (GmshNodes().tags.empty())
         gmsh::model::mesh::generate(dim);
       if (dim == 2)
         refuse_volumes(file);
