@@ -131,71 +131,55 @@ namespace sprag
       std::vector<unsigned int> free;
     };
 
-    /// Motions of a body by what both sides of its middle do.
-    class Sides
+    /// Returns, by a degree of freedom of the given axes, that on the other side of the middle; empty where not all have one.
+    std::vector<unsigned int> mirrored_dofs(const ElasticBody<3> &body, const std::vector<int> &axes)
     {
-    public:
-      explicit Sides(const ElasticBody<3> &body)
-          : axes(turning_axes(body))
+      std::vector<Point<3>> places(body.n_dofs());
+      DoFTools::map_dofs_to_support_points(body.cell_mapping(), body.dofs(), places);
+      const auto key = [&](const unsigned int dof, const double side)
       {
-        std::vector<Point<3>> places(body.n_dofs());
-        DoFTools::map_dofs_to_support_points(body.cell_mapping(), body.dofs(), places);
-        const auto key = [&](const unsigned int dof, const double side)
-        {
-          const auto &place = places[dof];
-          return std::array<long, 4>{ { std::lround(1e6 * place[0]), std::lround(1e6 * place[1]),
-                                        std::lround(1e6 * side * place[2]), axes[dof] } };
-        };
-        std::map<std::array<long, 4>, unsigned int> known;
-        for (unsigned int dof = 0; dof < places.size(); ++dof)
-          known[key(dof, 1.)] = dof;
-        for (unsigned int dof = 0; dof < places.size(); ++dof)
-        {
-          const auto found = known.find(key(dof, -1.));
-          if (found == known.end())
-          {
-            mirrored.clear();
-            break;
-          }
-          mirrored.push_back(found->second);
-        }
-      }
-
-      /// Returns where the kinetic energy of a motion lies, given by the displacement of all degrees of freedom and with a modal
-      /// mass of 1 t, of which hub and leaf spring move as in a plane. A body that is not the same on both sides has no such
-      /// shares: NaN.
-      Eigenmode::AcrossShares shares(const Vector<double> &displacement, const BodyMass<3> &mass) const
+        const auto &place = places[dof];
+        return std::array<long, 4>{ { std::lround(1e6 * place[0]), std::lround(1e6 * place[1]),
+                                      std::lround(1e6 * side * place[2]), axes[dof] } };
+      };
+      std::map<std::array<long, 4>, unsigned int> known;
+      for (unsigned int dof = 0; dof < places.size(); ++dof)
+        known[key(dof, 1.)] = dof;
+      std::vector<unsigned int> result;
+      for (unsigned int dof = 0; dof < places.size(); ++dof)
       {
-        if (mirrored.empty())
+        const auto found = known.find(key(dof, -1.));
+        if (found == known.end())
           return {};
-        Vector<double> antisymmetric(displacement.size());
-        for (unsigned int dof = 0; dof < antisymmetric.size(); ++dof)
-          antisymmetric[dof] = 0.5 * (displacement[dof] + (axes[dof] == 2 ? 1. : -1.) * displacement[mirrored[dof]]);
-        const auto momentum = mass(antisymmetric);
-        double sideways     = 0.;
-        for (unsigned int dof = 0; dof < antisymmetric.size(); ++dof)
-          sideways += axes[dof] == 2 ? antisymmetric[dof] * momentum[dof] : 0.;
-        const double antisymmetric_share = antisymmetric * momentum;
-        return { 1. - antisymmetric_share, antisymmetric_share - sideways, sideways };
+        result.push_back(found->second);
       }
-
-    private:
-      const std::vector<int> axes;
-      std::vector<unsigned int> mirrored; ///< by a degree of freedom that on the other side; empty where not all have one
-    };
+      return result;
+    }
 
     void add_shares(const ElasticBody<2> &, const BodyMass<2> &, LeverModes &)
     {
     }
 
+    /// Adds where the kinetic energy of modes with a modal mass of 1 t lies, of which hub and leaf spring move as in a plane. A
+    /// body that is not the same on both sides has no such shares: NaN.
     void add_shares(const ElasticBody<3> &body, const BodyMass<3> &mass, LeverModes &modes)
     {
-      const Sides sides(body);
-      for (unsigned int i = 0; i < modes.displacements.size(); ++i)
+      const auto axes     = turning_axes(body);
+      const auto mirrored = mirrored_dofs(body, axes);
+      modes.across.resize(modes.displacements.size());
+      for (unsigned int i = 0; i < modes.across.size() && !mirrored.empty(); ++i)
       {
         auto total = modes.displacements[i];
         total.add(modes.rotation[i], mass.arms());
-        modes.across.push_back(sides.shares(total, mass));
+        Vector<double> antisymmetric(total.size());
+        for (unsigned int dof = 0; dof < antisymmetric.size(); ++dof)
+          antisymmetric[dof] = 0.5 * (total[dof] + (axes[dof] == 2 ? 1. : -1.) * total[mirrored[dof]]);
+        const auto momentum = mass(antisymmetric);
+        double sideways     = 0.;
+        for (unsigned int dof = 0; dof < antisymmetric.size(); ++dof)
+          sideways += axes[dof] == 2 ? antisymmetric[dof] * momentum[dof] : 0.;
+        const double antisymmetric_share = antisymmetric * momentum;
+        modes.across[i]                  = { 1. - antisymmetric_share, antisymmetric_share - sideways, sideways };
       }
     }
 

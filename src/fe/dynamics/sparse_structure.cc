@@ -413,16 +413,6 @@ namespace sprag
     return motion;
   }
 
-  Vector<double> SparseStructure::positions(const Motion &motion) const
-  {
-    return lever_interface.displacements(motion.coordinates.position);
-  }
-
-  Vector<double> SparseStructure::positions(const Motion &motion, const DofSelection &) const
-  {
-    return positions(motion);
-  }
-
   DofState SparseStructure::dof_state(const Motion &motion, const unsigned int dof) const
   {
     const auto &q = motion.coordinates;

@@ -57,8 +57,11 @@ namespace sprag
     /// Motion at rest under forces, after use_statics().
     Motion deform(const InterfaceForces &forces) const;
 
-    dealii::Vector<double> positions(const Motion &motion) const;
-    dealii::Vector<double> positions(const Motion &motion, const DofSelection &selected) const;
+    dealii::Vector<double> positions(const Motion &motion, const DofSelection & = {}) const
+    {
+      return lever_interface.displacements(motion.coordinates.position);
+    }
+
     DofState dof_state(const Motion &motion, unsigned int dof) const;
     Kinematic kinematics(const Motion &motion) const;
 

@@ -170,25 +170,6 @@ namespace sprag
     return positions(motion, all_dofs(n_interface()));
   }
 
-  double ModalStructure::interface_displacement(const Motion &motion, const std::vector<unsigned int> &loaded,
-                                                const unsigned int dof) const
-  {
-    const auto &q             = motion.coordinates.position;
-    const double *const shape = &data.shapes(dof, 0);
-    double sum                = 0.;
-    for (unsigned int i = 0; i < q.size(); ++i)
-      sum += shape[i] * q[i];
-    if (dof < motion.face_force.size())
-      for (const unsigned int i : loaded)
-        sum += data.face_compliance(dof, i) * motion.face_force[i];
-    return sum;
-  }
-
-  DofSelection ModalStructure::loaded_dofs(const Motion &motion, const unsigned int first_selected) const
-  {
-    return first_selected < motion.face_force.size() ? filled_places(motion.face_force) : std::vector<unsigned int>();
-  }
-
   void ModalStructure::add_positions(const Vector<double> &coordinates, const DofSelection &selected,
                                      Vector<double> &result) const
   {
@@ -210,9 +191,15 @@ namespace sprag
 
   DofState ModalStructure::dof_state(const Motion &motion, const unsigned int dof) const
   {
-    DofState state{ interface_displacement(motion, loaded_dofs(motion, dof), dof), 0. };
+    DofState state{};
     for (unsigned int i = 0; i < n_modes(); ++i)
+    {
+      state.position += data.shapes(dof, i) * motion.coordinates.position[i];
       state.velocity += data.shapes(dof, i) * motion.coordinates.velocity[i];
+    }
+    if (dof < motion.face_force.size())
+      for (const unsigned int i : filled_places(motion.face_force))
+        state.position += data.face_compliance(dof, i) * motion.face_force[i];
     return state;
   }
 
@@ -364,9 +351,7 @@ namespace sprag
     error -= begin.coordinates.acceleration;
     error *= w.dt * w.dt * (w.beta - 1. / 6.);
     Vector<double> result(n_interface());
-    for (const unsigned int dof : looked_at)
-      for (unsigned int i = 0; i < error.size(); ++i)
-        result[dof] += data.shapes(dof, i) * error[i];
+    add_positions(error, looked_at, result);
     return result;
   }
 } // namespace sprag

@@ -121,9 +121,6 @@ namespace sprag
     void add_positions(const dealii::Vector<double> &coordinates, const DofSelection &selected,
                        dealii::Vector<double> &result) const;
 
-    /// Returns the dofs with static forces, which move those of the face; none where no dof from `first_selected` on is of it.
-    DofSelection loaded_dofs(const Motion &motion, unsigned int first_selected) const;
-    double interface_displacement(const Motion &motion, const std::vector<unsigned int> &loaded, unsigned int dof) const;
     std::unique_ptr<Step> make_step(const StepWeights &weights) const;
     InterfaceCompliance interface_compliance(const dealii::FullMatrix<double> &inverse, double static_share) const;
     dealii::Vector<double> modal_forces(const InterfaceForces &forces) const;
