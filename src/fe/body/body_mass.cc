@@ -170,15 +170,6 @@ namespace sprag
     return result;
   }
 
-  template <int dim>
-  Vector<double> BodyMass<dim>::translation(const unsigned int axis) const
-  {
-    Vector<double> result(static_cast<unsigned int>(axes.size()));
-    for (unsigned int dof = 0; dof < result.size(); ++dof)
-      result[dof] = axes[dof] == static_cast<int>(axis) ? 1. : 0.;
-    return result;
-  }
-
   template Vector<double> rotation_arms(const ElasticBody<2> &);
   template class BodyMass<2>;
   template class BodyMass<3>;

@@ -81,7 +81,13 @@ namespace sprag
     }
 
     /// Returns a unit displacement of all that turns along an axis.
-    dealii::Vector<double> translation(unsigned int axis) const;
+    dealii::Vector<double> translation(const unsigned int axis) const
+    {
+      dealii::Vector<double> result(static_cast<unsigned int>(axes.size()));
+      for (unsigned int dof = 0; dof < result.size(); ++dof)
+        result[dof] = axes[dof] == static_cast<int>(axis) ? 1. : 0.;
+      return result;
+    }
 
     const double hub; ///< moment of inertia of what turns with the hub besides, as hub and leaf spring [t mm^2]
 

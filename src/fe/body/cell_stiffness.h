@@ -23,7 +23,8 @@ namespace sprag
     return result;
   }
 
-  /// Stiffnesses of a body's cells without load, found once for those that are alike.
+  /// Stiffnesses of a body's cells without load, found once for those that are alike. That of a cell in a plane lives until the
+  /// next is asked for.
   template <int dim>
   class CellStiffness
   {
@@ -38,6 +39,8 @@ namespace sprag
 
     const dealii::FullMatrix<double> &operator()(const typename CellElasticity<dim>::Cell &cell)
     {
+      if (dim == 2)
+        known.clear(); // no other cell is like it
       const auto [found, is_new] = known.try_emplace(likeness<dim>(cell), at_rest.size(), at_rest.size());
       if (is_new)
       {

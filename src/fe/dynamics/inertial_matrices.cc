@@ -2,7 +2,7 @@
 #include "fe/dynamics/inertial_matrices.h"
 
 #include "base/errors.h"
-#include "fe/body/cell_elasticity.h"
+#include "fe/body/cell_stiffness.h"
 
 namespace sprag
 {
@@ -170,19 +170,13 @@ namespace sprag
 
   void InertialMatrices::assemble_stiffness(const ElasticBody<2> &body)
   {
-    const auto &fe = body.dofs().get_fe();
-    CellElasticity<2> elasticity(body.cell_mapping(), fe, body.body_properties());
-    const unsigned int n = fe.n_dofs_per_cell();
-    const Vector<double> at_rest(n);
-    FullMatrix<double> cell_matrix(n, n);
-    Vector<double> forces(n);
-    std::vector<types::global_dof_index> dofs(n);
+    CellStiffness<2> cell_stiffness(body);
+    std::vector<types::global_dof_index> dofs(body.dofs().get_fe().n_dofs_per_cell());
     for (const auto &cell : body.dofs().active_cell_iterators())
     {
       if (cell->material_id() == material_id::hub)
         continue;
-      elasticity.reinit(cell, at_rest);
-      elasticity.assemble(cell_matrix, forces);
+      const auto &cell_matrix = cell_stiffness(cell);
       cell->get_dof_indices(dofs);
       coordinates.scatter(dofs, cell_matrix, stiffness);
       if (cell->material_id() == material_id::layer)

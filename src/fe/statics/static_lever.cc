@@ -327,15 +327,6 @@ namespace sprag
   }
 
   template <int dim>
-  PerLever StaticLever<dim>::turns(const State &state) const
-  {
-    PerLever result{};
-    for (unsigned int i = 0; i < layout.levers; ++i)
-      result[i] = state.coordinates[rotation(i)];
-    return result;
-  }
-
-  template <int dim>
   double StaticLever<dim>::movement(const Vector<double> &correction) const
   {
     Vector<double> in_lengths = correction;
@@ -344,12 +335,6 @@ namespace sprag
     for (unsigned int i = 0; i < layout.slopes; ++i)
       in_lengths[layout.slope(i)] *= springs.slope_arm;
     return in_lengths.linfty_norm();
-  }
-
-  template <int dim>
-  double StaticLever<dim>::length_scale() const
-  {
-    return springs.arm;
   }
 
   template <int dim>
@@ -486,32 +471,11 @@ namespace sprag
   }
 
   template <int dim>
-  FacePoints StaticLever<dim>::face_points() const
-  {
-    return levers.front().contact.face_points();
-  }
-
-  template <int dim>
   FaceState StaticLever<dim>::face_state(const State &state, const Evaluation &evaluation) const
   {
     const auto lever_faces = [&](const std::size_t lever)
     { return levers[lever].contact.face_state(get_balance(evaluation).levers[lever].contact, state.drive); };
     return layout.levers == 1 ? lever_faces(0) : joined_faces(lever_faces(0), lever_faces(1));
-  }
-
-  template <int dim>
-  void StaticLever<dim>::serialise_history(Archive &archive)
-  {
-    for (auto &lever : levers)
-      lever.contact.serialise_history(archive);
-    std::visit([&](auto &s) { s.serialise_history(archive); }, own_structure);
-  }
-
-  template <int dim>
-  void StaticLever<dim>::use_penalties(const ContactPenalties &penalties)
-  {
-    for (auto &lever : levers)
-      lever.contact.use_penalties(penalties);
   }
 
   template class StaticLever<2>;

@@ -72,15 +72,28 @@ namespace sprag
     Evaluation evaluate(Step &step, FrictionMode mode) override;
     dealii::Vector<double> correction(const Evaluation &evaluation) override;
     double movement(const dealii::Vector<double> &correction) const override;
-    double length_scale() const override;
+    double length_scale() const override
+    {
+      return springs.arm;
+    }
+
     double penetration(const Evaluation &evaluation) const override;
     std::string check_validity(const State &state, const Evaluation &evaluation) const override;
     void augment(const Evaluation &evaluation, State &trial) const override;
     void store_history(const Evaluation &evaluation, State &state) const override;
     void observe(const State &state, const Evaluation &evaluation, Row &row) const override;
-    FacePoints face_points() const override;
+    FacePoints face_points() const override
+    {
+      return levers.front().contact.face_points();
+    }
+
     FaceState face_state(const State &state, const Evaluation &evaluation) const override;
-    void serialise_history(Archive &archive) override;
+    void serialise_history(Archive &archive) override
+    {
+      for (auto &lever : levers)
+        lever.contact.serialise_history(archive);
+      std::visit([&](auto &s) { s.serialise_history(archive); }, own_structure);
+    }
 
     const ContactPenalties &penalties() const
     {
@@ -88,7 +101,11 @@ namespace sprag
     }
 
     /// Evaluates with other penalties from now on [N/mm^3], > 0.
-    void use_penalties(const ContactPenalties &penalties);
+    void use_penalties(const ContactPenalties &penalties)
+    {
+      for (auto &lever : levers)
+        lever.contact.use_penalties(penalties);
+    }
 
     const typename Parts::Body &body() const
     {
@@ -165,7 +182,14 @@ namespace sprag
     void evaluate_contacts(Step &step, FrictionMode mode, Balance &found);
     History joined(const std::function<History(std::size_t)> &history) const;
     History augmented(const Evaluation &evaluation) const;
-    PerLever turns(const State &state) const;
+
+    PerLever turns(const State &state) const
+    {
+      PerLever result{};
+      for (unsigned int i = 0; i < layout.levers; ++i)
+        result[i] = state.coordinates[rotation(i)];
+      return result;
+    }
 
     /// Returns u along x by the interface displacements [mm].
     double support_displacement(const dealii::Vector<double> &displacements) const
