@@ -4,6 +4,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "fe/body/elastic_body.h"
+#include "fe/body/end_face.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -174,16 +175,13 @@ namespace sprag
                                                         const ElasticBody<dim> &body)
   {
     Collector collector{ body, range };
-    for (const auto &cell : body.dofs().active_cell_iterators())
-      for (const unsigned int f : cell->face_indices())
-        if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == side)
-        {
-          if constexpr (dim == 3)
-            if (!is_rectangle(cell->face(f)))
-              throw InputError("the surface '" + name +
-                               "', which sensors press on, must be made of rectangles along xi and zeta");
-          collector.add(cell, f);
-        }
+    for (const auto &[cell, f] : boundary_faces(body.dofs(), side))
+    {
+      if constexpr (dim == 3)
+        if (!is_rectangle(cell->face(f)))
+          throw InputError("the surface '" + name + "', which sensors press on, must be made of rectangles along xi and zeta");
+      collector.add(cell, f);
+    }
     // A pad that lacks a part would have a wrong mean.
     if (std::abs(collector.pad.measure - range.measure()) > 1e-6 * range.measure())
       throw InputError((type == ConnectorType::sensor ? "the force sensor at " : "the linear guide at ") + to_text(range) +

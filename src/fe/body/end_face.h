@@ -11,6 +11,18 @@ namespace sprag
   template <int dim>
   using CellFaces = std::vector<std::pair<typename dealii::DoFHandler<dim>::active_cell_iterator, unsigned int>>;
 
+  /// Returns the faces on a boundary.
+  template <int dim>
+  CellFaces<dim> boundary_faces(const dealii::DoFHandler<dim> &dofs, const dealii::types::boundary_id boundary)
+  {
+    CellFaces<dim> result;
+    for (const auto &cell : dofs.active_cell_iterators())
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary)
+          result.emplace_back(cell, f);
+    return result;
+  }
+
   /// Finds the boundary faces of the lever's material farthest along the first axis; empty if its end is not straight across.
   template <int dim>
   CellFaces<dim> end_face(const dealii::DoFHandler<dim> &dofs);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/body/friction_face.h"
 
+#include "fe/body/end_face.h"
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
@@ -197,10 +199,8 @@ namespace sprag
                                        const types::boundary_id boundary)
   {
     Collector<dim> collector{ mapping, dof_handler.get_fe(), constraints, properties };
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      for (const unsigned int f : cell->face_indices())
-        if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary)
-          collector.add(cell, f);
+    for (const auto &[cell, f] : boundary_faces(dof_handler, boundary))
+      collector.add(cell, f);
     auto face = collector.face();
     if (dim == 3)
       order_nodes(face);

@@ -4,6 +4,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "fe/body/body_properties.h"
+#include "fe/body/end_face.h"
 #include "fe/mesh/geometry_script.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -137,17 +138,15 @@ namespace sprag
       FEFaceValues<2> values(body.cell_mapping(), fe, QGauss<1>(fe.degree + 1), update_values | update_JxW_values);
       std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
       std::map<types::global_dof_index, double> weights;
-      for (const auto &cell : body.dofs().active_cell_iterators())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary_id::joint)
-          {
-            values.reinit(cell, f);
-            cell->get_dof_indices(indices);
-            for (unsigned int i = 0; i < indices.size(); ++i)
-              if (fe.system_to_component_index(i).first == component && fe.has_support_on_face(i, f))
-                for (const unsigned int q : values.quadrature_point_indices())
-                  weights[indices[i]] += values.shape_value(i, q) * values.JxW(q);
-          }
+      for (const auto &[cell, f] : boundary_faces(body.dofs(), boundary_id::joint))
+      {
+        values.reinit(cell, f);
+        cell->get_dof_indices(indices);
+        for (unsigned int i = 0; i < indices.size(); ++i)
+          if (fe.system_to_component_index(i).first == component && fe.has_support_on_face(i, f))
+            for (const unsigned int q : values.quadrature_point_indices())
+              weights[indices[i]] += values.shape_value(i, q) * values.JxW(q);
+      }
       const auto largest =
           std::max_element(weights.begin(), weights.end(), [](const auto &a, const auto &b) { return a.second < b.second; });
       constraints.add_line(largest->first);

@@ -16,28 +16,14 @@ namespace sprag
 {
   using namespace dealii;
 
-  namespace
-  {
-    constexpr unsigned int n_modes = 8;
-
-    CellFaces<2> joint_faces(const ElasticBody<2> &body)
-    {
-      CellFaces<2> result;
-      for (const auto &cell : body.dofs().active_cell_iterators())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary_id::joint)
-            result.emplace_back(cell, f);
-      return result;
-    }
-  } // namespace
-
   void add_inertia(LeafBody &leaf, const double density, const double joint_mass, LeafBehaviour &behaviour)
   {
-    const auto &body    = leaf.body();
-    const auto shape    = leaf.rest().rate;
-    LeverInertia masses = { { { material_id::leaf, density } }, joint_mass };
-    masses.source       = InertiaSource::as_built;
-    const BodyMass<2> mass(body, masses, joint_faces(body));
+    constexpr unsigned int n_modes = 8;
+    const auto &body               = leaf.body();
+    const auto shape               = leaf.rest().rate;
+    LeverInertia masses            = { { { material_id::leaf, density } }, joint_mass };
+    masses.source                  = InertiaSource::as_built;
+    const BodyMass<2> mass(body, masses, boundary_faces(body.dofs(), boundary_id::joint));
     const auto momentum = [&](const Vector<double> &weighed) -> std::array<double, 2> {
       return { { mass.sum_along(0, weighed), mass.sum_along(1, weighed) } };
     };
