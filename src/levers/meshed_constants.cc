@@ -4,7 +4,9 @@
 #include "fe/dynamics/dynamic_face_lever.h"
 #include "fe/leaf/leaf_spring.h"
 #include "fe/mesh/mesh.h"
+#include "fe/statics/contact_penalties.h"
 #include "fe/statics/lever_properties.h"
+#include "fe/statics/static_lever.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
 
@@ -36,5 +38,15 @@ namespace sprag
     const double nearest  = kinematics(scene.geometry, scene.drive.maximum()).s - room;
     const double farthest = kinematics(scene.geometry, scene.drive.minimum()).s + room;
     return { mesh_inertia(scene, body), effective_bending(body, nearest, farthest) };
+  }
+
+  LeverOnMesh make_lever_in_hard_contact(const Scene &scene)
+  {
+    LeverOnMesh result{ std::make_unique<Mesh>(), nullptr };
+    make_mesh(scene, *result.mesh);
+    auto properties           = lever_properties(scene);
+    properties.penalty_factor = indentation_penalty;
+    result.model              = std::make_unique<StaticLever<2>>(*result.mesh, std::move(properties));
+    return result;
   }
 } // namespace sprag

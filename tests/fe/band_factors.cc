@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "fe/algebra/band_factors.h"
+#include "fe/body/finite_statics.h"
 
 #include "base/errors.h"
 

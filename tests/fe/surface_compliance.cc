@@ -2,8 +2,8 @@
 #include "fe/statics/static_structure.h"
 
 #include "fe/meshed.h"
-#include "fe/statics/joint_springs.h"
 #include "fe/statics/lever_properties.h"
+#include "fe/statics/static_interface.h"
 #include "mpi_environment.h"
 #include "scene/scene.h"
 #include "scenes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "model/structure/mode_symmetry.h"
+#include "model/structure/growth.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/stability/stability.h"
 
-#include "model/structure/mode_symmetry.h"
+#include "model/structure/growth.h"
 #include "scene/contact_reference.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"

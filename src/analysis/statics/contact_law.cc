@@ -3,7 +3,7 @@
 
 #include "analysis/statics/quasi_static.h"
 #include "base/least_squares.h"
-#include "levers/lever_in_hard_contact.h"
+#include "levers/meshed_constants.h"
 #include "model/contact/circle.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"

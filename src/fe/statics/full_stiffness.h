@@ -4,7 +4,7 @@
 #include "base/archive.h"
 #include "fe/algebra/mumps.h"
 #include "fe/body/elastic_body.h"
-#include "fe/statics/joint_springs.h"
+#include "fe/statics/static_interface.h"
 #include "model/interface/interface_forces.h"
 #include "model/interface/interface_layout.h"
 #include "results/columns.h"

@@ -2,14 +2,34 @@
 #pragma once
 
 #include "base/archive.h"
-#include "fe/statics/joint_springs.h"
+#include "fe/body/elastic_body.h"
 #include "model/interface/interface_forces.h"
 #include "model/interface/interface_layout.h"
 
+#include <array>
 #include <functional>
+#include <memory>
 
 namespace sprag
 {
+  /// Linear springs at hub, support and the cylinder's slopes of a lever without inertia.
+  struct JointSprings
+  {
+    double rotation = 0.;           ///< k [N mm/rad], > 0
+    double support  = 0.;           ///< k_f a lever [N/mm], > 0; counts on a sprung support
+    double arm      = 0.;           ///< length that turns a rotation into a movement [mm], > 0
+    std::array<double, 2> slopes{}; ///< compliances of the cylinder's shaft [rad/(N mm)], >= 0; count where its axis is free
+    double slope_arm = 0.;          ///< length that turns its slopes into movements [mm], > 0
+  };
+
+  /// Residual of the coordinates.
+  struct Residual
+  {
+    dealii::Vector<double> values;
+    double norm;                                                             ///< as a displacement or a force, hubs by their arm
+    std::shared_ptr<const dealii::PETScWrappers::SparseMatrix> tangent = {}; ///< of structures that are factorised anew
+  };
+
   /// Compliance of a face of a body that its hub holds, by the places of its dofs on the face.
   struct FaceResponse
   {
