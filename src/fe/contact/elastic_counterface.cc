@@ -221,9 +221,9 @@ namespace sprag
       over_step.slip_bend[0] = bent.slip;
     }
     SlipShift shift;
-    if (step.travel != 0.)
-      shift = slip_shift(face, state.index, slope(state.index), step.travel,
-                         unwinding_stiffness(step.augmented, step.law.slip.stiffness), step.history,
+    if (step.terms.travel != 0.)
+      shift = slip_shift(face, state.index, slope(state.index), step.terms.travel,
+                         unwinding_stiffness(step.terms.augmented, step.law.slip.stiffness), step.history,
                          [this](const unsigned int q) { return slip_at_begin(q); });
     over_step.slip_shift[0] = stretch * shift.slip + shift.elastic;
     const auto response     = step_response(over_step, history, step.law);

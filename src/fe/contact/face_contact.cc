@@ -82,13 +82,8 @@ namespace sprag
   void FaceContact::evaluate(const InterfaceStep &step, FaceEvaluation<2> &found, const std::optional<StaticTerms> &statics) const
   {
     found.begin(step.end, step.to.x, step.weights.dt);
-    FaceStep face_step{ step_law(properties, step, statics), step.history, step.to.surface - step.from.surface };
-    if (statics)
-    {
-      face_step.augmented   = statics->augmented;
-      face_step.travel      = statics->travel;
-      face_step.speed_ratio = statics->speed_ratio;
-    }
+    const FaceStep face_step{ step_law(properties, step, statics), step.history, step.to.surface - step.from.surface,
+                              statics.value_or(StaticTerms()) };
     enter({ configuration(step.begin.position, step.from.x), configuration(step.end, step.to.x), step.weights.stiffness(),
             statics.has_value() });
     visit_elements(near_step(step.history, face_step.law.balance, found),

@@ -13,17 +13,6 @@
 
 namespace sprag
 {
-  /// The terms that a step without inertia has beside displacements, drive and contact history. Its forces are those at its end.
-  struct StaticTerms
-  {
-    FrictionLaw friction; ///< of the step
-    double duration;      ///< of the step, or as long as its slip would take at the speed of its end [s], > 0
-    FrictionMode mode  = FrictionMode::cone;
-    bool augmented     = false; ///< see FaceStep
-    double travel      = 0.;
-    double speed_ratio = 1.;
-  };
-
   /// Contact along the friction face over a step in time, with forces consistent with the scheme, or without inertia, integrated
   /// over points denser than the nodes, by the penalty method and with multipliers if the history has some. The counterface is
   /// elastic where the body has a cylinder's face. Its position counts from the pivot frame's origin, which a sprung support

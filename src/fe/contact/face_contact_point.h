@@ -93,21 +93,29 @@ namespace sprag
     dealii::Tensor<1, dim + 2> end_force;   ///< on the lever per area along its axes, about the pivot, and along x on the drive
   };
 
+  /// The terms that a step without inertia has beside displacements, drive and contact history. Its forces are those at its end.
+  ///
+  /// mu is taken at the speed with which a point slides where the step ends, which differs from its mean over the step: most
+  /// points were not in contact when it began, and the cylinder has changed its speed. What moves along the lever with the
+  /// contact does so almost steadily, so that a point's rate follows from the place that had the same distance from the contact
+  /// when the step began, and from the slip's slope along the face where it ends.
+  struct StaticTerms
+  {
+    FrictionLaw friction; ///< of the step
+    double duration;      ///< of the step, or as long as its slip would take at the speed of its end [s], > 0
+    FrictionMode mode  = FrictionMode::cone;
+    bool augmented     = false; ///< whether the traction in the history is a multiplier
+    double travel      = 0.;    ///< of the contact along the lever in the step [mm]; 0: speeds are means
+    double speed_ratio = 1.;    ///< sliding speed of a rigid lever at the end over its mean; the law's duration is shorter by it
+  };
+
   /// A step of the contact.
   struct FaceStep
   {
     StepContactLaw law;
     const std::vector<ContactHistory> &history; ///< of the points in contact where it begins, by increasing point
-    double surface_run = 0.;                    ///< of the counterface by turning [mm]
-    bool augmented     = false;                 ///< whether the traction in the history is a multiplier
-
-    // Without inertia, of a lever that follows a cylinder. mu is taken at the speed with which a point slides where the step
-    // ends, which differs from its mean over the step: most points were not in contact when it began, and the cylinder has
-    // changed its speed. What moves along the lever with the contact does so almost steadily, so that a point's rate follows from
-    // the place that had the same distance from the contact when the step began, and from the slip's slope along the face where
-    // it ends.
-    double travel      = 0.; ///< of the contact along the lever in the step [mm]; 0: speeds are means
-    double speed_ratio = 1.; ///< sliding speed of a rigid lever at the end over its mean; the law's duration is shorter by it
+    double surface_run;                         ///< of the counterface by turning [mm]
+    StaticTerms terms;                          ///< without inertia
   };
 
   /// Returns what the tangential penalty adds to the traction of the history, over the slip; a multiplier needs none.
@@ -250,8 +258,8 @@ namespace sprag
     static_cast<PointTraction<1> &>(state) = response;
 
     state.history.point  = state.index;
-    state.slip_change[0] = slip_change * step.speed_ratio;
-    state.elastic_slip   = (response.traction - (step.augmented ? begin.traction : Slip())).norm() / step.law.slip.stiffness;
+    state.slip_change[0] = slip_change * step.terms.speed_ratio;
+    state.elastic_slip = (response.traction - (step.terms.augmented ? begin.traction : Slip())).norm() / step.law.slip.stiffness;
 
     sums.stored += weight * response.energy;
     sums.work.drive += weight * response.mean_traction[0] * run;

@@ -154,11 +154,11 @@ namespace sprag
     auto step_kinematics     = over_step(state, slip_change);
     SlipShift shift;
     Tensor<1, 4> direction;
-    if (step.travel != 0.)
+    if (step.terms.travel != 0.)
     {
       direction                     = face_direction(state.index);
-      shift                         = slip_shift(face, state.index, placed.slip_row * direction, step.travel,
-                                                 unwinding_stiffness(step.augmented, step.law.slip.stiffness), step.history,
+      shift                         = slip_shift(face, state.index, placed.slip_row * direction, step.terms.travel,
+                                                 unwinding_stiffness(step.terms.augmented, step.law.slip.stiffness), step.history,
                                                  [this](const unsigned int q)
                                                  {
                            const unsigned int element_index = face.point_element(q);

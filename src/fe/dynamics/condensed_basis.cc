@@ -220,17 +220,16 @@ namespace sprag
     return data;
   }
 
-  template <int dim>
-  Vector<double> condensed_displacement(const ElasticBody<dim> &body, const ModeShapes &modes,
+  Vector<double> condensed_displacement(const AffineConstraints<double> &held, const ModeShapes &modes,
                                         const std::vector<unsigned int> &surface, const Response &response, const Motion &motion)
   {
     // Rows and columns: dofs of the surface, of the sensors and the cylinder's axis, which are not loaded or move no mode, and
     // last the hub's rotation.
     const auto &forces  = motion.face_force;
     const bool has_face = forces.size() > 0;
-    std::vector<double> loads(body.n_dofs(), 0.);
+    std::vector<double> loads(modes.displacements.front().size(), 0.);
     for (unsigned int dof = 0; dof < surface.size() && has_face; ++dof)
-      if (!body.is_held(surface[dof]))
+      if (!held.is_constrained(surface[dof]))
         loads[surface[dof]] = forces[dof];
     loads = response(std::move(loads));
     Vector<double> result(loads.begin(), loads.end());
@@ -243,9 +242,4 @@ namespace sprag
     }
     return result;
   }
-
-  template Vector<double> condensed_displacement(const ElasticBody<2> &, const ModeShapes &, const std::vector<unsigned int> &,
-                                                 const Response &, const Motion &);
-  template Vector<double> condensed_displacement(const ElasticBody<3> &, const ModeShapes &, const std::vector<unsigned int> &,
-                                                 const Response &, const Motion &);
 } // namespace sprag

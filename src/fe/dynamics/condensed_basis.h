@@ -53,9 +53,8 @@ namespace sprag
   ModalData modal_data(const CondensedBasis &basis, const LeverDynamics &constants);
 
   /// Returns the elastic displacement of all degrees of freedom of a body in a motion of a condensed lever, by its modes and the
-  /// answer to forces on its surface, whose degrees of freedom are `surface` [mm].
-  template <int dim>
-  dealii::Vector<double> condensed_displacement(const ElasticBody<dim> &body, const ModeShapes &modes,
+  /// answer to forces on its surface, whose degrees of freedom are `surface` [mm]. `held`: those of the body.
+  dealii::Vector<double> condensed_displacement(const dealii::AffineConstraints<double> &held, const ModeShapes &modes,
                                                 const std::vector<unsigned int> &surface, const Response &response,
                                                 const Motion &motion);
 

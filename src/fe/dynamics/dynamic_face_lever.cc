@@ -119,7 +119,7 @@ namespace sprag
     {
       if (!*response) // the first field
         *response = make_response(body);
-      return condensed_displacement(body, *parts[part], surface_dofs(body), *response, motion);
+      return condensed_displacement(body.held(), *parts[part], surface_dofs(body), *response, motion);
     };
     complete_condensed(
         count_levers(device), !bases.swinging, structure, displacement,

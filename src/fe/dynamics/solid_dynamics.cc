@@ -224,7 +224,7 @@ namespace sprag
           modal_data(truncated(basis, n_modes), make_lever_dynamics(device, relaxation, basis.total_mass)));
     };
     const auto displacement = [&lever, structures, dofs = face_dofs(face)](const unsigned int part, const Motion &motion)
-    { return condensed_displacement(*lever.body, *structures[part], dofs, make_response(*lever.body), motion); };
+    { return condensed_displacement(lever.body->held(), *structures[part], dofs, make_response(*lever.body), motion); };
     const auto assemble = [&](auto all)
     {
       const InterfaceLayout layout = all->layout();

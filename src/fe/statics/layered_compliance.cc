@@ -19,16 +19,6 @@ namespace sprag
 {
   using namespace dealii;
 
-  /// Smooth loads on the bond between the skin and what is behind it: hats over a grid of xi and zeta, in each of three
-  /// directions. Together they can carry any force and moment.
-  struct BondGrid
-  {
-    double begin;        ///< along xi [mm]
-    double end;          ///< beyond which hats go on as they are [mm]
-    double spacing_xi;   ///< aimed at [mm]
-    double spacing_zeta; ///< aimed at [mm]
-  };
-
   namespace
   {
     /// Hats over some places, of which the first and the last go on as they are beyond them.
@@ -83,56 +73,56 @@ namespace sprag
     {
       return body.is_skin(cell) && !cell->at_boundary(f) && !body.is_skin(cell->neighbor(f));
     }
-  } // namespace
 
-  /// Returns consistent nodal forces of the hats by the body's degrees of freedom, a column each; those that only the hub carries
-  /// are left out. Empty for a body without skin.
-  SparseColumns bond_loads(const SolidBody &body, const BondGrid &grid)
-  {
-    constexpr double whole = std::numeric_limits<double>::max();
-    const auto along       = hats_between_cells(body.friction_face(), 0, grid.begin, grid.end, grid.spacing_xi);
-    const auto across      = hats_between_cells(body.friction_face(), 2, -whole, whole, grid.spacing_zeta);
+    /// Returns smooth loads on the bond between the skin and what is behind it: hats over a grid of xi and zeta, in each of three
+    /// directions, which together can carry any force and moment. They are consistent nodal forces by the body's degrees of
+    /// freedom, a column each; those that only the hub carries are left out. Beyond `begin` ... `end` along xi hats go on as they
+    /// are; spacings are aimed at [mm]. Empty for a body without skin.
+    SparseColumns bond_loads(const SolidBody &body, const double begin, const double end, const double spacing_xi,
+                             const double spacing_zeta)
+    {
+      constexpr double whole = std::numeric_limits<double>::max();
+      const auto along       = hats_between_cells(body.friction_face(), 0, begin, end, spacing_xi);
+      const auto across      = hats_between_cells(body.friction_face(), 2, -whole, whole, spacing_zeta);
 
-    const auto &fe = body.dofs().get_fe();
-    FEFaceValues<3> values(body.cell_mapping(), fe, QGauss<2>(fe.degree + 1),
-                           update_values | update_quadrature_points | update_JxW_values);
-    std::vector<std::map<unsigned int, double>> columns(3 * along.number() * across.number());
-    std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
-    for (const auto &cell : body.dofs().active_cell_iterators())
-      for (const unsigned int f : cell->face_indices())
-        if (is_bond(body, cell, f))
-        {
-          values.reinit(cell, f);
-          cell->get_dof_indices(indices);
-          for (const unsigned int q : values.quadrature_point_indices())
+      const auto &fe = body.dofs().get_fe();
+      FEFaceValues<3> values(body.cell_mapping(), fe, QGauss<2>(fe.degree + 1),
+                             update_values | update_quadrature_points | update_JxW_values);
+      std::vector<std::map<unsigned int, double>> columns(3 * along.number() * across.number());
+      std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
+      for (const auto &cell : body.dofs().active_cell_iterators())
+        for (const unsigned int f : cell->face_indices())
+          if (is_bond(body, cell, f))
           {
-            const auto &place = values.quadrature_point(q);
-            for (unsigned int i = 0; i < along.number(); ++i)
-              for (unsigned int k = 0; k < across.number(); ++k)
-                if (const double hat = along(i, place[0]) * across(k, place[2]); hat > 0.)
-                  for (unsigned int a = 0; a < fe.n_dofs_per_face(); ++a)
-                  {
-                    const unsigned int in_cell   = fe.face_to_cell_index(a, f);
-                    const unsigned int direction = fe.system_to_component_index(in_cell).first;
-                    if (!body.is_held(indices[in_cell]))
-                      columns[3 * (i * across.number() + k) + direction][indices[in_cell]] +=
-                          values.JxW(q) * hat * values.shape_value(in_cell, q);
-                  }
+            values.reinit(cell, f);
+            cell->get_dof_indices(indices);
+            for (const unsigned int q : values.quadrature_point_indices())
+            {
+              const auto &place = values.quadrature_point(q);
+              for (unsigned int i = 0; i < along.number(); ++i)
+                for (unsigned int k = 0; k < across.number(); ++k)
+                  if (const double hat = along(i, place[0]) * across(k, place[2]); hat > 0.)
+                    for (unsigned int a = 0; a < fe.n_dofs_per_face(); ++a)
+                    {
+                      const unsigned int in_cell   = fe.face_to_cell_index(a, f);
+                      const unsigned int direction = fe.system_to_component_index(in_cell).first;
+                      if (!body.is_held(indices[in_cell]))
+                        columns[3 * (i * across.number() + k) + direction][indices[in_cell]] +=
+                            values.JxW(q) * hat * values.shape_value(in_cell, q);
+                    }
+            }
           }
+      SparseColumns result;
+      for (const auto &column : columns)
+        if (!column.empty())
+        {
+          for (const auto &[dof, force] : column)
+            result.add(dof, force);
+          result.end_column();
         }
-    SparseColumns result;
-    for (const auto &column : columns)
-      if (!column.empty())
-      {
-        for (const auto &[dof, force] : column)
-          result.add(dof, force);
-        result.end_column();
-      }
-    return result;
-  }
+      return result;
+    }
 
-  namespace
-  {
     /// Surroundings of a column that must be alike for it to answer alike, over the depth of the skin. What lies further away
     /// differs in the length of its cells, if at all.
     constexpr double surroundings_over_depth = 0.3;
@@ -224,7 +214,7 @@ namespace sprag
   {
     constexpr double beyond = 4.; // how far what the skin hands on spreads, over its depth
     const double depth      = body.skin();
-    const auto loads        = bond_loads(body, { begin - beyond * depth, end + beyond * depth, spacing, depth });
+    const auto loads        = bond_loads(body, begin - beyond * depth, end + beyond * depth, spacing, depth);
     const int n             = loads.size();
     const auto n_surface    = static_cast<unsigned int>(dofs.size());
     FullMatrix<double> face_response(n_surface, n);
