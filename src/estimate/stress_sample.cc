@@ -20,7 +20,7 @@ namespace sprag
     sample.time         = row[Column::time];
     for (std::size_t i = 0; i < nodal.size(); ++i)
     {
-      const auto &node  = fields.nodes()[i];
+      const auto &node  = fields.nodes[i];
       const auto region = stress_region(node);
       if (region == 0u)
         sample.lever = std::max(sample.lever, von_mises(nodal[i]));

@@ -21,11 +21,11 @@ namespace sprag
     MeshPoint section_at_hub(const BodyFields &fields)
     {
       double begin = std::numeric_limits<double>::max();
-      for (const auto &node : fields.nodes())
+      for (const auto &node : fields.nodes)
         if (!node.at_hub && node.part == material_id::lever)
           begin = std::min(begin, node.position[0]);
       double low = std::numeric_limits<double>::max(), high = -low;
-      for (const auto &node : fields.nodes())
+      for (const auto &node : fields.nodes)
         if (node.part == material_id::lever && std::abs(node.position[0] - begin) < 1e-6)
         {
           low  = std::min(low, node.position[1]);

@@ -67,7 +67,7 @@ TEST(BodyFields, EachPartHasItsOwnStressUpToWhereItMeetsAnother)
   unsigned int n_layer = 0, at_interface = 0, at_hub = 0;
   for (unsigned int i = 0; i < nodal.size(); ++i)
   {
-    const auto &node = fields.nodes()[i];
+    const auto &node = fields.nodes[i];
     const bool layer = node.part == material_id::layer;
     n_layer += layer ? 1 : 0;
     at_hub += node.at_hub ? 1 : 0;
@@ -85,14 +85,14 @@ TEST(BodyFields, EachPartHasItsOwnStressUpToWhereItMeetsAnother)
   EXPECT_EQ(at_interface, 2u * (3 + 15));
   EXPECT_EQ(at_hub, 3u * (3 + 5));
   EXPECT_EQ(nodal.size(), (3u + 15) * (3 + 5));
-  EXPECT_EQ(fields.elements().size(), 9u * 8 * 3);
-  EXPECT_EQ(fields.element_cells().size(), 4u * 4);
+  EXPECT_EQ(fields.elements.size(), 9u * 8 * 3);
+  EXPECT_EQ(fields.element_cells.size(), 4u * 4);
   double area = 0.;
-  for (unsigned int first = 0; first < fields.elements().size(); first += fields.nodes_per_element())
-    for (unsigned int q = 0; q < fields.element_cells().size(); q += 4)
+  for (unsigned int first = 0; first < fields.elements.size(); first += fields.nodes_per_element)
+    for (unsigned int q = 0; q < fields.element_cells.size(); q += 4)
     {
       const auto corner = [&](const unsigned int c)
-      { return fields.nodes()[fields.elements()[first + fields.element_cells()[q + c]]].position; };
+      { return fields.nodes[fields.elements[first + fields.element_cells[q + c]]].position; };
       for (unsigned int c = 0; c < 4; ++c)
         area += 0.5 * (corner(c)[0] * corner((c + 1) % 4)[1] - corner((c + 1) % 4)[0] * corner(c)[1]);
     }
@@ -132,7 +132,7 @@ TEST(BodyFields, StressIsContinuedFromTheGaussPointsAndMeetsItsNeighbour)
   const double h   = 20. / 8.;
   for (unsigned int i = 0; i < nodal.size(); ++i)
   {
-    const auto &node     = fields.nodes()[i];
+    const auto &node     = fields.nodes[i];
     const double modulus = node.part == material_id::layer ? 20. : 70000.;
     const double x       = node.position[0];
     const bool is_end    = std::abs(std::remainder(x, h)) < 1e-9;
@@ -155,7 +155,7 @@ TEST(BodyFields, CurvedCellsHaveTheirNodesOnTheCircle)
   const ElasticBody<2> body(triangulation, properties);
   const BodyFields fields(body);
   unsigned int outside = 0;
-  for (const auto &node : fields.nodes())
+  for (const auto &node : fields.nodes)
   {
     const double distance = node.position.norm();
     const double nearest  = distance > 50. ? radius : distance > 35. ? 0.5 * (radius + core) : core;
@@ -182,11 +182,11 @@ TEST(BodyFields, StressOfATurnedLeafIsThatOfBending)
   const double beta   = 1.7 * turn / leaf_elements(leaf).along;
   unsigned int found  = 0;
   for (unsigned int i = 0; i < nodal.size(); ++i)
-    if (std::abs(std::abs(fields.nodes()[i].position[1]) - 0.5 * leaf.thickness) < 1e-5)
+    if (std::abs(std::abs(fields.nodes[i].position[1]) - 0.5 * leaf.thickness) < 1e-5)
     {
       EXPECT_NEAR(von_mises(nodal[i]), leaf.young_modulus * strain,
                   leaf.young_modulus * (2. * strain * strain + beta * beta / 24.))
-          << "at " << fields.nodes()[i].position[0];
+          << "at " << fields.nodes[i].position[0];
       ++found;
     }
   EXPECT_GE(found, 4 * leaf_elements(leaf).along);
@@ -202,7 +202,7 @@ TEST(StressPeaks, AreTheLargestOfTheirPartAndSayWhereAndWhen)
   {
     unsigned int last = 0;
     for (unsigned int i = 0; i < nodal.size(); ++i)
-      if (fields.nodes()[i].part == part && fields.nodes()[i].at_hub == at_hub)
+      if (fields.nodes[i].part == part && fields.nodes[i].at_hub == at_hub)
         last = i;
     return last;
   };
@@ -229,11 +229,11 @@ TEST(StressPeaks, AreTheLargestOfTheirPartAndSayWhereAndWhen)
   EXPECT_DOUBLE_EQ(number("largest_lever_stress_x"), 30.);
   EXPECT_EQ(std::get<std::string>(value("largest_lever_stress_direction")), "forward");
   EXPECT_DOUBLE_EQ(number("largest_lever_stress_lever"), 1.);
-  EXPECT_DOUBLE_EQ(number("largest_lever_stress_xi"), fields.nodes()[lever].position[0]);
+  EXPECT_DOUBLE_EQ(number("largest_lever_stress_xi"), fields.nodes[lever].position[0]);
   EXPECT_DOUBLE_EQ(number("largest_layer_stress"), 3.);
   EXPECT_DOUBLE_EQ(number("largest_layer_stress_x"), 20.);
   EXPECT_EQ(std::get<std::string>(value("largest_layer_stress_direction")), "backward");
   EXPECT_DOUBLE_EQ(number("largest_layer_stress_lever"), 2.);
-  EXPECT_DOUBLE_EQ(number("largest_layer_stress_eta"), fields.nodes()[layer].position[1]);
+  EXPECT_DOUBLE_EQ(number("largest_layer_stress_eta"), fields.nodes[layer].position[1]);
   EXPECT_DOUBLE_EQ(number("largest_stress_at_hub"), 9.);
 }

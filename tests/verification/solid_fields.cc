@@ -31,7 +31,7 @@ namespace
 
   Nodal nodal(const BodyFields &body, const dealii::Vector<double> &displacement)
   {
-    return { body.nodes(), body.at(displacement) };
+    return { body.nodes, body.at(displacement) };
   }
 
   State last_state(Model &model, const Scene &scene)
@@ -170,7 +170,7 @@ TEST(SolidFields, OfThePlanesDisplacementsTheyAreItsFields)
   const auto found = fields.at(displacement);
   for (unsigned int i = 0; i < found.size(); ++i)
   {
-    const auto &expected = plane.found.fields[below(plane.found, fields.nodes()[i])];
+    const auto &expected = plane.found.fields[below(plane.found, fields.nodes[i])];
     EXPECT_LT((found[i].stress - expected.stress).norm(), 1e-8);
     EXPECT_NEAR(von_mises(found[i]), von_mises(expected), 1e-8);
     EXPECT_LT((found[i].displacement - expected.displacement).norm(), 1e-14);

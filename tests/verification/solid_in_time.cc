@@ -143,7 +143,7 @@ TEST(SolidInTime, ItsFieldsAreThoseOfThePlane)
     for (unsigned int i = 1; i <= 20; ++i)
       motion = dynamics.model().step(motion, scene.drive.at(i * 1e-4), StepWeights{ 1e-4, 0., 0., 0.25, 0.5 }).motion.value();
     const BodyFields body = dynamics.solid ? BodyFields(*dynamics.solid->body) : BodyFields(*dynamics.lever->body);
-    nodes[dimension - 2]  = body.nodes();
+    nodes[dimension - 2]  = body.nodes;
     fields[dimension - 2] = body.at(dynamics.meshed.elastic_displacement(motion, 0));
   }
   double moved = 0., stressed = 0., displacement = 0., stress = 0.;

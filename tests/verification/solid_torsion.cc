@@ -148,7 +148,7 @@ TEST(SolidTorsion, ItsFieldsHaveSaintVenantsStress)
   double off = 0., off_within = 0.;
   for (unsigned int i = 0; i < nodal.size(); ++i)
   {
-    const auto &place = fields.nodes()[i].position;
+    const auto &place = fields.nodes[i].position;
     if (place[0] < 30. - 1e-9 || place[0] > 60. + 1e-9)
       continue;
     const auto expected = torsion_shear(place[1] - 0.5 * depth, place[2]);
@@ -186,7 +186,7 @@ TEST(SolidTorsion, AForceOnTheEndGivesTheStressOfABeam)
   unsigned int found = 0;
   for (unsigned int i = 0; i < nodal.size(); ++i)
   {
-    const auto &place = fields.nodes()[i].position;
+    const auto &place = fields.nodes[i].position;
     if (place[0] < 30. - 1e-9 || place[0] > 60. + 1e-9)
       continue;
     const double eta     = place[1] - 0.5 * depth;

@@ -21,27 +21,27 @@ namespace sprag
   using namespace dealii;
 
   FieldFace::FieldFace(const FrictionFace<2> &face)
-      : per_cell(2)
+      : points_per_cell(2)
   {
     std::vector<unsigned int> itself(face.points.size());
     std::iota(itself.begin(), itself.end(), 0u);
     for (unsigned int q = 0; q < face.points.size(); ++q)
     {
-      positions.emplace_back(face.points[q].position[0], face.points[q].position[1], 0.);
+      points.emplace_back(face.points[q].position[0], face.points[q].position[1], 0.);
       if (q > 0)
-        corners.insert(corners.end(), { q - 1, q });
+        cells.insert(cells.end(), { q - 1, q });
     }
     read(face, itself, std::vector<double>(itself.size(), 1.));
   }
 
   FieldFace::FieldFace(const FrictionFace<3> &face)
-      : per_cell(4)
+      : points_per_cell(4)
   {
     const auto parts        = face_parts(face);
     const auto &part_points = parts.points;
     const double height     = face.points.empty() ? 0. : face.points.front().position[1];
     for (std::size_t i = 0; i < part_points.xi.size(); ++i)
-      positions.emplace_back(part_points.xi[i], height, part_points.zeta[i]);
+      points.emplace_back(part_points.xi[i], height, part_points.zeta[i]);
     std::vector<double> share;
     for (std::size_t q = 0; q < face.points.size(); ++q)
       share.push_back(face.points[q].weight / part_points.weight[parts.point_parts[q]]);
@@ -58,7 +58,7 @@ namespace sprag
       if constexpr (dim == 3)
         dofs.back()[2] = node.dofs[2];
     }
-    std::vector<std::map<unsigned int, double>> sums(positions.size());
+    std::vector<std::map<unsigned int, double>> sums(points.size());
     for (std::size_t q = 0; q < face.points.size(); ++q)
       for (const auto &[node, shape] : face.points[q].nodes)
         sums[indices[q]][node] += share[q] * shape;
@@ -70,16 +70,16 @@ namespace sprag
   void FieldFace::join_lines()
   {
     std::map<long, std::vector<unsigned int>> by_zeta;
-    for (unsigned int i = 0; i < positions.size(); ++i)
-      by_zeta[std::lround(1e6 * positions[i][2])].push_back(i);
+    for (unsigned int i = 0; i < points.size(); ++i)
+      by_zeta[std::lround(1e6 * points[i][2])].push_back(i);
     const std::vector<unsigned int> *before = nullptr;
     for (auto &[zeta, line] : by_zeta)
     {
-      std::sort(line.begin(), line.end(), [&](const auto a, const auto b) { return positions[a][0] < positions[b][0]; });
+      std::sort(line.begin(), line.end(), [&](const auto a, const auto b) { return points[a][0] < points[b][0]; });
       for (std::size_t i = 1; before != nullptr && i < std::min(line.size(), before->size()); ++i)
-        corners.insert(corners.end(), { (*before)[i - 1], (*before)[i], line[i], line[i - 1] });
+        cells.insert(cells.end(), { (*before)[i - 1], (*before)[i], line[i], line[i - 1] });
       if (before == nullptr)
-        lowest = line;
+        first_line = line;
       before = &line;
     }
   }
@@ -88,7 +88,7 @@ namespace sprag
   {
     Tensor<1, 3> result;
     for (const auto &[node, shape] : movers[point])
-      for (unsigned int d = 0; d < (per_cell == 4 ? 3u : 2u); ++d)
+      for (unsigned int d = 0; d < (points_per_cell == 4 ? 3u : 2u); ++d)
         result[d] += shape * displacement[dofs[node][d]];
     return result;
   }
@@ -255,8 +255,8 @@ namespace sprag
   }
 
   BodyFields::BodyFields(const ElasticBody<2> &body)
-      : in_space(false)
-      , shown_face(body.friction_face())
+      : is_in_space(false)
+      , face(body.friction_face())
   {
     read<2>(body);
   }
@@ -267,9 +267,9 @@ namespace sprag
   }
 
   BodyFields::BodyFields(const SolidBody &body, const FrictionFace<3> &shown)
-      : in_space(true)
-      , half_model(body.is_half())
-      , shown_face(shown)
+      : is_in_space(true)
+      , is_half(body.is_half())
+      , face(shown)
       , calls(&body.calls())
       , ranks(calls->ranks)
   {
@@ -298,8 +298,8 @@ namespace sprag
         auto &node        = number[element_dofs[on_places[q][0]]];
         const bool is_new = node == none;
         if (is_new)
-          node = static_cast<unsigned int>(all_nodes.size());
-        element_nodes.push_back(node);
+          node = static_cast<unsigned int>(nodes.size());
+        elements.push_back(node);
         if (!is_new)
           continue;
         Point<3> position;
@@ -309,25 +309,28 @@ namespace sprag
           position[d]  = values.quadrature_point(q)[d];
           node_dofs[d] = static_cast<unsigned int>(element_dofs[on_places[q][d]]);
         }
-        all_nodes.push_back({ position, part, at_hub });
+        nodes.push_back({ position, part, at_hub });
         dofs.push_back(node_dofs);
       }
     }
-    n_places = places.size();
-    corners  = cell_corners(body.body_properties().degree, in_space);
-    sharing.assign(all_nodes.size(), 0);
-    for (const unsigned int node : element_nodes)
+    nodes_per_element = places.size();
+    element_cells     = cell_corners(body.body_properties().degree, is_in_space);
+    sharing.assign(nodes.size(), 0);
+    for (const unsigned int node : elements)
       ++sharing[node];
-    add_stress = [&body](const auto &displacement, const auto &elements, const auto ranks_at_work, auto &sums)
-    { add_stresses<dim>(body.dofs(), body.cell_mapping(), body.body_properties(), displacement, elements, ranks_at_work, sums); };
+    add_stress = [&body](const auto &displacement, const auto &body_elements, const auto ranks_at_work, auto &sums)
+    {
+      add_stresses<dim>(body.dofs(), body.cell_mapping(), body.body_properties(), displacement, body_elements, ranks_at_work,
+                        sums);
+    };
     n_displacements = body.n_dofs();
   }
 
   std::vector<Tensor<1, 3>> BodyFields::moved(const Vector<double> &displacement) const
   {
-    std::vector<Tensor<1, 3>> result(all_nodes.size());
+    std::vector<Tensor<1, 3>> result(nodes.size());
     for (std::size_t i = 0; i < result.size(); ++i)
-      for (unsigned int d = 0; d < (in_space ? 3u : 2u); ++d)
+      for (unsigned int d = 0; d < (is_in_space ? 3u : 2u); ++d)
         result[i][d] = displacement[dofs[i][d]];
     return result;
   }
@@ -338,7 +341,7 @@ namespace sprag
       (*calls)(SharedTask::recover_stress);
     const auto displacements = moved(displacement);
     const auto sums          = stress_sums(displacement);
-    std::vector<NodalField> result(all_nodes.size());
+    std::vector<NodalField> result(nodes.size());
     for (std::size_t i = 0; i < result.size(); ++i)
       result[i] = { displacements[i], sums[i] / sharing[i] };
     return result;
@@ -353,8 +356,8 @@ namespace sprag
   BodyFields::StressSums BodyFields::stress_sums(Vector<double> displacement) const
   {
     MPI_Bcast(displacement.begin(), static_cast<int>(displacement.size()), MPI_DOUBLE, 0, ranks);
-    StressSums result(all_nodes.size());
-    add_stress(displacement, element_nodes, ranks, result);
+    StressSums result(nodes.size());
+    add_stress(displacement, elements, ranks, result);
     const bool is_first   = Utilities::MPI::this_mpi_process(ranks) == 0;
     double *const numbers = &result.front().access_raw_entry(0);
     const auto n_numbers  = static_cast<int>(result.size() * StressSums::value_type::n_independent_components);

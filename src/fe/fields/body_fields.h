@@ -20,41 +20,19 @@ namespace sprag
     explicit FieldFace(const FrictionFace<2> &face);
     explicit FieldFace(const FrictionFace<3> &face);
 
-    /// Undeformed [mm].
-    const std::vector<dealii::Point<3>> &points() const
-    {
-      return positions;
-    }
-
-    /// Returns numbers of points: two for each line, four for each quadrilateral.
-    const std::vector<unsigned int> &cells() const
-    {
-      return corners;
-    }
-
-    unsigned int points_per_cell() const
-    {
-      return per_cell;
-    }
-
-    /// Returns the points of the line with the lowest zeta, along xi; none in a plane.
-    const std::vector<unsigned int> &first_line() const
-    {
-      return lowest;
-    }
-
     /// Displacement of a point in the axes of the body, by those of its degrees of freedom [mm].
     dealii::Tensor<1, 3> moved(unsigned int point, const dealii::Vector<double> &displacement) const;
+
+    unsigned int points_per_cell;
+    std::vector<dealii::Point<3>> points; ///< undeformed [mm]
+    std::vector<unsigned int> cells;      ///< numbers of points: two for each line, four for each quadrilateral
+    std::vector<unsigned int> first_line; ///< points of the line with the lowest zeta, along xi; none in a plane
 
   private:
     template <int dim>
     void read(const FrictionFace<dim> &face, const std::vector<unsigned int> &indices, const std::vector<double> &share);
     void join_lines();
 
-    unsigned int per_cell;
-    std::vector<dealii::Point<3>> positions;
-    std::vector<unsigned int> corners;
-    std::vector<unsigned int> lowest;
     std::vector<std::array<unsigned int, 3>> dofs;                    ///< of the nodes; in a plane the last has none
     std::vector<std::vector<std::pair<unsigned int, double>>> movers; ///< of a point: nodes, and how much they move it
   };
@@ -93,48 +71,18 @@ namespace sprag
       bool at_hub; ///< whether its element touches what is held: there the stress of linear elasticity is singular
     };
 
-    const std::vector<Node> &nodes() const
-    {
-      return all_nodes;
-    }
-
-    /// Returns the numbers of the nodes of each element, one element after another.
-    const std::vector<unsigned int> &elements() const
-    {
-      return element_nodes;
-    }
-
-    unsigned int nodes_per_element() const
-    {
-      return n_places;
-    }
-
-    /// Returns the cells of an element: for each of them the places of its corners among the element's nodes.
-    const std::vector<unsigned int> &element_cells() const
-    {
-      return corners;
-    }
+    std::vector<Node> nodes;
+    std::vector<unsigned int> elements;      ///< numbers of the nodes of each element, one element after another
+    std::vector<unsigned int> element_cells; ///< of each cell of an element the places of its corners among the element's nodes
+    unsigned int nodes_per_element = 0;
+    bool is_in_space;
+    bool is_half = false; ///< whether the body is a half in space, whose other half is its mirror image
+    FieldFace face;
 
     /// Returns 4 for quadrilaterals, 8 for hexahedra.
     unsigned int nodes_per_cell() const
     {
-      return in_space ? 8 : 4;
-    }
-
-    bool is_in_space() const
-    {
-      return in_space;
-    }
-
-    /// Returns true if the body is a half in space, whose other half is its mirror image.
-    bool is_half() const
-    {
-      return half_model;
-    }
-
-    const FieldFace &face() const
-    {
-      return shown_face;
+      return is_in_space ? 8 : 4;
     }
 
     /// Finds displacement and stress at the nodes by the displacements of the body's degrees of freedom. Of a body in space the
@@ -154,18 +102,11 @@ namespace sprag
     void read(const AnyBody &body);
     StressSums stress_sums(dealii::Vector<double> displacement) const;
 
-    bool in_space;
-    bool half_model = false;
-    FieldFace shown_face;
     const BodyCalls *calls       = nullptr; ///< of a body in space, of which each rank finds a part
     MPI_Comm ranks               = MPI_COMM_SELF;
-    unsigned int n_displacements = 0; ///< of the body
-    unsigned int n_places        = 0; ///< of nodes in an element
-    std::vector<Node> all_nodes;
+    unsigned int n_displacements = 0;              ///< of the body
     std::vector<std::array<unsigned int, 3>> dofs; ///< of the nodes; in a plane the last has none
-    std::vector<unsigned int> element_nodes;
-    std::vector<unsigned int> corners;
-    std::vector<unsigned int> sharing; ///< number of elements that meet in a node
+    std::vector<unsigned int> sharing;             ///< number of elements that meet in a node
 
     /// Adds the stress of the elements of this rank at their nodes.
     using AddStress =

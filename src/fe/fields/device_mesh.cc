@@ -100,35 +100,35 @@ namespace sprag
     /// Returns true if an element of a body belongs to a block.
     bool is_in_block(const Device &device, const BodyFields &fields, const unsigned int element, const DeviceBlock &block)
     {
-      const unsigned int n    = fields.nodes_per_element();
-      const auto *const nodes = &fields.elements()[n * element];
-      const bool cylinder     = fields.nodes()[nodes[0]].part == material_id::cylinder;
+      const unsigned int n    = fields.nodes_per_element;
+      const auto *const nodes = &fields.elements[n * element];
+      const bool cylinder     = fields.nodes[nodes[0]].part == material_id::cylinder;
       if (block.part != DevicePart::cylinder || !cylinder || count_levers(device) == 1)
         return cylinder == (block.part == DevicePart::cylinder);
       Tensor<1, 3> middle;
       for (unsigned int i = 0; i < n; ++i)
-        middle += fields.nodes()[nodes[i]].position / n;
+        middle += fields.nodes[nodes[i]].position / n;
       return cylinder_axes(device, rest_pose(device), block.lever).turned(middle)[1] * lever_side(block.lever) > 0.;
     }
 
     DeviceBlock make_block(const Device &device, const BodyFields &fields, DeviceBlock result)
     {
       constexpr unsigned int unknown = numbers::invalid_unsigned_int;
-      const unsigned int n           = fields.nodes_per_element();
-      std::vector<unsigned int> number(fields.nodes().size(), unknown);
-      for (unsigned int element = 0; element < fields.elements().size() / n; ++element)
+      const unsigned int n           = fields.nodes_per_element;
+      std::vector<unsigned int> number(fields.nodes.size(), unknown);
+      for (unsigned int element = 0; element < fields.elements.size() / n; ++element)
       {
         if (!is_in_block(device, fields, element, result))
           continue;
-        const auto *const nodes = &fields.elements()[n * element];
+        const auto *const nodes = &fields.elements[n * element];
         for (unsigned int i = 0; i < n; ++i)
-          if (number[nodes[i]] == unknown || !fields.is_in_space())
+          if (number[nodes[i]] == unknown || !fields.is_in_space)
           {
             number[nodes[i]] = static_cast<unsigned int>(result.nodes.size());
             result.nodes.push_back(nodes[i]);
-            result.positions.push_back(fields.nodes()[nodes[i]].position);
+            result.positions.push_back(fields.nodes[nodes[i]].position);
           }
-        for (const unsigned int corner : fields.element_cells())
+        for (const unsigned int corner : fields.element_cells)
           result.cells.push_back(number[nodes[corner]]);
       }
       return result;
@@ -175,7 +175,7 @@ namespace sprag
     for (unsigned int lever = 0; lever < count_levers(device); ++lever)
     {
       result.push_back(make_block(device, body, { DevicePart::lever, lever }));
-      if (body.is_half())
+      if (body.is_half)
       {
         result.push_back(result.back());
         result.back().is_mirrored = true;
@@ -186,7 +186,7 @@ namespace sprag
         result.push_back(make_block(device, *leaf, { DevicePart::leaf, lever }));
     }
     if (device.cylinder.type == CylinderType::rigid)
-      result.push_back(body.is_in_space() ? rigid_tube(device) : rigid_disc(device));
+      result.push_back(body.is_in_space ? rigid_tube(device) : rigid_disc(device));
     return result;
   }
 
@@ -221,7 +221,7 @@ namespace sprag
       {
         const auto place = axes.place(block.positions[i]);
         mesh.nodes.insert(mesh.nodes.end(), { place[0], place[1], place[2] });
-        part.values.push_back(static_cast<float>(rigid ? material_id::cylinder : fields.nodes()[block.nodes[i]].part));
+        part.values.push_back(static_cast<float>(rigid ? material_id::cylinder : fields.nodes[block.nodes[i]].part));
         lever.values.push_back(rigid ? 0.f : static_cast<float>(block.lever + 1));
       }
       append_cells(block, first, axes.are_left_handed(), mesh.cells);

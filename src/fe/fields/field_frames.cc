@@ -107,7 +107,7 @@ namespace sprag
     const auto at     = block_axes(device, frame, block);
     const auto hub    = block_axes(device, state.pose, block);
     const auto found  = leaf->displacement(bent - rest.theta[block.lever]);
-    const auto nodal  = found ? leaf->fields().at(*found) : std::vector<NodalField>(leaf->fields().nodes().size());
+    const auto nodal  = found ? leaf->fields().at(*found) : std::vector<NodalField>(leaf->fields().nodes.size());
     for (unsigned int i = 0; i < block.positions.size(); ++i)
     {
       auto node           = nodal[block.nodes[i]];
@@ -126,7 +126,7 @@ namespace sprag
     std::vector<DeviceBlock> result;
     for (const auto &block : blocks)
       if (block.part == DevicePart::lever)
-        result.push_back({ block.part, block.lever, block.is_mirrored, {}, fields.face().points(), fields.face().cells() });
+        result.push_back({ block.part, block.lever, block.is_mirrored, {}, fields.face.points, fields.face.cells });
     return result;
   }
 
@@ -134,7 +134,7 @@ namespace sprag
   {
     FieldMesh mesh;
     mesh.name           = "face";
-    mesh.nodes_per_cell = fields.face().points_per_cell();
+    mesh.nodes_per_cell = fields.face.points_per_cell;
     Field xi{ "xi", "mm", "lever coordinate from the pivot", 1, {} };
     Field zeta{ "zeta", "mm", "across the lever from the middle of its width", 1, {} };
     Field lever_field{ "lever", "1", "whose face it is", 1, {} };
@@ -153,10 +153,10 @@ namespace sprag
       for (const unsigned int corner : block.cells)
         mesh.cells.push_back(first + corner);
       if (block.is_mirrored)
-        join_halves(fields.face().first_line(), first, static_cast<unsigned int>(block.positions.size()), mesh.cells);
+        join_halves(fields.face.first_line, first, static_cast<unsigned int>(block.positions.size()), mesh.cells);
     }
     mesh.fixed = { std::move(xi), std::move(lever_field) };
-    if (fields.is_in_space())
+    if (fields.is_in_space)
       mesh.fixed.push_back(std::move(zeta));
     return mesh;
   }
@@ -177,7 +177,7 @@ namespace sprag
       const auto &t_aside = block.lever == 0 ? state.face.traction_across : state.face.traction_across_2;
       for (unsigned int q = 0; q < block.positions.size(); ++q)
       {
-        const auto elastically = now.turned(fields.face().moved(q, state.displacements[block.lever]));
+        const auto elastically = now.turned(fields.face.moved(q, state.displacements[block.lever]));
         append(now.place(block.positions[q]) + elastically - before.place(block.positions[q]), moved.values);
         append(elastically, elastic.values);
         pressure.values.push_back(static_cast<float>(p.at(q)));

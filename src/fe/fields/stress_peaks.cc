@@ -20,7 +20,7 @@ namespace sprag
   StressPeaks::StressPeaks(const BodyFields &fields_)
       : fields(fields_)
   {
-    for (const auto &node : fields.nodes())
+    for (const auto &node : fields.nodes)
       if (const auto node_region = stress_region(node))
         there[*node_region] = true;
   }
@@ -29,7 +29,7 @@ namespace sprag
   {
     for (unsigned int i = 0; i < nodal.size(); ++i)
     {
-      const auto &node       = fields.nodes()[i];
+      const auto &node       = fields.nodes[i];
       const auto node_region = stress_region(node);
       if (!node_region)
         continue;
@@ -61,7 +61,7 @@ namespace sprag
                                                                                  : "backward") });
         result.push_back({ name + "_xi", peak.place[0] });
         result.push_back({ name + "_eta", peak.place[1] });
-        if (fields.is_in_space())
+        if (fields.is_in_space)
           result.push_back({ name + "_zeta", peak.place[2] });
         if (levers == 2)
           result.push_back({ name + "_lever", peak.lever + 1. });
