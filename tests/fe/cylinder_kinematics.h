@@ -12,7 +12,7 @@ namespace sprag
                                              const dealii::Point<3> &point)
   {
     const Triple<double> place{ point[0], point[1], point[2] };
-    return { { cylinder.slip(at, point), seen(cylinder.shape(), at, place).along } };
+    return { { cylinder.slip(at, point), seen(cylinder.shape, at, place).along } };
   }
 
   /// Gap and slips of a point of the lever against the cylinder, with derivatives by the coordinates (displacement along xi, eta
@@ -36,9 +36,9 @@ namespace sprag
   {
   public:
     KinematicsAtPose(const RigidCylinder &cylinder, const RigidCylinder::Pose &at)
-        : shape(cylinder.shape())
-        , pose(cylinder_pose(variable_at(at.x, 4), variable_at(at.theta, 3), variable_at(cylinder.slopes()[0] + at.turned[0], 5),
-                             variable_at(cylinder.slopes()[1] + at.turned[1], 6)))
+        : shape(cylinder.shape)
+        , pose(cylinder_pose(variable_at(at.x, 4), variable_at(at.theta, 3), variable_at(cylinder.slopes[0] + at.turned[0], 5),
+                             variable_at(cylinder.slopes[1] + at.turned[1], 6)))
     {
     }
 

@@ -35,7 +35,7 @@ TEST(PatchTravel, BoundsHowMuchNearerAnyPointComes)
           displacement += (k % 3 == 0 ? 1e-3 : 0.) * size(random);
         const double slope = has_profile && k % 5 == 0 ? 1e-4 * size(random) : 0.;
         const auto pose    = cylinder.pose(Bed::x + (k % 2 == 0 ? 0.01 * k : 0.), 0.085 - 1e-4 * k, { { slope, -slope } });
-        travel.go_to(nodes, pose, cylinder.shape());
+        travel.go_to(nodes, pose, cylinder.shape);
         for (unsigned int q = element.begin; q < element.end; ++q)
           gaps[q - element.begin] = cylinder.gap(pose, Elements::position(grid.points[q], nodes));
         if (k == 0)
@@ -67,7 +67,7 @@ TEST(PatchTravel, IsEndlessFromFarAwayOn)
   {
     ElementTravel travel(140., 1.5625);
     ElementTravel::Nodal nodes{};
-    const auto go = [&] { travel.go_to(nodes, cylinder.pose(Bed::x, 0.085), cylinder.shape()); };
+    const auto go = [&] { travel.go_to(nodes, cylinder.pose(Bed::x, 0.085), cylinder.shape); };
     go();
     nodes[1] = far;
     go();

@@ -129,7 +129,7 @@ TEST(LeverModes, AreOrthonormalAndTurnForward)
     for (unsigned int i = 0; i < modes.stiffness.size(); ++i)
     {
       totals.push_back(modes.displacements[i]);
-      totals.back().add(modes.rotation[i], mass.arms());
+      totals.back().add(modes.rotation[i], mass.arms);
       const auto momentum = mass(totals.back());
       for (unsigned int j = 0; j <= i; ++j)
         ASSERT_NEAR(totals[j] * momentum, i == j ? 1. : 0., 1e-9) << i << " " << j;

@@ -93,11 +93,11 @@ namespace sprag
 
   template <int dim>
   BodyMass<dim>::BodyMass(const ElasticBody<dim> &body, const LeverInertia &inertia, const CellFaces<dim> &tip)
-      : hub(inertia.hub + inertia.leaf.inertia)
+      : arms(rotation_arms(body))
+      , hub(inertia.hub + inertia.leaf.inertia)
       , axes(turning_axes(body))
-      , rotation(rotation_arms(body))
   {
-    const auto body_inertia = [&] { return rotation * (*this)(rotation); };
+    const auto body_inertia = [&] { return arms * (*this)(arms); };
     add_tip(body, inertia.tip_mass, tip);
     const double added   = body_inertia() + hub;
     const auto tip_begin = all_cells.size();

@@ -68,12 +68,6 @@ namespace sprag
       return all_cells;
     }
 
-    /// Returns rotation_arms() of the body.
-    const dealii::Vector<double> &arms() const
-    {
-      return rotation;
-    }
-
     /// Returns the sum of forces or impulses along an axis.
     double sum_along(const unsigned int axis, const dealii::Vector<double> &dof_values) const
     {
@@ -89,7 +83,8 @@ namespace sprag
       return result;
     }
 
-    const double hub; ///< moment of inertia of what turns with the hub besides, as hub and leaf spring [t mm^2]
+    const dealii::Vector<double> arms; ///< rotation_arms() of the body
+    const double hub;                  ///< moment of inertia of what turns with the hub besides, as hub and leaf spring [t mm^2]
 
   private:
     void add_cells(const ElasticBody<dim> &body, const LeverInertia &inertia);
@@ -103,6 +98,5 @@ namespace sprag
     std::list<dealii::FullMatrix<double>> masses; ///< of unit density, in space one for cells that are alike
     std::vector<Cell> all_cells;
     const std::vector<int> axes;
-    const dealii::Vector<double> rotation;
   };
 } // namespace sprag

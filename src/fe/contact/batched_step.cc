@@ -151,7 +151,7 @@ namespace sprag
     group.begin               = nodal;
     const bool begins_as_ends = data.kind == Kind::slide || data.kind == Kind::touch;
     if (!begins_as_ends)
-      group.travel.go_to(nodal, data.begin, cylinder.shape());
+      group.travel.go_to(nodal, data.begin, cylinder.shape);
     for (unsigned int b = 0; b < group.all.size(); ++b)
     {
       auto &begin     = begins[group.first + b];
@@ -175,7 +175,7 @@ namespace sprag
   {
     begin           = Begin();
     begin.place     = at_points(block.shapes, block.position, nodal);
-    const auto at   = seen(cylinder.shape(), to_batch(data.begin), begin.place);
+    const auto at   = seen(cylinder.shape, to_batch(data.begin), begin.place);
     begin.gap       = at.gap;
     begin.right     = dot(at.from_centre, data.begin.axes.right);
     begin.upward    = dot(at.from_centre, data.begin.axes.upward);
@@ -284,11 +284,11 @@ namespace sprag
     {
       const SimdBatch right  = value(N(dot(end.seen.from_centre, pose.axes.right)));
       const SimdBatch upward = value(N(dot(end.seen.from_centre, pose.axes.upward)));
-      end.slip               = { { slip_round(cylinder.shape(), right, upward, end.seen.from_centre, pose.axes),
+      end.slip               = { { slip_round(cylinder.shape, right, upward, end.seen.from_centre, pose.axes),
                                    end.seen.along - value(end.seen.along) } };
     }
     else
-      end.slip = { { slip_round(cylinder.shape(), begin.right, begin.upward, end.seen.from_centre, pose.axes) + data.surface_run,
+      end.slip = { { slip_round(cylinder.shape, begin.right, begin.upward, end.seen.from_centre, pose.axes) + data.surface_run,
                      end.seen.along - begin.along } };
     if constexpr (in_time)
     {
@@ -310,7 +310,7 @@ namespace sprag
     {
       // Derivative of the deformed place along the undeformed face, and of the slip round the cylinder.
       const auto direction = at_points(block.slopes, { uniform_batch(1.), SimdBatch{}, SimdBatch{} }, nodal);
-      N slope              = cylinder.shape().radius / end.seen.radius * dot(in_world(pose, direction), end.seen.round);
+      N slope              = cylinder.shape.radius / end.seen.radius * dot(in_world(pose, direction), end.seen.round);
       if constexpr (!std::is_same_v<N, Batch>)
         slope.d[std::size(slope.d) - 1] = uniform_batch(1.);
       const N shift    = begin.by_slope * slope + begin.shift;
@@ -333,7 +333,7 @@ namespace sprag
   {
     const auto pose     = to_batch(data.end);
     end.place           = at_points(block.shapes, block.position, nodal);
-    end.seen            = seen(cylinder.shape(), pose, end.place);
+    end.seen            = seen(cylinder.shape, pose, end.place);
     const SimdBatch gap = end.seen.gap;
     if (data.kind == Kind::in_time)
       end.takes_part = (gap < 0.) | (begin.gap < 0.) | begin.known;
@@ -355,7 +355,7 @@ namespace sprag
     auto &group                = blocks[element];
     bool takes_part            = false;
     Batches<n_coordinates> sums{};
-    group.travel.go_to(to, data.end, cylinder.shape());
+    group.travel.go_to(to, data.end, cylinder.shape);
     End<Batch> end;
     for (unsigned int b = 0; b < group.all.size(); ++b)
     {
@@ -378,8 +378,8 @@ namespace sprag
       penetration          = std::max(penetration, largest(most));
 
       const auto at          = in_time ? begin.place + data.share * (end.place - begin.place) : end.place;
-      const auto balanced    = in_time ? seen(cylinder.shape(), balance, at) : end.seen;
-      const auto force       = point_force(cylinder.shape(), balanced, balance.axes.axis, end.mean_pressure, end.mean_traction);
+      const auto balanced    = in_time ? seen(cylinder.shape, balance, at) : end.seen;
+      const auto force       = point_force(cylinder.shape, balanced, balance.axes.axis, end.mean_pressure, end.mean_traction);
       const SimdBatch weight = block.takes_part ? block.weight : SimdBatch{};
       const auto along       = generalised(balance, at, balanced.from_centre, weight * force);
       for (unsigned int d = 0; d < 3; ++d)
@@ -454,21 +454,21 @@ namespace sprag
           continue;
         End<N> end;
         end.place = varied_place<N>(at_points(block.shapes, block.position, nodal));
-        end.seen  = seen(cylinder.shape(), pose, end.place);
+        end.seen  = seen(cylinder.shape, pose, end.place);
         respond<in_time>(block, begin, pose, nodal, part, end);
         Triple<N> at = end.place;
         if constexpr (in_time)
         {
           at       = begin.place + data.share * (end.place - begin.place);
-          end.seen = seen(cylinder.shape(), pose_balanced, at);
+          end.seen = seen(cylinder.shape, pose_balanced, at);
         }
-        const auto force = point_force(cylinder.shape(), end.seen, pose_balanced.axes.axis, end.mean_pressure, end.mean_traction);
+        const auto force = point_force(cylinder.shape, end.seen, pose_balanced.axes.axis, end.mean_pressure, end.mean_traction);
         auto along       = generalised(pose_balanced, at, end.seen.from_centre, force);
         if (part == Part::friction_rate)
           for (int k = 0; k < 5 + slopes; ++k)
             along[k] = -end.slip[0].d[k] * end.mean_traction[0] - end.slip[1].d[k] * end.mean_traction[1];
         const Triple<Batch> round{ value(end.seen.round.x), value(end.seen.round.y), value(end.seen.round.z) };
-        sums.add(block, along, SimdBatch(cylinder.shape().radius / value(end.seen.radius)) * in_lever(to_batch(data.end), round));
+        sums.add(block, along, SimdBatch(cylinder.shape.radius / value(end.seen.radius)) * in_lever(to_batch(data.end), round));
       }
       Tangent result{};
       for (unsigned int k = 0; k < sums.n; ++k)
@@ -499,7 +499,7 @@ namespace sprag
       return number;
     };
     const auto slope = [&](const unsigned int i)
-    { return moving(Number{} + (cylinder.slopes()[i] + data.balance.turned[i]), data.end.turned[i] - data.begin.turned[i]); };
+    { return moving(Number{} + (cylinder.slopes[i] + data.balance.turned[i]), data.end.turned[i] - data.begin.turned[i]); };
     const auto pose =
         to_batch(cylinder_pose(moving(Number{} + data.balance.x, data.end.x - data.begin.x),
                                moving(Number{} + data.balance.theta, data.end.theta - data.begin.theta), slope(0), slope(1)));
@@ -520,18 +520,18 @@ namespace sprag
         continue;
       const auto moved = end.place - begin.place;
       const auto at    = begin.place + data.share * moved;
-      const auto place = seen(cylinder.shape(), pose,
+      const auto place = seen(cylinder.shape, pose,
                               Triple<N>{ moving(N{} + at.x, moved.x), moving(N{} + at.y, moved.y), moving(N{} + at.z, moved.z) });
       const N right = dot(place.from_centre, pose.axes.right), upward = dot(place.from_centre, pose.axes.upward);
-      const N slip  = slip_round(cylinder.shape(), value(right), value(upward), place.from_centre, pose.axes);
+      const N slip  = slip_round(cylinder.shape, value(right), value(upward), place.from_centre, pose.axes);
       const auto &t = friction.traction, &t_begin = begin.history.traction;
       const SimdBatch work = (t[0] - t_begin[0]) * end.slip[0] + (t[1] - t_begin[1]) * end.slip[1] +
                              end.mean_traction[0] * slip.d[0].d[0] + end.mean_traction[1] * place.along.d[0].d[0] -
                              (end.pressure - spring_force(data.normal, begin.gap)) * (end.seen.gap - begin.gap) -
                              end.mean_pressure * place.gap.d[0].d[0];
-      const auto balanced = seen(cylinder.shape(), to_batch(data.balance), at);
+      const auto balanced = seen(cylinder.shape, to_batch(data.balance), at);
       const auto force =
-          point_force(cylinder.shape(), balanced, to_batch(data.balance).axes.axis, end.mean_pressure, end.mean_traction);
+          point_force(cylinder.shape, balanced, to_batch(data.balance).axes.axis, end.mean_pressure, end.mean_traction);
       sums.friction += sum(weight * friction.dissipated);
       sums.algorithmic += delay * sum(weight * work);
       sums.drive += sum(weight * (data.surface_run * end.mean_traction[0] + data.advance * force.x));
@@ -551,7 +551,7 @@ namespace sprag
         continue;
       const auto &begin = block.is_clear ? nowhere : begins[blocks[element].first + b];
       evaluate(block, begin, blocks[element].travel.displacement(), end);
-      const auto force = point_force(cylinder.shape(), end.seen, pose.axes.axis, end.pressure, end.friction.traction);
+      const auto force = point_force(cylinder.shape, end.seen, pose.axes.axis, end.pressure, end.friction.traction);
       const auto along = generalised(pose, end.place, end.seen.from_centre, force);
       for (unsigned int i = 0; i < block.n; ++i)
       {

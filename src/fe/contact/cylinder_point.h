@@ -129,7 +129,7 @@ namespace sprag
                                                       turned.axes.each(number),
                                                       { turned.turned[0].each(number), turned.turned[1].each(number) } };
     };
-    const double tilt = cylinder.slopes()[0] + pose.turned[0], skew = cylinder.slopes()[1] + pose.turned[1];
+    const double tilt = cylinder.slopes[0] + pose.turned[0], skew = cylinder.slopes[1] + pose.turned[1];
     if constexpr (slopes == 0)
       return make_varied(tilt, skew, [](const double a) { return a; });
     else

@@ -33,16 +33,16 @@ namespace sprag
   } // namespace
 
   RigidCylinder::RigidCylinder(const Geometry &geometry, const Cylinder &cylinder)
-      : outline(make_shape(geometry, cylinder))
-      , at_rest{ { cylinder.tilt, cylinder.skew } }
-      , is_free(cylinder.has_free_axis())
+      : shape(make_shape(geometry, cylinder))
+      , slopes{ { cylinder.tilt, cylinder.skew } }
+      , has_free_axis(cylinder.has_free_axis())
       , axes_at_rest(cylinder_axes(cylinder.tilt, cylinder.skew))
   {
   }
 
   RigidCylinder::Pose RigidCylinder::pose(const double x, const double theta, const AxisSlopes &turned) const
   {
-    return { cylinder_pose(x, theta, at_rest[0] + turned[0], at_rest[1] + turned[1]), theta, turned };
+    return { cylinder_pose(x, theta, slopes[0] + turned[0], slopes[1] + turned[1]), theta, turned };
   }
 
   double RigidCylinder::Shape::largest_slope(const double distance) const
@@ -53,31 +53,31 @@ namespace sprag
 
   Point<3> RigidCylinder::on_axis(const double along) const
   {
-    return Point<3>(0., 0., outline.position) + along * to_tensor(axes_at_rest.axis);
+    return Point<3>(0., 0., shape.position) + along * to_tensor(axes_at_rest.axis);
   }
 
   Point<3> RigidCylinder::on_surface(const double along, const double angle) const
   {
-    const double radius = outline.radius - profile_at(outline, along).depth;
+    const double radius = shape.radius - profile_at(shape, along).depth;
     return on_axis(along) + radius * to_tensor(std::cos(angle) * axes_at_rest.right + std::sin(angle) * axes_at_rest.upward);
   }
 
   double RigidCylinder::gap(const Pose &pose, const Point<3> &point) const
   {
-    return seen(outline, pose, to_triple(point)).gap;
+    return seen(shape, pose, to_triple(point)).gap;
   }
 
   std::pair<double, Tensor<1, 3>> RigidCylinder::gap_and_gradient(const Pose &pose, const Point<3> &point) const
   {
     using N = Dual<double, 3>;
     const auto gap =
-        seen(outline, pose, Triple<N>{ variable<N>(point[0], 0), variable<N>(point[1], 1), variable<N>(point[2], 2) }).gap;
+        seen(shape, pose, Triple<N>{ variable<N>(point[0], 0), variable<N>(point[1], 1), variable<N>(point[2], 2) }).gap;
     return { gap.v, Tensor<1, 3>({ gap.d[0], gap.d[1], gap.d[2] }) };
   }
 
   double RigidCylinder::slip(const Pose &pose, const Point<3> &point) const
   {
-    return slip_round(outline, 0., 1., seen(outline, pose, to_triple(point)).from_centre, pose.axes);
+    return slip_round(shape, 0., 1., seen(shape, pose, to_triple(point)).from_centre, pose.axes);
   }
 
   std::array<double, 3> RigidCylinder::changes(const Pose &pose, const Point<3> &point, const Tensor<1, 3> &moved, const double x,
@@ -85,10 +85,10 @@ namespace sprag
   {
     using N           = Dual<double, 1>;
     const auto rate   = [](const double at, const double change) { return variable<N>(at, 0, change); };
-    const auto moving = cylinder_pose(rate(pose.x, x), rate(pose.theta, theta), rate(at_rest[0] + pose.turned[0], turned[0]),
-                                      rate(at_rest[1] + pose.turned[1], turned[1]));
+    const auto moving = cylinder_pose(rate(pose.x, x), rate(pose.theta, theta), rate(slopes[0] + pose.turned[0], turned[0]),
+                                      rate(slopes[1] + pose.turned[1], turned[1]));
     const auto at =
-        seen(outline, moving, Triple<N>{ rate(point[0], moved[0]), rate(point[1], moved[1]), rate(point[2], moved[2]) });
-    return { { at.gap.d[0], slip_round(outline, 0., 1., at.from_centre, moving.axes).d[0], at.along.d[0] } };
+        seen(shape, moving, Triple<N>{ rate(point[0], moved[0]), rate(point[1], moved[1]), rate(point[2], moved[2]) });
+    return { { at.gap.d[0], slip_round(shape, 0., 1., at.from_centre, moving.axes).d[0], at.along.d[0] } };
   }
 } // namespace sprag

@@ -143,16 +143,9 @@ namespace sprag
       double largest_slope(double distance) const;
     };
 
-    const Shape &shape() const
-    {
-      return outline;
-    }
-
-    /// Returns the slopes of the axis in the scene.
-    const AxisSlopes &slopes() const
-    {
-      return at_rest;
-    }
+    const Shape shape;
+    const AxisSlopes slopes;  ///< of the axis in the scene
+    const bool has_free_axis; ///< whether the shaft lets the axis yield
 
     /// Returns the gap of a point of the lever; beyond the cylinder's ends it is at least the distance from them [mm].
     double gap(const Pose &pose, const dealii::Point<3> &point) const;
@@ -168,21 +161,12 @@ namespace sprag
     std::array<double, 3> changes(const Pose &pose, const dealii::Point<3> &point, const dealii::Tensor<1, 3> &moved, double x,
                                   double theta, const AxisSlopes &turned) const;
 
-    /// Returns true if the shaft lets the axis yield.
-    bool has_free_axis() const
-    {
-      return is_free;
-    }
-
     // Places of the cylinder at x = 0 with the scene's slopes in the axes of the world, see DevicePose; `along` counts from the
     // middle [mm].
     dealii::Point<3> on_axis(double along) const;
     dealii::Point<3> on_surface(double along, double angle) const;
 
   private:
-    const Shape outline;
-    const AxisSlopes at_rest;
-    const bool is_free;
     const CylinderAxes<double> axes_at_rest;
   };
 } // namespace sprag

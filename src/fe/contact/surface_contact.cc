@@ -62,7 +62,7 @@ namespace sprag
   {
     auto result = turned_by(found.displacement);
     for (unsigned int i = 0; i < 2; ++i)
-      result[i] += properties.cylinder.slopes()[i];
+      result[i] += properties.cylinder.slopes[i];
     return result;
   }
 
@@ -99,7 +99,7 @@ namespace sprag
   {
     observe_face(found, row);
     row[Column::indentation] = indentation(found, row);
-    if (!properties.cylinder.has_free_axis())
+    if (!properties.cylinder.has_free_axis)
       return;
     const auto slopes = slopes_in(found);
     row.across.insert(row.across.end(), slopes.begin(), slopes.end());

@@ -52,7 +52,7 @@ namespace sprag
       Vector<double> impulse(const double *const q) const
       {
         auto total = elastic(q);
-        total.add(rotation(q), mass.arms());
+        total.add(rotation(q), mass.arms);
         return mass(total);
       }
 
@@ -74,7 +74,7 @@ namespace sprag
         const auto impulses = impulse(q);
         for (std::size_t i = 0; i < free.size(); ++i)
           result[i] = impulses[free[i]];
-        double hub_inertia = mass.arms() * impulses + mass.hub * rotation(q);
+        double hub_inertia = mass.arms * impulses + mass.hub * rotation(q);
         for (std::size_t i = 0; i < leaf.modes.size(); ++i)
         {
           const double vibration  = q[free.size() + i];
@@ -170,7 +170,7 @@ namespace sprag
       for (unsigned int i = 0; i < modes.across.size() && !mirrored.empty(); ++i)
       {
         auto total = modes.displacements[i];
-        total.add(modes.rotation[i], mass.arms());
+        total.add(modes.rotation[i], mass.arms);
         Vector<double> antisymmetric(total.size());
         for (unsigned int dof = 0; dof < antisymmetric.size(); ++dof)
           antisymmetric[dof] = 0.5 * (total[dof] + (axes[dof] == 2 ? 1. : -1.) * total[mirrored[dof]]);
