@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/body/body_mass.h"
+#include "fe/dynamics/dynamic_face_lever.h"
 #include "fe/dynamics/inertial_matrices.h"
-#include "fe/dynamics/lever_constants.h"
 #include "scene/scene.h"
 #include "verification/solid_run.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/errors.h"
 #include "fe/body/body_mass.h"
-#include "fe/dynamics/lever_constants.h"
+#include "fe/dynamics/dynamic_face_lever.h"
 #include "fe/leaf/leaf_spring.h"
 #include "levers/dynamics.h"
 #include "scene/scene.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/dynamics/lever_constants.h"
 #include "fe/dynamics/lever_modes.h"
+#include "fe/dynamics/sparse_structure.h"
 #include "fe/statics/sensor_forces.h"
 #include "model/structure/modal_structure.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/dynamic_face_lever.h"
 
-#include "fe/dynamics/lever_constants.h"
 #include "fe/statics/contact_penalties.h"
 #include "model/lever/assemble_lever.h"
+#include "model/structure/lever_frame.h"
 #include "scene/device.h"
 #include "scene/mirrored_pair.h"
 
@@ -14,11 +14,6 @@ namespace sprag
 {
   namespace
   {
-    BasisSettings basis_settings(const Device &device)
-    {
-      return { device.condensed.modes, device.spring.stiffness, lever_inertia(device), device.condensed.cache, {} };
-    }
-
     MeshedDynamics facts(const Device &device, const ElasticBody<2> &body, const std::vector<double> &omega_squared,
                          const MassSums &mass)
     {
@@ -46,6 +41,33 @@ namespace sprag
     }
   } // namespace
 
+  LeverInertia lever_inertia(const Device &device)
+  {
+    const Lever &lever                                     = device.lever;
+    std::map<dealii::types::material_id, double> densities = { { material_id::lever, lever.density },
+                                                               { material_id::web, lever.density },
+                                                               { material_id::plate, device.plate.density },
+                                                               { material_id::layer, device.layer.density } };
+    if (device.cylinder.type != CylinderType::rigid)
+      densities[material_id::cylinder] = device.cylinder.density;
+    return { densities, lever.tip_mass, lever.moment_of_inertia, lever.inertia, lever.hub_inertia, device.spring.behaviour };
+  }
+
+  LeverDynamics make_lever_dynamics(const Device &device, const double relaxation, const double lever_mass)
+  {
+    LeverDynamics result;
+    result.spring_stiffness  = device.spring.stiffness;
+    result.mass_damping      = device.lever.mass_damping;
+    result.stiffness_damping = device.lever.stiffness_damping;
+    result.relaxation        = relaxation;
+    result.modal_damping     = device.lever.modal_damping;
+    result.sprung            = device.support.type == SupportType::sprung;
+    result.support_mass      = device.support.mass + lever_mass;
+    result.support_stiffness = device.support.stiffness;
+    result.support_damping   = support_damping(device.support, lever_mass);
+    return result;
+  }
+
   double mesh_inertia(const Device &device, const ElasticBody<2> &body)
   {
     return BodyMass<2>(body, lever_inertia(device)).moment_of_inertia;
@@ -64,10 +86,9 @@ namespace sprag
 
   CondensedBases make_condensed_basis(const Device &device, const std::string &key, const ElasticBody<2> &body, const bool store)
   {
-    const auto make = [&](const Device &own_device)
+    const auto make = [&](const Device &own)
     {
-      auto settings   = basis_settings(own_device);
-      settings.origin = key;
+      const BasisSettings settings{ own.condensed.modes, own.spring.stiffness, lever_inertia(own), own.condensed.cache, key };
       return std::make_shared<const CondensedBasis>(store ? condensed_basis(body, settings) : make_basis(body, settings));
     };
     CondensedBases bases{ make(device), {} };

@@ -6,7 +6,6 @@
 #include "fe/body/friction_face.h"
 #include "fe/contact/surface_contact.h"
 #include "fe/dynamics/condensed_basis.h"
-#include "fe/dynamics/lever_constants.h"
 #include "fe/statics/contact_penalties.h"
 #include "fe/statics/lever_properties.h"
 #include "model/lever/assemble_lever.h"
