@@ -2,10 +2,15 @@
 #pragma once
 
 #include "fe/body/dimension.h"
+#include "fe/mesh/geometry_script.h"
 
 namespace sprag
 {
   struct Device;
+
+  /// The physical groups of a lever's mesh, in a plane (dimension 2) surfaces and curves, in three dimensions volumes and
+  /// surfaces. The scene must outlive them.
+  MeshGroups lever_groups(const Device &device, int dimension);
 
   /// Fills `triangulation` with the scene's lever in lever axes (first axis along the lever from the pivot at the origin, second
   /// from the friction interface into the lever): the built-in `meshes/lever.geo` or `meshes/frame.geo` with the scene's
