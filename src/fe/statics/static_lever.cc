@@ -142,18 +142,6 @@ namespace sprag
                slope_compliances(properties.cylinder), 0.5 * properties.body.width };
     }
 
-    // History of the contact of a plane and of a surface.
-
-    std::vector<ContactHistory> &contact_history(State &state, const FaceContact &)
-    {
-      return state.contact;
-    }
-
-    std::vector<SurfaceHistory> &contact_history(State &state, const SurfaceContact &)
-    {
-      return state.surface_contact;
-    }
-
     InterfaceStep with_history(const InterfaceStep &step, const std::vector<ContactHistory> &history)
     {
       return { step.from, history, step.to, step.begin, step.end, step.end_rate, step.weights };
@@ -300,7 +288,7 @@ namespace sprag
       auto &[properties, lever] = levers[i];
       auto &[history, contact]  = found.levers[i];
 
-      history         = lever_history(i, n_face_points(), contact_history(trial, lever));
+      history         = lever_history(i, n_face_points(), trial.*Parts::history);
       auto terms      = static_terms(properties.friction, properties.geometry, step.start, trial.drive, mode);
       terms.augmented = augments();
       const Kinematic begin{ extract_lever(layout, i, step.displacements), {}, {} };
@@ -359,7 +347,7 @@ namespace sprag
 
   template <int dim>
   std::string StaticLever<dim>::check_validity(const unsigned int lever, const DrivePoint &drive,
-                                               const typename Parts::Evaluation &found) const
+                                               const FaceEvaluation<dim> &found) const
   {
     const auto &[properties, contact] = levers[lever];
     Row row;
@@ -396,16 +384,10 @@ namespace sprag
   }
 
   template <int dim>
-  void StaticLever<dim>::augment(const Evaluation &evaluation, State &trial) const
-  {
-    contact_history(trial, levers.front().contact) = augmented(evaluation);
-  }
-
-  template <int dim>
   void StaticLever<dim>::store_history(const Evaluation &evaluation, State &state) const
   {
     const auto &found = get_balance(evaluation).levers;
-    contact_history(state, levers.front().contact) =
+    state.*Parts::history =
         augments() ? augmented(evaluation) : joined([&](const std::size_t lever) { return found[lever].contact.history(); });
   }
 
@@ -427,8 +409,7 @@ namespace sprag
   }
 
   template <int dim>
-  void StaticLever<dim>::observe(const unsigned int lever, const State &state, const typename Parts::Evaluation &found,
-                                 Row &row) const
+  void StaticLever<dim>::observe(const unsigned int lever, const State &state, const FaceEvaluation<dim> &found, Row &row) const
   {
     const auto &[properties, contact] = levers[lever];
 

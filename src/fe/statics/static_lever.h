@@ -26,23 +26,23 @@ namespace sprag
   template <>
   struct LeverParts<2>
   {
-    using Source     = dealii::Triangulation<2>;
-    using Body       = ElasticBody<2>;
-    using KeptBody   = const ElasticBody<2>;
-    using Structure  = std::variant<StaticStructure, FullStiffness>;
-    using Contact    = FaceContact;
-    using Evaluation = FaceEvaluation<2>;
+    using Source                  = dealii::Triangulation<2>;
+    using Body                    = ElasticBody<2>;
+    using KeptBody                = const ElasticBody<2>;
+    using Structure               = std::variant<StaticStructure, FullStiffness>;
+    using Contact                 = FaceContact;
+    static constexpr auto history = &State::contact; ///< of the contact
   };
 
   template <>
   struct LeverParts<3>
   {
-    using Source     = SolidBody;
-    using Body       = SolidBody;
-    using KeptBody   = const SolidBody &;
-    using Structure  = std::variant<SolidStructure>;
-    using Contact    = SurfaceContact;
-    using Evaluation = FaceEvaluation<3>;
+    using Source                  = SolidBody;
+    using Body                    = SolidBody;
+    using KeptBody                = const SolidBody &;
+    using Structure               = std::variant<SolidStructure>;
+    using Contact                 = SurfaceContact;
+    static constexpr auto history = &State::surface_contact;
   };
 
   /// A meshed lever on its hub, rotational spring and support without inertia, or the two of a full mirrored pair, each on its
@@ -79,7 +79,11 @@ namespace sprag
 
     double penetration(const Evaluation &evaluation) const override;
     std::string check_validity(const State &state, const Evaluation &evaluation) const override;
-    void augment(const Evaluation &evaluation, State &trial) const override;
+    void augment(const Evaluation &evaluation, State &trial) const override
+    {
+      trial.*Parts::history = augmented(evaluation);
+    }
+
     void store_history(const Evaluation &evaluation, State &state) const override;
     void observe(const State &state, const Evaluation &evaluation, Row &row) const override;
     FacePoints face_points() const override
@@ -146,7 +150,7 @@ namespace sprag
     struct Found
     {
       History history; ///< and multipliers that it was evaluated with
-      typename Parts::Evaluation contact;
+      FaceEvaluation<dim> contact;
     };
 
     /// An evaluation.
@@ -198,8 +202,8 @@ namespace sprag
     }
 
     double cylinder_energy(unsigned int lever, const State &state) const;
-    std::string check_validity(unsigned int lever, const DrivePoint &drive, const typename Parts::Evaluation &found) const;
-    void observe(unsigned int lever, const State &state, const typename Parts::Evaluation &found, Row &row) const;
+    std::string check_validity(unsigned int lever, const DrivePoint &drive, const FaceEvaluation<dim> &found) const;
+    void observe(unsigned int lever, const State &state, const FaceEvaluation<dim> &found, Row &row) const;
 
     bool augments() const
     {
