@@ -534,7 +534,8 @@ namespace sprag
     StudyRecords records;
     const auto learn = [&](const std::string &line)
     {
-      const auto record   = parse_record(line);
+      StudyRecord record;
+      read_line(line, record);
       records[record.run] = record;
     };
     for (const auto &line : farm.taken_over())

@@ -49,7 +49,11 @@ namespace
   {
     MapCells cells;
     for (const auto &line : results_log.lines())
-      cells.insert(parse_cell(line));
+    {
+      std::pair<MapSite, MapCell> site_and_cell;
+      read_line(line, site_and_cell);
+      cells.insert(site_and_cell);
+    }
     return cells;
   }
 

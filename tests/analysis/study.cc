@@ -2,6 +2,7 @@
 #include "analysis/study/study_points.h"
 #include "analysis/study/study_trade.h"
 #include "analysis/study/trade.h"
+#include "analysis/task_farm/results_log.h"
 
 #include "scene/messages.h"
 #include "scene/scene.h"
@@ -249,7 +250,8 @@ TEST(StudyRecord, IsGivenBackByItsLine)
   record.found.curve   = there_and_back({ 0., 1. / 3. }, { 0. });
   const auto line      = to_line(record);
   EXPECT_EQ(line.find('\n'), std::string::npos);
-  const auto again = parse_record(line);
+  StudyRecord again;
+  read_line(line, again);
   EXPECT_EQ(again.run, record.run);
   EXPECT_EQ(again.outcome, record.outcome);
   EXPECT_EQ(again.reason, record.reason);

@@ -33,7 +33,7 @@ namespace sprag
     /// Leaves the direction failed where the analysis fails.
     void set_slide(const SweptSlides &slides, const Direction direction, MapCell &cell)
     {
-      // One NaN for all, as a results log keeps no others apart.
+      // One NaN for all, so that maps compare bit by bit.
       const auto number = [](const double value) { return std::isnan(value) ? no_number : value; };
       const auto place  = cell.values.begin() + 1 + (direction == Direction::forward ? 0 : n_slide_values);
       try

@@ -15,21 +15,6 @@ namespace sprag
     }
   } // namespace
 
-  std::string to_line(const MapSite &site, const MapCell &cell)
-  {
-    std::vector<double> numbers = { site.first, site.second };
-    numbers.insert(numbers.end(), cell.values.begin(), cell.values.end());
-    return exact_text(numbers);
-  }
-
-  std::pair<MapSite, MapCell> parse_cell(const std::string &line)
-  {
-    const auto numbers = exact_numbers(line);
-    MapCell cell{};
-    std::copy_n(numbers.begin() + 2, cell.values.size(), cell.values.begin());
-    return { { numbers.at(0), numbers.at(1) }, cell };
-  }
-
   MapFarm::MapFarm(const Scene &scene, const ResultsLog *results_log, std::function<void(std::size_t, std::size_t)> report)
       : own_check(scene)
       , farm({ "map", unchanged_inputs(scene, "map"), std::move(report) }, results_log)
@@ -67,7 +52,9 @@ namespace sprag
 
   void MapFarm::learn(const std::string &line)
   {
-    const auto [site, cell] = parse_cell(line);
+    MapSite site;
+    MapCell cell;
+    read_line(line, site, cell);
     known.insert({ site, cell });
     known_kinds.insert({ site, cell.kinds() });
   }

@@ -10,12 +10,6 @@ namespace sprag
 
   using MapCells = std::map<MapSite, MapCell>;
 
-  /// Writes a cell and its site as a line of a results log, to the last bit.
-  std::string to_line(const MapSite &site, const MapCell &cell);
-
-  /// Reads such a line.
-  std::pair<MapSite, MapCell> parse_cell(const std::string &line);
-
   /// All ranks of MPI, checking the cells of a map together. Every rank calls what is here and comes to have all cells.
   class MapFarm
   {

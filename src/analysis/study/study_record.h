@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analytic/measures.h"
+#include "base/archive.h"
 
 #include <string>
 #include <vector>
@@ -33,9 +34,5 @@ namespace sprag
     Comparable found;                  ///< of a completed run
   };
 
-  /// Writes a record as a line of a results log, numbers to the last bit.
-  std::string to_line(const StudyRecord &record);
-
-  /// Reads such a line.
-  StudyRecord parse_record(const std::string &line);
+  void serialise(Archive &archive, StudyRecord &record);
 } // namespace sprag

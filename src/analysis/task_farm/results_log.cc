@@ -3,12 +3,10 @@
 
 #include "base/errors.h"
 #include "base/fingerprint.h"
-#include "base/text.h"
 #include "program/run_files.h"
 
 #include <cerrno>
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
@@ -109,26 +107,5 @@ namespace sprag
   void ResultsLog::remove()
   {
     ::unlink(path.c_str());
-  }
-
-  std::string exact_text(const std::vector<double> &numbers)
-  {
-    std::string text;
-    for (const double number : numbers)
-      text += formatted(text.empty() ? "%a" : " %a", number);
-    return text;
-  }
-
-  std::vector<double> exact_numbers(const std::string &text)
-  {
-    std::vector<double> numbers;
-    const char *at = text.c_str();
-    for (char *end = nullptr;; at = end)
-    {
-      const double number = std::strtod(at, &end);
-      if (end == at)
-        return numbers;
-      numbers.push_back(number);
-    }
   }
 } // namespace sprag

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/archive.h"
 #include "base/system/open_file.h"
+
+#include <boost/algorithm/hex.hpp>
 
 #include <string>
 #include <utility>
@@ -73,9 +76,20 @@ namespace sprag
     void read();
   };
 
-  /// Writes numbers to the last bit, separated by blanks.
-  std::string exact_text(const std::vector<double> &numbers);
+  /// Writes what an archive serialises as a line of a results log, to the last bit.
+  template <class... Items>
+  std::string to_line(Items... items)
+  {
+    Archive archive;
+    archive(items...);
+    return boost::algorithm::hex(archive.bytes());
+  }
 
-  /// Reads such numbers as long as there are any.
-  std::vector<double> exact_numbers(const std::string &text);
+  /// Reads such a line.
+  template <class... Items>
+  void read_line(const std::string &line, Items &...items)
+  {
+    Archive archive(boost::algorithm::unhex(line));
+    archive(items...);
+  }
 } // namespace sprag
