@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "estimate/choice.h"
 
-#include "analysis/accuracy/sample_changes.h"
 #include "analysis/accuracy/slide_samples.h"
 #include "analysis/stability/stability.h"
 #include "base/errors.h"

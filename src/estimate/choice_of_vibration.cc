@@ -3,7 +3,7 @@
 
 #include "analysis/accuracy/dilation.h"
 #include "analysis/stability/stability.h"
-#include "analysis/transient/transient_settings.h"
+#include "analysis/transient/transient.h"
 #include "analytic/error_estimate.h"
 #include "base/errors.h"
 #include "base/text.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "estimate/choice.h"
 
-#include "analysis/accuracy/row_spacing.h"
-#include "analysis/accuracy/sample_changes.h"
 #include "analysis/accuracy/slide_samples.h"
 #include "analytic/error_estimate.h"
 #include "base/phase_timer.h"

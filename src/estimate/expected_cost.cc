@@ -3,7 +3,7 @@
 
 #include "analysis/stability/sweep.h"
 #include "analysis/study/study_points.h"
-#include "analysis/transient/transient_settings.h"
+#include "analysis/transient/transient.h"
 #include "base/errors.h"
 #include "input/read.h"
 #include "program/memory.h"

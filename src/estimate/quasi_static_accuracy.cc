@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "estimate/quasi_static_accuracy.h"
 
-#include "analysis/accuracy/sample_changes.h"
 #include "analysis/accuracy/slide_samples.h"
 #include "base/append.h"
 #include "base/errors.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/transient/growing_modes.h"
 #include "analysis/transient/transient.h"
-#include "analysis/transient/transient_settings.h"
 #include "base/append.h"
 #include "base/text.h"
 #include "estimate/transient_accuracy.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "analysis/stability/roles.h"
+#include "analysis/stability/stability.h"
 #include "analysis/stability/sweep.h"
 #include "levers/dynamics.h"
 #include "results/result_file.h"

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/accuracy/dilation.h"
-#include "analysis/accuracy/row_spacing.h"
-#include "analysis/accuracy/sample_changes.h"
 #include "analysis/accuracy/slide_samples.h"
 #include "analytic/error_estimate.h"
 #include "scene/closed_form.h"

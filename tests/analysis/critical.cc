@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/stability/sweep.h"
 
-#include "analysis/stability/roles.h"
+#include "analysis/stability/stability.h"
 #include "analytic/jamming.h"
 #include "input/read.h"
 #include "scene/closed_form.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/transient/envelope.h"
+#include "analysis/limit_cycle/sprag_slip.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

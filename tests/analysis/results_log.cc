@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/task_farm/results_log.h"
+#include "analysis/task_farm/task_farm.h"
 
 #include "analysis/map/map_farm.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/isolation/step_grid.h"
+#include "analysis/isolation/lever_table.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

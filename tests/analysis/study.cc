@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/study/study_points.h"
 #include "analysis/study/study_trade.h"
-#include "analysis/study/trade.h"
-#include "analysis/task_farm/results_log.h"
+#include "analysis/task_farm/task_farm.h"
 
 #include "scene/messages.h"
 #include "scene/scene.h"

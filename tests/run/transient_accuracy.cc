@@ -2,7 +2,7 @@
 #include "estimate/transient_accuracy.h"
 
 #include "analysis/stability/stability.h"
-#include "analysis/transient/transient_settings.h"
+#include "analysis/transient/transient.h"
 #include "analytic/oscillation.h"
 #include "input/read.h"
 #include "mpi_environment.h"

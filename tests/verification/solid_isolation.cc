@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/isolation/lever_table.h"
-#include "analysis/transient/transient_settings.h"
+#include "analysis/transient/transient.h"
 #include "levers/dynamics.h"
 #include "scene/scene.h"
 #include "scenes.h"

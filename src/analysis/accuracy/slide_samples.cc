@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/accuracy/slide_samples.h"
 
+#include "analytic/closed_form.h"
 #include "base/errors.h"
 #include "base/text.h"
 #include "results/row_statistics.h"
+#include "scene/drive.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace sprag
@@ -80,6 +84,60 @@ namespace sprag
         throw AnalysisError("no equilibrium at x = " + mm(to.x));
       const auto middle = slid_to(model, from, half_way(from.drive, to), settings, halves + 1);
       return slid_to(model, middle.state, to, settings, halves + 1);
+    }
+
+    // A single place may lie well by chance.
+    constexpr double near_peak = 0.5; ///< pressure of the samples that count, over the largest
+
+    /// Over all samples, or those with at least a share of the largest value.
+    double largest_change(const std::vector<Row> &samples, const std::vector<Row> &other, const Column column,
+                          const double share = 0.)
+    {
+      const double peak = largest(samples, column);
+      double result     = 0.;
+      for (std::size_t i = 0; i < samples.size(); ++i)
+        if (std::abs(samples[i][column]) >= share * peak)
+          result = std::max(result, std::abs(other[i][column] - samples[i][column]));
+      return result / peak;
+    }
+
+    double change(const double value, const double other)
+    {
+      return std::abs((other - value) / value);
+    }
+
+    std::vector<Row> closed_form_rows(Scene scene, const double step)
+    {
+      scene.analysis.step = step;
+      std::vector<Row> rows;
+      run_closed_form(scene, [&](const Row &row) { rows.push_back(row); });
+      return rows;
+    }
+
+    bool is_one_stroke(const Row &a, const Row &b)
+    {
+      return a[Column::v] * b[Column::v] > 0.;
+    }
+
+    /// Distance of every row from the straight line between its neighbours, over the column's peak.
+    double distance_from_lines(const std::vector<Row> &rows, const Column column)
+    {
+      double result = 0.;
+      for (std::size_t i = 1; i + 1 < rows.size(); ++i)
+        if (is_one_stroke(rows[i - 1], rows[i + 1]))
+          result = std::max(result, std::abs(distance_from_line(rows[i - 1], rows[i], rows[i + 1], column)));
+      return result / largest(rows, column);
+    }
+
+    /// Error of forces and, if asked for, of the loop area, relative, where rows are `step` apart [mm].
+    double estimate_error(const Scene &scene, const double step, const bool wants_loop)
+    {
+      const auto halves  = closed_form_rows(scene, 0.5 * step);
+      const double lines = std::max(distance_from_lines(halves, Column::P), distance_from_lines(halves, Column::Q));
+      if (!wants_loop)
+        return lines;
+      const double loop = relative_change("loop_area", halves, closed_form_rows(scene, step));
+      return std::max(lines, 4. / 3. * loop);
     }
   } // namespace
 
@@ -202,5 +260,66 @@ namespace sprag
     for (unsigned int i = number; i-- > 0;)
       result.emplace_back(drive.at(turn.time + std::ldexp(duration, -static_cast<int>(i))));
     return result;
+  }
+
+  double compute_drive_work(const std::vector<Row> &samples)
+  {
+    double result = 0.;
+    for (std::size_t i = 1; i < samples.size(); ++i)
+      result +=
+          0.5 * (samples[i - 1].drive_force() + samples[i].drive_force()) * (samples[i][Column::x] - samples[i - 1][Column::x]);
+    return result;
+  }
+
+  double peak_change(const std::string &quantity, const std::vector<Row> &passage, const std::vector<Row> &other)
+  {
+    if (passage.empty() || (quantity != "P" && quantity != "Q"))
+      return 0.;
+    const auto column     = quantity == "P" ? Column::P : Column::Q;
+    const auto has_turned = friction_has_turned(passage);
+    double peak = 0., other_peak = 0.;
+    for (std::size_t i = 1; i < passage.size(); ++i) // the first is of the stroke before
+      if (has_turned[i])
+      {
+        peak       = std::max(peak, std::abs(passage[i][column]));
+        other_peak = std::max(other_peak, std::abs(other[i][column]));
+      }
+    return std::abs(other_peak - peak) / largest(passage, column);
+  }
+
+  double relative_change(const std::string &quantity, const std::vector<Row> &samples, const std::vector<Row> &other)
+  {
+    if (quantity == "loop_area")
+      return change(compute_drive_work(samples), compute_drive_work(other));
+    if (quantity == "largest_pressure" || quantity == "largest_stress")
+      return largest_change(samples, other, Column::largest_pressure, near_peak);
+    static const std::map<std::string, Column> columns = { { "P", Column::P },
+                                                           { "Q", Column::Q },
+                                                           { "contact_width", Column::contact_width } };
+    return largest_change(samples, other, columns.at(quantity));
+  }
+
+  double distance_from_line(const Row &before, const Row &row, const Row &after, const Column column)
+  {
+    const double way = after[Column::x] - before[Column::x];
+    if (way == 0.)
+      return 0.;
+    const double share = (row[Column::x] - before[Column::x]) / way;
+    return row[column] - (1. - share) * before[column] - share * after[column];
+  }
+
+  double largest_row_spacing(const Scene &scene, const double error, const bool wants_loop)
+  {
+    const double longest = 0.25 * (scene.drive.maximum() - scene.drive.minimum());
+    double step          = longest;
+    // The error goes with the square of the step, but for what is coarse.
+    for (unsigned int i = 0; i < 8; ++i)
+    {
+      const double found = estimate_error(scene, step, wants_loop);
+      if (found <= error)
+        return step;
+      step *= std::max(0.25, 0.95 * std::sqrt(error / found));
+    }
+    return step;
   }
 } // namespace sprag

@@ -2,12 +2,16 @@
 #pragma once
 
 #include "analysis/statics/quasi_static.h"
+#include "results/columns.h"
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace sprag
 {
+  struct Scene;
+
   /// Rows of a run without inertia at which its errors are sampled, by increasing time: at most `number` of each of the first two
   /// strokes, evenly over the way on which the whole contact slides, where P and the pressure are largest, and those of `times`
   /// [s]. Empty where nothing slides.
@@ -37,4 +41,25 @@ namespace sprag
   /// Returns the same of the first reversal and of places behind it, up to a distance [mm], over which the contact turns: where P
   /// and Q of the way back are largest. Empty where the drive does not turn or ends before.
   std::vector<Row> places_behind_reversal(const Drive &drive, double distance);
+
+  /// Returns the work of the drive over samples by the trapezoidal rule [N mm].
+  double compute_drive_work(const std::vector<Row> &samples);
+
+  /// Returns by how much a quantity without inertia changes between two models' rows of the same samples: P, Q and contact_width
+  /// by the largest change over the largest value of the first model, largest_pressure likewise where it is at least half of
+  /// that, largest_stress as the pressure which it follows, and loop_area, the work between the samples, by its own change.
+  /// Throws std::out_of_range for other names.
+  double relative_change(const std::string &quantity, const std::vector<Row> &samples, const std::vector<Row> &other);
+
+  /// Returns by how much the largest P or Q behind a reversal changes between two models' rows of the same passage through stick,
+  /// from where friction has turned, over the largest value of the first model; 0 for other quantities and without rows.
+  double peak_change(const std::string &quantity, const std::vector<Row> &passage, const std::vector<Row> &other);
+
+  /// Returns by how much a row lies beside the line over x between two others, 0 where these have the same x.
+  double distance_from_line(const Row &before, const Row &row, const Row &after, Column column);
+
+  /// Returns the largest Analysis/Step, at most a quarter of the drive's way [mm], with which rows represent the closed form of a
+  /// scene without inertia to `error` > 0: P and Q by straight lines between rows, over their peaks, and with `wants_loop` also
+  /// the work of the drive by the trapezoidal rule.
+  double largest_row_spacing(const Scene &scene, double error, bool wants_loop);
 } // namespace sprag

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "analysis/isolation/step_grid.h"
 #include "analysis/transient/transient.h"
 #include "analytic/isolated_table.h"
 #include "base/archive.h"
@@ -16,6 +15,62 @@
 namespace sprag
 {
   struct Scene;
+
+  /// Divides a span of time into equal units and each of them into 1, 2, 3, 4, 6, 8, 12 ... equal steps, or only 1, 2, 4, 8 ...,
+  /// so that the end is hit and few different durations come up: what a model prepares for one serves again. Durations without
+  /// their last digits are equal to the last bit where they are equal but for round-off.
+  class StepGrid
+  {
+  public:
+    /// Divides units by halves alone from the next choose() on, for models that prepare much for each duration.
+    void use_halves_alone()
+    {
+      by_halves = true;
+    }
+
+    /// Begins a span with as few units as are not longer than `longest` [s], > 0. `to` > `from`.
+    void begin(double from, double to, double longest);
+
+    /// Returns whether nothing is left of a span that ends at `to`, or it is another.
+    bool needs_span(double to) const
+    {
+      return is_finished() || end != to;
+    }
+
+    bool is_finished() const
+    {
+      return unit == units;
+    }
+
+    /// Makes the present step as long as the grid lets it be from here, but not longer than `target` [s].
+    void choose(double target);
+
+    /// Makes the present step shorter, to about half or two thirds.
+    void shorten();
+
+    /// Returns the duration of the present step [s].
+    double duration() const;
+
+    /// Returns the end of the present step [s].
+    double step_end() const;
+
+    /// Goes on to the next step.
+    void advance();
+
+  private:
+    double origin = 0., end = 0.;
+    unsigned long units = 0, unit = 0;   ///< of the span, and the present one
+    unsigned long parts = 1, passed = 0; ///< steps of the unit, and those behind
+
+    bool by_halves = false;
+
+    unsigned long next_parts(unsigned long present) const;
+
+    double length() const
+    {
+      return (end - origin) / static_cast<double>(units);
+    }
+  };
 
   /// A table on levers in time: a model of a lever for z > 0 and one for z < 0, each standing for Isolation/Levers of them. The
   /// end of the table's way is one more unknown of their implicit step: m [z'] = h (-K <z> - f) - m [x_b'] with [z] = h <z'>, < >

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/map/map_farm.h"
 
+#include "analysis/stability/sweep.h"
+#include "base/errors.h"
+#include "input/read.h"
+#include "levers/prepared_scene.h"
+#include "scene/closed_form.h"
+#include "scene/held_slide.h"
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace sprag
 {
@@ -12,6 +20,38 @@ namespace sprag
     double coordinate(const MapSite &site, const unsigned int parameter)
     {
       return parameter == 0 ? site.first : site.second;
+    }
+
+    static_assert(static_cast<unsigned int>(SlideKind::jammed) + 1 == inadmissible_cell);
+
+    constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+    /// A cell without slides.
+    MapCell empty_cell(const unsigned int kind)
+    {
+      MapCell cell;
+      cell.values.fill(no_number);
+      cell.values[1] = cell.values[1 + n_slide_values] = kind;
+      return cell;
+    }
+
+    /// Leaves the direction failed where the analysis fails.
+    void set_slide(const SweptSlides &slides, const Direction direction, MapCell &cell)
+    {
+      // One NaN for all, so that maps compare bit by bit.
+      const auto number = [](const double value) { return std::isnan(value) ? no_number : value; };
+      const auto place  = cell.values.begin() + 1 + (direction == Direction::forward ? 0 : n_slide_values);
+      try
+      {
+        const auto &worst                               = slides.worst(direction);
+        const std::array<double, n_slide_values> values = { { static_cast<double>(worst.kind), number(worst.growth_rate),
+                                                              number(worst.frequency), number(worst.uniqueness),
+                                                              number(worst.P) } };
+        std::copy(values.begin(), values.end(), place);
+      }
+      catch (const AnalysisError &)
+      {
+      }
     }
   } // namespace
 
@@ -57,5 +97,83 @@ namespace sprag
     read_line(line, site, cell);
     known.insert({ site, cell });
     known_kinds.insert({ site, cell.kinds() });
+  }
+
+  std::string cell_kind_name(const unsigned int kind)
+  {
+    if (kind < inadmissible_cell)
+      return kind_name(static_cast<SlideKind>(kind));
+    return kind == inadmissible_cell ? "inadmissible" : "failed";
+  }
+
+  const std::vector<ColumnInfo> &cell_columns()
+  {
+    static const auto columns = []
+    {
+      std::string kinds;
+      for (unsigned int kind = 0; kind < n_cell_kinds; ++kind)
+        kinds += (kind == 0 ? "" : ", ") + std::to_string(kind) + " " + cell_kind_name(kind);
+      std::vector<ColumnInfo> all = { { "theta_0", "rad", "inclination of the lever at x = 0" } };
+      for (const std::string way : { "forward", "backward" })
+      {
+        all.push_back({ "kind_" + way, "1", kinds });
+        all.push_back({ "growth_rate_" + way, "1/s", "largest Re lambda of the slide " + way });
+        all.push_back({ "frequency_" + way, "Hz", "of that vibration, 0: no vibration" });
+        all.push_back({ "uniqueness_" + way, "1", "of the equilibrium: 1 without friction, <= 0 where it has lost uniqueness" });
+        all.push_back({ "P_" + way, "N", "normal force of the slide" });
+      }
+      return all;
+    }();
+    return columns;
+  }
+
+  double parameter_at(const ParameterRange &range, const double coordinate)
+  {
+    const double share = coordinate / (range.points - 1);
+    return share == 1. ? range.to : range.from + share * (range.to - range.from);
+  }
+
+  CellCheck::CellCheck(const Scene &map_scene)
+      : scene(map_scene)
+      , maker(false)
+  {
+  }
+
+  Scene CellCheck::scene_at(const MapSite &site) const
+  {
+    const auto &[first, second, coarsest, bisections] = scene.map;
+    return prepared(variant(scene, { override_text(first.name, parameter_at(first, site.first)),
+                                     override_text(second.name, parameter_at(second, site.second)) }));
+  }
+
+  MapCell CellCheck::check(const MapSite &site)
+  {
+    MapCell cell = empty_cell(failed_cell);
+    try
+    {
+      Scene here               = scene_at(site);
+      here.stability.direction = Direction::both;
+      cell.values[0]           = kinematics(here.geometry, 0.).theta;
+      const auto slides        = sweep(here, maker);
+      for (const auto direction : { Direction::forward, Direction::backward })
+        set_slide(slides, direction, cell);
+    }
+    catch (const InputError &)
+    {
+      return empty_cell(inadmissible_cell);
+    }
+    catch (const AnalysisError &)
+    {
+      // No model: both ways stay failed.
+    }
+    return cell;
+  }
+
+  std::optional<unsigned int> CellCheck::mesh_parameter() const
+  {
+    const bool first = changes_mesh(scene, scene.map.first), second = changes_mesh(scene, scene.map.second);
+    if (!is_meshed(scene.analysis.model) || first == second)
+      return {};
+    return first ? 0 : 1;
   }
 } // namespace sprag

@@ -1,11 +1,90 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "analysis/stability/search.h"
+#include "analysis/stability/stability.h"
+#include "scene/vibration_settings.h"
+
+#include <functional>
+#include <string>
 
 namespace sprag
 {
   struct Scene;
+
+  /// A slide and what it does, or the worst of several.
+  struct CheckedSlide
+  {
+    SlideKind kind     = SlideKind::jammed;
+    double growth_rate = std::numeric_limits<double>::quiet_NaN(); ///< largest Re lambda [1/s]; NaN where it jams
+    double frequency   = std::numeric_limits<double>::quiet_NaN(); ///< of that mode [Hz]
+    double uniqueness  = std::numeric_limits<double>::quiet_NaN();
+    double mu          = std::numeric_limits<double>::quiet_NaN();
+    double P           = std::numeric_limits<double>::quiet_NaN(); ///< [N]
+    std::string motion;                                            ///< see SlideStability::motion()
+    DrivePoint drive;                                              ///< where
+    std::vector<std::string> constants; ///< "Section/Name=value", of Stability/Ranges; empty: those of the scene
+    std::vector<double> growth_rates;   ///< of the modes by increasing |lambda|; empty of the worst of several
+  };
+
+  CheckedSlide checked_slide(const SlideStability &found, const DrivePoint &drive);
+
+  /// Returns whether a does worse than b: what jams is worse than what vibrates, this than what is stable; then growth decides.
+  bool is_worse(const CheckedSlide &a, const CheckedSlide &b);
+
+  /// Returns whether two slides do the same to the last digit; slides that jam never do.
+  bool is_alike(const CheckedSlide &a, const CheckedSlide &b);
+
+  inline bool is_unstable(const SlideKind kind)
+  {
+    return kind == SlideKind::flutter || kind == SlideKind::divergence;
+  }
+
+  /// A value of a parameter at which the kind of a slide changes.
+  struct CriticalValue
+  {
+    double value = 0.;
+    SlideKind below; ///< kind just below the value
+    SlideKind above;
+    CheckedSlide worse; ///< the worse of the slides on both sides
+    double mu = 0.;     ///< of the slide below; NaN where there is no equilibrium
+  };
+
+  /// Changes of stability found along one parameter of the scene.
+  struct CriticalSearch
+  {
+    ParameterRange range;
+    std::optional<SlideKind> first; ///< kind at the smallest value that could be checked; none: none could
+    std::vector<CriticalValue> changes;
+    std::optional<CheckedSlide> worst; ///< of all values tried
+    std::vector<double> not_checked;   ///< values that the scene does not admit, or at which the analysis failed
+    std::string reason;                ///< why the last of them was not
+    double spacing           = 0.;     ///< of the values tried throughout
+    unsigned int more_values = 0;      ///< tried between them, where a growth rate peaks
+    bool has_effect          = true;   ///< whether any two of the values tried differ in their growth
+  };
+
+  /// Values that a search is expected to try beside the points of its range.
+  constexpr unsigned int expected_values_between = 8;
+
+  /// Returns the distance of the range's points; 0 of a single one.
+  inline double range_spacing(const ParameterRange &range)
+  {
+    return range.points == 1 ? 0. : std::abs(range.to - range.from) / (range.points - 1);
+  }
+
+  struct SearchEffort
+  {
+    double tolerance;          ///< of a change, over the range; 0: changes are not sought
+    unsigned int island_steps; ///< golden sections where a growth rate peaks
+  };
+
+  /// Finds the changes of kind along a parameter. It is tried at the range's points and at `hints` between them, then where a
+  /// growth rate peaks so high that it may change its sign, and the changes are narrowed by bisection, or by regula falsi between
+  /// growth rates of both signs. An island narrower than the spacing that no growth rate hints at is missed. `check_at` throws
+  /// InputError or AnalysisError for values that cannot be checked; these are passed over. `tried` is called after each value.
+  CriticalSearch search_kinds(
+      const ParameterRange &range, const SearchEffort &effort, const std::function<CheckedSlide(double)> &check_at,
+      const std::vector<double> &hints = {}, const std::function<void()> &tried = [] {});
 
   /// The slides of one direction with one set of constants, along x; at a single x only the worst is told.
   struct SweptWay

@@ -1,17 +1,101 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "analysis/task_farm/results_log.h"
+#include "base/archive.h"
+#include "base/system/open_file.h"
 
+#include <boost/algorithm/hex.hpp>
 #include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sprag
 {
   struct Scene;
+
+  /// Adds lines to the end of a results log that is open, on any rank.
+  class ResultsLogWriter
+  {
+  public:
+    /// Opens the results log at `path`; `header` is its first line. Throws AnalysisError if it cannot be written.
+    ResultsLogWriter(const std::string &path, const std::string &header);
+
+    /// Hands lines, which hold no line break, to the operating system. Throws AnalysisError if they cannot be written.
+    void append(const std::vector<std::string> &lines);
+
+  private:
+    const std::string path;
+    const std::string header;
+    const OpenFile file;
+  };
+
+  /// A file of finished pieces of a long analysis, so that one that was killed goes on where it was: a line a piece, with a
+  /// checksum over the line, the scene and the build of the program. While rank 0 has it open, no other run can have it.
+  class ResultsLog
+  {
+  public:
+    /// Opens the results log and reads the lines in it, or begins one. `what` is what it is of, "map"; `scene` says all that the
+    /// pieces depend on: lines of another scene, or of another build of the program, are dropped, and so is any line that is not
+    /// as it was written. Throws InputError if the file cannot be written or another run keeps it open for more than 5 s.
+    ResultsLog(const std::string &path, const std::string &what, const std::string &scene);
+
+    /// Lines found in the file, without checksums.
+    const std::vector<std::string> &lines() const
+    {
+      return found;
+    }
+
+    /// Returns whether the file held lines of another scene, which were dropped.
+    bool dropped() const
+    {
+      return other_scene;
+    }
+
+    /// Returns the number of lines that were not as they had been written.
+    std::size_t damaged_lines() const
+    {
+      return damaged;
+    }
+
+    /// Returns path and header, for pens.
+    std::pair<std::string, std::string> address() const
+    {
+      return { path, header };
+    }
+
+    /// Removes the file, once the analysis is complete.
+    void remove();
+
+  private:
+    const std::string path;
+    const OpenFile file;
+    std::string header;
+    std::vector<std::string> found;
+    bool other_scene    = false;
+    std::size_t damaged = 0;
+
+    void read();
+  };
+
+  /// Writes what an archive serialises as a line of a results log, to the last bit.
+  template <class... Items>
+  std::string to_line(Items... items)
+  {
+    Archive archive;
+    archive(items...);
+    return boost::algorithm::hex(archive.bytes());
+  }
+
+  /// Reads such a line.
+  template <class... Items>
+  void read_line(const std::string &line, Items &...items)
+  {
+    Archive archive(boost::algorithm::unhex(line));
+    archive(items...);
+  }
 
   /// All ranks of MPI, doing the pieces of a long analysis together. The result of a piece is a line of text, which goes into the
   /// results log. Every rank calls what is here.

@@ -4,8 +4,11 @@
 #include "analytic/step_clock.h"
 #include "base/errors.h"
 #include "base/text.h"
+#include "levers/dynamics.h"
 #include "model/step/force_history.h"
 #include "model/step/state_archive.h"
+#include "scene/contact_reference.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -264,5 +267,24 @@ namespace sprag
     if (keeper != nullptr)
       keeper->end_steps(progress);
     return solver.report;
+  }
+
+  std::vector<Row> beam_run(Scene scene)
+  {
+    if (is_meshed(scene.analysis.model))
+      scene.analysis.model = ModelType::beam;
+    DynamicsMaker maker(false);
+    const auto dynamics = maker.make(scene);
+    std::vector<Row> rows;
+    run_transient(dynamics.model(), scene.drive, transient_settings(scene),
+                  [&](const Motion &, const Row &row) { rows.push_back(row); });
+    return rows;
+  }
+
+  TransientSettings transient_settings(const Scene &scene, const std::vector<GrowingMode> &growing)
+  {
+    const auto reference = contact_reference(scene);
+    return { scene.time, reference.P, reference.stiffness, scene.geometry.cylinder_radius / 200.,
+             longest_step(growing, scene.time.spectral_radius) };
   }
 } // namespace sprag

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "analysis/transient/growing_modes.h"
 #include "analytic/energy_ledger.h"
 #include "base/progress_keeper.h"
 #include "model/step/dynamic_model.h"
+#include "results/columns.h"
 #include "scene/discretisation_settings.h"
 #include "scene/drive.h"
 
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace sprag
 {
+  struct Scene;
+
   struct TransientSettings
   {
     TimeSettings time;
@@ -33,4 +38,11 @@ namespace sprag
   /// goes on from there, to the last bit as if it had not been interrupted.
   TransientReport run_transient(DynamicModel &model, const Drive &drive, const TransientSettings &settings,
                                 const MotionSink &sink, ProgressKeeper *keeper = nullptr);
+
+  /// Returns the rows of a scene's run in time by its reduced lever, by a beam where it is meshed: a quick look at how it rings
+  /// and how many steps it takes. Throws AnalysisError where the run fails.
+  std::vector<Row> beam_run(Scene scene);
+
+  /// Returns the settings of a scene's run in time, whose steps follow the vibrations that grow.
+  TransientSettings transient_settings(const Scene &scene, const std::vector<GrowingMode> &growing = {});
 } // namespace sprag
