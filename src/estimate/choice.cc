@@ -5,7 +5,7 @@
 #include "estimate/expected_cost.h"
 #include "input/read.h"
 #include "levers/prepared_scene.h"
-#include "report/percent.h"
+#include "report/summary_lines.h"
 #include "scene/scene.h"
 
 #include <boost/algorithm/string/join.hpp>

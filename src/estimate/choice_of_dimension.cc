@@ -6,7 +6,7 @@
 #include "base/errors.h"
 #include "fe/mesh/mesh.h"
 #include "fe/statics/static_lever.h"
-#include "report/percent.h"
+#include "report/summary_lines.h"
 #include "scene/accuracy.h"
 #include "scene/contact_reference.h"
 #include "scene/contact_width.h"

@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "estimate/coarser_scene.h"
 #include "input/check_parts.h"
-#include "report/percent.h"
+#include "report/summary_lines.h"
 #include "results/row_statistics.h"
 #include "scene/accuracy.h"
 #include "scene/contact_reference.h"

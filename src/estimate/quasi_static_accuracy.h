@@ -3,7 +3,7 @@
 
 #include "analysis/statics/quasi_static.h"
 #include "analytic/error_estimate.h"
-#include "estimate/stress_sample.h"
+#include "fe/fields/body_fields.h"
 #include "fe/statics/static_lever.h"
 #include "results/columns.h"
 
@@ -14,6 +14,21 @@
 namespace sprag
 {
   struct Scene;
+
+  /// Largest von Mises stress in a state of a run, the cells at the hub left out.
+  struct StressSample
+  {
+    double time  = 0.; ///< of the state [s]
+    double lever = 0.; ///< [MPa]
+    double layer = 0.; ///< [MPa]
+
+    /// In the layer around the edges of the contact and beyond [MPa]. Behind a sliding contact the stress along the face rises
+    /// steeply to a cusp, of which a finer mesh finds more.
+    double layer_edge = 0.;
+  };
+
+  /// Looks at the fields of the state of a row too.
+  void look_at(const BodyFields &fields, const std::vector<NodalField> &nodal, const Row &row, StressSample &sample);
 
   /// Returns how far the inertia of the levers changes P while they follow the drive, over the largest P of the rows: by the
   /// closed form J d^2(th)/dt^2 over the spring's moment (eq. 5 of the paper). The vibrations behind sudden reversals and at the

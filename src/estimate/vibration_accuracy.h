@@ -3,32 +3,11 @@
 
 #include "analysis/stability/stability.h"
 #include "analytic/error_estimate.h"
-#include "fe/contact/face_contact_point.h"
-
-#include <functional>
-#include <optional>
+#include "levers/dynamics.h"
 
 namespace sprag
 {
   struct Scene;
-
-  /// The slide of a scene by models that are less accurate, each in one respect, and at other places between the nodes.
-  struct SlideTrials
-  {
-    SlideStability soft;                       ///< with a third of the penalty
-    std::optional<SlideStability> other_modes; ///< of a condensed lever with several, half of them
-    std::vector<SlideStability> elsewhere;     ///< a quarter, half and three quarters of a face from its place, same mesh
-    SlideStability other_mesh;                 ///< on the mesh of with_compared_mesh(), with as many modes as `other_modes`
-  };
-
-  /// Checks the slide of a meshed scene, see held_scene(), by these models. The run's own mesh stays in the maker.
-  SlideTrials run_slide_trials(const Scene &scene, const ContactPenalties &penalties, DynamicsMaker &maker);
-
-  /// Returns the parts of the error of a value of the slide, relative to it, from what the trial runs change by Richardson; what
-  /// another number of modes changes counts whole. That of the mesh is at least the range of values at places between two nodes:
-  /// where few faces are in contact, two meshes may agree by chance.
-  std::vector<ErrorPart> slide_error_parts(const Scene &scene, const SlideStability &found, const SlideTrials &trial_runs,
-                                           const std::function<double(const SlideStability &)> &value);
 
   /// Estimates the errors of growth_rate and frequency of a meshed lever's held slide: the same slide is checked with a third of
   /// the penalty and on a mesh of twice the Mesh/Face size, and the change tells the error by Richardson as it does in
@@ -37,5 +16,20 @@ namespace sprag
   ///
   /// `scene` is that of the slide, see held_scene(); `maker` made its model, whose facts are `dynamics`.
   std::vector<ErrorEstimate> vibration_accuracy(const Scene &scene, const SlideStability &found, const MeshedDynamics &dynamics,
+                                                DynamicsMaker &maker);
+
+  /// Estimates the errors of a finished run in time, of P, overshoot, frequency and decay of the ringing behind the first
+  /// reversal.
+  ///
+  /// The slide behind that reversal is held, and the vibration nearest to the frequency of P checked as vibration_accuracy()
+  /// does: that gives the parts of mesh, penalty and modes. The part of the step is what the generalised-alpha method slows it,
+  /// see estimate_slowing(). A vibration that is too slow lags behind, the more the longer it rings, see change_by_frequency().
+  /// The overshoot is wrong as the stiffness is, with the square of the frequency, and a peak may lie between two rows. Under a
+  /// contact of few faces it depends on where between two nodes the drive turns. The decay has the parts of the vibration's, for
+  /// the step the algorithmic damping, and `fit`: how far the envelope's decay is from that of the slide. Of reduced levers the
+  /// step alone is told: what they leave out, only finite elements tell.
+  ///
+  /// Without estimates in words: drives without a reversal, contacts that open, slides that grow on their own.
+  std::vector<ErrorEstimate> transient_accuracy(const Scene &scene, const MeshedDynamics &dynamics, const std::vector<Row> &rows,
                                                 DynamicsMaker &maker);
 } // namespace sprag

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "analytic/energy_ledger.h"
 #include "base/progress.h"
 #include "program/checkpoint.h"
 #include "program/result_writer.h"
 #include "report/report.h"
 #include "scene/drive.h"
+
+#include <functional>
 
 namespace sprag
 {
@@ -76,4 +79,13 @@ namespace sprag
 
   /// Returns the length of the drive's path [mm].
   double path_length(const Drive &drive);
+
+  /// Runs `steps` of a scene in time, which returns its report, and checks its energy ledger; then completes and finishes the
+  /// record whatever happened, with these facts of the model.
+  void record_steps(
+      const Scene &scene, Recorder &recorder, PhaseTimer &timer, Warnings &warnings, const std::vector<Entry> &facts,
+      const std::function<TransientReport()> &steps, const std::function<void()> &complete = [] {});
+
+  /// Prints what a run in time models, unless quiet.
+  void announce_model(const Scene &scene, const RunOptions &options);
 } // namespace sprag

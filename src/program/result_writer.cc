@@ -6,10 +6,9 @@
 #include "base/system/peak_memory.h"
 #include "base/version.h"
 #include "input/read.h"
-#include "program/in_memory.h"
+#include "program/run_options.h"
 #include "report/console_summary.h"
 #include "report/report.h"
-#include "report/summary_table.h"
 #include "results/entries.h"
 #include "scene/scene.h"
 

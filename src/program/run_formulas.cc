@@ -4,7 +4,6 @@
 #include "base/system/interrupt.h"
 #include "program/recorder.h"
 #include "program/run_by_formulas.h"
-#include "program/steps_in_time.h"
 #include "report/report.h"
 #include "scene/contact_reference.h"
 #include "scene/scene.h"

@@ -1,16 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "analytic/measures.h"
 #include "results/warning.h"
 
+#include <memory>
 #include <string>
 
 namespace sprag
 {
+  class DynamicsMaker;
+  class RunLog;
+  class StaticMeshes;
   struct Scene;
 
-  struct InMemory;
-  class RunLog;
+  /// Holds what the runs of one process share that write no files: their meshes, and the results of the last run.
+  /// run_in_memory() makes one.
+  struct InMemory
+  {
+    std::shared_ptr<DynamicsMaker> dynamics;
+    std::shared_ptr<StaticMeshes> meshes;
+    Comparable found = {};
+  };
 
   struct RunOptions
   {

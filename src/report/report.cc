@@ -6,7 +6,7 @@
 #include "base/least_squares.h"
 #include "base/text.h"
 #include "report/peak_report.h"
-#include "report/percent.h"
+#include "report/summary_lines.h"
 #include "results/row_statistics.h"
 #include "scene/mirrored_pair.h"
 #include "scene/pair_closed_form.h"

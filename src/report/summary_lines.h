@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/text.h"
+
 #include <iosfwd>
 #include <string>
 
@@ -22,4 +24,10 @@ namespace sprag
 
   /// Prints a line of a label and a text.
   void summary_line(std::ostream &stream, const std::string &label, const std::string &text);
+
+  /// Returns a relative error in per cent, with two digits.
+  inline std::string percent(const double error)
+  {
+    return formatted("%.2g", 100. * error) + " %";
+  }
 } // namespace sprag

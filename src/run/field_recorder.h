@@ -2,10 +2,13 @@
 #pragma once
 
 #include "base/phase_timer.h"
-#include "estimate/stress_sample.h"
+#include "estimate/quasi_static_accuracy.h"
+#include "fe/fields/body_fields.h"
 #include "fe/fields/field_frames.h"
 #include "fe/fields/stress_peaks.h"
+#include "levers/dynamics.h"
 #include "model/interface/interface_forces.h"
+#include "scene/held_slide.h"
 
 #include <functional>
 #include <map>
@@ -107,4 +110,13 @@ namespace sprag
     friend void serialise(Archive &archive, Best &best);
     std::map<std::pair<Estimate, int>, Best> best; ///< of the estimates, each way
   };
+
+  /// Returns the body of a meshed model in time for its fields.
+  inline BodyFields shown_body(const Scene &scene, const Dynamics &dynamics)
+  {
+    if (dynamics.lever)
+      return BodyFields(*dynamics.lever->body);
+    const auto &body = *dynamics.solid->body;
+    return { body, reached_face(reachable_contact(scene), body) };
+  }
 } // namespace sprag

@@ -3,7 +3,6 @@
 
 #include "fe/body/dimension.h"
 #include "levers/dynamics.h"
-#include "program/in_memory.h"
 #include "program/run_options.h"
 
 #include <memory>

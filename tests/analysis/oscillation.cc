@@ -2,7 +2,7 @@
 #include "analytic/oscillation.h"
 
 #include "analytic/ringing.h"
-#include "report/summary_table.h"
+#include "report/console_summary.h"
 
 #include <algorithm>
 #include <cmath>

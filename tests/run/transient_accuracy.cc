@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "estimate/transient_accuracy.h"
+#include "estimate/vibration_accuracy.h"
 
 #include "analysis/stability/stability.h"
 #include "analysis/transient/transient.h"
