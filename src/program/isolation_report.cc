@@ -39,6 +39,48 @@ namespace sprag
                                { "harmonic_balance_solutions", static_cast<double>(motions.size()) },
                                { "harmonic_balance_error", std::abs(ratio / found.fundamental - 1.) } });
     }
+
+    /// With a harmonic base the harmonic balance stands beside what was found.
+    std::vector<Entry> isolation_summary(const Scene &scene, const IsolationFindings &found)
+    {
+      const double natural       = std::sqrt(scene.isolation.stiffness / scene.isolation.mass) / (2. * M_PI);
+      std::vector<Entry> entries = { { "natural_frequency", natural },
+                                     { "residual_offset", found.residual_offset },
+                                     { "stops", static_cast<double>(found.stops) },
+                                     { "turns", static_cast<double>(found.turns) },
+                                     { "rests_at_end", found.rests ? 1. : 0. },
+                                     { "end_time", found.time },
+                                     { "largest_displacement", found.largest_displacement },
+                                     { "largest_acceleration", found.largest_acceleration },
+                                     { "rms_acceleration", found.rms_acceleration },
+                                     { "transmissibility_peak", found.peak },
+                                     { "transmissibility_fundamental", found.fundamental },
+                                     { "transmissibility_rms", found.rms },
+                                     { "transmissibility_rms_low", found.rms_low },
+                                     { "transmissibility_rms_high", found.rms_high },
+                                     { "relative_amplitude", found.relative_amplitude } };
+      if (is_harmonic(scene))
+        append<Entry>(entries, { { "steady_state", found.is_steady ? 1. : 0. },
+                                 { "periods_to_repeat", static_cast<double>(found.periods) },
+                                 { "steady_from", found.steady_from },
+                                 { "stops_a_period", found.stops_a_period } });
+      add_harmonic_balance(scene, found, entries);
+      append<Entry>(entries, { { "dissipated_energy", found.dissipated },
+                               { "base_work", found.base_work },
+                               { "energy_residual", found.energy_residual } });
+      return entries;
+    }
+
+    Warnings isolation_warnings(const Scene &scene, const IsolationFindings &found)
+    {
+      if (!is_harmonic(scene) || found.is_steady)
+        return {};
+      return { { "no_steady_state",
+                 "After " + rounded_text(found.time) + " s the motion does not repeat within Isolation/Periodic tolerance = " +
+                     rounded_text(scene.isolation.periodic_tolerance) + ".",
+                 "Transmissibilities are those of the last period and hold what is left of the beginning.",
+                 "A longer Isolation/Duration, or a damper that dissipates more." } };
+    }
   } // namespace
 
   const std::vector<ColumnInfo> &isolation_columns()
@@ -71,44 +113,10 @@ namespace sprag
              !is_before && motion.rests() ? 1. : 0. };
   }
 
-  std::vector<Entry> isolation_summary(const Scene &scene, const IsolationFindings &found)
+  void finish_isolation(const Scene &scene, const IsolationFindings &found, const std::vector<Entry> &facts,
+                        const std::string &status, ResultWriter &writer, Warnings &warnings)
   {
-    const double natural       = std::sqrt(scene.isolation.stiffness / scene.isolation.mass) / (2. * M_PI);
-    std::vector<Entry> entries = { { "natural_frequency", natural },
-                                   { "residual_offset", found.residual_offset },
-                                   { "stops", static_cast<double>(found.stops) },
-                                   { "turns", static_cast<double>(found.turns) },
-                                   { "rests_at_end", found.rests ? 1. : 0. },
-                                   { "end_time", found.time },
-                                   { "largest_displacement", found.largest_displacement },
-                                   { "largest_acceleration", found.largest_acceleration },
-                                   { "rms_acceleration", found.rms_acceleration },
-                                   { "transmissibility_peak", found.peak },
-                                   { "transmissibility_fundamental", found.fundamental },
-                                   { "transmissibility_rms", found.rms },
-                                   { "transmissibility_rms_low", found.rms_low },
-                                   { "transmissibility_rms_high", found.rms_high },
-                                   { "relative_amplitude", found.relative_amplitude } };
-    if (is_harmonic(scene))
-      append<Entry>(entries, { { "steady_state", found.is_steady ? 1. : 0. },
-                               { "periods_to_repeat", static_cast<double>(found.periods) },
-                               { "steady_from", found.steady_from },
-                               { "stops_a_period", found.stops_a_period } });
-    add_harmonic_balance(scene, found, entries);
-    append<Entry>(entries, { { "dissipated_energy", found.dissipated },
-                             { "base_work", found.base_work },
-                             { "energy_residual", found.energy_residual } });
-    return entries;
-  }
-
-  Warnings isolation_warnings(const Scene &scene, const IsolationFindings &found)
-  {
-    if (!is_harmonic(scene) || found.is_steady)
-      return {};
-    return { { "no_steady_state",
-               "After " + rounded_text(found.time) + " s the motion does not repeat within Isolation/Periodic tolerance = " +
-                   rounded_text(scene.isolation.periodic_tolerance) + ".",
-               "Transmissibilities are those of the last period and hold what is left of the beginning.",
-               "A longer Isolation/Duration, or a damper that dissipates more." } };
+    append(warnings, isolation_warnings(scene, found));
+    writer.finish(status, { isolation_summary(scene, found), facts }, warnings);
   }
 } // namespace sprag

@@ -18,13 +18,7 @@ namespace sprag
   /// Returns the values of these columns; `is_before`: with the force just before a turn.
   std::vector<double> isolation_row(const IsolationSettings &settings, const IsolatedTable &motion, bool is_before);
 
-  /// Sums up a run; with a harmonic base the harmonic balance stands beside it.
-  std::vector<Entry> isolation_summary(const Scene &scene, const IsolationFindings &found);
-
   /// Writes and prints what a run of an isolation system found, with facts of the run.
   void finish_isolation(const Scene &scene, const IsolationFindings &found, const std::vector<Entry> &facts,
                         const std::string &status, ResultWriter &writer, Warnings &warnings);
-
-  /// Returns what a run of an isolation system warns of.
-  Warnings isolation_warnings(const Scene &scene, const IsolationFindings &found);
 } // namespace sprag

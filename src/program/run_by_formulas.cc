@@ -1,11 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "program/run_by_formulas.h"
+
+#include "analytic/closed_form.h"
+#include "analytic/ideal_contact.h"
+#include "analytic/slope.h"
 #include "base/errors.h"
+#include "base/system/interrupt.h"
+#include "laws/friction.h"
+#include "program/isolation_report.h"
 #include "program/output_folder.h"
+#include "program/recorder.h"
+#include "program/result_writer.h"
+#include "report/report.h"
 #include "report/warnings.h"
+#include "scene/closed_form.h"
+#include "scene/contact_reference.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"
 
+#include <cmath>
 #include <iostream>
 #include <set>
 
@@ -49,6 +62,61 @@ namespace sprag
       if (!options.quiet && options.is_first)
         std::cout << to_text(warnings) << end << count_text(warnings) << std::endl;
     }
+
+    auto record_until_interrupted(Recorder &recorder)
+    {
+      return [&recorder](const Row &row)
+      {
+        recorder.record(row);
+        end_if_interrupted();
+      };
+    }
+
+    void run_slope(const Scene &scene, const RunOptions &options, Warnings &warnings)
+    {
+      PhaseTimer timer;
+      const auto sweep = slope_sweep(scene);
+      ResultWriter writer(scene, options, timer, sweep.columns);
+      for (const auto &row : sweep.rows)
+        writer.append(row);
+      const double mu = friction_coefficient(scene.friction, scene.drive.peak_speed()).coefficient;
+      writer.finish("completed", { { { "critical_inclination", std::atan(mu) } } }, warnings);
+    }
+
+    /// Throws AnalysisError too where the damper of the table ends or locks and where the energy ledger leaves more open than
+    /// Analysis/Maximum energy residual.
+    void run_isolation_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
+    {
+      PhaseTimer timer;
+      ResultWriter writer(scene, options, timer, isolation_columns());
+      RecordTable record;
+      if (options.in_memory == nullptr)
+        record = [&](const IsolatedTable &table, const bool is_before)
+        { writer.append(isolation_row(scene.isolation, table, is_before)); };
+      IsolationFindings found;
+      finish_in_any_case([&] { run_isolation(scene, found, record); },
+                         [&](const std::string &status) { finish_isolation(scene, found, {}, status, writer, warnings); });
+    }
+
+    void run_without_inertia(const Scene &scene, const RunOptions &options, Warnings &warnings)
+    {
+      PhaseTimer timer;
+      Recorder recorder(scene, options, timer, {});
+      std::vector<Entry> summary;
+      finish_in_any_case([&] { run_closed_form(scene, record_until_interrupted(recorder)); },
+                         [&](const std::string &status) { summary = recorder.finish(status, {}, warnings); });
+      check_deviation(scene, summary);
+    }
+
+    void run_in_time(const Scene &scene, const RunOptions &options, Warnings &warnings)
+    {
+      PhaseTimer timer;
+      const double inertia = scene.analysis.model == ModelType::rigid ? moment_of_inertia(scene) : 0.;
+      Recorder recorder(scene, options, timer, {});
+      announce_model(scene, options);
+      record_steps(scene, recorder, timer, warnings, {},
+                   [&] { return run_ideal_contact(scene, inertia, record_until_interrupted(recorder)); });
+    }
   } // namespace
 
   void check_warnings(const Scene &scene, const Warnings &warnings)
@@ -78,5 +146,17 @@ namespace sprag
   void run_by_formulas(const Scene &scene, const RunOptions &options)
   {
     run_from_margin_to_warnings(scene, options, rigid_jamming_margin, run_formulas);
+  }
+
+  void run_formulas(const Scene &scene, const RunOptions &options, Warnings &warnings)
+  {
+    if (scene.analysis.type == AnalysisType::slope)
+      run_slope(scene, options, warnings);
+    else if (scene.analysis.type == AnalysisType::isolation)
+      run_isolation_scene(scene, options, warnings);
+    else if (scene.analysis.type == AnalysisType::transient)
+      run_in_time(scene, options, warnings);
+    else
+      run_without_inertia(scene, options, warnings);
   }
 } // namespace sprag

@@ -24,11 +24,4 @@ namespace sprag
 
   /// Does what formulas do: see follows_formulas().
   void run_formulas(const Scene &scene, const RunOptions &options, Warnings &warnings);
-
-  /// Sweeps the representative slope C_Q.
-  void run_slope(const Scene &scene, const RunOptions &options, Warnings &warnings);
-
-  /// Follows the table of an isolation system. Throws AnalysisError too where its damper ends or locks and where the energy
-  /// ledger leaves more open than Analysis/Maximum energy residual.
-  void run_isolation_scene(const Scene &scene, const RunOptions &options, Warnings &warnings);
 } // namespace sprag
