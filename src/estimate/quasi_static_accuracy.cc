@@ -59,81 +59,50 @@ namespace sprag
   {
     constexpr double near_peak = 0.5;  ///< stress of the states that count, over the largest
     constexpr double near_edge = 0.85; ///< stress at the contact's edge over the largest, from which a finer mesh finds it there
-  }                                    // namespace
 
-  StressComparison::StressComparison(const StaticLever<2> &other, const std::vector<StressSample> &run)
-      : model(other)
-      , samples(run)
-      , fields(model.body())
-  {
-  }
-
-  void StressComparison::look_at(const State &state, const Row &row)
-  {
-    const auto run_sample =
-        std::find_if(samples.begin(), samples.end(), [&](const StressSample &sample) { return sample.time == state.drive.time; });
-    if (run_sample == samples.end())
-      return;
-    StressSample found;
-    for (const auto &displacement : model.body_displacements(state.coordinates, state.forces))
-      sprag::look_at(fields, fields.at(displacement), row, found);
-    pairs.push_back({ *run_sample, found });
-  }
-
-  std::optional<StressChanges> StressComparison::changes() const
-  {
-    const auto change = [&](double StressSample::*const part)
+    /// Stresses of a state in the run and in another model.
+    struct StressPair
     {
-      const double peak = largest(pairs, [&](const Pair &pair) { return pair.run.*part; });
-      double result     = 0.;
-      for (const auto &[run, other] : pairs)
-        if (run.*part >= near_peak * peak)
-          result = std::max(result, std::abs(other.*part - run.*part));
-      return peak > 0. ? result / peak : 0.;
+      StressSample run, other;
     };
-    if (pairs.empty())
-      return {};
-    const auto peak =
-        std::max_element(pairs.begin(), pairs.end(), [](const Pair &a, const Pair &b) { return a.run.layer < b.run.layer; });
-    // A finer mesh finds still more of a cusp, as much as this one does beyond the other.
-    const double more = std::max(0., peak->run.layer_edge - peak->other.layer_edge);
-    return StressChanges{ change(&StressSample::lever), change(&StressSample::layer),
-                          peak->run.layer_edge + more > near_edge * peak->run.layer };
-  }
 
-  std::vector<double> sample_times(const std::vector<StressSample> &samples)
-  {
-    std::vector<double> times;
-    for (const auto &sample : samples)
-      times.push_back(sample.time);
-    return times;
-  }
+    /// Returns the largest changes over the states with at least half the largest stress, over that one: a single place may lie
+    /// well by chance. None without states.
+    std::optional<StressChanges> stress_changes(const std::vector<StressPair> &pairs)
+    {
+      const auto change = [&](double StressSample::*const part)
+      {
+        const double peak = largest(pairs, [&](const StressPair &pair) { return pair.run.*part; });
+        double result     = 0.;
+        for (const auto &[run, other] : pairs)
+          if (run.*part >= near_peak * peak)
+            result = std::max(result, std::abs(other.*part - run.*part));
+        return peak > 0. ? result / peak : 0.;
+      };
+      if (pairs.empty())
+        return {};
+      const auto peak = std::max_element(pairs.begin(), pairs.end(),
+                                         [](const StressPair &a, const StressPair &b) { return a.run.layer < b.run.layer; });
+      // A finer mesh finds still more of a cusp, as much as this one does beyond the other.
+      const double more = std::max(0., peak->run.layer_edge - peak->other.layer_edge);
+      return StressChanges{ change(&StressSample::lever), change(&StressSample::layer),
+                            peak->run.layer_edge + more > near_edge * peak->run.layer };
+    }
 
-  namespace
-  {
     constexpr unsigned int samples_per_stroke = 6, samples_in_space = 3;
 
     /// Sets the samples of a run, and returns them with the rows of its passage through stick between.
     std::vector<Row> choose_rows(const std::vector<Row> &rows, const unsigned int n_per_stroke, const std::vector<double> &times,
-                                 TrialRuns &trial_runs)
+                                 TrialRows &run)
     {
-      trial_runs.run     = slide_samples(rows, n_per_stroke, times);
-      trial_runs.passage = passage_rows(rows);
-      auto chosen        = sample_times(trial_runs.run);
-      append(chosen, sample_times(trial_runs.passage));
-      return rows_at(chosen, rows);
+      run = { slide_samples(rows, n_per_stroke, times), passage_rows(rows) };
+      return rows_at(joined(sample_times(run.slides), sample_times(run.passage)), rows);
     }
 
-    void set_other(const std::vector<Row> &rows, TrialRuns &trial_runs)
+    /// Divides the rows that another model has at all samples.
+    TrialRows divided(const std::vector<Row> &rows, const TrialRows &run)
     {
-      trial_runs.other         = rows_at(sample_times(trial_runs.run), rows);
-      trial_runs.other_passage = rows_at(sample_times(trial_runs.passage), rows);
-    }
-
-    void set_soft(const std::vector<Row> &rows, TrialRuns &trial_runs)
-    {
-      trial_runs.soft         = rows_at(sample_times(trial_runs.run), rows);
-      trial_runs.soft_passage = rows_at(sample_times(trial_runs.passage), rows);
+      return { rows_at(sample_times(run.slides), rows), rows_at(sample_times(run.passage), rows) };
     }
 
     /// Gives a model its own penalties back.
@@ -149,17 +118,21 @@ namespace sprag
       }
     };
 
+    bool augments(const Scene &scene)
+    {
+      return scene.contact.enforcement == Enforcement::augmented_lagrangian;
+    }
+
     /// The samples in the run's own model with a softer penalty, where that says anything.
     template <class Levers>
     std::vector<Row> with_softer_penalty(const Scene &scene, Levers &levers, const std::vector<Row> &samples, const double start,
                                          const QuasiStaticSettings &settings)
     {
-      const bool augments = scene.contact.enforcement == Enforcement::augmented_lagrangian;
-      if (augments && !scene.contact.tangential_penalty)
+      if (augments(scene) && !scene.contact.tangential_penalty)
         return {};
       const OwnPenalties<Levers> own{ levers };
       const auto &penalties = own.penalties;
-      levers.use_penalties({ augments ? penalties.normal : penalties.normal / softer, penalties.tangential / softer });
+      levers.use_penalties({ augments(scene) ? penalties.normal : penalties.normal / softer, penalties.tangential / softer });
       return repeated(levers, samples, start, settings);
     }
   } // namespace
@@ -168,21 +141,32 @@ namespace sprag
                              const QuasiStaticSettings &settings, const std::vector<StressSample> &stresses)
   {
     TrialRuns result;
-    const auto times   = sample_times(stresses);
+    std::vector<double> times;
+    for (const auto &sample : stresses)
+      times.push_back(sample.time);
     const double start = rows.front()[Column::x];
-    const auto chosen  = choose_rows(rows, samples_per_stroke, times, result);
+    const auto chosen  = choose_rows(rows, samples_per_stroke, times, result.run);
     Mesh mesh;
     const Scene other = with_compared_mesh(with_penalties(scene, levers.penalties(), 1.));
     make_mesh(other, mesh);
     StaticLever<2> on_other(mesh, other);
-    StressComparison stress(on_other, stresses);
-    set_other(repeated(on_other, chosen, start, settings,
-                       [&](const State &state, const Row &row, const Evaluation &) { stress.look_at(state, row); }),
-              result);
-    result.stress = stress.changes();
-    result.pressure_with_stress =
-        result.stress ? relative_change("largest_pressure", rows_at(times, result.run), rows_at(times, result.other)) : 0.;
-    set_soft(with_softer_penalty(scene, levers, chosen, start, settings), result);
+    const BodyFields fields(on_other.body());
+    std::vector<StressPair> pairs;
+    const auto look = [&](const State &state, const Row &row, const Evaluation &)
+    {
+      const auto sample = std::find(times.begin(), times.end(), state.drive.time);
+      if (sample == times.end())
+        return;
+      pairs.push_back({ stresses[sample - times.begin()], {} });
+      for (const auto &displacement : on_other.body_displacements(state.coordinates, state.forces))
+        look_at(fields, fields.at(displacement), row, pairs.back().other);
+    };
+    result.other  = divided(repeated(on_other, chosen, start, settings, look), result.run);
+    result.stress = stress_changes(pairs);
+    if (result.stress)
+      result.pressure_with_stress =
+          relative_change("largest_pressure", rows_at(times, result.run.slides), rows_at(times, result.other.slides));
+    result.soft = divided(with_softer_penalty(scene, levers, chosen, start, settings), result.run);
     return result;
   }
 
@@ -191,25 +175,20 @@ namespace sprag
   {
     TrialRuns result;
     const double start = rows.front()[Column::x];
-    const auto chosen  = choose_rows(rows, samples_in_space, {}, result);
-    set_soft(with_softer_penalty(scene, lever, chosen, start, settings), result);
+    const auto chosen  = choose_rows(rows, samples_in_space, {}, result.run);
+    result.soft        = divided(with_softer_penalty(scene, lever, chosen, start, settings), result.run);
     body.release_factors(); // before there are others
     Mesh mesh;
     const Scene other = with_compared_mesh(with_penalties(scene, lever.penalties(), 1.));
     make_mesh(other, mesh);
     const SolidBody other_body(other, mesh);
     StaticLever<3> on_other(other_body, other);
-    set_other(repeated(on_other, chosen, start, settings), result);
+    result.other = divided(repeated(on_other, chosen, start, settings), result.run);
     return result;
   }
 
   namespace
   {
-    bool augments(const Scene &scene)
-    {
-      return scene.contact.enforcement == Enforcement::augmented_lagrangian;
-    }
-
     constexpr double least_reversal_faces = 4.;
     constexpr double least_across         = 1e-6; ///< over the width [1 or N], below which round-off is left
 
@@ -225,12 +204,12 @@ namespace sprag
     void add_reversal(const Scene &scene, const TrialRuns &trial_runs, ErrorEstimate &estimate)
     {
       // A narrower contact does not converge with the order of forces yet.
-      const bool is_narrow = faces_in_contact(scene, trial_runs.run) < least_reversal_faces;
+      const bool is_narrow = faces_in_contact(scene, trial_runs.run.slides) < least_reversal_faces;
       const double order   = is_narrow ? 1. : force_order(scene);
       const auto change    = [&](const std::vector<Row> &other)
-      { return other.empty() ? 0. : peak_change(estimate.quantity, trial_runs.passage, other); };
-      auto part  = mesh_part(scene, change(trial_runs.other_passage), order);
-      part.value = part.value + penalty_part(scene, change(trial_runs.soft_passage)).value - total_error(estimate);
+      { return other.empty() ? 0. : peak_change(estimate.quantity, trial_runs.run.passage, other); };
+      auto part  = mesh_part(scene, change(trial_runs.other.passage), order);
+      part.value = part.value + penalty_part(scene, change(trial_runs.soft.passage)).value - total_error(estimate);
       part.name  = "reversal";
       if (part.value > 0.)
         estimate.parts.push_back(part);
@@ -239,12 +218,12 @@ namespace sprag
     ErrorEstimate estimate(const Scene &scene, const TrialRuns &trial_runs, const std::string &quantity,
                            const std::string &relative_to)
     {
-      const auto change  = [&](const std::vector<Row> &other) { return relative_change(quantity, trial_runs.run, other); };
+      const auto change  = [&](const std::vector<Row> &other) { return relative_change(quantity, trial_runs.run.slides, other); };
       const double order = quantity == "largest_pressure" ? pressure_order(scene) : force_order(scene);
-      ErrorEstimate result{ quantity, relative_to, { mesh_part(scene, change(trial_runs.other), order) }, {} };
-      if (!trial_runs.soft.empty())
-        result.parts.push_back(penalty_part(scene, change(trial_runs.soft)));
-      if (!trial_runs.soft.empty() && augments(scene))
+      ErrorEstimate result{ quantity, relative_to, { mesh_part(scene, change(trial_runs.other.slides), order) }, {} };
+      if (!trial_runs.soft.slides.empty())
+        result.parts.push_back(penalty_part(scene, change(trial_runs.soft.slides)));
+      if (!trial_runs.soft.slides.empty() && augments(scene))
         result.parts.back().remedy = "Try twice the Contact/Tangential penalty, or leave it at auto.";
       add_reversal(scene, trial_runs, result);
       return result;
@@ -257,19 +236,19 @@ namespace sprag
       const auto index    = static_cast<std::size_t>(
           std::find_if(columns.begin(), columns.end(), [&](const ColumnInfo &column) { return column.name == quantity; }) -
           columns.begin());
-      const double peak = largest(trial_runs.run, [&](const Row &row) { return row.across.at(index); });
+      const double peak = largest(trial_runs.run.slides, [&](const Row &row) { return row.across.at(index); });
       if (!(peak > least_across * scene.lever.width))
         return { quantity, "", {}, "No estimate: the contact is the same on both sides." };
       const auto change = [&](const std::vector<Row> &other)
       {
         double result = 0.;
         for (std::size_t i = 0; i < other.size(); ++i)
-          result = std::fmax(result, std::abs(other[i].across.at(index) - trial_runs.run[i].across.at(index)));
+          result = std::fmax(result, std::abs(other[i].across.at(index) - trial_runs.run.slides[i].across.at(index)));
         return result / peak;
       };
-      ErrorEstimate result{ quantity, "its peak", { mesh_part(scene, change(trial_runs.other), force_order(scene)) }, {} };
-      if (!trial_runs.soft.empty())
-        result.parts.push_back(penalty_part(scene, change(trial_runs.soft)));
+      ErrorEstimate result{ quantity, "its peak", { mesh_part(scene, change(trial_runs.other.slides), force_order(scene)) }, {} };
+      if (!trial_runs.soft.slides.empty())
+        result.parts.push_back(penalty_part(scene, change(trial_runs.soft.slides)));
       return result;
     }
 
@@ -327,8 +306,9 @@ namespace sprag
       lever.name  = "mesh_of_lever";
       layer.name  = "mesh_of_layer";
       ErrorEstimate result{ "largest_stress", "that of the lever or of the layer", { lever, layer }, {} };
-      if (!trial_runs.soft.empty())
-        result.parts.push_back(penalty_part(scene, relative_change("largest_pressure", trial_runs.run, trial_runs.soft)));
+      if (!trial_runs.soft.slides.empty())
+        result.parts.push_back(
+            penalty_part(scene, relative_change("largest_pressure", trial_runs.run.slides, trial_runs.soft.slides)));
       return result;
     }
 
@@ -360,9 +340,9 @@ namespace sprag
     const auto estimate_all               = [&]
     {
       const TrialRuns trial_runs = run_trials();
-      if (trial_runs.run.size() < 2)
+      if (trial_runs.run.slides.size() < 2)
         throw NoEstimate{ "there are no two states in which the whole contact slides." };
-      const double faces       = faces_in_contact(scene, trial_runs.run);
+      const double faces       = faces_in_contact(scene, trial_runs.run.slides);
       const bool forces_follow = faces > 1.;
       const bool all_follows   = expected_pressure_error(faces, scene.mesh.degree) <= follows_pressure;
       const double scatter     = smoothed_largest_pressure(rows, scene.mesh.face_size).scatter;

@@ -43,46 +43,20 @@ namespace sprag
     bool is_at_edge; ///< whether the layer's is all but reached where the contact ends, see StressSample
   };
 
-  /// Compares the largest stresses that a run found with those of another model in the same states.
-  class StressComparison
+  /// Some states of a run, as it or another model has them.
+  struct TrialRows
   {
-  public:
-    /// The model must outlive the object.
-    StressComparison(const StaticLever<2> &other, const std::vector<StressSample> &run);
-
-    /// Looks at a state of the other model.
-    void look_at(const State &state, const Row &row);
-
-    /// Returns the largest changes over the states with at least half the largest stress, over that one: a single place may lie
-    /// well by chance. None where no state of the run was looked at.
-    std::optional<StressChanges> changes() const;
-
-  private:
-    struct Pair
-    {
-      StressSample run;
-      StressSample other;
-    };
-
-    const StaticLever<2> &model;
-    const std::vector<StressSample> samples;
-    const BodyFields fields;
-    std::vector<Pair> pairs;
+    std::vector<Row> slides;  ///< in full sliding
+    std::vector<Row> passage; ///< see passage_rows()
   };
 
-  /// Returns the times of states [s].
-  std::vector<double> sample_times(const std::vector<StressSample> &samples);
-
-  /// Some states of a run in full sliding, and what other models make of them in single steps from one to the next.
+  /// Some states of a run, and what other models make of them in single steps from one to the next.
   struct TrialRuns
   {
-    std::vector<Row> run;
-    std::vector<Row> other;         ///< on the mesh of with_compared_mesh() with the same penalty
-    std::vector<Row> soft;          ///< on the run's mesh with a third of the penalty; empty where the run augments and has the
-                                    ///< automatic tangential one
-    std::vector<Row> passage;       ///< passage_rows() of the run
-    std::vector<Row> other_passage; ///< the same rows on the other mesh
-    std::vector<Row> soft_passage;  ///< and with the softer penalty
+    TrialRows run;
+    TrialRows other; ///< on the mesh of with_compared_mesh() with the same penalty
+    TrialRows soft;  ///< on the run's mesh with a third of the penalty; empty where the run augments and has the automatic
+                     ///< tangential one
     std::optional<StressChanges> stress{}; ///< on the other mesh
     double pressure_with_stress = 0.;      ///< change of the pressure there in the states whose stress is known
   };
