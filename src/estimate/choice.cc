@@ -22,7 +22,7 @@ namespace sprag
     constexpr double worst            = 0.5;
     constexpr double relaxation       = 1.4; ///< of the target from try to try
 
-    Choice cheap_enough(const Scene &scene, const std::function<Choice(double)> &meeting)
+    Choice cheap_enough(const Scene &scene, const ChooseToMeet &meeting)
     {
       double target = scene.accuracy.target > 0. ? scene.accuracy.target : best_with_budget;
       Choice choice = meeting(target);
@@ -80,14 +80,10 @@ namespace sprag
   {
     Choice choose_in_plane(const Scene &scene, const Announce &announce)
     {
-      const double since = PhaseTimer::cpu_seconds();
-      if (scene.analysis.type == AnalysisType::quasi_static)
-      {
-        const StaticChoice all(scene, announce);
-        return cheap_enough(with_budget_left(scene, since), [&](const double target) { return all.meeting(target); });
-      }
-      const VibrationChoice all(scene);
-      return cheap_enough(with_budget_left(scene, since), [&](const double target) { return all.meeting(target); });
+      const double since     = PhaseTimer::cpu_seconds();
+      const bool has_inertia = scene.analysis.type != AnalysisType::quasi_static;
+      const auto meeting     = has_inertia ? choose_for_vibration(scene) : choose_without_inertia(scene, announce);
+      return cheap_enough(with_budget_left(scene, since), meeting);
     }
   } // namespace
 

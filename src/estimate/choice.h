@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/contact/face_contact_point.h"
 #include "scene/scene.h"
 
 #include <functional>
@@ -70,52 +69,15 @@ namespace sprag
   /// resolved one by one. Throws InputError where a scene is refused, AnalysisError as choose_settings() does.
   Resolved resolved(const Scene &original, const Announce &announce = solve_silently);
 
-  /// Chooses for a run without inertia to meet a relative error `target` > 0.
-  class StaticChoice
-  {
-  public:
-    /// Solves the trial runs. Throws InputError where memory does not suffice.
-    explicit StaticChoice(const Scene &scene, const Announce &announce = solve_silently);
+  /// Chooses to meet a relative error > 0.
+  using ChooseToMeet = std::function<Choice(double target)>;
 
-    Choice meeting(double target) const;
+  /// Solves the trial runs of a run without inertia, and returns what chooses for it. Throws InputError where memory does not
+  /// suffice.
+  ChooseToMeet choose_without_inertia(const Scene &scene, const Announce &announce = solve_silently);
 
-  private:
-    Scene scene;
-    const bool enforcement_is_open;
-    bool is_refined  = false;               ///< after the first trial runs
-    double width     = 0.;                  ///< of the contact where P is largest [mm]
-    double face_size = 0.;                  ///< of the finer trial run [mm]
-    std::vector<double> errors;             ///< of the finer trial run, of each quantity
-    std::vector<double> closed_form_errors; ///< of the closed form; infinite of what it does not tell
-
-    void solve_trial_runs(double size);
-    double longest_face(double target) const;
-    void add_mesh(double target, Choice &choice) const;
-  };
-
-  /// Chooses for a slide or a run in time.
-  class VibrationChoice
-  {
-  public:
-    /// Checks the slide by the trial runs.
-    explicit VibrationChoice(const Scene &scene);
-
-    Choice meeting(double target) const;
-
-  private:
-    const Scene scene;
-    double face_size     = 0.;                                ///< of the finer trial run [mm]
-    double mesh_error    = 0.;                                ///< of the finer trial run, of the worst quantity
-    double beam_error    = 0.;                                ///< of the beam, likewise
-    double penalty_error = 0.;                                ///< of the trial run's penalty, likewise
-    ContactPenalties penalties{};                             ///< of the trial run
-    std::vector<std::pair<unsigned int, double>> mode_errors; ///< of numbers of modes
-
-    bool takes_beam(double target) const;
-    double add_mesh(double target, Choice &choice) const;
-    void add_penalty(double target, double size, Choice &choice) const;
-    void add_modes(double target, Choice &choice) const;
-  };
+  /// Checks a slide, or that of a run in time, by trial runs, and returns what chooses for it.
+  ChooseToMeet choose_for_vibration(const Scene &scene);
 
   /// Returns "Mesh/Face size = 0.6; Analysis/Step = 2".
   std::string to_text(const std::vector<ChosenSetting> &settings);

@@ -78,104 +78,124 @@ namespace sprag
       scene.condensed.modes = modes;
       return scene;
     }
+
+    /// Chooses for a slide or a run in time.
+    class VibrationChoice
+    {
+    public:
+      explicit VibrationChoice(const Scene &scene_)
+          : scene(scene_)
+      {
+        if (!is_meshed(scene.analysis.model))
+          return;
+        const auto quantities = trial_quantities(scene);
+        const double factor   = error_over_frequency(scene);
+        DynamicsMaker maker(true, 2);
+        Scene fine          = held_scene(scene);
+        fine.analysis.model = ModelType::condensed;
+        face_size           = estimated_contact_width(scene, contact_reference(scene).P) / trial_faces;
+        fine.mesh.face_size = face_size;
+        const auto found    = check_slide(fine, maker);
+        const auto change = [&](const Scene &other) { return factor * difference(found, check_slide(other, maker), quantities); };
+        penalties         = maker.make(fine).meshed.penalties;
+        penalty_error     = change(with_penalties(fine, penalties, 1. / softer)) * finer_share(softer, 1.);
+        for (unsigned int modes = 5; modes < fine.condensed.modes; modes *= 2)
+          mode_errors.emplace_back(modes, change(with_modes(fine, modes)));
+        mesh_error = change(with_coarser_mesh(with_penalties(fine, penalties, 1.))) * finer_share(coarser, force_order(scene));
+        if (scene.accuracy.is_model_open)
+        {
+          Scene beam          = fine;
+          beam.analysis.model = ModelType::beam;
+          beam_error          = change(beam);
+        }
+      }
+
+      Choice meeting(const double target) const
+      {
+        Choice choice;
+        const bool beam = takes_beam(target);
+        if (scene.accuracy.is_model_open)
+          choice.settings.push_back(
+              { "Analysis/Model", beam ? "beam" : "condensed", "the beam is " + percent(beam_error) + " off a condensed probe" });
+        const bool meshed = !beam && is_meshed(scene.analysis.model);
+        if (beam)
+          choice.error = beam_error;
+        if (!scene.accuracy.is_model_open && !is_meshed(scene.analysis.model))
+          choice.limit = "What this model leaves out is not known; Analysis/Model = auto compares it with finite elements.";
+        double size = scene.mesh.face_size;
+        if (meshed && is_open(scene, "Mesh/Face size") && scene.mesh.file.empty())
+          size = add_mesh(target, choice);
+        if (meshed && is_open(scene, "Contact/Penalty") && scene.mesh.file.empty())
+          add_penalty(target, size, choice);
+        if (meshed && scene.analysis.model == ModelType::condensed && is_open(scene, "Condensed/Modes"))
+          add_modes(target, choice);
+        if (scene.analysis.type == AnalysisType::transient && is_open(scene, "Time/Tolerance") && is_open(scene, "Time/Step"))
+        {
+          choice.error += step_share * target;
+          choice.settings.push_back({ "Time/Tolerance", rounded_text(step_share * target), "errors of P are about as large" });
+        }
+        return choice;
+      }
+
+    private:
+      const Scene scene;
+      double face_size     = 0.;                                ///< of the finer trial run [mm]
+      double mesh_error    = 0.;                                ///< of the finer trial run, of the worst quantity
+      double beam_error    = 0.;                                ///< of the beam, likewise
+      double penalty_error = 0.;                                ///< of the trial run's penalty, likewise
+      ContactPenalties penalties{};                             ///< of the trial run
+      std::vector<std::pair<unsigned int, double>> mode_errors; ///< of numbers of modes
+
+      bool takes_beam(const double target) const
+      {
+        const double share = scene.analysis.type == AnalysisType::transient ? 1. - step_share : model_share;
+        return scene.accuracy.is_model_open && beam_error <= share * target;
+      }
+
+      double add_mesh(const double target, Choice &choice) const
+      {
+        const double order = force_order(scene);
+        const double ideal = face_size * std::pow(mesh_share * target / std::max(mesh_error, 1e-12), 1. / order);
+        const double size  = std::clamp(ideal, face_size / finest, coarser * face_size);
+        choice.error += mesh_error * std::pow(size / face_size, order);
+        choice.settings.push_back({ "Mesh/Face size", rounded_text(size),
+                                    "a probe with " + rounded_text(face_size) + " mm is " + percent(mesh_error) + " off" });
+        if (ideal < size)
+          choice.limit = "Faces of " + mm(size) + " are the shortest that a probe tells of.";
+        return size;
+      }
+
+      void add_penalty(const double target, const double size, Choice &choice) const
+      {
+        Scene sized                = scene;
+        sized.mesh.face_size       = size;
+        const double most          = std::max(1., stiffest * largest_penalty(sized) / penalties.normal);
+        const double needed_factor = std::max(1., penalty_error / (penalty_share * target));
+        const double factor        = std::min(needed_factor, most);
+        if (factor < needed_factor)
+          choice.limit = "A stiffer Contact/Penalty is too stiff for this mesh.";
+        choice.error += penalty_error / factor;
+        if (factor > 1.)
+          choice.settings.push_back(
+              { "Contact/Penalty", rounded_text(factor * penalties.normal),
+                "with " + rounded_text(penalties.normal) + " N/mm3 it is " + percent(penalty_error) + " off" });
+      }
+
+      void add_modes(const double target, Choice &choice) const
+      {
+        for (const auto &[modes, error] : mode_errors)
+          if (error <= mode_share * target)
+          {
+            choice.error += error;
+            choice.settings.push_back({ "Condensed/Modes", std::to_string(modes), percent(error) + " off a probe with more" });
+            return;
+          }
+      }
+    };
   } // namespace
 
-  VibrationChoice::VibrationChoice(const Scene &scene_)
-      : scene(scene_)
+  ChooseToMeet choose_for_vibration(const Scene &scene)
   {
-    if (!is_meshed(scene.analysis.model))
-      return;
-    const auto quantities = trial_quantities(scene);
-    const double factor   = error_over_frequency(scene);
-    DynamicsMaker maker(true, 2);
-    Scene fine          = held_scene(scene);
-    fine.analysis.model = ModelType::condensed;
-    face_size           = estimated_contact_width(scene, contact_reference(scene).P) / trial_faces;
-    fine.mesh.face_size = face_size;
-    const auto found    = check_slide(fine, maker);
-    const auto change   = [&](const Scene &other) { return factor * difference(found, check_slide(other, maker), quantities); };
-    penalties           = maker.make(fine).meshed.penalties;
-    penalty_error       = change(with_penalties(fine, penalties, 1. / softer)) * finer_share(softer, 1.);
-    for (unsigned int modes = 5; modes < fine.condensed.modes; modes *= 2)
-      mode_errors.emplace_back(modes, change(with_modes(fine, modes)));
-    mesh_error = change(with_coarser_mesh(with_penalties(fine, penalties, 1.))) * finer_share(coarser, force_order(scene));
-    if (scene.accuracy.is_model_open)
-    {
-      Scene beam          = fine;
-      beam.analysis.model = ModelType::beam;
-      beam_error          = change(beam);
-    }
-  }
-
-  bool VibrationChoice::takes_beam(const double target) const
-  {
-    const double share = scene.analysis.type == AnalysisType::transient ? 1. - step_share : model_share;
-    return scene.accuracy.is_model_open && beam_error <= share * target;
-  }
-
-  double VibrationChoice::add_mesh(const double target, Choice &choice) const
-  {
-    const double order = force_order(scene);
-    const double ideal = face_size * std::pow(mesh_share * target / std::max(mesh_error, 1e-12), 1. / order);
-    const double size  = std::clamp(ideal, face_size / finest, coarser * face_size);
-    choice.error += mesh_error * std::pow(size / face_size, order);
-    choice.settings.push_back({ "Mesh/Face size", rounded_text(size),
-                                "a probe with " + rounded_text(face_size) + " mm is " + percent(mesh_error) + " off" });
-    if (ideal < size)
-      choice.limit = "Faces of " + mm(size) + " are the shortest that a probe tells of.";
-    return size;
-  }
-
-  void VibrationChoice::add_penalty(const double target, const double size, Choice &choice) const
-  {
-    Scene sized                = scene;
-    sized.mesh.face_size       = size;
-    const double most          = std::max(1., stiffest * largest_penalty(sized) / penalties.normal);
-    const double needed_factor = std::max(1., penalty_error / (penalty_share * target));
-    const double factor        = std::min(needed_factor, most);
-    if (factor < needed_factor)
-      choice.limit = "A stiffer Contact/Penalty is too stiff for this mesh.";
-    choice.error += penalty_error / factor;
-    if (factor > 1.)
-      choice.settings.push_back({ "Contact/Penalty", rounded_text(factor * penalties.normal),
-                                  "with " + rounded_text(penalties.normal) + " N/mm3 it is " + percent(penalty_error) + " off" });
-  }
-
-  void VibrationChoice::add_modes(const double target, Choice &choice) const
-  {
-    for (const auto &[modes, error] : mode_errors)
-      if (error <= mode_share * target)
-      {
-        choice.error += error;
-        choice.settings.push_back({ "Condensed/Modes", std::to_string(modes), percent(error) + " off a probe with more" });
-        return;
-      }
-  }
-
-  Choice VibrationChoice::meeting(const double target) const
-  {
-    Choice choice;
-    const bool beam = takes_beam(target);
-    if (scene.accuracy.is_model_open)
-      choice.settings.push_back(
-          { "Analysis/Model", beam ? "beam" : "condensed", "the beam is " + percent(beam_error) + " off a condensed probe" });
-    const bool meshed = !beam && is_meshed(scene.analysis.model);
-    if (beam)
-      choice.error = beam_error;
-    if (!scene.accuracy.is_model_open && !is_meshed(scene.analysis.model))
-      choice.limit = "What this model leaves out is not known; Analysis/Model = auto compares it with finite elements.";
-    double size = scene.mesh.face_size;
-    if (meshed && is_open(scene, "Mesh/Face size") && scene.mesh.file.empty())
-      size = add_mesh(target, choice);
-    if (meshed && is_open(scene, "Contact/Penalty") && scene.mesh.file.empty())
-      add_penalty(target, size, choice);
-    if (meshed && scene.analysis.model == ModelType::condensed && is_open(scene, "Condensed/Modes"))
-      add_modes(target, choice);
-    if (scene.analysis.type == AnalysisType::transient && is_open(scene, "Time/Tolerance") && is_open(scene, "Time/Step"))
-    {
-      choice.error += step_share * target;
-      choice.settings.push_back({ "Time/Tolerance", rounded_text(step_share * target), "errors of P are about as large" });
-    }
-    return choice;
+    return [all = VibrationChoice(scene)](const double target) { return all.meeting(target); };
   }
 } // namespace sprag

@@ -112,136 +112,155 @@ namespace sprag
         scene.cylinder.face_size = std::min(size, largest_on_cylinder * scene.geometry.cylinder_radius);
       return scene;
     }
+
+    /// Chooses for a run without inertia.
+    class StaticChoice
+    {
+    public:
+      explicit StaticChoice(const Scene &scene_, const Announce &announce)
+          : scene(scene_)
+          , enforcement_is_open(scene.contact.enforcement == Enforcement::penalty && is_open(scene, "Contact/Enforcement") &&
+                                is_open(scene, "Contact/Penalty"))
+      {
+        const double since = PhaseTimer::cpu_seconds();
+        if (enforcement_is_open)
+          scene.contact.enforcement = Enforcement::augmented_lagrangian;
+        const auto [from, to] = swept_contact(scene);
+        width                 = estimated_contact_width(scene, contact_reference(scene).P);
+        solve_trial_runs(std::max(width / trial_faces, (to - from) / most_trial_faces));
+        const double target   = scene.accuracy.target;
+        const auto is_too_far = [&]
+        { return longest_face(target) < extrapolated * face_size && is_paid(with_budget_left(scene, since), meeting(target)); };
+        for (unsigned int i = 0; i < most_refinements && target > 0. && is_too_far(); ++i)
+        {
+          const Scene fine = with_face_size(scene, longest_face(target));
+          require_memory(fine);
+          const auto cost = trial_cost(fine);
+          if (!announce(announcement(fine, cost), cost.cpu_seconds))
+            break;
+          solve_trial_runs(fine.mesh.face_size);
+          is_refined = true;
+        }
+      }
+
+      Choice meeting(const double target) const
+      {
+        const auto &requested          = scene.accuracy.quantities;
+        const bool wants_loop          = std::count(requested.begin(), requested.end(), "loop_area") > 0;
+        const bool forces_only         = std::all_of(requested.begin(), requested.end(), is_force_quantity);
+        const double closed_form_error = *std::max_element(closed_form_errors.begin(), closed_form_errors.end());
+        const bool closed_form         = scene.accuracy.is_model_open && closed_form_error <= model_share * target;
+        Choice choice;
+        if (scene.accuracy.is_model_open)
+          choice.settings.push_back({ "Analysis/Model", closed_form ? "closed form" : "finite element",
+                                      std::isfinite(closed_form_error)
+                                          ? "the closed form is " + percent(closed_form_error) + " off a probe"
+                                          : "the closed form does not tell what is wanted" });
+        if (closed_form)
+          choice.error = closed_form_error;
+        else if (is_open(scene, "Mesh/Face size") && scene.mesh.file.empty())
+          add_mesh(target, choice);
+        if (enforcement_is_open && !closed_form)
+          choice.settings.push_back({ "Contact/Enforcement", "augmented Lagrangian", "it leaves no error of a penalty" });
+        if (forces_only && !closed_form && is_open(scene, "Mesh/Faces in contact"))
+          choice.settings.push_back({ "Mesh/Faces in contact", "0", "no pressure is wanted" });
+        if (is_open(scene, "Analysis/Step"))
+        {
+          const double step = largest_row_spacing(scene, row_share * target, wants_loop);
+          choice.settings.push_back({ "Analysis/Step", rounded_text(step), "lines between rows follow the closed form" });
+          choice.error += row_share * target;
+        }
+        return choice;
+      }
+
+    private:
+      Scene scene;
+      const bool enforcement_is_open;
+      bool is_refined  = false;               ///< after the first trial runs
+      double width     = 0.;                  ///< of the contact where P is largest [mm]
+      double face_size = 0.;                  ///< of the finer trial run [mm]
+      std::vector<double> errors;             ///< of the finer trial run, of each quantity
+      std::vector<double> closed_form_errors; ///< of the closed form; infinite of what it does not tell
+
+      void solve_trial_runs(const double size)
+      {
+        face_size         = size;
+        const Scene fine  = with_face_size(scene, size);
+        const auto places = drive_samples(scene.drive);
+        const auto turn   = scene.accuracy.is_model_open ? places_behind_reversal(scene.drive, 2. * width) : std::vector<Row>{};
+        auto sampled      = joined(places, turn);
+        std::sort(sampled.begin(), sampled.end(), [](const Row &a, const Row &b) { return a[Column::time] < b[Column::time]; });
+        if (!turn.empty()) // the closed form alone jumps there
+          sampled.erase(std::find_if(sampled.begin(), sampled.end(),
+                                     [&](const Row &row) { return row[Column::time] == turn.front()[Column::time]; }));
+        const auto solved = trial_run(fine, sampled);
+        const auto rows   = rows_at(sample_times(places), solved);
+        const auto jump   = with_closed_form(scene, turn);
+        const auto coarse = trial_run(with_coarser_mesh(fine), places);
+        const auto closed = with_closed_form(scene, rows);
+        errors.clear();
+        closed_form_errors.clear();
+        for (const auto &quantity : scene.accuracy.quantities)
+        {
+          errors.push_back(relative_change(quantity, rows, coarse) * finer_share(coarser, convergence_order(scene, quantity)));
+          closed_form_errors.push_back(is_force_quantity(quantity) ? relative_change(quantity, rows, closed)
+                                                                   : std::numeric_limits<double>::infinity());
+          if (!jump.empty() && (quantity == "P" || quantity == "Q"))
+            closed_form_errors.back() = std::max(closed_form_errors.back(), jump_change(quantity, solved, jump.front()));
+        }
+      }
+
+      double longest_face(const double target) const
+      {
+        // Beyond the coarser of the first trial runs the contact may be narrower than a face; what a refined one found holds for
+        // itself.
+        double result = is_refined ? face_size : coarser * face_size;
+        for (std::size_t i = 0; i < errors.size(); ++i)
+        {
+          const auto &quantity = scene.accuracy.quantities[i];
+          const double share   = share_for(quantity) * target / std::max(errors[i], 1e-12);
+          if (!is_force_quantity(quantity))
+            result = std::min(result, face_size * trial_faces / least_faces);
+          result = std::min(result, face_size * std::pow(share, 1. / convergence_order(scene, quantity)));
+        }
+        return std::max(result, face_size / finest);
+      }
+
+      void add_mesh(const double target, Choice &choice) const
+      {
+        const auto &requested = scene.accuracy.quantities;
+        const bool wants_peaks =
+            std::count(requested.begin(), requested.end(), "P") + std::count(requested.begin(), requested.end(), "Q") > 0;
+        const bool has_reversal      = wants_peaks && !scene.drive.reversals().empty();
+        const double trial_face_size = longest_face(target);
+        const double longest         = std::max(face_size / finest, width * std::sqrt(reversal_share * target / reversal_error));
+        const bool is_shorter        = has_reversal && longest < trial_face_size;
+        const double size            = is_shorter ? longest : trial_face_size;
+        bool is_short_enough         = true;
+        if (has_reversal)
+          choice.error = reversal_error * std::pow(size / width, 2);
+        for (std::size_t i = 0; i < errors.size(); ++i)
+        {
+          const double error = errors[i] * std::pow(size / face_size, convergence_order(scene, requested[i]));
+          choice.error       = std::max(choice.error, error);
+          is_short_enough    = is_short_enough && error <= 1.01 * share_for(requested[i]) * target;
+        }
+        choice.settings.push_back(
+            { "Mesh/Face size", rounded_text(size),
+              is_shorter ? "the largest P and Q behind a reversal need " + rounded_text(width / size) + " faces in contact"
+                         : "a probe with " + rounded_text(face_size) + " mm is " +
+                               percent(*std::max_element(errors.begin(), errors.end())) + " off" });
+        if (scene.cylinder.type != CylinderType::rigid && is_open(scene, "Cylinder/Face size"))
+          choice.settings.push_back(
+              { "Cylinder/Face size", rounded_text(with_face_size(scene, size).cylinder.face_size), "as on the lever" });
+        if (!is_short_enough)
+          choice.limit = "Faces of " + mm(size) + " are the shortest that a probe tells of.";
+      }
+    };
   } // namespace
 
-  StaticChoice::StaticChoice(const Scene &scene_, const Announce &announce)
-      : scene(scene_)
-      , enforcement_is_open(scene.contact.enforcement == Enforcement::penalty && is_open(scene, "Contact/Enforcement") &&
-                            is_open(scene, "Contact/Penalty"))
+  ChooseToMeet choose_without_inertia(const Scene &scene, const Announce &announce)
   {
-    const double since = PhaseTimer::cpu_seconds();
-    if (enforcement_is_open)
-      scene.contact.enforcement = Enforcement::augmented_lagrangian;
-    const auto [from, to] = swept_contact(scene);
-    width                 = estimated_contact_width(scene, contact_reference(scene).P);
-    solve_trial_runs(std::max(width / trial_faces, (to - from) / most_trial_faces));
-    const double target   = scene.accuracy.target;
-    const auto is_too_far = [&]
-    { return longest_face(target) < extrapolated * face_size && is_paid(with_budget_left(scene, since), meeting(target)); };
-    for (unsigned int i = 0; i < most_refinements && target > 0. && is_too_far(); ++i)
-    {
-      const Scene fine = with_face_size(scene, longest_face(target));
-      require_memory(fine);
-      const auto cost = trial_cost(fine);
-      if (!announce(announcement(fine, cost), cost.cpu_seconds))
-        break;
-      solve_trial_runs(fine.mesh.face_size);
-      is_refined = true;
-    }
-  }
-
-  void StaticChoice::solve_trial_runs(const double size)
-  {
-    face_size         = size;
-    const Scene fine  = with_face_size(scene, size);
-    const auto places = drive_samples(scene.drive);
-    const auto turn   = scene.accuracy.is_model_open ? places_behind_reversal(scene.drive, 2. * width) : std::vector<Row>{};
-    auto sampled      = joined(places, turn);
-    std::sort(sampled.begin(), sampled.end(), [](const Row &a, const Row &b) { return a[Column::time] < b[Column::time]; });
-    if (!turn.empty()) // the closed form alone jumps there
-      sampled.erase(std::find_if(sampled.begin(), sampled.end(),
-                                 [&](const Row &row) { return row[Column::time] == turn.front()[Column::time]; }));
-    const auto solved = trial_run(fine, sampled);
-    const auto rows   = rows_at(sample_times(places), solved);
-    const auto jump   = with_closed_form(scene, turn);
-    const auto coarse = trial_run(with_coarser_mesh(fine), places);
-    const auto closed = with_closed_form(scene, rows);
-    errors.clear();
-    closed_form_errors.clear();
-    for (const auto &quantity : scene.accuracy.quantities)
-    {
-      errors.push_back(relative_change(quantity, rows, coarse) * finer_share(coarser, convergence_order(scene, quantity)));
-      closed_form_errors.push_back(is_force_quantity(quantity) ? relative_change(quantity, rows, closed)
-                                                               : std::numeric_limits<double>::infinity());
-      if (!jump.empty() && (quantity == "P" || quantity == "Q"))
-        closed_form_errors.back() = std::max(closed_form_errors.back(), jump_change(quantity, solved, jump.front()));
-    }
-  }
-
-  double StaticChoice::longest_face(const double target) const
-  {
-    // Beyond the coarser of the first trial runs the contact may be narrower than a face; what a refined one found holds for
-    // itself.
-    double result = is_refined ? face_size : coarser * face_size;
-    for (std::size_t i = 0; i < errors.size(); ++i)
-    {
-      const auto &quantity = scene.accuracy.quantities[i];
-      const double share   = share_for(quantity) * target / std::max(errors[i], 1e-12);
-      if (!is_force_quantity(quantity))
-        result = std::min(result, face_size * trial_faces / least_faces);
-      result = std::min(result, face_size * std::pow(share, 1. / convergence_order(scene, quantity)));
-    }
-    return std::max(result, face_size / finest);
-  }
-
-  void StaticChoice::add_mesh(const double target, Choice &choice) const
-  {
-    const auto &requested = scene.accuracy.quantities;
-    const bool wants_peaks =
-        std::count(requested.begin(), requested.end(), "P") + std::count(requested.begin(), requested.end(), "Q") > 0;
-    const bool has_reversal      = wants_peaks && !scene.drive.reversals().empty();
-    const double trial_face_size = longest_face(target);
-    const double longest         = std::max(face_size / finest, width * std::sqrt(reversal_share * target / reversal_error));
-    const bool is_shorter        = has_reversal && longest < trial_face_size;
-    const double size            = is_shorter ? longest : trial_face_size;
-    bool is_short_enough         = true;
-    if (has_reversal)
-      choice.error = reversal_error * std::pow(size / width, 2);
-    for (std::size_t i = 0; i < errors.size(); ++i)
-    {
-      const double error = errors[i] * std::pow(size / face_size, convergence_order(scene, requested[i]));
-      choice.error       = std::max(choice.error, error);
-      is_short_enough    = is_short_enough && error <= 1.01 * share_for(requested[i]) * target;
-    }
-    choice.settings.push_back(
-        { "Mesh/Face size", rounded_text(size),
-          is_shorter ? "the largest P and Q behind a reversal need " + rounded_text(width / size) + " faces in contact"
-                     : "a probe with " + rounded_text(face_size) + " mm is " +
-                           percent(*std::max_element(errors.begin(), errors.end())) + " off" });
-    if (scene.cylinder.type != CylinderType::rigid && is_open(scene, "Cylinder/Face size"))
-      choice.settings.push_back(
-          { "Cylinder/Face size", rounded_text(with_face_size(scene, size).cylinder.face_size), "as on the lever" });
-    if (!is_short_enough)
-      choice.limit = "Faces of " + mm(size) + " are the shortest that a probe tells of.";
-  }
-
-  Choice StaticChoice::meeting(const double target) const
-  {
-    const auto &requested          = scene.accuracy.quantities;
-    const bool wants_loop          = std::count(requested.begin(), requested.end(), "loop_area") > 0;
-    const bool forces_only         = std::all_of(requested.begin(), requested.end(), is_force_quantity);
-    const double closed_form_error = *std::max_element(closed_form_errors.begin(), closed_form_errors.end());
-    const bool closed_form         = scene.accuracy.is_model_open && closed_form_error <= model_share * target;
-    Choice choice;
-    if (scene.accuracy.is_model_open)
-      choice.settings.push_back({ "Analysis/Model", closed_form ? "closed form" : "finite element",
-                                  std::isfinite(closed_form_error)
-                                      ? "the closed form is " + percent(closed_form_error) + " off a probe"
-                                      : "the closed form does not tell what is wanted" });
-    if (closed_form)
-      choice.error = closed_form_error;
-    else if (is_open(scene, "Mesh/Face size") && scene.mesh.file.empty())
-      add_mesh(target, choice);
-    if (enforcement_is_open && !closed_form)
-      choice.settings.push_back({ "Contact/Enforcement", "augmented Lagrangian", "it leaves no error of a penalty" });
-    if (forces_only && !closed_form && is_open(scene, "Mesh/Faces in contact"))
-      choice.settings.push_back({ "Mesh/Faces in contact", "0", "no pressure is wanted" });
-    if (is_open(scene, "Analysis/Step"))
-    {
-      const double step = largest_row_spacing(scene, row_share * target, wants_loop);
-      choice.settings.push_back({ "Analysis/Step", rounded_text(step), "lines between rows follow the closed form" });
-      choice.error += row_share * target;
-    }
-    return choice;
+    return [all = StaticChoice(scene, announce)](const double target) { return all.meeting(target); };
   }
 } // namespace sprag

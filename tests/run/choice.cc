@@ -52,8 +52,8 @@ TEST(Choice, ClosedFormServesWhereItsErrorIsAdmitted)
 
 TEST(Choice, FacesAndStepsShrinkWithTheTarget)
 {
-  const StaticChoice choice(asked("model-a", { "Accuracy/Target=1e-3" }));
-  const auto loose = choice.meeting(1e-2), tight = choice.meeting(1e-4);
+  const auto meeting = choose_without_inertia(asked("model-a", { "Accuracy/Target=1e-3" }));
+  const auto loose = meeting(1e-2), tight = meeting(1e-4);
   EXPECT_GT(face_size(loose), face_size(tight));
   EXPECT_GT(std::stod(chosen(loose, "Analysis/Step")), 5. * std::stod(chosen(tight, "Analysis/Step")));
   EXPECT_LE(tight.error, 1e-4);
