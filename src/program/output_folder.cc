@@ -61,10 +61,14 @@ namespace sprag
 
     bool is_written(const std::string &name)
     {
-      const std::set<std::string> names = { "result.h5",    std::string("result.h5") + result_begun_ending,
-                                            log_name,       map_log_name,
-                                            study_log_name, checkpoint_name,
-                                            row_log_name,   next_checkpoint_name };
+      const std::set<std::string> names = { "result.h5",
+                                            std::string("result.h5") + result_begun_ending,
+                                            log_name,
+                                            results_log_name("map"),
+                                            results_log_name("study"),
+                                            checkpoint_name,
+                                            row_log_name,
+                                            next_checkpoint_name };
       return names.count(name) > 0 || is_field_file(name);
     }
 

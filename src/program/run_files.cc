@@ -32,11 +32,11 @@ namespace sprag
 
   bool has_progress(const std::string &folder, const Scene &scene)
   {
-    if (scene.analysis.type == AnalysisType::map)
-      return begins_with(results_log_header("map", scene_key(scene)), folder + '/' + map_log_name);
-    if (scene.analysis.type == AnalysisType::study)
-      return begins_with(results_log_header("study", scene_key(scene)), folder + '/' + study_log_name);
-    return has_checkpoint(folder, scene);
+    const auto type = scene.analysis.type;
+    if (type != AnalysisType::map && type != AnalysisType::study)
+      return has_checkpoint(folder, scene);
+    const std::string analysis = type == AnalysisType::map ? "map" : "study";
+    return begins_with(results_log_header(analysis, scene_key(scene)), folder + '/' + results_log_name(analysis));
   }
 
   void remove_checkpoint(const std::string &folder)

@@ -13,8 +13,12 @@ namespace sprag
   inline constexpr char checkpoint_name[]      = "run.checkpoint";
   inline constexpr char next_checkpoint_name[] = "run.checkpoint.new"; ///< while it is written
   inline constexpr char row_log_name[]         = "run.journal";
-  inline constexpr char map_log_name[]         = "map.journal";
-  inline constexpr char study_log_name[]       = "study.journal";
+
+  /// Returns the name of the results log of an analysis, "map".
+  inline std::string results_log_name(const std::string &analysis)
+  {
+    return analysis + ".journal";
+  }
 
   /// Returns the first line of the results log of an analysis, "map", whose pieces depend on the scene with this key and on the
   /// build of the program.

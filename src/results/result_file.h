@@ -48,6 +48,16 @@ namespace sprag
     std::vector<std::string> values;
   };
 
+  /// Returns a text dataset with a value for each item of a range.
+  template <class Items, class Value>
+  TextDataset make_texts(const Items &items, const std::string &name, const std::string &description, const Value &value)
+  {
+    TextDataset result{ name, description, {} };
+    for (const auto &item : items)
+      result.values.push_back(value(item));
+    return result;
+  }
+
   /// A named group of datasets.
   struct Group
   {

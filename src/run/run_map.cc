@@ -1,56 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/map/map_farm.h"
 #include "base/append.h"
-#include "base/progress.h"
-#include "input/scene_key.h"
 #include "program/result_writer.h"
-#include "program/run_files.h"
 #include "report/summary_lines.h"
 #include "run/analyses.h"
 #include "scene/scene.h"
 
-#include <deal.II/base/mpi.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <iostream>
-#include <optional>
 
 namespace sprag
 {
   namespace
   {
-    namespace MPI = dealii::Utilities::MPI;
-
-    /// A line at the beginning of each round and how far it has come.
-    struct MapProgress
-    {
-      const ProgressStyle style;
-      std::optional<Progress> bar = {};
-
-      void say(const std::string &text)
-      {
-        bar.reset();
-        if (style != ProgressStyle::quiet)
-          std::cerr << text << std::endl;
-      }
-
-      void checked(const std::size_t done, const std::size_t total)
-      {
-        if (!bar)
-          bar.emplace(std::cerr, style, static_cast<double>(total));
-        bar->update(static_cast<double>(done), {});
-      }
-    };
-
     struct StabilityMap
     {
       MapGrid grid;
       std::vector<BoundaryPoint> boundary = {};
     };
 
-    void check_all(const Scene &scene, MapFarm &farm, MapProgress &progress, StabilityMap &map)
+    void check_all(const Scene &scene, MapFarm &farm, FarmProgress &progress, StabilityMap &map)
     {
       for (auto sites = map.grid.next_sites(); !sites.empty(); sites = map.grid.next_sites())
       {
@@ -158,62 +127,30 @@ namespace sprag
       return summary;
     }
 
-    /// All ranks call it.
-    std::vector<Entry> map_cost(MapFarm &farm, const double wall_seconds)
-    {
-      const double cpu = MPI::sum(PhaseTimer::cpu_seconds(), MPI_COMM_WORLD);
-      const auto ranks = static_cast<double>(MPI::n_mpi_processes(MPI_COMM_WORLD));
-      return { { "ranks", ranks },
-               { "cells_taken_over", static_cast<double>(farm.taken_over()) },
-               { "wall_time", wall_seconds },
-               { "cpu_time_all", cpu } };
-    }
-
     void write_map(const Scene &scene, const RunOptions &options, const StabilityMap &map, MapFarm &farm,
                    const std::string &status, const std::vector<Entry> &meta, Warnings &warnings)
     {
       const Group group = map_group(scene, map.grid, farm.cells());
-      ResultWriter writer(scene, options, farm.cell_check().timer(), boundary_columns(scene.map));
+      ResultWriter writer(scene, options, farm.own_check.timer(), boundary_columns(scene.map));
       for (const auto &point : map.boundary)
         writer.append(boundary_row(scene.map, point));
       writer.finish(status, { map_summary(map, group, farm.cells().size()), meta, { group } }, warnings);
-    }
-
-    void announce(const ResultsLog &results_log, MapProgress &progress)
-    {
-      if (results_log.dropped())
-        progress.say("map.journal is of another scene or build: begun anew");
-      if (const auto damaged = results_log.damaged_lines(); damaged > 0)
-        std::cerr << "map.journal: damaged lines dropped, their cells are judged again: " << damaged << std::endl;
-      if (!results_log.lines().empty())
-        progress.say("map.journal: " + std::to_string(results_log.lines().size()) + " cells taken over");
     }
   } // namespace
 
   void run_map(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    const auto begin = std::chrono::steady_clock::now();
-    MapProgress progress{ progress_style(options.quiet || !is_first_rank()) };
-    std::optional<ResultsLog> results_log;
-    on_first_rank(
-        [&]
-        {
-          prepare_folder(scene, options);
-          results_log.emplace(options.folder + '/' + map_log_name, "map", scene_key(scene));
-          announce(*results_log, progress);
-        });
-    MapFarm farm(scene, results_log ? &*results_log : nullptr,
-                 [&](const std::size_t done, const std::size_t total) { progress.checked(done, total); });
+    FarmProgress progress{ progress_style(options.quiet || !is_first_rank()) };
+    MapFarm farm(scene, options, progress);
     StabilityMap map{ MapGrid(scene.map.first.points, scene.map.second.points, scene.map.coarsest) };
     finish_in_any_case([&] { check_all(scene, farm, progress, map); },
                        [&](const std::string &status)
                        {
                          progress.bar.reset();
                          map.grid.learn(farm.kinds());
-                         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-                         const auto meta                             = map_cost(farm, seconds.count());
+                         const auto meta = farm.ranks.cost();
                          on_first_rank([&] { write_map(scene, options, map, farm, status, meta, warnings); });
                        });
-    on_first_rank([&] { results_log->remove(); });
+    farm.ranks.remove_log();
   }
 } // namespace sprag

@@ -55,14 +55,13 @@ namespace sprag
     }
   } // namespace
 
-  MapFarm::MapFarm(const Scene &scene, const ResultsLog *results_log, std::function<void(std::size_t, std::size_t)> report)
+  MapFarm::MapFarm(const Scene &scene, const RunOptions &options, FarmProgress &progress)
       : own_check(scene)
-      , farm({ "map", unchanged_inputs(scene, "map"), std::move(report) }, results_log)
+      , ranks(scene, options, { "map", "cells", "judged again" }, progress)
       , kept(own_check.mesh_parameter())
   {
-    for (const auto &line : farm.taken_over())
+    for (const auto &line : ranks.taken_over())
       learn(line);
-    from_log = known.size();
   }
 
   void MapFarm::check(const std::vector<MapSite> &sites)
@@ -73,7 +72,7 @@ namespace sprag
     if (kept)
       std::stable_sort(missing.begin(), missing.end(),
                        [this](const MapSite &a, const MapSite &b) { return coordinate(a, *kept) < coordinate(b, *kept); });
-    farm.carry_out(
+    ranks.carry_out(
         site_groups(missing), [&](const std::size_t i) { return to_line(missing[i], own_check.check(missing[i])); },
         [this](const std::string &line) { learn(line); });
   }

@@ -71,9 +71,8 @@ namespace sprag
   class MapFarm
   {
   public:
-    /// Takes over the cells in the results log, which rank 0 has; it is null on the others. `report` is called on rank 0 now and
-    /// then with the cells checked and those asked for.
-    MapFarm(const Scene &scene, const ResultsLog *results_log, std::function<void(std::size_t, std::size_t)> report);
+    /// Takes over the cells in the results log, see TaskFarm.
+    MapFarm(const Scene &scene, const RunOptions &options, FarmProgress &progress);
 
     /// Checks what is not known yet. Throws what TaskFarm::carry_out() does; cells finished until then are kept.
     void check(const std::vector<MapSite> &sites);
@@ -87,24 +86,13 @@ namespace sprag
       return known_kinds;
     }
 
-    /// Returns the number of cells that were in the results log.
-    std::size_t taken_over() const
-    {
-      return from_log;
-    }
-
-    CellCheck &cell_check()
-    {
-      return own_check;
-    }
+    CellCheck own_check;
+    TaskFarm ranks;
 
   private:
-    CellCheck own_check;
-    TaskFarm farm;
     const std::optional<unsigned int> kept; ///< see CellCheck::mesh_parameter()
     MapCells known;
     KnownKinds known_kinds;
-    std::size_t from_log = 0;
 
     std::vector<std::vector<std::size_t>> site_groups(const std::vector<MapSite> &sites) const;
     void learn(const std::string &line);

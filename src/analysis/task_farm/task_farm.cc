@@ -4,8 +4,10 @@
 #include "base/errors.h"
 #include "base/fingerprint.h"
 #include "base/messages.h"
+#include "base/phase_timer.h"
 #include "base/system/interrupt.h"
 #include "input/scene_key.h"
+#include "program/output_folder.h"
 #include "program/run_files.h"
 #include "scene/scene.h"
 
@@ -17,6 +19,7 @@
 #include <exception>
 #include <fcntl.h>
 #include <fstream>
+#include <iostream>
 #include <optional>
 #include <thread>
 #include <unistd.h>
@@ -125,9 +128,8 @@ namespace sprag
   class TaskFarm::Batch
   {
   public:
-    Batch(const Task &task_, const std::pair<std::string, std::string> &results_log)
-        : task(task_)
-        , address(results_log)
+    explicit Batch(const TaskFarm &task_farm)
+        : farm(task_farm)
     {
     }
 
@@ -143,9 +145,9 @@ namespace sprag
       begin = std::chrono::steady_clock::now();
       if (fresh.empty())
         return;
-      task.check();
+      farm.check_inputs();
       if (!pen)
-        pen.emplace(address.first, address.second);
+        pen.emplace(farm.address.first, farm.address.second);
       pen->append(fresh);
       written.insert(written.end(), fresh.begin(), fresh.end());
       fresh.clear();
@@ -157,24 +159,80 @@ namespace sprag
     }
 
   private:
-    const Task &task;
-    const std::pair<std::string, std::string> &address;
+    const TaskFarm &farm;
     std::optional<ResultsLogWriter> pen;
     std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
     std::vector<std::string> fresh, written;
   };
 
-  TaskFarm::TaskFarm(Task task_, const ResultsLog *first_ranks_log)
-      : task(std::move(task_))
-      , reports(first_ranks_log != nullptr)
+  void FarmProgress::say(const std::string &text)
   {
-    if (first_ranks_log != nullptr)
-    {
-      results_log = first_ranks_log->address();
-      from_log    = first_ranks_log->lines();
-    }
-    results_log = broadcast(MPI_COMM_WORLD, results_log);
-    from_log    = broadcast(MPI_COMM_WORLD, from_log);
+    bar.reset();
+    if (style != ProgressStyle::quiet)
+      std::cerr << text << std::endl;
+  }
+
+  void FarmProgress::update(const std::size_t done, const std::size_t total)
+  {
+    if (!bar)
+      bar.emplace(std::cerr, style, static_cast<double>(total));
+    bar->update(static_cast<double>(done), {});
+  }
+
+  TaskFarm::TaskFarm(const Scene &scene_, const RunOptions &options, Words words_, FarmProgress &progress_)
+      : scene(scene_)
+      , key(scene_key(scene))
+      , words(std::move(words_))
+      , progress(progress_)
+  {
+    on_first_rank([&] { open_log(options); });
+    address  = broadcast(MPI_COMM_WORLD, address);
+    from_log = broadcast(MPI_COMM_WORLD, from_log);
+  }
+
+  void TaskFarm::open_log(const RunOptions &options)
+  {
+    const auto name = results_log_name(words.analysis);
+    prepare_folder(scene, options);
+    results_log.emplace(options.folder + '/' + name, words.analysis, key);
+    address  = results_log->address();
+    from_log = results_log->lines();
+    if (results_log->dropped())
+      progress.say(name + " is of another scene or build: begun anew");
+    if (const auto damaged = results_log->damaged_lines(); damaged > 0)
+      std::cerr << name << ": damaged lines dropped, their " << words.pieces << " are " << words.again << ": " << damaged
+                << std::endl;
+    if (!from_log.empty())
+      progress.say(name + ": " + std::to_string(from_log.size()) + ' ' + words.pieces + " taken over");
+  }
+
+  std::vector<Entry> TaskFarm::cost() const
+  {
+    namespace MPI    = dealii::Utilities::MPI;
+    const double cpu = MPI::sum(PhaseTimer::cpu_seconds(), MPI_COMM_WORLD);
+    return { { "ranks", static_cast<double>(MPI::n_mpi_processes(MPI_COMM_WORLD)) },
+             { words.pieces + "_taken_over", static_cast<double>(from_log.size()) },
+             { "wall_time", monotonic_seconds() - begin },
+             { "cpu_time_all", cpu } };
+  }
+
+  void TaskFarm::remove_log()
+  {
+    on_first_rank([&] { results_log->remove(); });
+  }
+
+  void TaskFarm::check_inputs() const
+  {
+    if (scene_key(scene) != key)
+      throw AnalysisError("an input file has changed during the " + words.analysis +
+                          "; what was finished before is kept for the file as it was: start the " + words.analysis +
+                          " again, with that file or the new one");
+  }
+
+  void TaskFarm::report(const std::size_t done, const std::size_t total) const
+  {
+    if (results_log)
+      progress.update(done, total);
   }
 
   void TaskFarm::carry_out(const std::vector<std::vector<std::size_t>> &groups,
@@ -184,7 +242,7 @@ namespace sprag
     std::size_t total = 0;
     for (const auto &group : groups)
       total += group.size();
-    Batch batch(task, results_log);
+    Batch batch(*this);
     std::string failure;
     {
       Counters counters;
@@ -219,12 +277,11 @@ namespace sprag
           break;
         batch.add(line);
         const auto done = counters.add(Counters::done, 1) + 1;
-        if (reports)
-          task.report(done, total);
+        report(done, total);
       }
     batch.write();
     if (interrupted())
-      throw AnalysisError("interrupted; what is finished is kept: start the same " + task.name + " again to go on");
+      throw AnalysisError("interrupted; what is finished is kept: start the same " + words.analysis + " again to go on");
   }
 
   /// Without the calls of MPI that keep a core busy.
@@ -232,23 +289,10 @@ namespace sprag
   {
     for (std::size_t done = 0; (done = counters.value(Counters::done)) < total && counters.value(Counters::stop) == 0;)
     {
-      if (reports)
-        task.report(done, total);
+      report(done, total);
       std::this_thread::sleep_for(pause);
     }
-    if (reports)
-      task.report(counters.value(Counters::done), total);
-  }
-
-  std::function<void()> unchanged_inputs(const Scene &scene, const std::string &name)
-  {
-    return [=, key = scene_key(scene)]
-    {
-      if (scene_key(scene) != key)
-        throw AnalysisError("an input file has changed during the " + name +
-                            "; what was finished before is kept for the file as it was: start the " + name +
-                            " again, with that file or the new one");
-    };
+    report(counters.value(Counters::done), total);
   }
 
   bool is_first_rank()

@@ -2,7 +2,10 @@
 #pragma once
 
 #include "base/archive.h"
+#include "base/progress.h"
 #include "base/system/open_file.h"
+#include "program/run_options.h"
+#include "results/result_file.h"
 
 #include <boost/algorithm/hex.hpp>
 #include <cstddef>
@@ -97,20 +100,35 @@ namespace sprag
     archive(items...);
   }
 
+  /// Shows on the standard error how far ranks have come.
+  struct FarmProgress
+  {
+    const ProgressStyle style;
+    std::optional<Progress> bar = {};
+
+    /// Prints a line, with which a bar ends.
+    void say(const std::string &text);
+
+    /// Tells pieces done and wanted.
+    void update(std::size_t done, std::size_t total);
+  };
+
   /// All ranks of MPI, doing the pieces of a long analysis together. The result of a piece is a line of text, which goes into the
   /// results log. Every rank calls what is here.
   class TaskFarm
   {
   public:
-    struct Task
+    /// The words by which messages name an analysis.
+    struct Words
     {
-      std::string name;                                     ///< of the analysis, "map"
-      std::function<void()> check;                          ///< throws AnalysisError where what the pieces depend on has changed
-      std::function<void(std::size_t, std::size_t)> report; ///< gets pieces done and wanted, on rank 0 now and then
+      std::string analysis; ///< "map"
+      std::string pieces;   ///< "cells"
+      std::string again;    ///< "judged again", what becomes of lost pieces
     };
 
-    /// Rank 0 has the results log; it is null on the others.
-    TaskFarm(Task task, const ResultsLog *results_log);
+    /// Makes the run's folder and opens the results log in it on rank 0, which tells what that holds. Throws as prepare_folder()
+    /// and ResultsLog do, on all ranks. All must live as long.
+    TaskFarm(const Scene &scene, const RunOptions &options, Words words, FarmProgress &progress);
 
     /// Lines that were in the results log.
     const std::vector<std::string> &taken_over() const
@@ -124,23 +142,32 @@ namespace sprag
     void carry_out(const std::vector<std::vector<std::size_t>> &groups, const std::function<std::string(std::size_t)> &work,
                    const std::function<void(const std::string &)> &learn);
 
+    /// Sums up the cost of all ranks until now, for /meta.
+    std::vector<Entry> cost() const;
+
+    /// Removes the results log, once the analysis is complete.
+    void remove_log();
+
   private:
     class Counters;
     class Batch;
 
-    const Task task;
-    const bool reports;
-    std::pair<std::string, std::string> results_log; ///< see ResultsLog::address()
+    const Scene &scene;
+    const std::string key; ///< of the scene when it began
+    const Words words;
+    FarmProgress &progress;
+    const double begin = monotonic_seconds();
+    std::optional<ResultsLog> results_log;       ///< on rank 0
+    std::pair<std::string, std::string> address; ///< of the log
     std::vector<std::string> from_log;
 
+    void open_log(const RunOptions &options);
+    void check_inputs() const;
+    void report(std::size_t done, std::size_t total) const;
     void work_on(const std::vector<std::vector<std::size_t>> &groups, const std::function<std::string(std::size_t)> &work,
                  std::size_t total, Counters &counters, Batch &batch) const;
     void wait_for_others(std::size_t total, const Counters &counters) const;
   };
-
-  /// Returns a check that the files which the scene's settings name are as they are now. It throws AnalysisError, which says of
-  /// what analysis, "map", the pieces are.
-  std::function<void()> unchanged_inputs(const Scene &scene, const std::string &name);
 
   /// Returns whether this process has rank 0, which prints and writes.
   bool is_first_rank();
