@@ -82,14 +82,14 @@ namespace sprag
     /// Finds over which Contact/Damping the verdict stays what it is, where a search from the scene's own to none and to a large
     /// one first meets another kind, or a value that cannot be checked. That damping is seldom measured, and more of it can make
     /// a slide grow as well as die out. `verdict`: that with the scene's own.
-    DampingRange damping_range(const Scene &scene, const CheckedSlide &verdict, DynamicsMaker &maker)
+    std::vector<Entry> damping_entries(const Scene &scene, const CheckedSlide &verdict, DynamicsMaker &maker)
     {
       constexpr double largest      = 0.2;
       constexpr double accuracy     = 1e-3; ///< of an end, over the range
       constexpr unsigned int points = 4, island_steps = 5;
       const double own = scene.contact.damping;
       const double end = std::max(largest, own);
-      DampingRange result{ 0., end, std::nan(""), 0. };
+      double low = 0., high = end, growth_rate_at_none = std::nan("");
       const auto check_at = [&](const double damping)
       {
         if (damping == own)
@@ -98,7 +98,7 @@ namespace sprag
         damped.contact.damping = damping;
         auto slide             = sweep(damped, maker).worst();
         if (damping == 0.)
-          result.growth_rate_at_none = slide.growth_rate;
+          growth_rate_at_none = slide.growth_rate;
         return slide;
       };
       const auto range_ends = [&](const double from, const double to)
@@ -112,19 +112,22 @@ namespace sprag
       };
       if (own > 0.)
         for (const double value : range_ends(0., own))
-          result.low = std::max(result.low, value);
+          low = std::max(low, value);
       else
-        result.growth_rate_at_none = verdict.growth_rate;
+        growth_rate_at_none = verdict.growth_rate;
       if (own < end)
         for (const double value : range_ends(own, end))
-          result.high = std::min(result.high, value);
+          high = std::min(high, value);
       Scene damped           = scene;
-      damped.contact.damping = result.high;
+      damped.contact.damping = high;
       const auto reference   = contact_reference(damped);
-      result.loss_factor     = 2. * M_PI * verdict.frequency * reference.relaxation;
+      double loss_factor     = 2. * M_PI * verdict.frequency * reference.relaxation;
       if (is_reduced(scene.analysis.model)) // the dashpot stays where a contact law is softer under a smaller P
-        result.loss_factor *= std::pow(reference.P / verdict.P, 1. - 1. / scene.contact.exponent);
-      return result;
+        loss_factor *= std::pow(reference.P / verdict.P, 1. - 1. / scene.contact.exponent);
+      return { { "contact_damping_limit_low", low },
+               { "contact_damping_limit_high", high },
+               { "contact_loss_factor_limit_high", loss_factor },
+               { "growth_rate_without_contact_damping", growth_rate_at_none } };
     }
 
     /// Returns whether a memory of friction counts, which eigenvalues in three dimensions leave out.
@@ -135,10 +138,10 @@ namespace sprag
 
     /// Checks with a spring of stick ten times as soft as it is, and rigid. The mesh of a meshed lever has the layer's own shear:
     /// its stick is checked rigid alone. Where mu falls with speed, its memory is a tenth and ten times as long.
-    UnmeasuredLimits unmeasured_limits(const Scene &scene, DynamicsMaker &maker)
+    std::vector<Entry> unmeasured_entries(const Scene &scene, DynamicsMaker &maker)
     {
       constexpr double soft = 0.1, rigid = 1e6;
-      UnmeasuredLimits result;
+      double soft_growth = std::nan(""), short_growth = std::nan(""), long_growth = std::nan("");
       Scene changed = scene;
       if (is_meshed(scene.analysis.model))
         changed.contact.tangential_penalty = rigid * contact_reference(scene).stiffness;
@@ -146,20 +149,23 @@ namespace sprag
       {
         const double own                     = contact_reference(scene).tangential;
         changed.contact.tangential_stiffness = soft * own;
-        result.soft                          = compute_growth(changed, maker);
+        soft_growth                          = compute_growth(changed, maker);
         changed.contact.tangential_stiffness = rigid * own;
       }
-      result.rigid = compute_growth(changed, maker);
+      const double rigid_growth = compute_growth(changed, maker);
       if (has_memory(scene))
       {
         constexpr double tenth = 0.1;
         changed                = scene;
         changed.friction.memory_length *= tenth;
-        result.short_memory            = compute_growth(changed, maker);
+        short_growth                   = compute_growth(changed, maker);
         changed.friction.memory_length = scene.friction.memory_length / tenth;
-        result.long_memory             = compute_growth(changed, maker);
+        long_growth                    = compute_growth(changed, maker);
       }
-      return result;
+      return { { "growth_rate_soft_stick", soft_growth },
+               { "growth_rate_rigid_stick", rigid_growth },
+               { "growth_rate_short_memory", short_growth },
+               { "growth_rate_long_memory", long_growth } };
     }
 
     std::vector<Entry> meshed_entries(const Dynamics &dynamics)
@@ -292,10 +298,8 @@ namespace sprag
       if (found.slide && is_decided && scene.stability.damping && whole.stability.ranges == "none" &&
           options.in_memory == nullptr)
       {
-        const auto range  = timed(maker, [&] { return damping_range(whole, swept.worst(), maker); });
-        const auto limits = timed(maker, [&] { return unmeasured_limits(whole, maker); });
-        append(result.summary, damping_entries(range));
-        append(result.summary, unmeasured_entries(limits));
+        append(result.summary, timed(maker, [&] { return damping_entries(whole, swept.worst(), maker); }));
+        append(result.summary, timed(maker, [&] { return unmeasured_entries(whole, maker); }));
       }
       if (scene.stability.roles)
         append(result.summary, role_entries(roles(scene, found, maker)));

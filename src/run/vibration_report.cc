@@ -29,20 +29,25 @@ namespace sprag
       return std::string(static_cast<std::size_t>(std::max(1, width - static_cast<int>(text.size()))), ' ') + text;
     }
 
-    struct EnergyColumn
+    /// A part of a mode's potential energy.
+    struct EnergyPart
     {
-      std::string name;
+      std::string column; ///< printed
+      std::string name;   ///< in /modes
+      std::string where;
       double EnergyShares::*share;
     };
 
+    const std::vector<EnergyPart> energy_parts = { { "spring", "rotation", "in the rotational spring", &EnergyShares::rotation },
+                                                   { "lever", "bending", "in lever and layer", &EnergyShares::bending },
+                                                   { "support", "support", "in the support", &EnergyShares::support },
+                                                   { "contact", "contact", "in the contact", &EnergyShares::contact } };
+
     /// Those that say anything of one of the modes.
-    std::vector<EnergyColumn> energy_columns(const std::vector<Eigenmode> &modes)
+    std::vector<EnergyPart> energy_columns(const std::vector<Eigenmode> &modes)
     {
-      std::vector<EnergyColumn> columns = { { "spring", &EnergyShares::rotation },
-                                            { "lever", &EnergyShares::bending },
-                                            { "support", &EnergyShares::support },
-                                            { "contact", &EnergyShares::contact } };
-      const auto says_nothing           = [&](const EnergyColumn &column)
+      auto columns            = energy_parts;
+      const auto says_nothing = [&](const EnergyPart &column)
       {
         return std::none_of(modes.begin(), modes.end(),
                             [&](const Eigenmode &mode) { return std::abs(mode.energy.*column.share) >= 5e-4; });
@@ -51,28 +56,37 @@ namespace sprag
       return columns;
     }
 
+    /// A part of a mode's growth rate [1/s].
     struct GrowthPart
     {
-      std::string name;
-      double value; ///< [1/s]
+      std::string cause; ///< printed
+      int width;         ///< of its printed column
+      std::string name;  ///< in /modes
+      std::string meaning;
+      double GrowthShares::*share;
     };
 
-    std::string to_text(const GrowthPart &part)
-    {
-      return part.name + ' ' + four_digits(part.value);
-    }
+    const std::vector<GrowthPart> growth_parts = {
+      { "friction on rotation", 10, "friction_rotation", "friction that follows displacements, on the hub's rotation",
+        &GrowthShares::friction_rotation },
+      { "friction on bending", 11, "friction_bending", "friction that follows displacements, on the deflection of the lever",
+        &GrowthShares::friction_bending },
+      { "friction on the support", 10, "friction_support",
+        "friction that follows displacements, on the displacement of the support", &GrowthShares::friction_support },
+      { "friction by velocities", 12, "friction_speed",
+        "friction that follows velocities: mu'(v), and mu times the contact damping's pressure", &GrowthShares::friction_speed },
+      { "contact damping", 10, "contact_damping", "contact damping", &GrowthShares::contact_damping },
+      { "structural damping", 11, "structure_damping", "damping of lever, layer and support", &GrowthShares::structure_damping }
+    };
 
     /// Names the part that feeds a mode most and the part that damps it most.
     std::array<std::string, 2> extremes(const GrowthShares &growth)
     {
-      const std::vector<GrowthPart> parts = {
-        { "friction on rotation", growth.friction_rotation },   { "friction on bending", growth.friction_bending },
-        { "friction on the support", growth.friction_support }, { "friction by velocities", growth.friction_speed },
-        { "contact damping", growth.contact_damping },          { "structural damping", growth.structure_damping }
-      };
       const auto [least, most] =
-          std::minmax_element(parts.begin(), parts.end(), [](const auto &a, const auto &b) { return a.value < b.value; });
-      return { { most->value > 0. ? to_text(*most) : "-", least->value < 0. ? to_text(*least) : "-" } };
+          std::minmax_element(growth_parts.begin(), growth_parts.end(),
+                              [&](const auto &a, const auto &b) { return growth.*a.share < growth.*b.share; });
+      const auto text = [&](const GrowthPart &part) { return part.cause + ' ' + four_digits(growth.*part.share); };
+      return { { growth.*most->share > 0. ? text(*most) : "-", growth.*least->share < 0. ? text(*least) : "-" } };
     }
 
     std::string describe_motion(const Eigenmode::AcrossShares &across)
@@ -90,7 +104,7 @@ namespace sprag
     const auto columns = energy_columns(modes);
     stream << "  frequency [Hz]";
     for (const auto &column : columns)
-      stream << padded(column.name + " [%]", 13);
+      stream << padded(column.column + " [%]", 13);
     stream << (is_pair(modes) ? "    mirroring [1]" : "") << (is_solid(modes) ? "  motion" : "") << "\n";
     for (const auto &mode : modes)
     {
@@ -110,12 +124,12 @@ namespace sprag
            << "       [Hz]     [1/s]               rotation    bending   support  velocities   contact  structure\n";
     for (const auto &mode : modes)
     {
-      const auto &g    = mode.growth;
       std::string kind = "  " + kind_name(classify(mode));
       kind.resize(13, ' ');
-      stream << cell(mode_frequency(mode), 11) << cell(mode.mode.eigenvalue.real(), 10) << kind << cell(g.friction_rotation, 10)
-             << cell(g.friction_bending, 11) << cell(g.friction_support, 10) << cell(g.friction_speed, 12)
-             << cell(g.contact_damping, 10) << cell(g.structure_damping, 11) << '\n';
+      stream << cell(mode_frequency(mode), 11) << cell(mode.mode.eigenvalue.real(), 10) << kind;
+      for (const auto &part : growth_parts)
+        stream << cell(mode.growth.*part.share, part.width);
+      stream << '\n';
     }
   }
 
@@ -200,30 +214,12 @@ namespace sprag
       across("twisting", &Eigenmode::AcrossShares::twisting, "twisting");
       across("sideways", &Eigenmode::AcrossShares::sideways, "motion along the cylinder's axis");
 
-      const auto energy = [&](const std::string &name, double EnergyShares::*share, const std::string &where)
-      {
-        add({ "energy_" + name, "1", "share of the potential energy " + where },
-            [share](const auto &mode) { return mode.energy.*share; });
-      };
-      energy("rotation", &EnergyShares::rotation, "in the rotational spring");
-      energy("bending", &EnergyShares::bending, "in lever and layer");
-      energy("support", &EnergyShares::support, "in the support");
-      energy("contact", &EnergyShares::contact, "in the contact");
-
-      const auto growth = [&](const std::string &name, double GrowthShares::*share, const std::string &what)
-      {
-        add({ "growth_by_" + name, "1/s", "part of the growth rate: " + what },
-            [share](const auto &mode) { return mode.growth.*share; });
-      };
-      growth("friction_rotation", &GrowthShares::friction_rotation, "friction that follows displacements, on the hub's rotation");
-      growth("friction_bending", &GrowthShares::friction_bending,
-             "friction that follows displacements, on the deflection of the lever");
-      growth("friction_support", &GrowthShares::friction_support,
-             "friction that follows displacements, on the displacement of the support");
-      growth("friction_speed", &GrowthShares::friction_speed,
-             "friction that follows velocities: mu'(v), and mu times the contact damping's pressure");
-      growth("contact_damping", &GrowthShares::contact_damping, "contact damping");
-      growth("structure_damping", &GrowthShares::structure_damping, "damping of lever, layer and support");
+      for (const auto &part : energy_parts)
+        add({ "energy_" + part.name, "1", "share of the potential energy " + part.where },
+            [&](const auto &mode) { return mode.energy.*part.share; });
+      for (const auto &part : growth_parts)
+        add({ "growth_by_" + part.name, "1/s", "part of the growth rate: " + part.meaning },
+            [&](const auto &mode) { return mode.growth.*part.share; });
     }
 
     void append_shapes(const std::vector<Eigenmode> &modes, const Dynamics &dynamics, Group &group)
@@ -323,11 +319,6 @@ namespace sprag
 
   } // namespace
 
-  double mode_frequency(const Eigenmode &mode)
-  {
-    return mode.mode.eigenvalue.imag() / (2. * M_PI);
-  }
-
   bool grows(const Eigenmode &mode)
   {
     return mode.mode.eigenvalue.real() > smallest_growth * std::abs(mode.mode.eigenvalue);
@@ -405,22 +396,6 @@ namespace sprag
         result.push_back({ "unstable_" + way, to_text(unstable) });
     }
     return result;
-  }
-
-  std::vector<Entry> unmeasured_entries(const UnmeasuredLimits &limits)
-  {
-    return { { "growth_rate_soft_stick", limits.soft },
-             { "growth_rate_rigid_stick", limits.rigid },
-             { "growth_rate_short_memory", limits.short_memory },
-             { "growth_rate_long_memory", limits.long_memory } };
-  }
-
-  std::vector<Entry> damping_entries(const DampingRange &range)
-  {
-    return { { "contact_damping_limit_low", range.low },
-             { "contact_damping_limit_high", range.high },
-             { "contact_loss_factor_limit_high", range.loss_factor },
-             { "growth_rate_without_contact_damping", range.growth_rate_at_none } };
   }
 
   std::vector<Entry> slide_entries(const SlideStability &found, const bool is_decided)

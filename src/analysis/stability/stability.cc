@@ -15,11 +15,6 @@ namespace sprag
 {
   namespace
   {
-    double hertz(const Eigenmode &mode)
-    {
-      return mode.mode.eigenvalue.imag() / (2. * M_PI);
-    }
-
     SlideKind classify(const HeldSlide &slide, const std::complex<double> worst)
     {
       if (!(slide.uniqueness > 0.) || !(slide.forces.P > 0.))
@@ -54,6 +49,11 @@ namespace sprag
     }
   } // namespace
 
+  double mode_frequency(const Eigenmode &mode)
+  {
+    return mode.mode.eigenvalue.imag() / (2. * M_PI);
+  }
+
   std::string kind_name(const SlideKind kind)
   {
     return std::vector<std::string>{ "stable", "flutter", "divergence", "jammed" }.at(static_cast<std::size_t>(kind));
@@ -85,7 +85,7 @@ namespace sprag
   {
     double result = std::numeric_limits<double>::quiet_NaN();
     for (const auto &mode : modes)
-      result = std::fmax(result, hertz(mode));
+      result = std::fmax(result, mode_frequency(mode));
     return result;
   }
 
@@ -103,7 +103,7 @@ namespace sprag
       const bool b_grows = growth(b) > smallest_growth;
       return a_grows == b_grows ? a.mode.eigenvalue.real() < b.mode.eigenvalue.real() : b_grows;
     };
-    const auto is_fast = [&](const Eigenmode &mode) { return hertz(mode) > modes.up_to; };
+    const auto is_fast = [&](const Eigenmode &mode) { return mode_frequency(mode) > modes.up_to; };
     const auto fast    = std::stable_partition(result.modes.begin(), result.modes.end(), std::not_fn(is_fast));
     if (const auto most = std::max_element(fast, result.modes.end(), is_worse);
         most != result.modes.end() && growth(*most) > smallest_growth)

@@ -23,6 +23,9 @@ namespace sprag
   /// Returns "stable", "flutter" ...
   std::string kind_name(SlideKind kind);
 
+  /// Returns Im lambda / 2 pi [Hz].
+  double mode_frequency(const Eigenmode &mode);
+
   /// The vibrations that a verdict rests on.
   struct CheckedModes
   {
@@ -59,7 +62,7 @@ namespace sprag
     /// Returns the frequency of that mode [Hz]; NaN without equilibrium.
     double frequency() const
     {
-      return modes.empty() ? std::numeric_limits<double>::quiet_NaN() : worst_mode().mode.eigenvalue.imag() / (2. * M_PI);
+      return modes.empty() ? std::numeric_limits<double>::quiet_NaN() : mode_frequency(worst_mode());
     }
 
     /// Returns the uniqueness of the HeldSlide; NaN without equilibrium.
