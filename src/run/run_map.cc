@@ -131,7 +131,7 @@ namespace sprag
                    const std::string &status, const std::vector<Entry> &meta, Warnings &warnings)
     {
       const Group group = map_group(scene, map.grid, farm.cells());
-      ResultWriter writer(scene, options, farm.own_check.timer(), boundary_columns(scene.map));
+      ResultWriter writer(scene, options, farm.timer(), boundary_columns(scene.map));
       for (const auto &point : map.boundary)
         writer.append(boundary_row(scene.map, point));
       writer.finish(status, { map_summary(map, group, farm.cells().size()), meta, { group } }, warnings);

@@ -22,6 +22,9 @@ namespace sprag
       return parameter == 0 ? site.first : site.second;
     }
 
+    // Kinds of cells beside those of SlideKind.
+    constexpr unsigned int inadmissible_cell = 4; ///< the scene is refused
+    constexpr unsigned int failed_cell       = 5; ///< its analysis fails
     static_assert(static_cast<unsigned int>(SlideKind::jammed) + 1 == inadmissible_cell);
 
     constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
@@ -53,12 +56,29 @@ namespace sprag
       {
       }
     }
+
+    Scene cell_scene(const Scene &map, const MapSite &site)
+    {
+      const auto &[first, second, coarsest, bisections] = map.map;
+      return prepared(variant(map, { override_text(first.name, parameter_at(first, site.first)),
+                                     override_text(second.name, parameter_at(second, site.second)) }));
+    }
+
+    /// Returns the parameter, 0 or 1, that alone changes the mesh, so that cells in the order of it are checked faster; none
+    /// where there is no such parameter.
+    std::optional<unsigned int> find_mesh_parameter(const Scene &scene)
+    {
+      const bool first = changes_mesh(scene, scene.map.first), second = changes_mesh(scene, scene.map.second);
+      if (!is_meshed(scene.analysis.model) || first == second)
+        return {};
+      return first ? 0 : 1;
+    }
   } // namespace
 
-  MapFarm::MapFarm(const Scene &scene, const RunOptions &options, FarmProgress &progress)
-      : own_check(scene)
-      , ranks(scene, options, { "map", "cells", "judged again" }, progress)
-      , kept(own_check.mesh_parameter())
+  MapFarm::MapFarm(const Scene &scene_, const RunOptions &options, FarmProgress &progress)
+      : ranks(scene_, options, { "map", "cells", "judged again" }, progress)
+      , scene(scene_)
+      , mesh_parameter(find_mesh_parameter(scene))
   {
     for (const auto &line : ranks.taken_over())
       learn(line);
@@ -69,11 +89,12 @@ namespace sprag
     std::vector<MapSite> missing;
     std::copy_if(sites.begin(), sites.end(), std::back_inserter(missing),
                  [this](const MapSite &site) { return known.count(site) == 0; });
-    if (kept)
+    if (mesh_parameter)
       std::stable_sort(missing.begin(), missing.end(),
-                       [this](const MapSite &a, const MapSite &b) { return coordinate(a, *kept) < coordinate(b, *kept); });
+                       [this](const MapSite &a, const MapSite &b)
+                       { return coordinate(a, *mesh_parameter) < coordinate(b, *mesh_parameter); });
     ranks.carry_out(
-        site_groups(missing), [&](const std::size_t i) { return to_line(missing[i], own_check.check(missing[i])); },
+        site_groups(missing), [&](const std::size_t i) { return to_line(missing[i], check(missing[i])); },
         [this](const std::string &line) { learn(line); });
   }
 
@@ -82,7 +103,7 @@ namespace sprag
   {
     std::vector<std::vector<std::size_t>> groups;
     for (std::size_t i = 0; i < sites.size(); ++i)
-      if (i > 0 && kept && coordinate(sites[i], *kept) == coordinate(sites[i - 1], *kept))
+      if (i > 0 && mesh_parameter && coordinate(sites[i], *mesh_parameter) == coordinate(sites[i - 1], *mesh_parameter))
         groups.back().push_back(i);
       else
         groups.push_back({ i });
@@ -98,20 +119,11 @@ namespace sprag
     known_kinds.insert({ site, cell.kinds() });
   }
 
-  std::string cell_kind_name(const unsigned int kind)
-  {
-    if (kind < inadmissible_cell)
-      return kind_name(static_cast<SlideKind>(kind));
-    return kind == inadmissible_cell ? "inadmissible" : "failed";
-  }
-
   const std::vector<ColumnInfo> &cell_columns()
   {
     static const auto columns = []
     {
-      std::string kinds;
-      for (unsigned int kind = 0; kind < n_cell_kinds; ++kind)
-        kinds += (kind == 0 ? "" : ", ") + std::to_string(kind) + " " + cell_kind_name(kind);
+      const std::string kinds     = "0 stable, 1 flutter, 2 divergence, 3 jammed, 4 inadmissible, 5 failed";
       std::vector<ColumnInfo> all = { { "theta_0", "rad", "inclination of the lever at x = 0" } };
       for (const std::string way : { "forward", "backward" })
       {
@@ -132,25 +144,12 @@ namespace sprag
     return share == 1. ? range.to : range.from + share * (range.to - range.from);
   }
 
-  CellCheck::CellCheck(const Scene &map_scene)
-      : scene(map_scene)
-      , maker(false)
-  {
-  }
-
-  Scene CellCheck::scene_at(const MapSite &site) const
-  {
-    const auto &[first, second, coarsest, bisections] = scene.map;
-    return prepared(variant(scene, { override_text(first.name, parameter_at(first, site.first)),
-                                     override_text(second.name, parameter_at(second, site.second)) }));
-  }
-
-  MapCell CellCheck::check(const MapSite &site)
+  MapCell MapFarm::check(const MapSite &site)
   {
     MapCell cell = empty_cell(failed_cell);
     try
     {
-      Scene here               = scene_at(site);
+      Scene here               = cell_scene(scene, site);
       here.stability.direction = Direction::both;
       cell.values[0]           = kinematics(here.geometry, 0.).theta;
       const auto slides        = sweep(here, maker);
@@ -166,13 +165,5 @@ namespace sprag
       // No model: both ways stay failed.
     }
     return cell;
-  }
-
-  std::optional<unsigned int> CellCheck::mesh_parameter() const
-  {
-    const bool first = changes_mesh(scene, scene.map.first), second = changes_mesh(scene, scene.map.second);
-    if (!is_meshed(scene.analysis.model) || first == second)
-      return {};
-    return first ? 0 : 1;
   }
 } // namespace sprag
