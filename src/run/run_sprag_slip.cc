@@ -64,7 +64,6 @@ namespace sprag
       Group group{ "continuation", {} };
       const auto add = [&](const ColumnInfo &info, const Value &value)
       { group.datasets.push_back(make_dataset(points, info, value)); };
-      const auto held_value = [](const ContinuationPoint &point, const double value) { return point.holds() ? value : unknown; };
       add({ "x", "mm", "where the slide is held" }, [](const ContinuationPoint &point) { return point.x; });
       add({ "stable", "1", "1: the slide is stable by its eigenvalues, 0: it is not, or there is none" },
           [](const ContinuationPoint &point) { return point.slide.kind == SlideKind::stable ? 1. : 0.; });
@@ -73,9 +72,9 @@ namespace sprag
       add({ "mode_frequency", "Hz", "of that eigenvalue" },
           [](const ContinuationPoint &point) { return point.slide.frequency(); });
       add({ "P", "N", "of the slide" },
-          [&](const ContinuationPoint &point) { return held_value(point, point.holds() ? point.slide.slide->forces.P : 0.); });
+          [](const ContinuationPoint &point) { return point.holds() ? point.slide.slide->forces.P : unknown; });
       add({ "indentation", "mm", "of the slide" },
-          [&](const ContinuationPoint &point) { return held_value(point, point.holds() ? point.slide.slide->indentation : 0.); });
+          [](const ContinuationPoint &point) { return point.holds() ? point.slide.slide->indentation : unknown; });
       add_branch(points, "away", &ContinuationPoint::away, group.datasets);
       add_branch(points, "back", &ContinuationPoint::back, group.datasets);
       return group;
@@ -216,24 +215,27 @@ namespace sprag
       const SpragSlipSettings &settings = scene.sprag_slip;
       Rows rows                         = { writer, *found.slide.slide };
       const double dt                   = choose_step(watched_mode(found.slide), settings);
+      const SettlingTimes times         = { dt * settings.steps_per_period, settings.settling,
+                                            std::max(settings.settling, settings.longest_growth) };
       HeldRun run                       = HeldRun(model, dt);
       double done                       = 0.;
 
       void carry_out()
       {
-        try
-        {
-          measure();
-          follow();
-          if (settings.continuation > 0)
-            continue_along();
-        }
-        catch (...)
-        {
-          sum_up();
-          throw;
-        }
-        sum_up();
+        finish_in_any_case(
+            [&]
+            {
+              measure();
+              follow();
+              if (settings.continuation > 0)
+                continue_along();
+            },
+            [&](const std::string &)
+            {
+              found.ledger = run.ledger();
+              found.steps  = run.steps();
+              append(warnings, row_warnings(scene, { rows.largest }));
+            });
       }
 
       void measure()
@@ -256,14 +258,14 @@ namespace sprag
           run.begin(model.perturbed(slide, watched_mode(found.slide), Continuation::large_kick * slide.penetration));
         rows.begin(std::max(1u, settings.steps_per_period / approach_rows),
                    static_cast<std::size_t>(shown_periods * settings.steps_per_period));
-        found.settled       = settle(run, slide, { period(), settings.settling, longest() }, std::ref(rows));
+        found.settled       = settle(run, slide, times, std::ref(rows));
         found.settled_begin = rows.write_last();
         report();
       }
 
       void continue_along()
       {
-        Continuation continuation(model, run, held_drive(scene), period(), checked_modes(scene), settings);
+        Continuation continuation(model, run, held_drive(scene), times, checked_modes(scene), settings);
         const double turn = settings.turn.value_or(scene.drive.minimum());
         const auto note   = [&]
         {
@@ -275,26 +277,9 @@ namespace sprag
         found.coexistence = continuation.coexistence();
       }
 
-      double period() const
-      {
-        return dt * settings.steps_per_period;
-      }
-
-      double longest() const
-      {
-        return std::max(settings.settling, settings.longest_growth);
-      }
-
       void report()
       {
         progress.update(++done, { run.drive().x });
-      }
-
-      void sum_up()
-      {
-        found.ledger = run.ledger();
-        found.steps  = run.steps();
-        append(warnings, row_warnings(scene, { rows.largest }));
       }
     };
 

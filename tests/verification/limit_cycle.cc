@@ -81,9 +81,11 @@ TEST(Continuation, FindsWhereASlideAndACycleCoexistSlow)
   scene.sprag_slip.continuation = 6;
   const CheckedSlide checked(scene);
   HeldRun run(checked.dynamics.model(), checked.step());
-  const auto start    = after_kick(checked, 1e-3, run);
-  const double period = checked.step() * scene.sprag_slip.steps_per_period;
-  Continuation continuation(checked.dynamics.model(), run, held_drive(scene), period, checked_modes(scene), scene.sprag_slip);
+  const auto start     = after_kick(checked, 1e-3, run);
+  const auto &settings = scene.sprag_slip;
+  const SettlingTimes times{ checked.step() * settings.steps_per_period, settings.settling,
+                             std::max(settings.settling, settings.longest_growth) };
+  Continuation continuation(checked.dynamics.model(), run, held_drive(scene), times, checked_modes(scene), settings);
   unsigned int calls = 0;
   continuation.go(checked.stability, start, 38., [&] { ++calls; });
   EXPECT_GE(calls, 13u);

@@ -165,14 +165,15 @@ namespace sprag
     }
   } // namespace
 
-  Continuation::Continuation(DynamicModel &dynamic_model, HeldRun &held_run, const DrivePoint &start, const double period,
-                             const CheckedModes &checked_modes, const SpragSlipSettings &sprag_slip)
+  Continuation::Continuation(DynamicModel &dynamic_model, HeldRun &held_run, const DrivePoint &start,
+                             const SettlingTimes &settling_times, const CheckedModes &checked_modes,
+                             const SpragSlipSettings &sprag_slip)
       : model(dynamic_model)
       , run(held_run)
       , drive(start)
       , modes(checked_modes)
       , settings(sprag_slip)
-      , times{ period, sprag_slip.settling, std::max(sprag_slip.settling, sprag_slip.longest_growth) }
+      , times(settling_times)
   {
   }
 

@@ -99,10 +99,10 @@ namespace sprag
     /// Bisections of the interval in which a vibration that was carried along dies.
     static constexpr unsigned int bisections = 3;
 
-    /// Starts at `drive` with a vibration of this period [s]; `modes` is that of check_slide(). The run must begin at the slide
+    /// Starts at `drive`; `modes` is that of check_slide(). The run must begin at the slide
     /// or vibration there.
-    Continuation(DynamicModel &model, HeldRun &run, const DrivePoint &drive, double period, const CheckedModes &modes,
-                 const SpragSlipSettings &settings);
+    Continuation(DynamicModel &model, HeldRun &run, const DrivePoint &drive, const SettlingTimes &times,
+                 const CheckedModes &modes, const SpragSlipSettings &settings);
 
     /// Goes to `turn` [mm] in the scene's number of intervals, finds where the vibration dies on the way, and returns. `done` is
     /// called after each x. What is finished can be asked for after an exception too. Throws as HeldRun::step() and
