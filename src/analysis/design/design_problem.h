@@ -32,30 +32,6 @@ namespace sprag
     std::function<Evaluation(const std::vector<double> &)> evaluate;
   };
 
-  struct SearchSettings
-  {
-    unsigned int evaluations = 4000; ///< of the global search
-    unsigned int starts      = 24;   ///< of local searches besides it
-    unsigned int local       = 400;  ///< evaluations of a local search
-    unsigned int seed        = 1;
-    std::vector<double> near = {}; ///< a place whose neighbourhood is enough where constraints can be kept there; empty: none
-  };
-
-  struct Optimum
-  {
-    std::vector<double> place; ///< in the unit cube
-    double objective = 0.;
-    double violation = 0.; ///< the largest of the constraints there
-  };
-
-  /// Finds the place at which the largest constraint is smallest: by evolution (ISRES) over the cube, then from there and from
-  /// other starts by linear approximations (COBYLA). It stops where all constraints are kept.
-  Optimum least_violation(const BoxProblem &problem, const SearchSettings &settings);
-
-  /// Finds the smallest objective where all constraints are kept, likewise; of a start that keeps none the nearest place that
-  /// does is the beginning. Where there is no such place it is that of least_violation().
-  Optimum best_in_box(const BoxProblem &problem, const SearchSettings &settings);
-
   /// Values of all quantities of a lever; NaN of what is not known.
   class DesignQuantities
   {

@@ -1,15 +1,237 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/design/design_search.h"
 
+#include "base/system/interrupt.h"
 #include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <limits>
+#include <nlopt.hpp>
+#include <random>
 
 namespace sprag
 {
   namespace
   {
+    struct SearchSettings
+    {
+      unsigned int evaluations = 4000; ///< of the global search
+      unsigned int starts      = 24;   ///< of local searches besides it
+      unsigned int local       = 400;  ///< evaluations of a local search
+      unsigned int seed        = 1;
+      std::vector<double> near = {}; ///< a place whose neighbourhood is enough where constraints can be kept there; empty: none
+    };
+
+    struct Optimum
+    {
+      std::vector<double> place; ///< in the unit cube
+      double objective = 0.;
+      double violation = 0.; ///< the largest of the constraints there
+    };
+
+    double max_constraint(const std::vector<double> &constraints)
+    {
+      return *std::max_element(constraints.begin(), constraints.end());
+    }
+
+    /// Returns whether a place is better than another. Those that keep all constraints compare by their objective, the others by
+    /// how far they are from keeping them.
+    bool is_better(const Optimum &a, const Optimum &b)
+    {
+      if (a.violation <= 0. && b.violation <= 0.)
+        return a.objective < b.objective;
+      return std::max(a.violation, 0.) < std::max(b.violation, 0.);
+    }
+
+    /// Evaluates once where the library asks for objective and constraints of one place apart, and keeps the best place.
+    class Evaluator
+    {
+    public:
+      explicit Evaluator(const BoxProblem &problem_)
+          : problem(problem_)
+      {
+      }
+
+      const BoxProblem::Evaluation &at(const double *first)
+      {
+        const std::vector<double> asked(first, first + problem.dimension);
+        // An interrupted search comes to its end without computing anything more.
+        if (asked == place || (interrupted() && !place.empty()))
+          return last;
+        try
+        {
+          last = problem.evaluate(place = asked);
+        }
+        catch (...)
+        {
+          thrown = std::current_exception();
+          throw;
+        }
+        const Optimum here{ place, last.objective, max_constraint(last.constraints) };
+        if (found.place.empty() || is_better(here, found))
+          found = here;
+        return last;
+      }
+
+      const Optimum &best() const
+      {
+        return found;
+      }
+
+      const BoxProblem &problem;
+      std::exception_ptr thrown; ///< by the last evaluation, which the library makes an error of its own
+
+    private:
+      std::vector<double> place;
+      BoxProblem::Evaluation last;
+      Optimum found{ {}, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity() };
+    };
+
+    Evaluator &to_evaluator(void *data)
+    {
+      return *static_cast<Evaluator *>(data);
+    }
+
+    double objective(unsigned int, const double *x, double *, void *data)
+    {
+      return to_evaluator(data).at(x).objective;
+    }
+
+    void constraints(unsigned int, double *result, unsigned int, const double *x, double *, void *data)
+    {
+      const auto &values = to_evaluator(data).at(x).constraints;
+      std::copy(values.begin(), values.end(), result);
+    }
+
+    double largest_constraint(unsigned int, const double *x, double *, void *data)
+    {
+      return max_constraint(to_evaluator(data).at(x).constraints);
+    }
+
+    // Behind the place stands a bound on all constraints.
+    double bound(const unsigned int n, const double *x, double *, void *)
+    {
+      return x[n - 1];
+    }
+
+    void constraints_below_bound(const unsigned int m, double *result, const unsigned int n, const double *x, double *,
+                                 void *data)
+    {
+      constraints(m, result, n - 1, x, nullptr, data);
+      for (unsigned int i = 0; i < m; ++i)
+        result[i] -= x[n - 1];
+    }
+
+    void optimise(nlopt::opt &search, std::vector<double> x, const Evaluator &evaluator)
+    {
+      double value = 0.;
+      try
+      {
+        search.optimize(x, value);
+      }
+      catch (const std::runtime_error &)
+      {
+        if (evaluator.thrown)
+          std::rethrow_exception(evaluator.thrown);
+        // NLopt cannot go on: the best place tried is the answer.
+      }
+    }
+
+    nlopt::opt local_search(const std::size_t n, const unsigned int evaluations, const double step)
+    {
+      nlopt::opt search(nlopt::LN_COBYLA, static_cast<unsigned int>(n));
+      search.set_xtol_rel(1e-10);
+      search.set_xtol_abs(1e-11);
+      search.set_maxeval(static_cast<int>(evaluations));
+      search.set_initial_step(step);
+      return search;
+    }
+
+    void approach_constraints(Evaluator &evaluator, std::vector<double> start, const unsigned int evaluations, const double step)
+    {
+      const std::size_t n = evaluator.problem.dimension;
+      const double most   = max_constraint(evaluator.at(start.data()).constraints);
+      auto search         = local_search(n + 1, evaluations, step);
+      std::vector<double> low(n + 1, 0.), high(n + 1, 1.), x = start;
+      low.back()  = -1.;
+      high.back() = std::max(most, 1.) + 1.;
+      x.push_back(std::max(most, 0.));
+      search.set_lower_bounds(low);
+      search.set_upper_bounds(high);
+      search.set_min_objective(bound, nullptr);
+      search.add_inequality_mconstraint(constraints_below_bound, &evaluator,
+                                        std::vector<double>(evaluator.problem.n_constraints));
+      search.set_stopval(-1e-3);
+      optimise(search, x, evaluator);
+    }
+
+    void improve(Evaluator &evaluator, std::vector<double> start, const unsigned int evaluations, const double step)
+    {
+      const std::size_t n = evaluator.problem.dimension;
+      auto search         = local_search(n, evaluations, step);
+      search.set_lower_bounds(0.);
+      search.set_upper_bounds(1.);
+      search.set_min_objective(objective, &evaluator);
+      search.add_inequality_mconstraint(constraints, &evaluator, std::vector<double>(evaluator.problem.n_constraints));
+      optimise(search, start, evaluator);
+    }
+
+    /// Steps become shorter where the search begins anew, as it may stop at an edge between two constraints.
+    Optimum from_start(const BoxProblem &problem, std::vector<double> start, const unsigned int evaluations,
+                       const bool only_approaches)
+    {
+      Evaluator evaluator(problem);
+      if (max_constraint(evaluator.at(start.data()).constraints) > 0.)
+        for (const double step : { 0.1, 0.01, 1e-3 })
+          if (evaluator.best().violation > 0.)
+            approach_constraints(evaluator, evaluator.best().place, evaluations, step);
+      if (!only_approaches && evaluator.best().violation <= 0.)
+        for (const double step : { 0.1, 0.02, 1e-3 })
+          improve(evaluator, evaluator.best().place, evaluations, step);
+      return evaluator.best();
+    }
+
+    std::vector<double> global_start(const BoxProblem &problem, const SearchSettings &settings, const bool only_approaches)
+    {
+      Evaluator evaluator(problem);
+      nlopt::srand(settings.seed);
+      nlopt::opt search(nlopt::GN_ISRES, static_cast<unsigned int>(problem.dimension));
+      search.set_lower_bounds(0.);
+      search.set_upper_bounds(1.);
+      search.set_maxeval(static_cast<int>(settings.evaluations));
+      search.set_min_objective(only_approaches ? largest_constraint : objective, &evaluator);
+      if (!only_approaches)
+        search.add_inequality_mconstraint(constraints, &evaluator, std::vector<double>(problem.n_constraints));
+      optimise(search, std::vector<double>(problem.dimension, 0.5), evaluator);
+      return evaluator.best().place;
+    }
+
+    /// Finds the smallest objective where all constraints are kept: by evolution (ISRES) over the cube, then from there and from
+    /// other starts by linear approximations (COBYLA); of a start that keeps none the nearest place that does is the beginning.
+    /// With `only_approaches` it stops where all constraints are kept. Where there is no such place it is the one at which the
+    /// largest is smallest.
+    Optimum search_everywhere(const BoxProblem &problem, const SearchSettings &settings, const bool only_approaches = false)
+    {
+      if (!settings.near.empty())
+        if (const auto found = from_start(problem, settings.near, settings.local, only_approaches); found.violation <= 0.)
+          return found;
+      const auto begin = global_start(problem, settings, only_approaches);
+      auto best        = from_start(problem, begin, settings.local, only_approaches);
+      std::mt19937 random(settings.seed);
+      std::vector<double> start(problem.dimension);
+      for (unsigned int i = 0; i < settings.starts && !(only_approaches && best.violation <= 0.); ++i)
+      {
+        // The same numbers with any standard library.
+        for (double &x : start)
+          x = static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
+        const auto found = from_start(problem, start, settings.local, only_approaches);
+        if (is_better(found, best))
+          best = found;
+      }
+      return best;
+    }
     SearchSettings search_settings(const DesignProblem &problem)
     {
       SearchSettings search{ problem.settings().evaluations, 24, 400, problem.settings().seed, {} };
@@ -59,7 +281,7 @@ namespace sprag
 
   Found best_lever(const DesignProblem &problem)
   {
-    return found_at(problem, best_in_box(problem.box(problem.settings().aims.front()), search_settings(problem)));
+    return found_at(problem, search_everywhere(problem.box(problem.settings().aims.front()), search_settings(problem)));
   }
 
   Found best_dear_lever(const DesignProblem &problem, const std::optional<Proposal> &near)
@@ -67,7 +289,7 @@ namespace sprag
     auto few = search_settings(problem);
     if (near)
       few.near = problem.search_point(near->parameters);
-    return found_at(problem, best_in_box(problem.box(problem.settings().aims.front()), few));
+    return found_at(problem, search_everywhere(problem.box(problem.settings().aims.front()), few));
   }
 
   std::vector<StoppingDemand> stopping_demands(const DesignProblem &problem)
@@ -76,11 +298,12 @@ namespace sprag
     const auto &demands = problem.settings().demanded;
     for (std::size_t i = 0; i < demands.size(); ++i)
     {
-      const auto without = least_violation(problem.box({}, i), search_settings(problem));
+      const auto without = search_everywhere(problem.box({}, i), search_settings(problem), true);
       if (without.violation > 0.)
         continue;
       const double value = term_value(demands[i].term, problem.at(without.place));
-      const auto nearest = problem.at(best_in_box(problem.box(towards(demands[i], value), i), search_settings(problem)).place);
+      const auto nearest =
+          problem.at(search_everywhere(problem.box(towards(demands[i], value), i), search_settings(problem)).place);
       result.push_back({ i, term_value(demands[i].term, nearest), nearest });
     }
     return result;
@@ -91,7 +314,7 @@ namespace sprag
     const auto &aims    = problem.settings().aims;
     const auto settings = search_settings(problem);
     const auto best     = [&](const DesignAim &aim, const std::optional<Demand> &limit)
-    { return problem.at(best_in_box(problem.box(aim, {}, limit), settings).place); };
+    { return problem.at(search_everywhere(problem.box(aim, {}, limit), settings).place); };
     const auto value      = [](const DesignAim &aim, const Proposal &lever) { return term_value(aim.term, lever); };
     const auto best_first = best(aims[0], {}), best_second = best(aims[1], {});
     const double from = value(aims[1], best_first), to = value(aims[1], best_second);
@@ -102,7 +325,7 @@ namespace sprag
       // The last limit can be kept only to round-off.
       const double share = i < last ? static_cast<double>(i) / last : 1. - 1e-6;
       const double limit = from + share * (to - from);
-      const auto optimum = best_in_box(problem.box(aims[0], {}, limited_by(aims[1], limit)), settings);
+      const auto optimum = search_everywhere(problem.box(aims[0], {}, limited_by(aims[1], limit)), settings);
       if (optimum.violation <= 0.)
         all.push_back(problem.at(optimum.place));
     }
