@@ -34,6 +34,26 @@ namespace sprag
           is_paid(scene, choice) ? "Accuracy/Budget pays no more." : "Even the coarsest costs more than Accuracy/Budget.";
       return choice;
     }
+
+    Choice choose_in_plane(const Scene &scene, const Announce &announce)
+    {
+      const double since     = PhaseTimer::cpu_seconds();
+      const bool has_inertia = scene.analysis.type != AnalysisType::quasi_static;
+      const auto meeting     = has_inertia ? choose_for_vibration(scene) : choose_without_inertia(scene, announce);
+      return cheap_enough(with_budget_left(scene, since), meeting);
+    }
+
+    void print_accuracy(std::ostream &stream, const Scene &scene, const Choice &choice)
+    {
+      stream << "Accuracy:     ";
+      if (scene.accuracy.target > 0.)
+        stream << percent(scene.accuracy.target) << " of ";
+      stream << boost::algorithm::join(scene.accuracy.quantities, ", ");
+      if (scene.accuracy.budget > 0.)
+        stream << " within " << scene.accuracy.budget << " s";
+      stream << " asked for, " << (choice.error > 0. ? percent(choice.error) + " expected. " : "nothing to choose. ")
+             << choice.limit << '\n';
+    }
   } // namespace
 
   Scene with_settings(const Scene &scene, const std::vector<ChosenSetting> &settings)
@@ -76,17 +96,6 @@ namespace sprag
     return scene;
   }
 
-  namespace
-  {
-    Choice choose_in_plane(const Scene &scene, const Announce &announce)
-    {
-      const double since     = PhaseTimer::cpu_seconds();
-      const bool has_inertia = scene.analysis.type != AnalysisType::quasi_static;
-      const auto meeting     = has_inertia ? choose_for_vibration(scene) : choose_without_inertia(scene, announce);
-      return cheap_enough(with_budget_left(scene, since), meeting);
-    }
-  } // namespace
-
   Choice choose_settings(const Scene &scene, const Announce &announce)
   {
     if (!scene.accuracy.is_dimension_open && scene.analysis.dimension == 2)
@@ -102,21 +111,6 @@ namespace sprag
     choice.settings.insert(choice.settings.begin(), dimension.begin(), dimension.end());
     return choice;
   }
-
-  namespace
-  {
-    void print_accuracy(std::ostream &stream, const Scene &scene, const Choice &choice)
-    {
-      stream << "Accuracy:     ";
-      if (scene.accuracy.target > 0.)
-        stream << percent(scene.accuracy.target) << " of ";
-      stream << boost::algorithm::join(scene.accuracy.quantities, ", ");
-      if (scene.accuracy.budget > 0.)
-        stream << " within " << scene.accuracy.budget << " s";
-      stream << " asked for, " << (choice.error > 0. ? percent(choice.error) + " expected. " : "nothing to choose. ")
-             << choice.limit << '\n';
-    }
-  } // namespace
 
   Resolved resolved(const Scene &original, const Announce &announce)
   {

@@ -38,25 +38,7 @@ namespace sprag
       const auto theta = [&](const DrivePoint &point) { return kinematics(scene.geometry, point.x).theta; };
       return (theta(before) - 2. * theta(at) + theta(after)) / (span * span);
     }
-  } // namespace
 
-  double left_out_inertia(const Scene &scene, const std::vector<Row> &rows)
-  {
-    const double J = moment_of_inertia(scene);
-    double change  = 0.;
-    for (const Row &row : rows)
-      if (row[Column::v] != 0. && row[Column::P] > 0.)
-      {
-        const auto ideal = closed_form(scene, row[Column::x], row[Column::v]);
-        const double moment =
-            ideal.P * (ideal.contact.s + drive_direction(row[Column::v]) * ideal.mu * scene.geometry.interface_offset);
-        change = std::max(change, std::abs(J * angular_acceleration(scene, row[Column::time]) / moment) * row[Column::P]);
-      }
-    return change / largest(rows, Column::P);
-  }
-
-  namespace
-  {
     constexpr double near_peak = 0.5;  ///< stress of the states that count, over the largest
     constexpr double near_edge = 0.85; ///< stress at the contact's edge over the largest, from which a finer mesh finds it there
 
@@ -135,60 +117,7 @@ namespace sprag
       levers.use_penalties({ augments(scene) ? penalties.normal : penalties.normal / softer, penalties.tangential / softer });
       return repeated(levers, samples, start, settings);
     }
-  } // namespace
 
-  TrialRuns plane_trial_runs(const Scene &scene, StaticLever<2> &levers, const std::vector<Row> &rows,
-                             const QuasiStaticSettings &settings, const std::vector<StressSample> &stresses)
-  {
-    TrialRuns result;
-    std::vector<double> times;
-    for (const auto &sample : stresses)
-      times.push_back(sample.time);
-    const double start = rows.front()[Column::x];
-    const auto chosen  = choose_rows(rows, samples_per_stroke, times, result.run);
-    Mesh mesh;
-    const Scene other = with_compared_mesh(with_penalties(scene, levers.penalties(), 1.));
-    make_mesh(other, mesh);
-    StaticLever<2> on_other(mesh, other);
-    const BodyFields fields(on_other.body());
-    std::vector<StressPair> pairs;
-    const auto look = [&](const State &state, const Row &row, const Evaluation &)
-    {
-      const auto sample = std::find(times.begin(), times.end(), state.drive.time);
-      if (sample == times.end())
-        return;
-      pairs.push_back({ stresses[sample - times.begin()], {} });
-      for (const auto &displacement : on_other.body_displacements(state.coordinates, state.forces))
-        look_at(fields, fields.at(displacement), row, pairs.back().other);
-    };
-    result.other  = divided(repeated(on_other, chosen, start, settings, look), result.run);
-    result.stress = stress_changes(pairs);
-    if (result.stress)
-      result.pressure_with_stress =
-          relative_change("largest_pressure", rows_at(times, result.run.slides), rows_at(times, result.other.slides));
-    result.soft = divided(with_softer_penalty(scene, levers, chosen, start, settings), result.run);
-    return result;
-  }
-
-  TrialRuns solid_trial_runs(const Scene &scene, SolidBody &body, StaticLever<3> &lever, const std::vector<Row> &rows,
-                             const QuasiStaticSettings &settings)
-  {
-    TrialRuns result;
-    const double start = rows.front()[Column::x];
-    const auto chosen  = choose_rows(rows, samples_in_space, {}, result.run);
-    result.soft        = divided(with_softer_penalty(scene, lever, chosen, start, settings), result.run);
-    body.release_factors(); // before there are others
-    Mesh mesh;
-    const Scene other = with_compared_mesh(with_penalties(scene, lever.penalties(), 1.));
-    make_mesh(other, mesh);
-    const SolidBody other_body(other, mesh);
-    StaticLever<3> on_other(other_body, other);
-    result.other = divided(repeated(on_other, chosen, start, settings), result.run);
-    return result;
-  }
-
-  namespace
-  {
     constexpr double least_reversal_faces = 4.;
     constexpr double least_across         = 1e-6; ///< over the width [1 or N], below which round-off is left
 
@@ -332,6 +261,71 @@ namespace sprag
                    " faces wide. Try a smaller Mesh/Face size, or smaller faces in Mesh/File." };
     }
   } // namespace
+
+  double left_out_inertia(const Scene &scene, const std::vector<Row> &rows)
+  {
+    const double J = moment_of_inertia(scene);
+    double change  = 0.;
+    for (const Row &row : rows)
+      if (row[Column::v] != 0. && row[Column::P] > 0.)
+      {
+        const auto ideal = closed_form(scene, row[Column::x], row[Column::v]);
+        const double moment =
+            ideal.P * (ideal.contact.s + drive_direction(row[Column::v]) * ideal.mu * scene.geometry.interface_offset);
+        change = std::max(change, std::abs(J * angular_acceleration(scene, row[Column::time]) / moment) * row[Column::P]);
+      }
+    return change / largest(rows, Column::P);
+  }
+
+  TrialRuns plane_trial_runs(const Scene &scene, StaticLever<2> &levers, const std::vector<Row> &rows,
+                             const QuasiStaticSettings &settings, const std::vector<StressSample> &stresses)
+  {
+    TrialRuns result;
+    std::vector<double> times;
+    for (const auto &sample : stresses)
+      times.push_back(sample.time);
+    const double start = rows.front()[Column::x];
+    const auto chosen  = choose_rows(rows, samples_per_stroke, times, result.run);
+    Mesh mesh;
+    const Scene other = with_compared_mesh(with_penalties(scene, levers.penalties(), 1.));
+    make_mesh(other, mesh);
+    StaticLever<2> on_other(mesh, other);
+    const BodyFields fields(on_other.body());
+    std::vector<StressPair> pairs;
+    const auto look = [&](const State &state, const Row &row, const Evaluation &)
+    {
+      const auto sample = std::find(times.begin(), times.end(), state.drive.time);
+      if (sample == times.end())
+        return;
+      pairs.push_back({ stresses[sample - times.begin()], {} });
+      for (const auto &displacement : on_other.body_displacements(state.coordinates, state.forces))
+        look_at(fields, fields.at(displacement), row, pairs.back().other);
+    };
+    result.other  = divided(repeated(on_other, chosen, start, settings, look), result.run);
+    result.stress = stress_changes(pairs);
+    if (result.stress)
+      result.pressure_with_stress =
+          relative_change("largest_pressure", rows_at(times, result.run.slides), rows_at(times, result.other.slides));
+    result.soft = divided(with_softer_penalty(scene, levers, chosen, start, settings), result.run);
+    return result;
+  }
+
+  TrialRuns solid_trial_runs(const Scene &scene, SolidBody &body, StaticLever<3> &lever, const std::vector<Row> &rows,
+                             const QuasiStaticSettings &settings)
+  {
+    TrialRuns result;
+    const double start = rows.front()[Column::x];
+    const auto chosen  = choose_rows(rows, samples_in_space, {}, result.run);
+    result.soft        = divided(with_softer_penalty(scene, lever, chosen, start, settings), result.run);
+    body.release_factors(); // before there are others
+    Mesh mesh;
+    const Scene other = with_compared_mesh(with_penalties(scene, lever.penalties(), 1.));
+    make_mesh(other, mesh);
+    const SolidBody other_body(other, mesh);
+    StaticLever<3> on_other(other_body, other);
+    result.other = divided(repeated(on_other, chosen, start, settings), result.run);
+    return result;
+  }
 
   std::vector<ErrorEstimate> quasi_static_accuracy(const Scene &scene, const std::vector<Row> &rows,
                                                    const std::function<TrialRuns()> &run_trials)

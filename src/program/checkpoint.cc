@@ -46,61 +46,7 @@ namespace sprag
       }
       return result;
     }
-  } // namespace
 
-  RowLog::RowLog(std::string file_path)
-      : path(std::move(file_path))
-  {
-  }
-
-  std::optional<std::string> RowLog::take_up(const std::size_t size)
-  {
-    std::ifstream input(path, std::ios::binary);
-    std::string blocks{ std::istreambuf_iterator<char>(input), {} };
-    if (blocks.size() < size)
-      return {};
-    blocks.resize(size);
-    auto result = verified_content(blocks);
-    if (!result)
-      return {};
-    file = OpenFile(path, O_WRONLY | O_APPEND);
-    if (!file.is_open() || !file.truncate(size))
-      return {};
-    written = size;
-    return result;
-  }
-
-  void RowLog::write_block()
-  {
-    if (!file.is_open())
-      file = OpenFile(path, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND);
-    const std::string sum = checksum(pending.bytes());
-    std::size_t length    = pending.bytes().size() + sum.size();
-    Archive head;
-    head(length);
-    for (const auto *const part : { &head.bytes(), &pending.bytes(), &sum })
-      if (!file.is_open() || !file.write(*part))
-        return fail();
-    written += head.bytes().size() + length;
-    pending.clear();
-  }
-
-  void RowLog::write()
-  {
-    write_block();
-    if (!file.synchronise())
-      fail();
-  }
-
-  void RowLog::fail()
-  {
-    const int reason = errno;
-    file.truncate(written);
-    throw AnalysisError(path + " cannot be written: " + std::strerror(reason));
-  }
-
-  namespace
-  {
     constexpr double largest_share = 0.01; ///< of a run's time that checkpoints take
 
     double seconds_between()
@@ -153,6 +99,57 @@ namespace sprag
         throw AnalysisError(path + " cannot be written: " + std::strerror(errno));
     }
   } // namespace
+
+  RowLog::RowLog(std::string file_path)
+      : path(std::move(file_path))
+  {
+  }
+
+  std::optional<std::string> RowLog::take_up(const std::size_t size)
+  {
+    std::ifstream input(path, std::ios::binary);
+    std::string blocks{ std::istreambuf_iterator<char>(input), {} };
+    if (blocks.size() < size)
+      return {};
+    blocks.resize(size);
+    auto result = verified_content(blocks);
+    if (!result)
+      return {};
+    file = OpenFile(path, O_WRONLY | O_APPEND);
+    if (!file.is_open() || !file.truncate(size))
+      return {};
+    written = size;
+    return result;
+  }
+
+  void RowLog::write_block()
+  {
+    if (!file.is_open())
+      file = OpenFile(path, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND);
+    const std::string sum = checksum(pending.bytes());
+    std::size_t length    = pending.bytes().size() + sum.size();
+    Archive head;
+    head(length);
+    for (const auto *const part : { &head.bytes(), &pending.bytes(), &sum })
+      if (!file.is_open() || !file.write(*part))
+        return fail();
+    written += head.bytes().size() + length;
+    pending.clear();
+  }
+
+  void RowLog::write()
+  {
+    write_block();
+    if (!file.synchronise())
+      fail();
+  }
+
+  void RowLog::fail()
+  {
+    const int reason = errno;
+    file.truncate(written);
+    throw AnalysisError(path + " cannot be written: " + std::strerror(reason));
+  }
 
   bool has_checkpoint(const std::string &folder, const Scene &scene)
   {

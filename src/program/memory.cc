@@ -227,6 +227,16 @@ namespace sprag
         return 0.013e9;
       return needs_mesh(scene) ? 0.19e9 : 0.16e9;
     }
+
+    /// The check models of condensed finite elements keep the model of the slides beside that in time.
+    double design_memory(Scene scene)
+    {
+      const auto &checks      = scene.design.check_models;
+      const bool is_condensed = std::count(checks.begin(), checks.end(), CheckModel::condensed) > 0;
+      scene.analysis.type     = AnalysisType::stability;
+      scene.analysis.model    = is_condensed ? ModelType::condensed : ModelType::beam;
+      return library_memory(scene) + 2. * matrix_bytes(scene);
+    }
   } // namespace
 
   ExpectedSize expected_size(const Scene &scene)
@@ -241,19 +251,6 @@ namespace sprag
     }
     return { 2. * (p * n + 1.) * (p * rows + 1.) + 2. * p * p * cylinder_elements(scene), 2. * (p * n + 1.) };
   }
-
-  namespace
-  {
-    /// The check models of condensed finite elements keep the model of the slides beside that in time.
-    double design_memory(Scene scene)
-    {
-      const auto &checks      = scene.design.check_models;
-      const bool is_condensed = std::count(checks.begin(), checks.end(), CheckModel::condensed) > 0;
-      scene.analysis.type     = AnalysisType::stability;
-      scene.analysis.model    = is_condensed ? ModelType::condensed : ModelType::beam;
-      return library_memory(scene) + 2. * matrix_bytes(scene);
-    }
-  } // namespace
 
   std::string factor_folder(const std::string &folder)
   {

@@ -46,6 +46,41 @@ namespace sprag
         }
       }
     }
+
+    constexpr int most_numbered = 12; ///< lines of reversals
+
+    /// Returns the text behind the label of a line; empty where nothing is known.
+    std::string to_text(const SummaryRow &row, const Entry &entry, const Entry *before)
+    {
+      if (const auto *const word = std::get_if<std::string>(&entry.value))
+        return word->empty() ? "" : boost::replace_all_copy(row.text, "#", *word);
+      const double value = std::get<double>(entry.value);
+      const bool is_idle = value == 0. || (before != nullptr && before->value == entry.value);
+      if (!std::isfinite(value) || (row.is_hidden_if_idle && is_idle))
+        return {};
+      const auto share = formatted("%.3g", 100. * std::abs(value)) + " %";
+      return boost::replace_all_copy(boost::replace_all_copy(row.text, "#%", share), "#", with_unit(value, row.unit));
+    }
+
+    void print_errors(std::ostream &stream, const std::vector<ErrorEstimate> &errors)
+    {
+      std::string estimated;
+      std::map<std::string, std::string> unknown; // quantities by the reason why they have no estimate
+      const ErrorEstimate *worst = nullptr;
+      for (const auto &error : errors)
+      {
+        auto &text = error.parts.empty() ? unknown[error.unknown] : estimated;
+        text += (text.empty() ? "" : ", ") + error.quantity + (error.parts.empty() ? "" : ' ' + percent(total_error(error)));
+        if (!error.parts.empty() && (worst == nullptr || total_error(error) > total_error(*worst)))
+          worst = &error;
+      }
+      if (worst != nullptr)
+        summary_line(stream, "errors, estimated", estimated);
+      for (const auto &[reason, quantities] : unknown)
+        summary_line(stream, "not estimated", quantities + ": " + reason);
+      if (worst != nullptr)
+        summary_line(stream, "to improve the worst", largest_part(*worst).remedy);
+    }
   } // namespace
 
   std::vector<Entry> accuracy_entries(const std::vector<ErrorEstimate> &estimates)
@@ -106,25 +141,6 @@ namespace sprag
                "These quantities are less accurate than asked for, or nobody knows.", remedy } };
   }
 
-  namespace
-  {
-    constexpr int most_numbered = 12; ///< lines of reversals
-
-    /// Returns the text behind the label of a line; empty where nothing is known.
-    std::string to_text(const SummaryRow &row, const Entry &entry, const Entry *before)
-    {
-      if (const auto *const word = std::get_if<std::string>(&entry.value))
-        return word->empty() ? "" : boost::replace_all_copy(row.text, "#", *word);
-      const double value = std::get<double>(entry.value);
-      const bool is_idle = value == 0. || (before != nullptr && before->value == entry.value);
-      if (!std::isfinite(value) || (row.is_hidden_if_idle && is_idle))
-        return {};
-      const auto share = formatted("%.3g", 100. * std::abs(value)) + " %";
-      return boost::replace_all_copy(boost::replace_all_copy(row.text, "#%", share), "#", with_unit(value, row.unit));
-    }
-
-  } // namespace
-
   Group answer_lines(const AnalysisType type, const std::vector<Entry> &summary)
   {
     std::vector<std::string> labels, texts;
@@ -156,29 +172,6 @@ namespace sprag
     }
     return { "answer", {}, { { "line", "labels of the lines that a run prints", labels }, { "text", "what they say", texts } } };
   }
-
-  namespace
-  {
-    void print_errors(std::ostream &stream, const std::vector<ErrorEstimate> &errors)
-    {
-      std::string estimated;
-      std::map<std::string, std::string> unknown; // quantities by the reason why they have no estimate
-      const ErrorEstimate *worst = nullptr;
-      for (const auto &error : errors)
-      {
-        auto &text = error.parts.empty() ? unknown[error.unknown] : estimated;
-        text += (text.empty() ? "" : ", ") + error.quantity + (error.parts.empty() ? "" : ' ' + percent(total_error(error)));
-        if (!error.parts.empty() && (worst == nullptr || total_error(error) > total_error(*worst)))
-          worst = &error;
-      }
-      if (worst != nullptr)
-        summary_line(stream, "errors, estimated", estimated);
-      for (const auto &[reason, quantities] : unknown)
-        summary_line(stream, "not estimated", quantities + ": " + reason);
-      if (worst != nullptr)
-        summary_line(stream, "to improve the worst", largest_part(*worst).remedy);
-    }
-  } // namespace
 
   void print_console_summary(std::ostream &stream, const Group &answer, const std::vector<ErrorEstimate> &errors,
                              const double cpu_seconds)

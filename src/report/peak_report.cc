@@ -93,10 +93,7 @@ namespace sprag
     {
       return drive_direction(row[Column::v]) > 0 ? "forward" : "backward";
     }
-  } // namespace
 
-  namespace
-  {
     constexpr std::size_t reach = 3; ///< of the regression to both sides, in means
 
     struct Mean

@@ -129,6 +129,17 @@ namespace sprag
                                { "deviation_Q_" + way, deviation(settled, Column::Q, Column::Q_closed_form) },
                                { "deviation_theta_" + way, deviation(settled, Column::theta, Column::theta_closed_form) } });
     }
+
+    /// Adds tilt and skew of an axis on a compliant shaft, at the largest P.
+    void add_slopes(const Scene &scene, const std::vector<Row> &rows, std::vector<Entry> &entries)
+    {
+      if (scene.analysis.dimension != 3 || !scene.cylinder.has_free_axis())
+        return;
+      const auto by_P    = [](const Row &a, const Row &b) { return a[Column::P] < b[Column::P]; };
+      const auto &across = std::max_element(rows.begin(), rows.end(), by_P)->across;
+      const auto tilt    = columns_across().size();
+      append<Entry>(entries, { { "tilt", across[tilt] }, { "skew", across[tilt + 1] } });
+    }
   } // namespace
 
   void add_closed_form(const Scene &scene, Row &row)
@@ -143,20 +154,6 @@ namespace sprag
     row[Column::P_closed_form] = state.P;
     row[Column::Q_closed_form] = state.Q;
   }
-
-  namespace
-  {
-    /// Adds tilt and skew of an axis on a compliant shaft, at the largest P.
-    void add_slopes(const Scene &scene, const std::vector<Row> &rows, std::vector<Entry> &entries)
-    {
-      if (scene.analysis.dimension != 3 || !scene.cylinder.has_free_axis())
-        return;
-      const auto by_P    = [](const Row &a, const Row &b) { return a[Column::P] < b[Column::P]; };
-      const auto &across = std::max_element(rows.begin(), rows.end(), by_P)->across;
-      const auto tilt    = columns_across().size();
-      append<Entry>(entries, { { "tilt", across[tilt] }, { "skew", across[tilt + 1] } });
-    }
-  } // namespace
 
   std::vector<Entry> make_summary(const Scene &scene, const std::vector<Row> &rows)
   {

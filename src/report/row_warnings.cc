@@ -286,6 +286,32 @@ namespace sprag
                            "There mu is that of the table's last row: P, Q and work follow from a guess.",
                            "A table that goes on to this speed, if only by a row with the same mu." });
     }
+
+    /// The layer's shear k_t delays what friction does to the slip: where mu falls by |mu'| a speed, |mu'| P / k_t [s] feeds a
+    /// vibration. Beyond L / v, L Friction/Memory length, the slip runs away at once.
+    void add_falling_friction(const Scene &scene, const Row &slide, Warnings &warnings)
+    {
+      const auto friction = step_friction(scene.friction, slide[Column::v]);
+      const double speed  = std::abs(slide[Column::v_rel]);
+      const double slope  = -friction_coefficient(friction, speed).derivative;
+      if (!falls_with_speed(friction) || !(slope > 0.))
+        return;
+      const double shear  = slope * slide[Column::P] / contact_reference(scene).tangential;
+      const double memory = friction.memory_length / speed;
+      if (is_reduced(scene.analysis.model))
+        warnings.push_back({ "shear_left_out",
+                             "Friction falls with speed " + place(slide) + ", mu by " + rounded_text(slope) +
+                                 " s/mm. Rigid and beam leave out the layer's shear, which then feeds vibrations.",
+                             "A slide that is stable here may flutter.",
+                             "Take Analysis/Model = condensed, whose mesh has the shear." });
+      if (shear > memory)
+        warnings.push_back({ "runaway_slip",
+                             "Friction falls so fast with speed " + place(slide) +
+                                 " that slip runs away sooner than mu follows: mu' P / k_t is " + rounded_text(1e3 * shear) +
+                                 " ms, Friction/Memory length over the speed " + rounded_text(1e3 * memory) + " ms.",
+                             "There is no steady slide. A growth rate depends on the mesh, and steps in time fail or shake.",
+                             "Measure mu over speed more finely and Friction/Memory length." });
+    }
   } // namespace
 
   std::optional<double> layer_strength(const FrictionLayer &layer)
@@ -322,35 +348,6 @@ namespace sprag
     add_sensors_in_tension(rows, warnings);
     return warnings;
   }
-
-  namespace
-  {
-    /// The layer's shear k_t delays what friction does to the slip: where mu falls by |mu'| a speed, |mu'| P / k_t [s] feeds a
-    /// vibration. Beyond L / v, L Friction/Memory length, the slip runs away at once.
-    void add_falling_friction(const Scene &scene, const Row &slide, Warnings &warnings)
-    {
-      const auto friction = step_friction(scene.friction, slide[Column::v]);
-      const double speed  = std::abs(slide[Column::v_rel]);
-      const double slope  = -friction_coefficient(friction, speed).derivative;
-      if (!falls_with_speed(friction) || !(slope > 0.))
-        return;
-      const double shear  = slope * slide[Column::P] / contact_reference(scene).tangential;
-      const double memory = friction.memory_length / speed;
-      if (is_reduced(scene.analysis.model))
-        warnings.push_back({ "shear_left_out",
-                             "Friction falls with speed " + place(slide) + ", mu by " + rounded_text(slope) +
-                                 " s/mm. Rigid and beam leave out the layer's shear, which then feeds vibrations.",
-                             "A slide that is stable here may flutter.",
-                             "Take Analysis/Model = condensed, whose mesh has the shear." });
-      if (shear > memory)
-        warnings.push_back({ "runaway_slip",
-                             "Friction falls so fast with speed " + place(slide) +
-                                 " that slip runs away sooner than mu follows: mu' P / k_t is " + rounded_text(1e3 * shear) +
-                                 " ms, Friction/Memory length over the speed " + rounded_text(1e3 * memory) + " ms.",
-                             "There is no steady slide. A growth rate depends on the mesh, and steps in time fail or shake.",
-                             "Measure mu over speed more finely and Friction/Memory length." });
-    }
-  } // namespace
 
   Warnings slide_warnings(const Scene &scene, const DrivePoint &drive, const double P, const double indentation)
   {

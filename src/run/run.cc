@@ -28,6 +28,45 @@ namespace sprag
   {
     /// For each process. Two are as fast as one at three times as many, see tests/benchmarks/solid-cost.md.
     constexpr double least_displacements = 1e4;
+
+    void try_mesh(const Scene &scene)
+    {
+      if (!needs_mesh(scene))
+        return;
+      Mesh triangulation;
+      make_mesh(scene, triangulation);
+      if (triangulation.n_active_cells() == 0)
+        check_solid_file(scene);
+    }
+
+    JammingMargin compute_margin(const Device &device)
+    {
+      const ModelType model = device.analysis.model;
+      return jamming_margin(device, model != ModelType::closed_form && model != ModelType::rigid);
+    }
+
+    /// That of a run with what choosing its settings has taken since the process had used so much CPU time [s].
+    ExpectedCost cost_with_trials(const Scene &scene, const double since)
+    {
+      const double spent = PhaseTimer::cpu_seconds() - since;
+      auto cost          = expected_cost(scene);
+      cost.cpu_seconds += spent;
+      return cost;
+    }
+
+    bool print_trial(const std::string &sentence, double)
+    {
+      std::cout << sentence << '\n' << std::flush;
+      return true;
+    }
+
+    /// Leaves out what a check of a scene should not wait for.
+    bool print_short_trial(const std::string &sentence, const double seconds)
+    {
+      constexpr double most = 10.; // [s]
+      const bool is_short   = seconds <= most;
+      return print_trial(sentence + (is_short ? "" : ", solved in the run alone"), seconds) && is_short;
+    }
   } // namespace
 
   void require_useful_processes(const Scene &scene, const unsigned int processes)
@@ -53,25 +92,6 @@ namespace sprag
                    ? ", which share stiffness, factors, solves and fields of the lever; the first alone follows the contact\n"
                    : ", of which a lever in a plane needs the first alone\n");
   }
-
-  namespace
-  {
-    void try_mesh(const Scene &scene)
-    {
-      if (!needs_mesh(scene))
-        return;
-      Mesh triangulation;
-      make_mesh(scene, triangulation);
-      if (triangulation.n_active_cells() == 0)
-        check_solid_file(scene);
-    }
-
-    JammingMargin compute_margin(const Device &device)
-    {
-      const ModelType model = device.analysis.model;
-      return jamming_margin(device, model != ModelType::closed_form && model != ModelType::rigid);
-    }
-  } // namespace
 
   void carry_out(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
@@ -101,32 +121,6 @@ namespace sprag
     try_mesh(scene);
     return scene_warnings(scene);
   }
-
-  namespace
-  {
-    /// That of a run with what choosing its settings has taken since the process had used so much CPU time [s].
-    ExpectedCost cost_with_trials(const Scene &scene, const double since)
-    {
-      const double spent = PhaseTimer::cpu_seconds() - since;
-      auto cost          = expected_cost(scene);
-      cost.cpu_seconds += spent;
-      return cost;
-    }
-
-    bool print_trial(const std::string &sentence, double)
-    {
-      std::cout << sentence << '\n' << std::flush;
-      return true;
-    }
-
-    /// Leaves out what a check of a scene should not wait for.
-    bool print_short_trial(const std::string &sentence, const double seconds)
-    {
-      constexpr double most = 10.; // [s]
-      const bool is_short   = seconds <= most;
-      return print_trial(sentence + (is_short ? "" : ", solved in the run alone"), seconds) && is_short;
-    }
-  } // namespace
 
   void print_expectations(const Scene &original, const unsigned int processes, const std::string &folder)
   {

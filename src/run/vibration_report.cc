@@ -95,98 +95,7 @@ namespace sprag
         return "in the plane";
       return across.twisting > across.sideways ? "twisting" : "sideways";
     }
-  } // namespace
 
-  void print_modes(std::ostream &stream, const std::vector<Eigenmode> &modes)
-  {
-    if (modes.empty())
-      return;
-    const auto columns = energy_columns(modes);
-    stream << "  frequency [Hz]";
-    for (const auto &column : columns)
-      stream << padded(column.column + " [%]", 13);
-    stream << (is_pair(modes) ? "    mirroring [1]" : "") << (is_solid(modes) ? "  motion" : "") << "\n";
-    for (const auto &mode : modes)
-    {
-      stream << cell(mode_frequency(mode), 16);
-      for (const auto &column : columns)
-        stream << cell(std::round(1000. * mode.energy.*column.share) / 10., 13);
-      stream << (is_pair(modes) ? cell(mode.symmetry, 17) : "") << (is_solid(modes) ? "  " + describe_motion(mode.across) : "")
-             << '\n';
-    }
-  }
-
-  void print_growth(std::ostream &stream, const std::vector<Eigenmode> &modes)
-  {
-    if (modes.empty())
-      return;
-    stream << "\n  frequency    growth  kind        growth [1/s] by friction on               friction's   damping of\n"
-           << "       [Hz]     [1/s]               rotation    bending   support  velocities   contact  structure\n";
-    for (const auto &mode : modes)
-    {
-      std::string kind = "  " + kind_name(classify(mode));
-      kind.resize(13, ' ');
-      stream << cell(mode_frequency(mode), 11) << cell(mode.mode.eigenvalue.real(), 10) << kind;
-      for (const auto &part : growth_parts)
-        stream << cell(mode.growth.*part.share, part.width);
-      stream << '\n';
-    }
-  }
-
-  void print_growing(std::ostream &stream, std::vector<Eigenmode> modes)
-  {
-    constexpr std::size_t most_modes = 3;
-    const auto more = [](const Eigenmode &a, const Eigenmode &b) { return a.mode.eigenvalue.real() > b.mode.eigenvalue.real(); };
-    std::stable_sort(modes.begin(), modes.end(), more);
-    modes.resize(std::min(modes.size(), most_modes));
-    stream << "  growth [1/s]  frequency [Hz]  fed most by [1/s]               damped most by [1/s]\n";
-    for (const auto &mode : modes)
-    {
-      const auto [fed, damped] = extremes(mode.growth);
-      stream << cell(mode.mode.eigenvalue.real(), 14) << cell(mode_frequency(mode), 16) << "  " << padded(fed, -32) << damped
-             << '\n';
-    }
-  }
-
-  void print_critical(std::ostream &stream, const Scene &scene, const std::vector<CriticalSearch> &searches,
-                      const bool with_spacing)
-  {
-    const bool is_worst = looks_over_stroke(scene);
-    stream << "  Critical values of " << (is_worst ? "the worst slide" : "this slide") << ", all else as it is"
-           << (scene.stability.ranges == "none" ? " (Stability/Ranges looks at ranges of damping and friction)" : "")
-           << "; narrow islands between the values tried may be missed:\n";
-    for (const auto &[range, first, changes, worst, not_checked, reason, spacing, more_values, has_effect] : searches)
-    {
-      const auto unit = parameter_unit(range.name);
-      stream << "    " << range.name << " from " << four_digits(range.from) << " to " << with_unit(range.to, unit) << ": "
-             << (first ? kind_name(*first) : "cannot be judged");
-      for (const auto &critical : changes)
-      {
-        const bool is_friction = range.name == "Friction/Factor" && !std::isnan(critical.mu);
-        stream << ", " << kind_name(critical.above) << " from " << with_unit(critical.value, unit)
-               << (is_friction ? " (mu = " + four_digits(critical.mu) + ")" : "")
-               << (critical.worse.motion.empty() ? "" : " (" + critical.worse.motion + ")");
-        if (is_worst && range.name != "Stability/Position")
-          stream << " (worst " << (critical.worse.drive.v < 0. ? "backward" : "forward")
-                 << " at x = " << with_unit(critical.worse.drive.x, "mm") << ")";
-      }
-      stream << (first && changes.empty() ? " throughout" : "") << (has_effect ? "" : ", without effect");
-      if (first && !not_checked.empty())
-      {
-        const auto [least, most] = std::minmax_element(not_checked.begin(), not_checked.end());
-        stream << "; cannot be judged at " << (*least < *most ? four_digits(*least) + " to " : "") << with_unit(*most, unit)
-               << (*least < *most ? " (" + std::to_string(not_checked.size()) + " values)" : "");
-      }
-      if (with_spacing)
-        stream << "; tried every " << with_unit(spacing, unit);
-      if (with_spacing && more_values > 0)
-        stream << " and " << more_values << " times between, where growth peaks";
-      stream << '\n';
-    }
-  }
-
-  namespace
-  {
     using ModeValue = std::function<double(const Eigenmode &)>;
 
     void append_numbers(const std::vector<Eigenmode> &modes, Group &group)
@@ -316,8 +225,95 @@ namespace sprag
     {
       return critical.worse.motion.empty() ? "" : ", the levers " + critical.worse.motion;
     }
-
   } // namespace
+
+  void print_modes(std::ostream &stream, const std::vector<Eigenmode> &modes)
+  {
+    if (modes.empty())
+      return;
+    const auto columns = energy_columns(modes);
+    stream << "  frequency [Hz]";
+    for (const auto &column : columns)
+      stream << padded(column.column + " [%]", 13);
+    stream << (is_pair(modes) ? "    mirroring [1]" : "") << (is_solid(modes) ? "  motion" : "") << "\n";
+    for (const auto &mode : modes)
+    {
+      stream << cell(mode_frequency(mode), 16);
+      for (const auto &column : columns)
+        stream << cell(std::round(1000. * mode.energy.*column.share) / 10., 13);
+      stream << (is_pair(modes) ? cell(mode.symmetry, 17) : "") << (is_solid(modes) ? "  " + describe_motion(mode.across) : "")
+             << '\n';
+    }
+  }
+
+  void print_growth(std::ostream &stream, const std::vector<Eigenmode> &modes)
+  {
+    if (modes.empty())
+      return;
+    stream << "\n  frequency    growth  kind        growth [1/s] by friction on               friction's   damping of\n"
+           << "       [Hz]     [1/s]               rotation    bending   support  velocities   contact  structure\n";
+    for (const auto &mode : modes)
+    {
+      std::string kind = "  " + kind_name(classify(mode));
+      kind.resize(13, ' ');
+      stream << cell(mode_frequency(mode), 11) << cell(mode.mode.eigenvalue.real(), 10) << kind;
+      for (const auto &part : growth_parts)
+        stream << cell(mode.growth.*part.share, part.width);
+      stream << '\n';
+    }
+  }
+
+  void print_growing(std::ostream &stream, std::vector<Eigenmode> modes)
+  {
+    constexpr std::size_t most_modes = 3;
+    const auto more = [](const Eigenmode &a, const Eigenmode &b) { return a.mode.eigenvalue.real() > b.mode.eigenvalue.real(); };
+    std::stable_sort(modes.begin(), modes.end(), more);
+    modes.resize(std::min(modes.size(), most_modes));
+    stream << "  growth [1/s]  frequency [Hz]  fed most by [1/s]               damped most by [1/s]\n";
+    for (const auto &mode : modes)
+    {
+      const auto [fed, damped] = extremes(mode.growth);
+      stream << cell(mode.mode.eigenvalue.real(), 14) << cell(mode_frequency(mode), 16) << "  " << padded(fed, -32) << damped
+             << '\n';
+    }
+  }
+
+  void print_critical(std::ostream &stream, const Scene &scene, const std::vector<CriticalSearch> &searches,
+                      const bool with_spacing)
+  {
+    const bool is_worst = looks_over_stroke(scene);
+    stream << "  Critical values of " << (is_worst ? "the worst slide" : "this slide") << ", all else as it is"
+           << (scene.stability.ranges == "none" ? " (Stability/Ranges looks at ranges of damping and friction)" : "")
+           << "; narrow islands between the values tried may be missed:\n";
+    for (const auto &[range, first, changes, worst, not_checked, reason, spacing, more_values, has_effect] : searches)
+    {
+      const auto unit = parameter_unit(range.name);
+      stream << "    " << range.name << " from " << four_digits(range.from) << " to " << with_unit(range.to, unit) << ": "
+             << (first ? kind_name(*first) : "cannot be judged");
+      for (const auto &critical : changes)
+      {
+        const bool is_friction = range.name == "Friction/Factor" && !std::isnan(critical.mu);
+        stream << ", " << kind_name(critical.above) << " from " << with_unit(critical.value, unit)
+               << (is_friction ? " (mu = " + four_digits(critical.mu) + ")" : "")
+               << (critical.worse.motion.empty() ? "" : " (" + critical.worse.motion + ")");
+        if (is_worst && range.name != "Stability/Position")
+          stream << " (worst " << (critical.worse.drive.v < 0. ? "backward" : "forward")
+                 << " at x = " << with_unit(critical.worse.drive.x, "mm") << ")";
+      }
+      stream << (first && changes.empty() ? " throughout" : "") << (has_effect ? "" : ", without effect");
+      if (first && !not_checked.empty())
+      {
+        const auto [least, most] = std::minmax_element(not_checked.begin(), not_checked.end());
+        stream << "; cannot be judged at " << (*least < *most ? four_digits(*least) + " to " : "") << with_unit(*most, unit)
+               << (*least < *most ? " (" + std::to_string(not_checked.size()) + " values)" : "");
+      }
+      if (with_spacing)
+        stream << "; tried every " << with_unit(spacing, unit);
+      if (with_spacing && more_values > 0)
+        stream << " and " << more_values << " times between, where growth peaks";
+      stream << '\n';
+    }
+  }
 
   bool grows(const Eigenmode &mode)
   {

@@ -123,6 +123,43 @@ namespace sprag
         quantities[Q::relative_amplitude] = std::max(quantities[Q::relative_amplitude], motion.amplitude);
       }
     }
+
+    /// Scale of a violation: the size of the target, or for a target of 0 the tolerance. Growth rates have 100/s.
+    double demand_scale(const Demand &demand)
+    {
+      if (demand.term.quantity == DesignQuantity::growth_rate)
+        return 100.;
+      if (demand.target != 0.)
+        return std::abs(demand.target);
+      return demand.tolerance > 0. ? demand.tolerance : 1.;
+    }
+
+    double or_else(const double value, const double otherwise)
+    {
+      return std::isnan(value) ? otherwise : value;
+    }
+
+    constexpr double most_counted = 10.; ///< violation of what is far off or unknown
+
+    double counted(const double violation)
+    {
+      return std::isnan(violation) ? most_counted : std::clamp(violation, -most_counted, most_counted);
+    }
+
+    double demand_margin(const Demand &demand, const double room)
+    {
+      return demand.kind == DemandKind::equal ? std::min(room, 0.25 * demand.tolerance / demand_scale(demand)) : room;
+    }
+
+    std::vector<DesignQuantity> quantities_asked(const DesignSettings &design)
+    {
+      std::vector<DesignQuantity> asked;
+      for (const auto &demand : design.demanded)
+        asked.push_back(demand.term.quantity);
+      for (const auto &aim : design.aims)
+        asked.push_back(aim.term.quantity);
+      return asked;
+    }
   } // namespace
 
   LeverRule hardest_rule(const Scene &scene, const bool has_length)
@@ -201,46 +238,6 @@ namespace sprag
     if (asks(Q::residual_offset))
       quantities[Q::residual_offset] = compute_offset(scene);
   }
-
-  namespace
-  {
-    /// Scale of a violation: the size of the target, or for a target of 0 the tolerance. Growth rates have 100/s.
-    double demand_scale(const Demand &demand)
-    {
-      if (demand.term.quantity == DesignQuantity::growth_rate)
-        return 100.;
-      if (demand.target != 0.)
-        return std::abs(demand.target);
-      return demand.tolerance > 0. ? demand.tolerance : 1.;
-    }
-
-    double or_else(const double value, const double otherwise)
-    {
-      return std::isnan(value) ? otherwise : value;
-    }
-
-    constexpr double most_counted = 10.; ///< violation of what is far off or unknown
-
-    double counted(const double violation)
-    {
-      return std::isnan(violation) ? most_counted : std::clamp(violation, -most_counted, most_counted);
-    }
-
-    double demand_margin(const Demand &demand, const double room)
-    {
-      return demand.kind == DemandKind::equal ? std::min(room, 0.25 * demand.tolerance / demand_scale(demand)) : room;
-    }
-
-    std::vector<DesignQuantity> quantities_asked(const DesignSettings &design)
-    {
-      std::vector<DesignQuantity> asked;
-      for (const auto &demand : design.demanded)
-        asked.push_back(demand.term.quantity);
-      for (const auto &aim : design.aims)
-        asked.push_back(aim.term.quantity);
-      return asked;
-    }
-  } // namespace
 
   double demand_violation(const Demand &demand, const double value)
   {

@@ -232,6 +232,7 @@ namespace sprag
       }
       return best;
     }
+
     SearchSettings search_settings(const DesignProblem &problem)
     {
       SearchSettings search{ problem.settings().evaluations, 24, 400, problem.settings().seed, {} };

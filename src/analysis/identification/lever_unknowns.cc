@@ -30,6 +30,33 @@ namespace sprag
       return (1. + 2. * s) * (1. - s) * (1. - s) * from + s * s * (3. - 2. * s) * to +
              step * (s * (1. - s) * (1. - s) * v_from - s * s * (1. - s) * v_to);
     }
+
+    constexpr unsigned int polynomial_rows = 61;   ///< of the table that a polynomial becomes
+    constexpr double large_share           = 0.25; ///< of R - e and th0: a change that is large
+    constexpr double beyond_peak           = 1.25;
+
+    double root_mean_square(const std::vector<double> &values)
+    {
+      double squares = 0., count = 0.;
+      for (const double value : values)
+        if (!std::isnan(value))
+        {
+          squares += value * value;
+          count += 1.;
+        }
+      return std::sqrt(squares / count);
+    }
+
+    /// Back to their defaults: those that count only with another law and would be refused beside this one.
+    std::vector<std::string> without_other_laws(const std::string &law)
+    {
+      SceneSettings defaults;
+      std::vector<std::string> result = { "Friction/Law=" + law };
+      for (const auto &parameter : scene_parameters(defaults))
+        if (parameter.choice == "Friction/Law" && parameter.chosen != law)
+          result.push_back(full_name(parameter) + "=" + parameter.default_value);
+      return result;
+    }
   } // namespace
 
   MeasuredMotion::MeasuredMotion(const Scene &scene)
@@ -162,36 +189,6 @@ namespace sprag
   {
     return time.size() < 2 ? 0. : (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   }
-
-  namespace
-  {
-    constexpr unsigned int polynomial_rows = 61;   ///< of the table that a polynomial becomes
-    constexpr double large_share           = 0.25; ///< of R - e and th0: a change that is large
-    constexpr double beyond_peak           = 1.25;
-
-    double root_mean_square(const std::vector<double> &values)
-    {
-      double squares = 0., count = 0.;
-      for (const double value : values)
-        if (!std::isnan(value))
-        {
-          squares += value * value;
-          count += 1.;
-        }
-      return std::sqrt(squares / count);
-    }
-
-    /// Back to their defaults: those that count only with another law and would be refused beside this one.
-    std::vector<std::string> without_other_laws(const std::string &law)
-    {
-      SceneSettings defaults;
-      std::vector<std::string> result = { "Friction/Law=" + law };
-      for (const auto &parameter : scene_parameters(defaults))
-        if (parameter.choice == "Friction/Law" && parameter.chosen != law)
-          result.push_back(full_name(parameter) + "=" + parameter.default_value);
-      return result;
-    }
-  } // namespace
 
   LeverUnknowns::LeverUnknowns(const Scene &scene_, const MeasuredMotion &motion)
       : scene(scene_)

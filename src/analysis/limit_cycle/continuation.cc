@@ -121,6 +121,15 @@ namespace sprag
       const double second = mean_amplitude(windows, n / 2, n);
       return second > 0.8 * first ? Settling::irregular : Settling::undecided;
     }
+
+    constexpr double limit_accuracy = 1e-3; ///< of x [mm]
+
+    /// So that the centre never exceeds the drive's speed.
+    double path_duration(const HeldSlide &from, const HeldSlide &to)
+    {
+      constexpr double peak_over_mean = 1.875; ///< of the speed, see moving_path()
+      return peak_over_mean * std::abs(to.drive.x - from.drive.x) / std::abs(from.drive.v);
+    }
   } // namespace
 
   std::string settling_name(const Settling settling)
@@ -152,18 +161,6 @@ namespace sprag
     }
     return result;
   }
-
-  namespace
-  {
-    constexpr double limit_accuracy = 1e-3; ///< of x [mm]
-
-    /// So that the centre never exceeds the drive's speed.
-    double path_duration(const HeldSlide &from, const HeldSlide &to)
-    {
-      constexpr double peak_over_mean = 1.875; ///< of the speed, see moving_path()
-      return peak_over_mean * std::abs(to.drive.x - from.drive.x) / std::abs(from.drive.v);
-    }
-  } // namespace
 
   Continuation::Continuation(DynamicModel &dynamic_model, HeldRun &held_run, const DrivePoint &start,
                              const SettlingTimes &settling_times, const CheckedModes &checked_modes,

@@ -256,6 +256,25 @@ namespace sprag
       }
       return found;
     }
+
+    void take_step(Model &model, const Drive &drive, const QuasiStaticSettings &settings, SolverState &solver)
+    {
+      auto &[now, dx, passage, reported_stiffness] = solver;
+      const bool reversed                          = drive.turns_at(now.state.drive.time) || begins_backward(now.state.drive);
+      if (reversed)
+      {
+        const double stiffness = stick_stiffness(model, now.state);
+        passage                = passage_after(now.row, stiffness);
+        dx                     = std::clamp(first_share * passage.length, settings.minimum_step, settings.step);
+        if (reported_stiffness == 0.)
+          reported_stiffness = stiffness;
+      }
+      const bool sticking = std::abs(now.row[Column::x] - passage.begin) < passages * passage.length;
+      if (sticking)
+        dx = std::clamp(largest_share * passage.length, settings.minimum_step, dx);
+      now = advance(model, drive, settings, now, reversed, sticking, dx);
+      dx  = std::min(settings.step, growth * dx);
+    }
   } // namespace
 
   Row observed(const Model &model, const State &state, const Evaluation &found)
@@ -318,28 +337,6 @@ namespace sprag
     step.trial.drive.x += probe;
     return (friction(balance_in_stick(model, step)) - at_first) / probe;
   }
-
-  namespace
-  {
-    void take_step(Model &model, const Drive &drive, const QuasiStaticSettings &settings, SolverState &solver)
-    {
-      auto &[now, dx, passage, reported_stiffness] = solver;
-      const bool reversed                          = drive.turns_at(now.state.drive.time) || begins_backward(now.state.drive);
-      if (reversed)
-      {
-        const double stiffness = stick_stiffness(model, now.state);
-        passage                = passage_after(now.row, stiffness);
-        dx                     = std::clamp(first_share * passage.length, settings.minimum_step, settings.step);
-        if (reported_stiffness == 0.)
-          reported_stiffness = stiffness;
-      }
-      const bool sticking = std::abs(now.row[Column::x] - passage.begin) < passages * passage.length;
-      if (sticking)
-        dx = std::clamp(largest_share * passage.length, settings.minimum_step, dx);
-      now = advance(model, drive, settings, now, reversed, sticking, dx);
-      dx  = std::min(settings.step, growth * dx);
-    }
-  } // namespace
 
   double run_quasi_static(Model &model, const Drive &drive, const QuasiStaticSettings &settings, const StepSink &sink,
                           ProgressKeeper *const keeper)
