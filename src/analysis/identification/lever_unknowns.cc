@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace sprag
 {
@@ -46,6 +47,23 @@ namespace sprag
         }
       return std::sqrt(squares / count);
     }
+
+    /// A number of a lever that is a parameter of its scene.
+    struct LeverParameter
+    {
+      std::string name;
+      double &(*number)(IdentifiedLever &lever);
+    };
+
+    /// Those that unknowns stand for, by the names of these.
+    const std::map<std::string, LeverParameter> lever_parameters = {
+      { "k", { "Rotational spring/Stiffness", [](IdentifiedLever &lever) -> double & { return lever.stiffness; } } },
+      { "rest", { "Rotational spring/Rest angle", [](IdentifiedLever &lever) -> double & { return lever.rest_angle; } } },
+      { "e",
+        { "Geometry/Interface offset", [](IdentifiedLever &lever) -> double & { return lever.geometry.interface_offset; } } },
+      { "th0", { "Geometry/Pivot height", [](IdentifiedLever &lever) -> double & { return lever.geometry.pivot_height; } } },
+      { "friction_factor", { "Friction/Factor", [](IdentifiedLever &lever) -> double & { return lever.friction.factor; } } }
+    };
 
     /// Back to their defaults: those that count only with another law and would be refused beside this one.
     std::vector<std::string> without_other_laws(const std::string &law)
@@ -195,39 +213,26 @@ namespace sprag
       , peak_speed(motion.peak_speed())
   {
     const auto &geometry = scene.geometry;
+    const double theta   = kinematics(geometry, 0.).theta;
+    const auto &first    = motion.strokes().front();
     for (const auto unknown : scene.identification.sought)
-      switch (unknown)
-      {
-      case Unknown::stiffness:
+      if (unknown == Unknown::stiffness)
         all.push_back({ "k", "N mm/rad", "stiffness of the rotational spring", scene.spring.stiffness, scene.spring.stiffness });
-        break;
-      case Unknown::interface_offset:
+      else if (unknown == Unknown::interface_offset)
         all.push_back({ "e", "mm", "from the pivot to the friction interface", geometry.interface_offset,
                         large_share * (geometry.cylinder_radius - geometry.interface_offset) });
-        break;
-      case Unknown::inclination:
-      {
-        const double theta = kinematics(geometry, 0.).theta;
+      else if (unknown == Unknown::inclination)
         all.push_back({ "th0", "rad", "inclination at x = 0, by the pivot's height", theta, large_share * theta });
-        break;
-      }
-      case Unknown::force_offsets:
-        add_offsets();
-        break;
-      case Unknown::rest_angle:
+      else if (unknown == Unknown::rest_angle)
         all.push_back({ "rest", "rad", "turn of the lever at which the rotational spring has no moment", scene.spring.rest_angle,
-                        large_share * kinematics(geometry, 0.).theta });
-        break;
-      case Unknown::lag:
-      {
-        const auto &first = motion.strokes().front();
+                        large_share * theta });
+      else if (unknown == Unknown::lag)
         all.push_back({ "lag", "s", "of the forces behind x", 0.,
                         0.01 * motion.spacing() * static_cast<double>(first.last - first.first) });
-        break;
-      }
-      default:
+      else if (unknown == Unknown::force_offsets)
+        add_offsets();
+      else
         add_friction(unknown, motion);
-      }
   }
 
   void LeverUnknowns::add_friction(const Unknown unknown, const MeasuredMotion &motion)
@@ -286,20 +291,14 @@ namespace sprag
     for (std::size_t i = 0; i < all.size(); ++i)
     {
       const auto &name = all[i].name;
-      if (name == "k")
-        result.stiffness = values[i];
-      else if (name == "e")
-        result.geometry.interface_offset = values[i];
-      else if (name == "th0")
+      if (name == "th0")
         theta = values[i];
       else if (name == "mu")
         result.friction = { CoulombFriction{ values[i] }, scene.friction.speed };
-      else if (name == "friction_factor")
-        result.friction.factor = values[i];
-      else if (name == "rest")
-        result.rest_angle = values[i];
       else if (name == "lag")
         result.lag = values[i];
+      else if (const auto parameter = lever_parameters.find(name); parameter != lever_parameters.end())
+        parameter->second.number(result) = values[i];
       else if (name.rfind("offset_", 0) == 0)
         result.offsets[offset++] = values[i];
     }
@@ -333,20 +332,12 @@ namespace sprag
     return result;
   }
 
-  std::vector<std::string> LeverUnknowns::overrides(const IdentifiedLever &lever, const std::string &friction_table) const
+  std::vector<std::string> LeverUnknowns::overrides(IdentifiedLever lever, const std::string &friction_table) const
   {
     std::vector<std::string> result;
     for (const auto &number : all)
-      if (number.name == "k")
-        result.push_back(override_text("Rotational spring/Stiffness", lever.stiffness));
-      else if (number.name == "rest")
-        result.push_back(override_text("Rotational spring/Rest angle", lever.rest_angle));
-      else if (number.name == "e")
-        result.push_back(override_text("Geometry/Interface offset", lever.geometry.interface_offset));
-      else if (number.name == "th0")
-        result.push_back(override_text("Geometry/Pivot height", lever.geometry.pivot_height));
-      else if (number.name == "friction_factor")
-        result.push_back(override_text("Friction/Factor", lever.friction.factor));
+      if (const auto parameter = lever_parameters.find(number.name); parameter != lever_parameters.end())
+        result.push_back(override_text(parameter->second.name, parameter->second.number(lever)));
       else if (number.name == "mu")
       {
         append(result, without_other_laws("Coulomb"));

@@ -113,7 +113,7 @@ namespace sprag
 
     /// Returns "Section/Name=value" for what a scene has of the lever. `friction_table` is the file that a polynomial or table of
     /// mu is in.
-    std::vector<std::string> overrides(const IdentifiedLever &lever, const std::string &friction_table) const;
+    std::vector<std::string> overrides(IdentifiedLever lever, const std::string &friction_table) const;
 
     /// Returns the rows, speed [mm/s] and mu, of a polynomial or table of mu; empty for another law.
     std::vector<std::pair<double, double>> friction_rows(const std::vector<double> &values) const;
