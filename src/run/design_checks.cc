@@ -95,14 +95,6 @@ namespace sprag
       return result;
     }
 
-    double largest_size(const std::vector<double> &values)
-    {
-      double largest = 0.;
-      for (const double value : values)
-        largest = std::max(largest, std::abs(value));
-      return largest;
-    }
-
     /// Q of the closed form at the places, out and back.
     std::pair<Slides, Slides> ideal_slides(const Scene &scene, const std::vector<double> &places)
     {
@@ -125,8 +117,8 @@ namespace sprag
     {
       const auto places              = sample_positions(scene);
       found[Q::force_ratio]          = direction_ratio(out.Q.back(), back.Q.back());
-      found[Q::largest_force]        = std::max(largest_size(out.Q), largest_size(back.Q));
-      found[Q::largest_normal_force] = std::max(largest_size(out.P), largest_size(back.P));
+      found[Q::largest_force]        = std::max(largest_magnitude(out.Q), largest_magnitude(back.Q));
+      found[Q::largest_normal_force] = std::max(largest_magnitude(out.P), largest_magnitude(back.P));
       found[Q::largest_pressure]     = layer_pressure(scene, found[Q::largest_normal_force]);
       found[Q::jamming_margin]       = back.jamming_margin;
       // Both quantities depend on the spacing of the places: the closed form at all x is corrected by the ratio at these places.

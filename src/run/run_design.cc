@@ -112,38 +112,28 @@ namespace sprag
         add({ "expected_" + to_identifier(info.name), info.unit, "as it was proposed, corrections included" },
             [&](const ModelCheck &check) { return check.lever.quantities[info.quantity]; });
       }
-      TextDataset check_model{ "judge", "which", {} }, failure{ "failure", "why it tells nothing", {} };
-      for (const auto &check : checks)
-      {
-        check_model.values.push_back(model_name(check.check_model));
-        failure.values.push_back(check.failure);
-      }
-      group.texts = { check_model, failure };
+      group.texts = { make_texts(checks, "judge", "which", [](const ModelCheck &check) { return model_name(check.check_model); }),
+                      make_texts(checks, "failure", "why it tells nothing",
+                                 [](const ModelCheck &check) { return check.failure; }) };
       return group;
     }
 
     Group demand_group(const DesignSettings &design, const DesignFindings &findings)
     {
-      const auto &lever = findings.found->lever;
-      Group group{ "demands", {}, { { "demand", "as it was given", {} } } };
-      std::vector<std::size_t> indices;
-      for (std::size_t i = 0; i < design.demanded.size(); ++i)
+      const auto &lever     = findings.found->lever;
+      const auto attainable = [&](const Demand &demand)
       {
-        indices.push_back(i);
-        group.texts.front().values.push_back(design.demanded[i].text);
-      }
-      group.datasets.push_back(make_dataset(indices, { "value", "", "by the last judge that tells it, or the closed form" },
-                                            [&](const std::size_t i)
-                                            { return best_known(design.demanded[i].term, lever, findings); }));
-      group.datasets.push_back(make_dataset(indices, { "attainable", "", "nearest value with all others met; NaN: not stopping" },
-                                            [&](const std::size_t i)
-                                            {
-                                              for (const auto &demand_that_stops : findings.stopping)
-                                                if (demand_that_stops.demand == i)
-                                                  return demand_that_stops.attainable;
-                                              return unknown;
-                                            }));
-      return group;
+        for (const auto &demand_that_stops : findings.stopping)
+          if (&design.demanded[demand_that_stops.demand] == &demand)
+            return demand_that_stops.attainable;
+        return unknown;
+      };
+      return { "demands",
+               { make_dataset(design.demanded, { "value", "", "by the last judge that tells it, or the closed form" },
+                              [&](const Demand &demand) { return best_known(demand.term, lever, findings); }),
+                 make_dataset(design.demanded, { "attainable", "", "nearest value with all others met; NaN: not stopping" },
+                              attainable) },
+               { make_texts(design.demanded, "demand", "as it was given", [](const Demand &demand) { return demand.text; }) } };
     }
 
     bool is_asked_for(const DesignSettings &design, const DesignQuantity quantity)
@@ -188,7 +178,7 @@ namespace sprag
     }
 
     /// Returns the values of the columns for a lever.
-    std::vector<double> design_row(const DesignSettings &, const Proposal &lever)
+    std::vector<double> design_row(const Proposal &lever)
     {
       auto values = lever.parameters;
       for (const auto &info : design_quantities())
@@ -496,9 +486,9 @@ namespace sprag
         [&](const std::string &status)
         {
           if (findings.found)
-            writer.append(design_row(design, findings.found->lever));
+            writer.append(design_row(findings.found->lever));
           for (const auto &lever : findings.front)
-            writer.append(design_row(design, lever));
+            writer.append(design_row(lever));
           write_scenes(scene, options, findings);
           if (!options.quiet)
             print_design(std::cout, design, findings);

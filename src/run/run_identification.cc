@@ -10,6 +10,7 @@
 #include "program/result_writer.h"
 #include "report/summary_lines.h"
 #include "results/result_file.h"
+#include "results/row_statistics.h"
 #include "run/analyses.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
@@ -49,10 +50,8 @@ namespace sprag
     /// Returns true if residuals are correlated as those of a model that does not fit the measurement.
     bool is_not_followed(const ForceChannel &channel, const ChannelNoise &noise)
     {
-      double largest = 0.;
-      for (const double value : channel.values)
-        largest = std::isnan(value) ? largest : std::max(largest, std::abs(value));
-      return noise.effective_rows() < least_independent * noise.rows && noise.deviation > least_deviation * largest;
+      const double peak = largest(channel.values, [](const double value) { return value; });
+      return noise.effective_rows() < least_independent * noise.rows && noise.deviation > least_deviation * peak;
     }
 
     /// Returns true if Q is larger on the way back than on the way out, in the mean: friction cannot give work back.
@@ -184,10 +183,8 @@ namespace sprag
                      { { "directions", "1", "components of the scaled unknowns, a column each singular value" },
                        known.singular.directions,
                        { n, n } } } };
-      TextDataset names{ "names", "of the unknowns", {} };
-      for (const auto &one : found.found)
-        names.values.push_back(one.number.name);
-      group.texts.push_back(names);
+      group.texts = { make_texts(found.found, "names", "of the unknowns",
+                                 [](const FoundNumber &one) { return one.number.name; }) };
       return { group };
     }
 

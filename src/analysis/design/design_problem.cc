@@ -6,6 +6,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "input/read.h"
+#include "results/row_statistics.h"
 #include "scene/closed_form.h"
 #include "scene/contact_width.h"
 #include "scene/damper.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace sprag
 {
@@ -49,14 +51,6 @@ namespace sprag
       const auto slope = [&](const int direction)
       { return representative_slope(scene.geometry, scene.spring.stiffness, mu, direction); };
       add_slopes(scene, slope(1), slope(-1), result);
-    }
-
-    double largest_magnitude(const std::vector<double> &forces)
-    {
-      double largest = 0.;
-      for (const double force : forces)
-        largest = std::max(largest, std::abs(force));
-      return largest;
     }
 
     /// Integrates by Simpson's rule over an even number of intervals.
@@ -191,12 +185,9 @@ namespace sprag
 
   double compute_nonlinearity(const std::vector<double> &x, const std::vector<double> &forces)
   {
-    double products = 0., squares = 0., farthest = 0.;
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
-      products += x[i] * forces[i];
-      squares += x[i] * x[i];
-    }
+    const double products = std::inner_product(x.begin(), x.end(), forces.begin(), 0.);
+    const double squares  = std::inner_product(x.begin(), x.end(), x.begin(), 0.);
+    double farthest       = 0.;
     for (std::size_t i = 0; i < x.size(); ++i)
       farthest = std::max(farthest, std::abs(forces[i] - products / squares * x[i]));
     return farthest / largest_magnitude(forces);
@@ -210,6 +201,11 @@ namespace sprag
     quantities[Q::restoring_slope] = 0.5 * (forward + backward);
     quantities[Q::slope_ratio]     = direction_ratio(forward, backward);
     quantities[Q::friction_ratio]  = scene.isolation.levers * quantities[Q::damping_slope] / scene.isolation.stiffness;
+  }
+
+  double largest_magnitude(const std::vector<double> &forces)
+  {
+    return largest(forces, [](const double force) { return force; });
   }
 
   double direction_ratio(const double forward, const double backward)

@@ -69,6 +69,9 @@ namespace sprag
   /// Returns the largest distance of forces from the best line through 0, over the largest force.
   double compute_nonlinearity(const std::vector<double> &x, const std::vector<double> &forces);
 
+  /// Returns the largest size of some forces.
+  double largest_magnitude(const std::vector<double> &forces);
+
   /// Returns the ratio of forces or slopes forward and back; infinite where the way back does not damp.
   double direction_ratio(double forward, double backward);
 

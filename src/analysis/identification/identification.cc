@@ -4,6 +4,7 @@
 #include "analysis/identification/stroke_fit.h"
 #include "base/errors.h"
 #include "input/identification_text.h"
+#include "results/row_statistics.h"
 #include "scene/scene.h"
 
 #include <boost/math/distributions/fisher_f.hpp>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -147,10 +149,7 @@ namespace sprag
 
     double product(const std::vector<double> &a, const std::vector<double> &b)
     {
-      double sum = 0.;
-      for (std::size_t i = 0; i < a.size(); ++i)
-        sum += a[i] * b[i];
-      return sum;
+      return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
     }
 
     /// The squares that residuals would have if only the noise of neighbouring values were left, by second differences.
@@ -295,10 +294,8 @@ namespace sprag
 
       double channel_peak(const std::size_t channel) const
       {
-        double largest = 0.;
-        for (const double value : settings.measured.channels[channel].values)
-          largest = std::isnan(value) ? largest : std::max(largest, std::abs(value));
-        return largest > 0. ? largest : 1.;
+        const double peak = largest(settings.measured.channels[channel].values, [](const double value) { return value; });
+        return peak > 0. ? peak : 1.;
       }
 
       /// Standard deviation of the noise, estimated from second differences, which a smooth signal hardly has.
