@@ -14,6 +14,7 @@
 
 #include <petscversion.h>
 
+#include <fstream>
 #include <gmsh.h>
 #include <iostream>
 
@@ -43,6 +44,15 @@ namespace sprag
   std::string status_at_end(const std::string &status)
   {
     return status == "completed" && interrupted() ? interruption : status;
+  }
+
+  void write_file(const std::string &path, const std::string &text)
+  {
+    std::ofstream stream(path);
+    stream << text;
+    stream.close();
+    if (!stream)
+      throw AnalysisError(path + " cannot be written");
   }
 
   void require_folder(const RunOptions &options)

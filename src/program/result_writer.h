@@ -66,6 +66,9 @@ namespace sprag
     }
   };
 
+  /// Writes a text that a run leaves beside its results. Throws AnalysisError where that fails.
+  void write_file(const std::string &path, const std::string &text);
+
   /// Returns the status of a run that ends, which is that of an interrupted one where it was interrupted behind its last step.
   /// The caller is to throw that then.
   std::string status_at_end(const std::string &status);

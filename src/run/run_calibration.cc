@@ -8,7 +8,6 @@
 #include "scene/scene.h"
 
 #include <cmath>
-#include <fstream>
 #include <iostream>
 
 namespace sprag
@@ -19,15 +18,6 @@ namespace sprag
 
     /// Both files that a calibration writes are for runs with inertia.
     const std::string in_time = "Analysis/Type=transient";
-
-    void write_scene(const std::string &file, const std::string &purpose, const Scene &scene)
-    {
-      std::ofstream stream(file);
-      stream << "# " << purpose << '\n' << parameters_text(scene);
-      stream.close();
-      if (!stream)
-        throw AnalysisError(file + " cannot be written");
-    }
 
     Entries part_entries(const CalibratedParts &parts, const ReducedConstants &reduced)
     {
@@ -88,8 +78,8 @@ namespace sprag
                           { "Q_beam", "N", "of the calibrated beam" } });
     if (options.in_memory == nullptr)
     {
-      write_scene(options.folder + "/calibrated.prm", "Calibrated parts, in time, condensed", calibrated);
-      write_scene(options.folder + "/beam.prm", "The beam calibrated by their mesh, in time", beam);
+      write_file(options.folder + "/calibrated.prm", "# Calibrated parts, in time, condensed\n" + parameters_text(calibrated));
+      write_file(options.folder + "/beam.prm", "# The beam calibrated by their mesh, in time\n" + parameters_text(beam));
     }
     for (const auto &point : found.sliding)
       writer.append(std::vector<double>{ point.x, point.direction, point.forces[0].P, point.forces[1].P, point.forces[0].Q,

@@ -21,7 +21,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iosfwd>
 #include <iostream>
 #include <ostream>
@@ -240,15 +239,6 @@ namespace sprag
       stream << "+- is half of the interval of " << formatted("%.4g", 100. * scene.identification.confidence) << " %\n";
     }
 
-    void write(const std::string &file, const std::string &text)
-    {
-      std::ofstream stream(file);
-      stream << text;
-      stream.close();
-      if (!stream)
-        throw AnalysisError(file + " cannot be written");
-    }
-
     /// The scene with what was found, without inertia by the closed form, and its friction's table. Returns what keeps the values
     /// from being a scene, empty where nothing does.
     std::string write_scene(const Scene &scene, const RunOptions &options, const LeverUnknowns &unknowns,
@@ -265,14 +255,14 @@ namespace sprag
         std::string text = "speed [mm/s], mu\n";
         for (const auto &[speed, mu] : rows)
           text += number_text(speed) + ", " + number_text(mu) + '\n';
-        write(table, text);
+        write_file(table, text);
       }
       try
       {
         const auto identified = variant(scene, joined(unknowns.overrides(found.lever, table),
                                                       { "Analysis/Type=quasi-static", "Analysis/Model=closed form" }));
-        write(folder / "identified.prm",
-              "# What was identified from " + scene.identification.table + '\n' + parameters_text(identified));
+        write_file(folder / "identified.prm",
+                   "# What was identified from " + scene.identification.table + '\n' + parameters_text(identified));
       }
       catch (const InputError &error)
       {
