@@ -28,10 +28,10 @@ namespace sprag
     std::optional<std::string> take_up(std::size_t size);
 
     /// Adds a record, written with the next block. Throws as write() does, where it writes one.
-    template <class Kind, class Item>
-    void append(Kind kind, Item &item)
+    template <class... Items>
+    void append(Items &...items)
     {
-      pending(kind, item);
+      pending(items...);
       if (pending.bytes().size() > block_size)
         write_block();
     }

@@ -58,12 +58,13 @@ namespace sprag
 
   void Recorder::add_records(RowLog &row_log)
   {
+    auto face = RecordKind::face, row = RecordKind::row;
     // Whatever append() throws, it has what it was given.
     for (;;)
       if (faces_kept < faces_to_keep.size() && faces_to_keep[faces_kept].first == rows_kept)
-        row_log.append(RecordKind::face, faces_to_keep[faces_kept++].second);
+        row_log.append(face, faces_to_keep[faces_kept++].second);
       else if (rows_kept < rows.size())
-        row_log.append(RecordKind::row, rows[rows_kept++]);
+        row_log.append(row, rows[rows_kept++]);
       else
         break;
     faces_to_keep.clear();

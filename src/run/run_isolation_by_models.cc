@@ -12,7 +12,6 @@
 #include "run/in_memory.h"
 #include "scene/scene.h"
 
-#include <cstdint>
 #include <iostream>
 #include <optional>
 #include <vector>
@@ -28,12 +27,42 @@ namespace sprag
     public:
       /// Makes the folder and result file and begins with the rows of an interrupted run. Throws InputError if they cannot be
       /// written. All must live as long.
-      TableRecorder(const Scene &scene, const RunOptions &options, PhaseTimer &timer, Checkpoint &checkpoint);
+      TableRecorder(const Scene &scene_, const RunOptions &options, PhaseTimer &timer, Checkpoint &checkpoint_)
+          : scene(scene_)
+          , checkpoint(checkpoint_)
+          , writer(scene, options, timer, isolation_columns())
+          , progress(std::cerr, progress_style(options.quiet || options.in_memory != nullptr), scene.isolation.duration)
+      {
+        if (checkpoint.resumes())
+          take_over(options.quiet);
+        checkpoint.set_records(
+            [this](RowLog &row_log)
+            {
+              // Whatever append() throws, it has what it was given.
+              while (kept < to_keep.size())
+                row_log.append(to_keep[kept++]);
+              to_keep.clear();
+              kept = 0;
+            });
+      }
 
-      void record(const IsolatedTable &table, bool is_before);
+      void record(const IsolatedTable &table, const bool is_before)
+      {
+        auto row = isolation_row(scene.isolation, table, is_before);
+        checkpoint.hand_on([&] { writer.append(row); });
+        if (checkpoint.keeps())
+          to_keep.push_back(std::move(row));
+        ProgressFields fields;
+        fields.z = table.state().z;
+        progress.update(table.state().time, fields);
+      }
 
       /// Ends the progress and returns the file for what the run leaves at its end.
-      ResultWriter &finish();
+      ResultWriter &finish()
+      {
+        progress.finish();
+        return writer;
+      }
 
     private:
       const Scene &scene;
@@ -43,66 +72,22 @@ namespace sprag
       std::vector<std::vector<double>> to_keep; ///< rows for the checkpoint's results log
       std::size_t kept = 0;                     ///< of these, there already
 
-      void take_over(bool quiet);
-    };
-
-    enum class RecordKind : std::uint64_t
-    {
-      row
-    };
-
-    TableRecorder::TableRecorder(const Scene &scene_, const RunOptions &options, PhaseTimer &timer, Checkpoint &checkpoint_)
-        : scene(scene_)
-        , checkpoint(checkpoint_)
-        , writer(scene, options, timer, isolation_columns())
-        , progress(std::cerr, progress_style(options.quiet || options.in_memory != nullptr), scene.isolation.duration)
-    {
-      if (checkpoint.resumes())
-        take_over(options.quiet);
-      checkpoint.set_records(
-          [this](RowLog &row_log)
-          {
-            // Whatever append() throws, it has what it was given.
-            while (kept < to_keep.size())
-              row_log.append(RecordKind::row, to_keep[kept++]);
-            to_keep.clear();
-            kept = 0;
-          });
-    }
-
-    void TableRecorder::take_over(const bool quiet)
-    {
-      std::vector<double> row;
-      std::size_t rows = 0;
-      for (Archive records = checkpoint.recorded(); !records.at_end(); ++rows)
+      void take_over(const bool quiet)
       {
-        RecordKind kind{};
-        records(kind, row);
-        writer.append(row);
+        std::vector<double> row;
+        std::size_t rows = 0;
+        for (Archive records = checkpoint.recorded(); !records.at_end(); ++rows)
+        {
+          records(row);
+          writer.append(row);
+        }
+        const double time = row.empty() ? 0. : row.front();
+        progress.begin_at(time);
+        if (!quiet)
+          std::cout << "Goes on:      from t = " << rounded_text(time) << " s, row " << rows << " of an interrupted run\n"
+                    << std::flush;
       }
-      const double time = row.empty() ? 0. : row.front();
-      progress.begin_at(time);
-      if (!quiet)
-        std::cout << "Goes on:      from t = " << rounded_text(time) << " s, row " << rows << " of an interrupted run\n"
-                  << std::flush;
-    }
-
-    void TableRecorder::record(const IsolatedTable &table, const bool is_before)
-    {
-      auto row = isolation_row(scene.isolation, table, is_before);
-      checkpoint.hand_on([&] { writer.append(row); });
-      if (checkpoint.keeps())
-        to_keep.push_back(std::move(row));
-      ProgressFields fields;
-      fields.z = table.state().z;
-      progress.update(table.state().time, fields);
-    }
-
-    ResultWriter &TableRecorder::finish()
-    {
-      progress.finish();
-      return writer;
-    }
+    };
 
     std::vector<Entry> table_entries(const LeverTable &table, const unsigned long steps_taken_over)
     {
