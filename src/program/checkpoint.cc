@@ -57,7 +57,6 @@ namespace sprag
 
     struct Content
     {
-      std::string format = "sprag checkpoint";
       std::string parameters; ///< fingerprint of their text, which no choice of settings changes
       std::string key;
       std::size_t rows = 0; ///< size of their results log [bytes]
@@ -66,8 +65,8 @@ namespace sprag
 
     void serialise(Archive &archive, Content &content)
     {
-      auto &[format, parameters, key, rows, progress] = content;
-      archive(format, parameters, key, rows, progress);
+      auto &[parameters, key, rows, progress] = content;
+      archive(parameters, key, rows, progress);
     }
 
     /// Returns what the checkpoint in a folder holds; none where there is none or it is not as it was written.
@@ -242,13 +241,7 @@ namespace sprag
 
   void Checkpoint::write_records()
   {
-    try_to(
-        [&]
-        {
-          if (records)
-            records(row_log);
-          row_log.write();
-        });
+    try_to([&] { write_rows(); });
   }
 
   void Checkpoint::try_to(const std::function<void()> &write)
@@ -265,20 +258,20 @@ namespace sprag
     }
   }
 
-  void Checkpoint::write(const ProgressSerialiser &progress)
+  void Checkpoint::write_rows()
   {
-    const auto begin = Clock::now();
     if (records)
       records(row_log);
     row_log.write();
-    Archive archive;
+  }
+
+  void Checkpoint::write(const ProgressSerialiser &progress)
+  {
+    const auto begin = Clock::now();
+    write_rows();
+    Archive archive, whole;
     serialise_all(progress, archive);
-    Content content;
-    content.parameters = parameters;
-    content.key        = key();
-    content.rows       = row_log.size();
-    content.progress   = archive.bytes();
-    Archive whole;
+    Content content{ parameters, key(), row_log.size(), archive.bytes() };
     whole(content);
     replace(folder + '/' + checkpoint_name, folder + '/' + next_checkpoint_name, sealed(whole.bytes()));
     const auto end = Clock::now();

@@ -154,6 +154,7 @@ namespace sprag
     void remove() const;
     void serialise_all(const ProgressSerialiser &progress, Archive &archive) const;
     void try_to(const std::function<void()> &write);
+    void write_rows();
     void write(const ProgressSerialiser &progress);
   };
 } // namespace sprag

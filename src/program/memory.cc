@@ -122,13 +122,11 @@ namespace sprag
       const double rows = expected_rows(scene);
       if (rows <= most_rows)
         return;
-      if (scene.analysis.type == AnalysisType::isolation)
-        throw InputError(scene.name + ".prm: Isolation/Duration and " + step_parameter(scene) + " make " + rounded_text(rows) +
-                         " rows, of which a run may have " + rounded_text(most_rows) +
-                         ". Try longer steps or a shorter duration");
-      throw InputError(scene.name + ".prm: the drive and " + step_parameter(scene) + " make " + rounded_text(rows) +
-                       " rows or more, of which a run may have " + rounded_text(most_rows) +
-                       ". Try longer steps, fewer cycles or a faster drive");
+      const bool is_table = scene.analysis.type == AnalysisType::isolation;
+      throw InputError(scene.name + ".prm: " + (is_table ? "Isolation/Duration" : "the drive") + " and " + step_parameter(scene) +
+                       " make " + rounded_text(rows) + (is_table ? " rows, of which" : " rows or more, of which") +
+                       " a run may have " + rounded_text(most_rows) + ". Try longer steps" +
+                       (is_table ? " or a shorter duration" : ", fewer cycles or a faster drive"));
     }
 
     /// Bytes a displacement, and copies of the face's square matrices that there are at the peak.
@@ -252,11 +250,6 @@ namespace sprag
     return { 2. * (p * n + 1.) * (p * rows + 1.) + 2. * p * p * cylinder_elements(scene), 2. * (p * n + 1.) };
   }
 
-  std::string factor_folder(const std::string &folder)
-  {
-    return (std::filesystem::path(folder) / ".sprag-factors").string();
-  }
-
   double expected_rows(const Scene &scene)
   {
     if (scene.analysis.type == AnalysisType::quasi_static)
@@ -287,7 +280,8 @@ namespace sprag
     const bool can_be_in_files = scene.analysis.dimension == 3 && scene.analysis.type == AnalysisType::quasi_static;
     if (!can_be_in_files || folder.empty() || needed <= available.bytes)
       return std::nullopt;
-    FactorFiles result{ factor_folder(folder), needed, available, 0., solid_factor_bytes(scene) };
+    FactorFiles result{ (std::filesystem::path(folder) / ".sprag-factors").string(), needed, available, 0.,
+                        solid_factor_bytes(scene) };
     result.memory_with_files = needed - kept_in_files * result.bytes;
     const bool fits          = result.memory_with_files <= available.bytes && file_room * result.bytes <= free_on_disk(folder) &&
                       result.folder.size() < longest_folder;

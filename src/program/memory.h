@@ -37,9 +37,6 @@ namespace sprag
     double bytes;              ///< of the files
   };
 
-  /// Returns the folder for them in that of a run.
-  std::string factor_folder(const std::string &folder);
-
   /// Returns what a run on `processes` processes with results in `folder` keeps in files: nothing where its memory suffices, or
   /// where memory or disk do not even so.
   std::optional<FactorFiles> factor_files(const Scene &scene, unsigned int processes, const std::string &folder);

@@ -140,6 +140,21 @@ namespace sprag
       const auto tilt    = columns_across().size();
       append<Entry>(entries, { { "tilt", across[tilt] }, { "skew", across[tilt + 1] } });
     }
+
+    /// Returns the largest deviation of P, Q and theta on both strokes [-]; NaN if one of them is unknown.
+    double largest_deviation(const std::vector<Entry> &summary)
+    {
+      double result = 0.;
+      for (const auto &entry : summary)
+        if (entry.name.rfind("deviation_", 0) == 0)
+        {
+          const double deviation = std::get<double>(entry.value);
+          if (std::isnan(deviation))
+            return deviation;
+          result = std::max(result, deviation);
+        }
+      return result;
+    }
   } // namespace
 
   void add_closed_form(const Scene &scene, Row &row)
@@ -208,20 +223,6 @@ namespace sprag
     if (entry == entries.end())
       throw std::out_of_range("no entry '" + name + "'");
     return std::get<double>(entry->value);
-  }
-
-  double largest_deviation(const std::vector<Entry> &summary)
-  {
-    double result = 0.;
-    for (const auto &entry : summary)
-      if (entry.name.rfind("deviation_", 0) == 0)
-      {
-        const double deviation = std::get<double>(entry.value);
-        if (std::isnan(deviation))
-          return deviation;
-        result = std::max(result, deviation);
-      }
-    return result;
   }
 
   void print_summary(std::ostream &stream, const std::vector<Entry> &summary)

@@ -26,9 +26,6 @@ namespace sprag
   /// Returns the value of the entry of this name; throws std::out_of_range if there is none.
   double find_value(const std::vector<Entry> &entries, const std::string &name);
 
-  /// Returns the largest deviation of P, Q and theta on both strokes in a summary [-]; NaN if one of them is unknown.
-  double largest_deviation(const std::vector<Entry> &summary);
-
   /// Prints the entries as a table for people.
   void print_summary(std::ostream &stream, const std::vector<Entry> &summary);
 
