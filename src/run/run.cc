@@ -29,6 +29,17 @@ namespace sprag
     /// For each process. Two are as fast as one at three times as many, see tests/benchmarks/solid-cost.md.
     constexpr double least_displacements = 1e4;
 
+    /// Prints what each of several processes does in a run whose body they share.
+    void print_processes(std::ostream &stream, const Scene &scene, const unsigned int processes)
+    {
+      if (processes == 1 || works_in_parallel(scene.analysis.type))
+        return;
+      stream << "Processes:    " << processes
+             << (scene.analysis.dimension == 3
+                     ? ", which share stiffness, factors, solves and fields of the lever; the first alone follows the contact\n"
+                     : ", of which a lever in a plane needs the first alone\n");
+    }
+
     void try_mesh(const Scene &scene)
     {
       if (!needs_mesh(scene))
@@ -81,16 +92,6 @@ namespace sprag
       throw InputError("about " + rounded_text(displacements) + " displacements are too few for " + std::to_string(processes) +
                        " processes, which need " + rounded_text(least_displacements) +
                        " each to be of any help: start fewer, or leave out mpirun");
-  }
-
-  void print_processes(std::ostream &stream, const Scene &scene, const unsigned int processes)
-  {
-    if (processes == 1 || works_in_parallel(scene.analysis.type))
-      return;
-    stream << "Processes:    " << processes
-           << (scene.analysis.dimension == 3
-                   ? ", which share stiffness, factors, solves and fields of the lever; the first alone follows the contact\n"
-                   : ", of which a lever in a plane needs the first alone\n");
   }
 
   void carry_out(const Scene &scene, const RunOptions &options, Warnings &warnings)

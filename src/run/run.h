@@ -13,9 +13,6 @@ namespace sprag
   /// dimensions that is too small for them.
   void require_useful_processes(const Scene &scene, unsigned int processes);
 
-  /// Prints what each of several processes does in a run whose body they share.
-  void print_processes(std::ostream &stream, const Scene &scene, unsigned int processes);
-
   /// Checks that the scene's mesh can serve, which read_scene() cannot, and throws InputError if not. Returns the warnings
   /// that follow from the scene alone.
   Warnings validate(const Scene &scene);

@@ -21,6 +21,18 @@ namespace sprag
 {
   namespace
   {
+    /// Returns whether they are of a lever in three dimensions.
+    bool is_solid(const std::vector<Eigenmode> &modes)
+    {
+      return !modes.empty() && !std::isnan(modes.front().across.plane);
+    }
+
+    /// Returns true if these are the modes of two levers.
+    bool is_pair(const std::vector<Eigenmode> &modes)
+    {
+      return !modes.empty() && !std::isnan(modes.front().symmetry);
+    }
+
     std::string cell(const double value, const int width)
     {
       std::ostringstream number;
@@ -325,16 +337,6 @@ namespace sprag
     if (!grows(mode))
       return SlideKind::stable;
     return mode.mode.eigenvalue.imag() > 0. ? SlideKind::flutter : SlideKind::divergence;
-  }
-
-  bool is_pair(const std::vector<Eigenmode> &modes)
-  {
-    return !modes.empty() && !std::isnan(modes.front().symmetry);
-  }
-
-  bool is_solid(const std::vector<Eigenmode> &modes)
-  {
-    return !modes.empty() && !std::isnan(modes.front().across.plane);
   }
 
   std::vector<Eigenmode> reported(const std::vector<Eigenmode> &modes, const unsigned int number)

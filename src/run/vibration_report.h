@@ -29,12 +29,6 @@ namespace sprag
   /// Checks a mode: stable, flutter or divergence.
   SlideKind classify(const Eigenmode &mode);
 
-  /// Returns whether they are of a lever in three dimensions.
-  bool is_solid(const std::vector<Eigenmode> &modes);
-
-  /// Returns true if these are the modes of two levers.
-  bool is_pair(const std::vector<Eigenmode> &modes);
-
   /// Selects the modes to report: the `number` lowest that oscillate, and every one that grows.
   std::vector<Eigenmode> reported(const std::vector<Eigenmode> &modes, unsigned int number);
 

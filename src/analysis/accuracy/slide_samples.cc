@@ -24,6 +24,16 @@ namespace sprag
     constexpr unsigned int most_halves = 6;
     constexpr Index passage_limit      = 100; ///< rows
 
+    /// Returns by how much a row lies beside the line over x between two others, 0 where these have the same x.
+    double distance_from_line(const Row &before, const Row &row, const Row &after, const Column column)
+    {
+      const double way = after[Column::x] - before[Column::x];
+      if (way == 0.)
+        return 0.;
+      const double share = (row[Column::x] - before[Column::x]) / way;
+      return row[column] - (1. - share) * before[column] - share * after[column];
+    }
+
     bool slides(const Row &row, const double largest_force)
     {
       const double friction = std::abs(row[Column::friction_resultant]);
@@ -297,15 +307,6 @@ namespace sprag
                                                            { "Q", Column::Q },
                                                            { "contact_width", Column::contact_width } };
     return largest_change(samples, other, columns.at(quantity));
-  }
-
-  double distance_from_line(const Row &before, const Row &row, const Row &after, const Column column)
-  {
-    const double way = after[Column::x] - before[Column::x];
-    if (way == 0.)
-      return 0.;
-    const double share = (row[Column::x] - before[Column::x]) / way;
-    return row[column] - (1. - share) * before[column] - share * after[column];
   }
 
   double largest_row_spacing(const Scene &scene, const double error, const bool wants_loop)

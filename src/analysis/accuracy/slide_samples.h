@@ -55,9 +55,6 @@ namespace sprag
   /// from where friction has turned, over the largest value of the first model; 0 for other quantities and without rows.
   double peak_change(const std::string &quantity, const std::vector<Row> &passage, const std::vector<Row> &other);
 
-  /// Returns by how much a row lies beside the line over x between two others, 0 where these have the same x.
-  double distance_from_line(const Row &before, const Row &row, const Row &after, Column column);
-
   /// Returns the largest Analysis/Step, at most a quarter of the drive's way [mm], with which rows represent the closed form of a
   /// scene without inertia to `error` > 0: P and Q by straight lines between rows, over their peaks, and with `wants_loop` also
   /// the work of the drive by the trapezoidal rule.

@@ -16,6 +16,41 @@ namespace sprag
 {
   namespace
   {
+    CheckedSlide checked_slide(const SlideStability &found, const DrivePoint &drive)
+    {
+      CheckedSlide result;
+      result.kind        = found.kind;
+      result.growth_rate = found.growth_rate();
+      result.frequency   = found.frequency();
+      result.uniqueness  = found.uniqueness();
+      result.motion      = found.motion();
+      result.drive       = drive;
+      for (const auto &mode : found.modes)
+        result.growth_rates.push_back(mode.mode.eigenvalue.real());
+      if (!found.slide)
+        return result;
+      result.mu = found.slide->mu;
+      result.P  = found.slide->forces.P;
+      return result;
+    }
+
+    /// Returns whether two slides do the same to the last digit; slides that jam never do.
+    bool is_alike(const CheckedSlide &a, const CheckedSlide &b)
+    {
+      return a.growth_rate == b.growth_rate && a.P == b.P;
+    }
+
+    bool is_unstable(const SlideKind kind)
+    {
+      return kind == SlideKind::flutter || kind == SlideKind::divergence;
+    }
+
+    /// Returns the distance of the range's points; 0 of a single one.
+    double range_spacing(const ParameterRange &range)
+    {
+      return range.points == 1 ? 0. : std::abs(range.to - range.from) / (range.points - 1);
+    }
+
     /// Reduced and condensed levers check a slide in milliseconds.
     unsigned int points_along(const Scene &scene)
     {
@@ -381,32 +416,9 @@ namespace sprag
                         tried);
   }
 
-  CheckedSlide checked_slide(const SlideStability &found, const DrivePoint &drive)
-  {
-    CheckedSlide result;
-    result.kind        = found.kind;
-    result.growth_rate = found.growth_rate();
-    result.frequency   = found.frequency();
-    result.uniqueness  = found.uniqueness();
-    result.motion      = found.motion();
-    result.drive       = drive;
-    for (const auto &mode : found.modes)
-      result.growth_rates.push_back(mode.mode.eigenvalue.real());
-    if (!found.slide)
-      return result;
-    result.mu = found.slide->mu;
-    result.P  = found.slide->forces.P;
-    return result;
-  }
-
   bool is_worse(const CheckedSlide &a, const CheckedSlide &b)
   {
     return rank(a.kind) != rank(b.kind) ? rank(a.kind) > rank(b.kind) : a.growth_rate > b.growth_rate;
-  }
-
-  bool is_alike(const CheckedSlide &a, const CheckedSlide &b)
-  {
-    return a.growth_rate == b.growth_rate && a.P == b.P;
   }
 
   CriticalSearch search_kinds(const ParameterRange &range, const SearchEffort &effort,

@@ -26,18 +26,8 @@ namespace sprag
     std::vector<double> growth_rates;   ///< of the modes by increasing |lambda|; empty of the worst of several
   };
 
-  CheckedSlide checked_slide(const SlideStability &found, const DrivePoint &drive);
-
   /// Returns whether a does worse than b: what jams is worse than what vibrates, this than what is stable; then growth decides.
   bool is_worse(const CheckedSlide &a, const CheckedSlide &b);
-
-  /// Returns whether two slides do the same to the last digit; slides that jam never do.
-  bool is_alike(const CheckedSlide &a, const CheckedSlide &b);
-
-  inline bool is_unstable(const SlideKind kind)
-  {
-    return kind == SlideKind::flutter || kind == SlideKind::divergence;
-  }
 
   /// A value of a parameter at which the kind of a slide changes.
   struct CriticalValue
@@ -65,12 +55,6 @@ namespace sprag
 
   /// Values that a search is expected to try beside the points of its range.
   constexpr unsigned int expected_values_between = 8;
-
-  /// Returns the distance of the range's points; 0 of a single one.
-  inline double range_spacing(const ParameterRange &range)
-  {
-    return range.points == 1 ? 0. : std::abs(range.to - range.from) / (range.points - 1);
-  }
 
   struct SearchEffort
   {

@@ -21,6 +21,33 @@ namespace sprag
     constexpr double points_drawn = 40.;
     constexpr double refinement   = 2.; ///< of the face, which a contact as narrow as hard contact is needs
 
+    /// Fits the law by least squares of the errors of P, to first order: the stiffness at the largest P, which the ringing after
+    /// a reversal feels, is met best. Requires two or more points with P, local() > 0.
+    ContactLawFit fit_contact_law(const std::vector<Indentation> &points)
+    {
+      std::vector<double> log_local, log_P, weights;
+      for (const auto &point : points)
+      {
+        log_local.push_back(std::log(point.local()));
+        log_P.push_back(std::log(point.P));
+        weights.push_back(point.P * point.P);
+      }
+      Line line  = fitted_line(log_local, log_P, weights);
+      line.slope = std::clamp(line.slope, 1., 3.);
+      ContactLawFit fit{};
+      fit.exponent   = line.slope;
+      fit.stiffness  = std::exp(line.at(0.));
+      double squares = 0.;
+      for (const auto &point : points)
+      {
+        const double error = fit.stiffness * std::pow(point.local(), fit.exponent) / point.P - 1.;
+        fit.largest_error  = std::max(fit.largest_error, std::abs(error));
+        squares += error * error;
+      }
+      fit.rms_error = std::sqrt(squares / static_cast<double>(points.size()));
+      return fit;
+    }
+
     /// The scene without friction and with a linear spring that leads to the largest P.
     Scene indentation_scene(const Scene &scene, const ContactReference &reference)
     {
@@ -51,31 +78,6 @@ namespace sprag
                row[Column::P] * std::pow(centre.xi, 3) / (3. * bending_stiffness), row[Column::penetration] };
     }
   } // namespace
-
-  ContactLawFit fit_contact_law(const std::vector<Indentation> &points)
-  {
-    std::vector<double> log_local, log_P, weights;
-    for (const auto &point : points)
-    {
-      log_local.push_back(std::log(point.local()));
-      log_P.push_back(std::log(point.P));
-      weights.push_back(point.P * point.P);
-    }
-    Line line  = fitted_line(log_local, log_P, weights);
-    line.slope = std::clamp(line.slope, 1., 3.);
-    ContactLawFit fit{};
-    fit.exponent   = line.slope;
-    fit.stiffness  = std::exp(line.at(0.));
-    double squares = 0.;
-    for (const auto &point : points)
-    {
-      const double error = fit.stiffness * std::pow(point.local(), fit.exponent) / point.P - 1.;
-      fit.largest_error  = std::max(fit.largest_error, std::abs(error));
-      squares += error * error;
-    }
-    fit.rms_error = std::sqrt(squares / static_cast<double>(points.size()));
-    return fit;
-  }
 
   double FittedContact::penalty_error() const
   {

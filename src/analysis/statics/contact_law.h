@@ -32,10 +32,6 @@ namespace sprag
     double rms_error;
   };
 
-  /// Fits the law by least squares of the errors of P, to first order: the stiffness at the largest P, which the ringing after a
-  /// reversal feels, is met best. Requires two or more points with P, local() > 0.
-  ContactLawFit fit_contact_law(const std::vector<Indentation> &points);
-
   struct FittedContact
   {
     std::vector<Indentation> points;

@@ -31,6 +31,14 @@ namespace sprag
     constexpr unsigned int stick_solutions = 4;    ///< linear ones that balance a state in stick
     constexpr double probe_share           = 1e-2; ///< of the penetration, by which the stiffness in stick is probed
 
+    /// Returns whether a state that no step led to is an equilibrium, up to round-off.
+    bool is_balanced(Model &model, const State &state)
+    {
+      Step step        = model.begin_step(state, state.drive);
+      const auto found = model.evaluate(step, FrictionMode::cone);
+      return model.movement(model.correction(found)) <= round_off * model.length_scale();
+    }
+
     struct StepCost
     {
       unsigned int iterations    = 0;
@@ -311,13 +319,6 @@ namespace sprag
         { return model.evaluate(step, FrictionMode::cone); },
         [&](const Evaluation &found) { return model.correction(found); },
         [&](const dealii::Vector<double> &change) { return model.movement(change); });
-  }
-
-  bool is_balanced(Model &model, const State &state)
-  {
-    Step step        = model.begin_step(state, state.drive);
-    const auto found = model.evaluate(step, FrictionMode::cone);
-    return model.movement(model.correction(found)) <= round_off * model.length_scale();
   }
 
   double stick_stiffness(Model &model, const State &accepted)

@@ -16,9 +16,6 @@ namespace sprag
   /// first correction assumes stick everywhere, which finds the direction of slip after a reversal.
   NewtonSolution<Evaluation> solve_equilibrium(Model &model, Step &step, bool stick_first);
 
-  /// Returns whether a state that no step led to is an equilibrium, up to round-off.
-  bool is_balanced(Model &model, const State &state);
-
   struct QuasiStaticSettings
   {
     double step         = 1.;   ///< largest change of x in a step [mm]
