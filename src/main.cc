@@ -6,7 +6,6 @@
 #include "base/system/supervisor.h"
 #include "input/read.h"
 #include "program/cost.h"
-#include "program/memory.h"
 #include "program/outcome.h"
 #include "program/output_folder.h"
 #include "program/run_by_formulas.h"

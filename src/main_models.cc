@@ -11,7 +11,7 @@
 #include "fe/fields/help_first_rank.h"
 #include "fe/mesh/geometry_script.h"
 #include "input/read.h"
-#include "program/memory.h"
+#include "program/cost.h"
 #include "program/outcome.h"
 #include "program/output_folder.h"
 #include "program/run_log.h"

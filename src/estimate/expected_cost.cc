@@ -6,7 +6,7 @@
 #include "analysis/transient/transient.h"
 #include "base/errors.h"
 #include "input/read.h"
-#include "program/memory.h"
+#include "program/cost.h"
 #include "program/recorder.h"
 #include "scene/analysis_use.h"
 #include "scene/contact_reference.h"

@@ -2,7 +2,7 @@
 #include "estimate/vibration_accuracy.h"
 
 #include "analysis/accuracy/dilation.h"
-#include "analysis/transient/growing_modes.h"
+#include "analysis/transient/transient.h"
 #include "analytic/oscillation.h"
 #include "base/text.h"
 #include "estimate/coarser_scene.h"

@@ -6,7 +6,7 @@
 #include "base/system/interrupt.h"
 #include "input/read.h"
 #include "input/scene_key.h"
-#include "program/run_files.h"
+#include "program/output_folder.h"
 #include "results/earlier_result.h"
 
 #include <cerrno>

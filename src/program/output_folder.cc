@@ -2,12 +2,16 @@
 #include "program/output_folder.h"
 
 #include "base/errors.h"
+#include "base/fingerprint.h"
 #include "base/system/open_file.h"
+#include "base/version.h"
 #include "input/read.h"
-#include "program/run_files.h"
+#include "input/scene_key.h"
+#include "program/checkpoint.h"
 #include "program/run_log.h"
 #include "results/earlier_fields.h"
 #include "results/earlier_result.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <chrono>
@@ -117,6 +121,13 @@ namespace sprag
 
     /// The folder that was not there when this process claimed it.
     std::string missing;
+
+    bool begins_with(const std::string &header, const std::string &path)
+    {
+      std::ifstream input(path);
+      std::string line;
+      return std::getline(input, line) && line + '\n' == header;
+    }
   } // namespace
 
   void require_writable(const std::string &folder)
@@ -169,5 +180,28 @@ namespace sprag
       remove_checkpoint(folder);
     else
       refuse_other_result(folder, scene);
+  }
+
+  std::string results_log_header(const std::string &what, const std::string &scene_key)
+  {
+    Fingerprint key;
+    key.add(program_fingerprint());
+    key.add(scene_key);
+    return "sprag " + version() + " " + what + ", scene " + key.text() + '\n';
+  }
+
+  bool has_progress(const std::string &folder, const Scene &scene)
+  {
+    const auto type = scene.analysis.type;
+    if (type != AnalysisType::map && type != AnalysisType::study)
+      return has_checkpoint(folder, scene);
+    const std::string analysis = type == AnalysisType::map ? "map" : "study";
+    return begins_with(results_log_header(analysis, scene_key(scene)), folder + '/' + results_log_name(analysis));
+  }
+
+  void remove_checkpoint(const std::string &folder)
+  {
+    for (const char *name : { checkpoint_name, next_checkpoint_name, row_log_name })
+      ::unlink((folder + '/' + name).c_str());
   }
 } // namespace sprag

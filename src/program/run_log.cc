@@ -2,7 +2,7 @@
 #include "program/run_log.h"
 
 #include "base/version.h"
-#include "program/run_files.h"
+#include "program/output_folder.h"
 #include "scene/scene.h"
 
 #include <chrono>

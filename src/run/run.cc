@@ -9,7 +9,7 @@
 #include "fe/mesh/mesh.h"
 #include "fe/mesh/solid_file.h"
 #include "levers/prepared_scene.h"
-#include "program/memory.h"
+#include "program/cost.h"
 #include "program/output_folder.h"
 #include "report/warnings.h"
 #include "run/analyses.h"

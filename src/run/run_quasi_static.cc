@@ -4,7 +4,7 @@
 #include "estimate/quasi_static_accuracy.h"
 #include "fe/statics/static_lever.h"
 #include "model/step/state_archive.h"
-#include "program/memory.h"
+#include "program/cost.h"
 #include "program/recorder.h"
 #include "report/report.h"
 #include "run/analyses.h"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/transient/growing_modes.h"
 #include "analysis/transient/transient.h"
 #include "base/append.h"
 #include "base/text.h"

@@ -8,7 +8,7 @@
 #include "estimate/choice.h"
 #include "estimate/expected_cost.h"
 #include "input/scene_key.h"
-#include "program/memory.h"
+#include "program/cost.h"
 #include "report/warnings.h"
 #include "run/analyses.h"
 #include "scene/analysis_use.h"

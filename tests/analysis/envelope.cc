@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/limit_cycle/sprag_slip.h"
+#include "analysis/limit_cycle/continuation.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

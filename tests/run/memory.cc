@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "program/memory.h"
+#include "program/cost.h"
 
 #include "base/errors.h"
 #include "scene/scene.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/transient/growing_modes.h"
+#include "analysis/transient/transient.h"
 #include "analytic/oscillation.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"

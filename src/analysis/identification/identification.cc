@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/identification/identification.h"
 
-#include "analysis/identification/stroke_fit.h"
 #include "base/errors.h"
 #include "input/identification_text.h"
 #include "results/row_statistics.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/identification/lever_unknowns.h"
+#include "analysis/identification/identification.h"
 #include "laws/friction.h"
 #include "scene/scene.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/identification/stroke_fit.h"
+#include "analysis/identification/identification.h"
 
 #include "base/errors.h"
 #include "base/monotone_cubic.h"

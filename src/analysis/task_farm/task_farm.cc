@@ -8,7 +8,6 @@
 #include "base/system/interrupt.h"
 #include "input/scene_key.h"
 #include "program/output_folder.h"
-#include "program/run_files.h"
 #include "scene/scene.h"
 
 #include <algorithm>
