@@ -33,7 +33,7 @@ namespace sprag
     constexpr double admitted_share  = 0.25;        ///< of the way in contact, where the contact is narrower than that takes
     constexpr double element_error[] = { 5., 0.8 }; ///< of degree 1 and 2
 
-    Peak largest(const std::vector<Row> &rows, const Column column, const Column place)
+    Peak largest_pressure(const std::vector<Row> &rows)
     {
       Peak result;
       const auto look_at = [&](const Row &row, const double value, const double at, const double width, const bool is_second)
@@ -43,9 +43,10 @@ namespace sprag
       };
       for (const Row &row : rows)
       {
-        look_at(row, row[column], row[place], row[Column::contact_width], false);
+        look_at(row, row[Column::largest_pressure], row[Column::largest_pressure_xi], row[Column::contact_width], false);
         if (!row.second_lever().empty())
-          look_at(row, row.second_value(column), row.second_value(place), row.second_value(Column::contact_width), true);
+          look_at(row, row.second_value(Column::largest_pressure), row.second_value(Column::largest_pressure_xi),
+                  row.second_value(Column::contact_width), true);
       }
       return result;
     }
@@ -129,7 +130,7 @@ namespace sprag
 
   SmoothedPressure smoothed_largest_pressure(const std::vector<Row> &rows, const double face_size)
   {
-    const auto peak = largest(rows, Column::largest_pressure, Column::largest_pressure_xi);
+    const auto peak = largest_pressure(rows);
     if (!peak.row)
       return {};
     const auto pressure_at = [&](const std::size_t i)
@@ -169,7 +170,7 @@ namespace sprag
 
   void add_largest_pressure(const std::vector<Row> &rows, std::vector<Entry> &entries, const double face_size)
   {
-    const auto peak = largest(rows, Column::largest_pressure, Column::largest_pressure_xi);
+    const auto peak = largest_pressure(rows);
     if (!peak.row)
       return;
     const double value = face_size > 0. ? smoothed_largest_pressure(rows, face_size).value : peak.value;
@@ -186,7 +187,7 @@ namespace sprag
 
   Warnings coarse_contact_warnings(const Scene &scene, const std::vector<Row> &rows)
   {
-    const auto peak = largest(rows, Column::largest_pressure, Column::largest_pressure_xi);
+    const auto peak = largest_pressure(rows);
     if (!peak.row || !(peak.width > 0.))
       return {};
     const double elements = peak.width / scene.mesh.face_size;

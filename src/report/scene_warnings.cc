@@ -245,8 +245,7 @@ namespace sprag
 
     void add_locking(const Scene &scene, Warnings &warnings)
     {
-      const bool moves = scene.analysis.type == AnalysisType::quasi_static || scene.analysis.type == AnalysisType::transient;
-      const auto found = moves && scene.analysis.model != ModelType::closed_form ? locking(scene) : std::nullopt;
+      const auto found = follows_drive(scene) && scene.analysis.model != ModelType::closed_form ? locking(scene) : std::nullopt;
       if (found)
         warnings.push_back({ "locks",
                              "Moving back at x = " + mm(found->x) + " a rigid lever locks: s = " + mm(found->s) + " <= mu e = " +
@@ -386,14 +385,9 @@ namespace sprag
     // Each run of a study has its own, and a lever that is to be found has none yet.
     if (scene.analysis.type == AnalysisType::study || scene.analysis.type == AnalysisType::design)
       return warnings;
-    add_defaults(scene, warnings);
-    add_sensitivity(scene, warnings);
-    add_leaf(scene, warnings);
-    add_plane_stress(scene, warnings);
-    add_opening(scene, warnings);
-    add_locking(scene, warnings);
-    add_shaking(scene, warnings);
-    add_largest_speed(scene, warnings);
+    for (const auto add :
+         { add_defaults, add_sensitivity, add_leaf, add_plane_stress, add_opening, add_locking, add_shaking, add_largest_speed })
+      add(scene, warnings);
     append(warnings, implausible_values(scene));
     add_unused_columns(scene, warnings);
     return warnings;

@@ -3,6 +3,7 @@
 
 #include "base/error_text.h"
 #include "base/errors.h"
+#include "base/phase_timer.h"
 #include "base/progress.h"
 #include "base/system/peak_memory.h"
 #include "estimate/choice.h"
@@ -15,7 +16,6 @@
 #include "scene/scene.h"
 
 #include <algorithm>
-#include <ctime>
 #include <map>
 #include <new>
 
@@ -23,11 +23,6 @@ namespace sprag
 {
   namespace
   {
-    double cpu_seconds()
-    {
-      return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-    }
-
     std::string describe_error(const InputError &error)
     {
       return boost::algorithm::join(error.messages, "; ");
@@ -77,9 +72,9 @@ namespace sprag
     record.run = index;
     reset_peak_memory();
     const auto saved   = [this] { return in_memory.dynamics->seconds_saved() + in_memory.meshes->seconds_saved(); };
-    const double begin = monotonic_seconds(), cpu = cpu_seconds(), saved_before = saved();
+    const double begin = monotonic_seconds(), cpu = PhaseTimer::cpu_seconds(), saved_before = saved();
     carry_out_run(index, record);
-    record.cpu_spent   = cpu_seconds() - cpu;
+    record.cpu_spent   = PhaseTimer::cpu_seconds() - cpu;
     record.cpu_time    = record.cpu_spent + saved() - saved_before;
     record.wall_time   = monotonic_seconds() - begin;
     record.peak_memory = peak_memory() / (1024. * 1024.);

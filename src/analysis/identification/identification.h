@@ -3,6 +3,7 @@
 
 #include "base/nonlinear_least_squares.h"
 #include "laws/friction_law.h"
+#include "model/step/dynamic_model.h"
 #include "scene/identification.h"
 #include "scene/lever.h"
 
@@ -130,15 +131,8 @@ namespace sprag
     void add_offsets();
   };
 
-  /// Forces of a model's steady slide less those of the closed form, P and Q [N].
-  struct ForceDifference
-  {
-    double P = 0.;
-    double Q = 0.;
-  };
-
-  /// Takes x [mm] and the direction, 1 or -1.
-  using ModelCorrection = std::function<ForceDifference(double x, int direction)>;
+  /// Forces of a model's steady slide less those of the closed form, at x [mm] in a direction, 1 or -1.
+  using ModelCorrection = std::function<SlidingForces(double x, int direction)>;
 
   /// Returns the differences of the scene's model from the closed form of the same lever, at the drive's peak speed and at places
   /// over the drive between which they are interpolated; nothing for Analysis/Model = closed form. Throws AnalysisError where the
@@ -164,19 +158,12 @@ namespace sprag
     /// peak, and not the last 2 % of a stroke, in which the drive slows down to turn.
     std::vector<UsedValue> used(double window, double lag) const;
 
-    /// Forces of the lever, correction included [N].
-    struct Slide
-    {
-      double P;
-      double Q;
-    };
-
-    /// Returns the forces at a row; none where the lever has no slide there.
-    std::optional<Slide> slide(const IdentifiedLever &lever, const ModelCorrection &correction, std::size_t row,
-                               std::size_t stroke) const;
+    /// Returns the forces of the lever at a row, correction included; none where it has no slide there.
+    std::optional<SlidingForces> slide(const IdentifiedLever &lever, const ModelCorrection &correction, std::size_t row,
+                                       std::size_t stroke) const;
 
     /// Returns what a channel shows of them, offset included [N].
-    double shown(const IdentifiedLever &lever, const Slide &slide, std::size_t channel) const;
+    double shown(const IdentifiedLever &lever, const SlidingForces &slide, std::size_t channel) const;
 
     /// Returns measured less shown over the standard deviation of the channel and times the square root of the weight, where
     /// there are weights; large numbers where the lever has no slide.

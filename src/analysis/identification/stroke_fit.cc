@@ -188,7 +188,7 @@ namespace sprag
   ModelCorrection model_correction(const Scene &scene, const double peak_speed)
   {
     if (!identifies_by_model(scene))
-      return [](double, int) { return ForceDifference{}; };
+      return [](double, int) { return SlidingForces{}; };
     Scene held             = scene;
     held.stability.damping = false;
     held                   = held_scene(held);
@@ -198,7 +198,7 @@ namespace sprag
     return [forward, back](const double x, const int direction)
     {
       const auto &way = direction > 0 ? forward : back;
-      return ForceDifference{ way[0].value(x), way[1].value(x) };
+      return SlidingForces{ way[0].value(x), way[1].value(x) };
     };
   }
 
@@ -230,8 +230,8 @@ namespace sprag
     return result;
   }
 
-  std::optional<StrokeFit::Slide> StrokeFit::slide(const IdentifiedLever &lever, const ModelCorrection &correction,
-                                                   const std::size_t row, const std::size_t stroke) const
+  std::optional<SlidingForces> StrokeFit::slide(const IdentifiedLever &lever, const ModelCorrection &correction,
+                                                const std::size_t row, const std::size_t stroke) const
   {
     const auto place    = motion.at(row, lever.lag, stroke);
     const int direction = motion.strokes()[stroke].direction;
@@ -245,10 +245,10 @@ namespace sprag
     if (!(arm > 0.) || !std::isfinite(state.P) || state.mu < 0.)
       return std::nullopt;
     const auto more = correction(place.x, direction);
-    return Slide{ state.P + more.P, state.Q + more.Q };
+    return SlidingForces{ state.P + more.P, state.Q + more.Q };
   }
 
-  double StrokeFit::shown(const IdentifiedLever &lever, const Slide &slide, const std::size_t channel) const
+  double StrokeFit::shown(const IdentifiedLever &lever, const SlidingForces &slide, const std::size_t channel) const
   {
     const bool is_Q = scene.identification.measured.channels[channel].force == MeasuredForce::drive;
     return (is_Q ? slide.Q : slide.P) + lever.offsets[channel];
@@ -270,7 +270,7 @@ namespace sprag
     try
     {
       const auto lever = unknowns.lever(in_units(scaled));
-      std::optional<Slide> row_slide;
+      std::optional<SlidingForces> row_slide;
       for (std::size_t i = 0; i < values.size(); ++i)
       {
         const auto &[row, channel, stroke, value] = values[i];

@@ -167,15 +167,11 @@ namespace sprag
     return trial;
   }
 
-  double LeverTable::extrapolation(const double h) const
-  {
-    return solver.last_step > 0. ? (h + solver.last_step) / (solver.last_step + solver.step_before) : 0.;
-  }
-
   /// The way on which the force goes on as in the last two steps.
   double LeverTable::predicted_way(const double h) const
   {
-    const double mean_force = solver.step_force + extrapolation(h) * (solver.step_force - solver.previous_step_force);
+    const double share      = solver.last_step > 0. ? (h + solver.last_step) / (solver.last_step + solver.step_before) : 0.;
+    const double mean_force = solver.step_force + share * (solver.step_force - solver.previous_step_force);
     const double change     = base_at(now.time + h).v - base().v;
     return (m * (2. * (now.rate + solver.way_owed / h) - change) / h - K * now.z - mean_force) / (2. * m / (h * h) + 0.5 * K);
   }
@@ -239,7 +235,7 @@ namespace sprag
   TableEvent LeverTable::take_step()
   {
     const double shortest = std::ldexp(settings.time.step, 1 - static_cast<int>(most_halvings));
-    for (;; shorten())
+    for (;;)
     {
       const double h = solver.grid.duration();
       std::optional<Trial> trial;
@@ -266,14 +262,10 @@ namespace sprag
       if (is_last)
         throw AnalysisError("no step beyond t = " + rounded_text(now.time) + " s (z = " + mm(now.z) + "): " + failure +
                             ". Try a larger Time/Tolerance or a smaller Contact/Stiffness");
+      solver.grid.shorten();
+      solver.requested_step = solver.grid.duration();
+      solver.last_error     = 1.;
     }
-  }
-
-  void LeverTable::shorten()
-  {
-    solver.grid.shorten();
-    solver.requested_step = solver.grid.duration();
-    solver.last_error     = 1.;
   }
 
   /// Errors go with the third power of the step; the larger of the last two counts, as they vary with the elements that pass. A

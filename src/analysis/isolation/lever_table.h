@@ -201,13 +201,11 @@ namespace sprag
     std::size_t piece_before(double time) const;
     BasePoint base_at(double time) const;
     DrivePoint drive_point(const Side &side, double time, double z, double rate) const;
-    double extrapolation(double h) const;
     double predicted_way(double h) const;
     std::optional<Trial> tried(double h, double table_way, std::optional<Trial> before);
     std::optional<Trial> solved(double h);
     double trial_error(const Trial &trial) const;
     TableEvent take_step();
-    void shorten();
     void adapt(double h, double error);
     void accept(double h, Trial &trial);
     void accept_levers(Trial &trial, double h);
