@@ -16,10 +16,6 @@ namespace sprag
   /// Returns the warnings that follow from the scene alone, before anything is computed. The scene is a prepared() one.
   Warnings scene_warnings(const Scene &scene);
 
-  /// Returns one warning of all values given that are beyond what materials and such devices have, with the unit in which each
-  /// would be plausible; none where all are plausible.
-  Warnings implausible_values(const Scene &scene);
-
   /// Returns the warnings that follow from the rows of a run, completed by add_closed_form(). Where a model has no friction face,
   /// layer_pressure() of the largest P stands for the largest pressure. Only the first lever of a full pair is looked at.
   Warnings row_warnings(const Scene &scene, const std::vector<Row> &rows);
