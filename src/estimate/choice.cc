@@ -86,6 +86,12 @@ namespace sprag
     return text;
   }
 
+  bool is_requested(const Scene &scene, const std::string &quantity)
+  {
+    const auto &requested = scene.accuracy.quantities;
+    return std::find(requested.begin(), requested.end(), quantity) != requested.end();
+  }
+
   Scene to_plane(Scene scene)
   {
     scene.analysis.dimension         = 2;

@@ -36,6 +36,9 @@ namespace sprag
   /// Returns whether Accuracy/Budget pays what a run with these settings is expected to cost.
   bool is_paid(const Scene &scene, const Choice &choice);
 
+  /// Returns whether a quantity is among Accuracy/Quantity.
+  bool is_requested(const Scene &scene, const std::string &quantity);
+
   /// Returns the scene in the plane, its cylinder true.
   Scene to_plane(Scene scene);
 

@@ -62,7 +62,7 @@ namespace sprag
       const auto rows       = repeated(in_space, places, start, settings);
       const auto plane_rows = repeated(in_plane, places, start, settings);
       auto quantities       = scene.accuracy.quantities;
-      if (std::find(quantities.begin(), quantities.end(), pressure) == quantities.end())
+      if (!is_requested(scene, pressure))
         quantities.push_back(pressure); // is told, too
       std::vector<Off> result;
       for (const auto &quantity : quantities)
@@ -91,12 +91,6 @@ namespace sprag
       return result;
     }
 
-    bool is_needed(const Scene &scene, const std::string &quantity)
-    {
-      const auto &requested = scene.accuracy.quantities;
-      return scene.analysis.type == AnalysisType::transient || // P rings with the slide's frequency
-             std::find(requested.begin(), requested.end(), quantity) != requested.end();
-    }
   } // namespace
 
   ChosenSetting choose_dimension(const Scene &scene)
@@ -107,7 +101,8 @@ namespace sprag
     std::vector<std::string> texts;
     for (const auto &[quantity, error] : off)
     {
-      const bool asked_for = is_needed(scene, quantity);
+      // In time P rings with the slide's frequency.
+      const bool asked_for = scene.analysis.type == AnalysisType::transient || is_requested(scene, quantity);
       suffices             = suffices && (!asked_for || error <= target);
       texts.push_back(percent(error) + " in " + quantity + (asked_for ? "" : " (not asked for)"));
     }

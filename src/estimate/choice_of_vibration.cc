@@ -60,13 +60,8 @@ namespace sprag
     /// Error of the worst quantity wanted over that of the frequency with which P rings.
     double error_over_frequency(const Scene &scene)
     {
-      const auto wants = [&](const std::string &quantity)
-      {
-        const auto &requested = scene.accuracy.quantities;
-        return std::find(requested.begin(), requested.end(), quantity) != requested.end();
-      };
-      const double least = wants("overshoot") ? 2. : 1.; // it goes with the square of the frequency
-      if (scene.analysis.type != AnalysisType::transient || scene.drive.reversals().empty() || !wants("P"))
+      const double least = is_requested(scene, "overshoot") ? 2. : 1.; // it goes with the square of the frequency
+      if (scene.analysis.type != AnalysisType::transient || scene.drive.reversals().empty() || !is_requested(scene, "P"))
         return least;
       const auto rows   = beam_run(scene);
       const double turn = scene.drive.reversals().front();

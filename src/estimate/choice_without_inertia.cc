@@ -146,7 +146,6 @@ namespace sprag
       Choice meeting(const double target) const
       {
         const auto &requested          = scene.accuracy.quantities;
-        const bool wants_loop          = std::count(requested.begin(), requested.end(), "loop_area") > 0;
         const bool forces_only         = std::all_of(requested.begin(), requested.end(), is_force_quantity);
         const double closed_form_error = *std::max_element(closed_form_errors.begin(), closed_form_errors.end());
         const bool closed_form         = scene.accuracy.is_model_open && closed_form_error <= model_share * target;
@@ -166,7 +165,7 @@ namespace sprag
           choice.settings.push_back({ "Mesh/Faces in contact", "0", "no pressure is wanted" });
         if (is_open(scene, "Analysis/Step"))
         {
-          const double step = largest_row_spacing(scene, row_share * target, wants_loop);
+          const double step = largest_row_spacing(scene, row_share * target, is_requested(scene, "loop_area"));
           choice.settings.push_back({ "Analysis/Step", rounded_text(step), "lines between rows follow the closed form" });
           choice.error += row_share * target;
         }
@@ -228,9 +227,8 @@ namespace sprag
 
       void add_mesh(const double target, Choice &choice) const
       {
-        const auto &requested = scene.accuracy.quantities;
-        const bool wants_peaks =
-            std::count(requested.begin(), requested.end(), "P") + std::count(requested.begin(), requested.end(), "Q") > 0;
+        const auto &requested        = scene.accuracy.quantities;
+        const bool wants_peaks       = is_requested(scene, "P") || is_requested(scene, "Q");
         const bool has_reversal      = wants_peaks && !scene.drive.reversals().empty();
         const double trial_face_size = longest_face(target);
         const double longest         = std::max(face_size / finest, width * std::sqrt(reversal_share * target / reversal_error));

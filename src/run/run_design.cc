@@ -48,8 +48,8 @@ namespace sprag
 
     std::string term_unit(const DesignSettings &design, const DesignTerm &term)
     {
-      return term.quantity == DesignQuantity::parameter ? design.free_parameters[term.parameter].unit
-                                                        : design_quantity_info(term.quantity).unit;
+      return unit_text(term.quantity == DesignQuantity::parameter ? design.free_parameters[term.parameter].unit
+                                                                  : design_quantity_info(term.quantity).unit);
     }
 
     /// Value by the last check model that computes the quantity, or by the closed form if none does.
@@ -241,14 +241,14 @@ namespace sprag
       {
         const auto &demand = design.demanded[index];
         text += "Without '" + demand.text + "' the others can be met; with them it comes to " + rounded_text(attainable) +
-                unit_text(term_unit(design, demand.term)) + " at the nearest (" + lever_text(design, lever) + "). ";
+                term_unit(design, demand.term) + " at the nearest (" + lever_text(design, lever) + "). ";
       }
       text += "The lever that misses all by the least, " + formatted("%.3g", 100. * findings.found->distance) + " %, has " +
               lever_text(design, findings.found->lever);
       for (const auto i : missed_demands(design, findings.found->lever))
         text += "; '" + design.demanded[i].text + "' becomes " +
                 rounded_text(term_value(design.demanded[i].term, findings.found->lever)) +
-                unit_text(term_unit(design, design.demanded[i].term));
+                term_unit(design, design.demanded[i].term);
       return text;
     }
 
@@ -262,7 +262,7 @@ namespace sprag
       for (const auto &demand : design.demanded)
         if (demand.term.quantity != DesignQuantity::parameter)
           if (const double value = check.found[demand.term.quantity]; demand_violation(demand, value) > 0.)
-            text += " '" + demand.text + "' becomes " + rounded_text(value) + unit_text(term_unit(design, demand.term)) + ';';
+            text += " '" + demand.text + "' becomes " + rounded_text(value) + term_unit(design, demand.term) + ';';
       text.pop_back();
       return text + ". More Design/Rounds may help";
     }
@@ -279,11 +279,11 @@ namespace sprag
                << unit_text(design.free_parameters[i].unit) << '\n';
       for (const auto &aim : design.aims)
         stream << "  " << padded(aim.text, 34) << rounded_text(best_known(aim.term, lever, findings))
-               << unit_text(term_unit(design, aim.term)) << '\n';
+               << term_unit(design, aim.term) << '\n';
       for (const auto &demand : design.demanded)
       {
         const double value = best_known(demand.term, lever, findings);
-        stream << "  " << padded(demand.text, 34) << rounded_text(value) << unit_text(term_unit(design, demand.term))
+        stream << "  " << padded(demand.text, 34) << rounded_text(value) << term_unit(design, demand.term)
                << (std::isnan(value) || demand_violation(demand, value) <= 1e-9 ? "" : "  MISSED") << '\n';
       }
       if (!findings.front.empty())
