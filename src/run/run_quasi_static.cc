@@ -60,13 +60,13 @@ namespace sprag
     }
 
     /// Some states of a run, for what the compliance of the face leaves out in them.
-    class Samples
+    struct Samples
     {
-    public:
-      explicit Samples(const double path)
-          : interval(path / states_checked)
-      {
-      }
+      const double interval; ///< of travel between states looked at [mm]
+      double next                          = 0.;
+      double travel                        = 0.;
+      double last_x                        = 0.;
+      std::vector<FaceSample> face_samples = {};
 
       void look_at(const StaticLever<3> &lever, const State &state)
       {
@@ -86,19 +86,12 @@ namespace sprag
         const auto worst = std::get<SolidStructure>(lever.structure()).exactness(face_samples);
         return { { "compliance_error", worst.displacement }, { "compliance_work_error", worst.work } };
       }
-
-    private:
-      friend void serialise(Archive &archive, Samples &samples)
-      {
-        archive(samples.next, samples.travel, samples.last_x, samples.face_samples);
-      }
-
-      const double interval; ///< of travel between states looked at [mm]
-      double next   = 0.;
-      double travel = 0.;
-      double last_x = 0.;
-      std::vector<FaceSample> face_samples;
     };
+
+    void serialise(Archive &archive, Samples &samples)
+    {
+      archive(samples.next, samples.travel, samples.last_x, samples.face_samples);
+    }
 
     /// Runs a lever or a pair. `make_trial_runs`(rows, settings, stresses) makes the trial runs of its accuracy.
     template <class Lever, class MakeTrialRuns>
@@ -109,7 +102,7 @@ namespace sprag
       Recorder recorder(scene, options, timer, levers.face_points(), &checkpoint);
       if (!options.quiet)
         print_model(scene, levers);
-      Samples samples(path_length(scene.drive));
+      Samples samples{ path_length(scene.drive) / states_checked };
       checkpoint.add_part([&](Archive &archive) { serialise(archive, samples); });
       const bool has_frames    = scene.output.fields != FieldOutput::none;
       const auto displacements = [&levers](const FieldSource &source)
@@ -165,34 +158,24 @@ namespace sprag
       check_deviation(scene, summary);
     }
 
-    /// A folder that is there as long as this, with nothing of an earlier run.
-    struct FolderForFactors
-    {
-      explicit FolderForFactors(const std::string &name)
-          : folder(name)
-      {
-        std::filesystem::remove_all(folder);
-        std::filesystem::create_directories(folder);
-      }
-      FolderForFactors(const FolderForFactors &)            = delete;
-      FolderForFactors &operator=(const FolderForFactors &) = delete;
-      ~FolderForFactors()
-      {
-        std::error_code none;
-        std::filesystem::remove_all(folder, none);
-      }
-
-      const std::string folder;
-    };
-
-    std::unique_ptr<FolderForFactors> folder_for_factors(const Scene &scene, const RunOptions &options)
+    /// Makes the folder for factors that are kept in files, with nothing of an earlier run, and returns its name, with which it
+    /// goes; null where they are kept in memory.
+    std::shared_ptr<const std::string> folder_for_factors(const Scene &scene, const RunOptions &options)
     {
       const auto files = factor_files(scene, options.processes, options.folder);
       if (!files)
         return nullptr;
       if (!options.quiet)
         std::cout << "Memory: " << to_text(*files) << '\n' << std::flush;
-      return std::make_unique<FolderForFactors>(files->folder);
+      std::filesystem::remove_all(files->folder);
+      std::filesystem::create_directories(files->folder);
+      const auto remove = [](const std::string *folder)
+      {
+        std::error_code none;
+        std::filesystem::remove_all(*folder, none);
+        delete folder;
+      };
+      return { new std::string(files->folder), remove };
     }
   } // namespace
 
@@ -212,7 +195,7 @@ namespace sprag
     }
     const auto files = options.in_memory ? nullptr : folder_for_factors(scene, options);
     std::optional<SolidBody> body;
-    timed(timer, "body", [&] { body.emplace(scene, *mesh, files ? files->folder : ""); });
+    timed(timer, "body", [&] { body.emplace(scene, *mesh, files ? *files : ""); });
     std::optional<StaticLever<3>> levers;
     timed(timer, "model", [&] { levers.emplace(*body, scene); });
     const auto trial_runs = [&](const auto &rows, const auto &settings, const auto &)

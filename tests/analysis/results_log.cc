@@ -33,7 +33,7 @@ namespace
     static void append(const ResultsLog &results_log, const MapCells &cells)
     {
       const auto [file, header] = results_log.address();
-      ResultsLogWriter(file, header).append(to_lines(cells));
+      append_lines(file, header, to_lines(cells));
     }
 
     static std::vector<std::string> to_lines(const MapCells &cells)

@@ -145,9 +145,7 @@ namespace sprag
       if (fresh.empty())
         return;
       farm.check_inputs();
-      if (!pen)
-        pen.emplace(farm.address.first, farm.address.second);
-      pen->append(fresh);
+      append_lines(farm.address.first, farm.address.second, fresh);
       written.insert(written.end(), fresh.begin(), fresh.end());
       fresh.clear();
     }
@@ -159,7 +157,6 @@ namespace sprag
 
   private:
     const TaskFarm &farm;
-    std::optional<ResultsLogWriter> pen;
     std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
     std::vector<std::string> fresh, written;
   };
@@ -323,20 +320,14 @@ namespace sprag
       throw AnalysisError(analysis.front());
   }
 
-  ResultsLogWriter::ResultsLogWriter(const std::string &results_log, const std::string &first_line)
-      : path(results_log)
-      , header(first_line)
-      , file(path, O_WRONLY | O_APPEND)
-  {
-    if (!file.is_open())
-      throw AnalysisError(path + " cannot be written: " + std::strerror(errno));
-  }
-
-  void ResultsLogWriter::append(const std::vector<std::string> &lines)
+  void append_lines(const std::string &path, const std::string &header, const std::vector<std::string> &lines)
   {
     std::string text;
     for (const auto &line : lines)
       text += line + ' ' + checksum(header, line + ' ');
+    const OpenFile file(path, O_WRONLY | O_APPEND);
+    if (!file.is_open())
+      throw AnalysisError(path + " cannot be written: " + std::strerror(errno));
     write(file, path, text);
   }
 

@@ -19,21 +19,9 @@ namespace sprag
 {
   struct Scene;
 
-  /// Adds lines to the end of a results log that is open, on any rank.
-  class ResultsLogWriter
-  {
-  public:
-    /// Opens the results log at `path`; `header` is its first line. Throws AnalysisError if it cannot be written.
-    ResultsLogWriter(const std::string &path, const std::string &header);
-
-    /// Hands lines, which hold no line break, to the operating system. Throws AnalysisError if they cannot be written.
-    void append(const std::vector<std::string> &lines);
-
-  private:
-    const std::string path;
-    const std::string header;
-    const OpenFile file;
-  };
+  /// Adds lines, which hold no line break, to the end of a results log that rank 0 has open; `header` is its first line. Throws
+  /// AnalysisError if it cannot be written.
+  void append_lines(const std::string &path, const std::string &header, const std::vector<std::string> &lines);
 
   /// A file of finished pieces of a long analysis, so that one that was killed goes on where it was: a line a piece, with a
   /// checksum over the line, the scene and the build of the program. While rank 0 has it open, no other run can have it.
@@ -63,7 +51,7 @@ namespace sprag
       return damaged;
     }
 
-    /// Returns path and header, for pens.
+    /// Returns path and header, for append_lines().
     std::pair<std::string, std::string> address() const
     {
       return { path, header };
