@@ -42,11 +42,11 @@ namespace sprag
 
   Recorder::Recorder(const Scene &scene_, const RunOptions &options, PhaseTimer &timer, const FacePoints &points,
                      Checkpoint *const checkpoint_)
-      : scene(scene_)
+      : stress(no_stress_peaks("the model has no mesh"))
+      , scene(scene_)
       , quiet(options.quiet)
       , writer(scene, options, timer, table_columns(scene.plate, scene.pair, scene.analysis.dimension, scene.cylinder), points)
       , progress(std::cerr, progress_style(quiet), path_length(scene.drive))
-      , stress(no_stress_peaks("the model has no mesh"))
       , checkpoint(checkpoint_)
   {
     if (checkpoint == nullptr)

@@ -27,11 +27,8 @@ namespace sprag
 
     void record(const FaceState &face);
 
-    /// Sets the peaks of stress for the summary, see StressPeaks; without a call they are NaN, as of a model without a mesh.
-    void set_stress(std::vector<Entry> peaks)
-    {
-      stress = std::move(peaks);
-    }
+    std::vector<Entry> stress;           ///< peaks for the summary, see StressPeaks; NaN of a model without a mesh
+    std::vector<ErrorEstimate> accuracy; ///< that the run tells of its results
 
     /// Returns the rows so far.
     const std::vector<Row> &recorded() const
@@ -45,12 +42,6 @@ namespace sprag
       return taken_over;
     }
 
-    /// Sets the errors that the run tells of its results; without a call it tells none.
-    void set_accuracy(std::vector<ErrorEstimate> estimates)
-    {
-      accuracy = std::move(estimates);
-    }
-
     /// Writes and prints summary, meta and warnings, to which it adds those that follow from the rows. Status and meta: see
     /// ResultWriter. Finishes the checkpoint. Returns the summary.
     std::vector<Entry> finish(const std::string &status, std::vector<Entry> meta, Warnings &warnings);
@@ -61,8 +52,6 @@ namespace sprag
     ResultWriter writer;
     Progress progress;
     std::vector<Row> rows;
-    std::vector<Entry> stress;
-    std::vector<ErrorEstimate> accuracy;
     double travel = 0.;
 
     Checkpoint *const checkpoint; ///< null without

@@ -61,7 +61,7 @@ namespace sprag
       for (const auto &value : found.used)
         if (channels[value.channel].force == MeasuredForce::drive)
         {
-          const std::size_t way = fit.way().strokes()[value.stroke].direction > 0 ? 0 : 1;
+          const std::size_t way = fit.motion.strokes()[value.stroke].direction > 0 ? 0 : 1;
           sums[way] += value.value;
           ++numbers[way];
         }
@@ -116,14 +116,14 @@ namespace sprag
       const double lag = found.lever.lag;
       for (std::size_t row = 0; row < measured.rows(); ++row)
       {
-        const auto stroke = fit.way().stroke_at(row, lag);
-        const auto place  = fit.way().at(row, lag, stroke);
+        const auto stroke = fit.motion.stroke_at(row, lag);
+        const auto place  = fit.motion.at(row, lag, stroke);
         std::vector<double> values;
         if (!measured.time.empty())
           values.push_back(measured.time[row]);
-        const double direction = fit.way().strokes()[stroke].direction;
+        const double direction = fit.motion.strokes()[stroke].direction;
         values.insert(values.end(), { place.x, place.v, direction, used.count(row) > 0 ? 1. : 0. });
-        const bool is_known = fit.way().covers(row, lag, stroke) && place.x >= 0.;
+        const bool is_known = fit.motion.covers(row, lag, stroke) && place.x >= 0.;
         const auto slide    = is_known ? fit.slide(found.lever, found.correction, row, stroke) : std::nullopt;
         for (std::size_t channel = 0; channel < measured.channels.size(); ++channel)
         {

@@ -139,15 +139,15 @@ namespace sprag
           },
           [&](const std::string &status)
           {
-            auto meta = model_entries(scene, levers);
-            recorder.set_stress(fields->finish());
+            auto meta       = model_entries(scene, levers);
+            recorder.stress = fields->finish();
             if constexpr (in_space<Lever>)
               timed(timer, "exactness", [&] { meta = joined(meta, samples.entries(levers)); });
             if (status == "completed" && estimates_errors(options))
             {
               const PhaseTimer::Scope scope(timer, "accuracy");
               const auto trial_runs = [&] { return make_trial_runs(recorder.recorded(), settings, fields->stress_samples()); };
-              recorder.set_accuracy(quasi_static_accuracy(scene, recorder.recorded(), trial_runs));
+              recorder.accuracy     = quasi_static_accuracy(scene, recorder.recorded(), trial_runs);
             }
             meta.push_back({ "stick_stiffness", stick });
             const auto ending = status_at_end(status);

@@ -252,8 +252,8 @@ namespace sprag
       /// not.
       void follow()
       {
-        const auto &slide = *found.slide.slide;
-        run.use_spectral_radius(scene.time.spectral_radius);
+        const auto &slide   = *found.slide.slide;
+        run.spectral_radius = scene.time.spectral_radius;
         if (found.slide.kind == SlideKind::stable)
           run.begin(model.perturbed(slide, watched_mode(found.slide), Continuation::large_kick * slide.penetration));
         rows.begin(std::max(1u, settings.steps_per_period / approach_rows),

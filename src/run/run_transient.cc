@@ -114,7 +114,7 @@ namespace sprag
       checkpoint.add_part([&](Archive &archive) { fields->serialise_progress(archive); });
     }
     else if (is_meshed)
-      recorder.set_stress(no_stress_peaks("Output/Fields = none"));
+      recorder.stress = no_stress_peaks("Output/Fields = none");
 
     // In three dimensions the face is kept beside the frames, too.
     constexpr double solid_faces = 100.;
@@ -149,10 +149,10 @@ namespace sprag
           if (is_complete && estimates_errors(options))
           {
             const PhaseTimer::Scope scope(timer, "accuracy");
-            recorder.set_accuracy(transient_accuracy(scene, dynamics.meshed, recorder.recorded(), maker));
+            recorder.accuracy = transient_accuracy(scene, dynamics.meshed, recorder.recorded(), maker);
           }
           if (fields)
-            recorder.set_stress(fields->finish());
+            recorder.stress = fields->finish();
         });
   }
 } // namespace sprag

@@ -18,7 +18,7 @@ namespace
   /// What a kick of the slide comes to.
   Settled after_kick(const CheckedSlide &checked, const double kick, HeldRun &run)
   {
-    run.use_spectral_radius(checked.scene.time.spectral_radius);
+    run.spectral_radius = checked.scene.time.spectral_radius;
     run.begin(checked.dynamics.model().perturbed(checked.slide(), checked.mode(), kick * checked.slide().penetration));
     const double period = checked.step() * checked.scene.sprag_slip.steps_per_period;
     return settle(run, checked.slide(), { period, checked.scene.sprag_slip.settling, 2. }, ignore);

@@ -60,7 +60,7 @@ namespace sprag
     {
       std::map<std::pair<std::size_t, std::size_t>, std::vector<RowGroup>> all; // by channel and stroke
       std::map<std::pair<std::size_t, std::size_t>, std::size_t> within;
-      const auto travel = [&](const UsedValue &value) { return fit.way().travel(value.row, 0., value.stroke); };
+      const auto travel = [&](const UsedValue &value) { return fit.motion.travel(value.row, 0., value.stroke); };
       for (const auto &[value, residual] : residuals)
         if (travel(value) <= largest)
           ++within[{ value.channel, value.stroke }];
@@ -232,7 +232,7 @@ namespace sprag
 
       Identification identify()
       {
-        const double generous = largest_window(fit.way());
+        const double generous = largest_window(fit.motion);
         result.window         = settings.window.value_or(generous);
         repeat();
         if (!settings.window)
@@ -321,13 +321,13 @@ namespace sprag
         if (!corrected_at.empty() && is_near(corrected_at, corrected))
           return;
         corrected_at      = scaled;
-        result.correction = model_correction(unknowns.scene_with(lever()), fit.way().peak_speed());
+        result.correction = model_correction(unknowns.scene_with(lever()), fit.motion.peak_speed());
       }
 
       void select()
       {
         const double lag = lever().lag;
-        if (selected && selected->first == result.window && std::abs(selected->second - lag) <= same_lag * fit.way().spacing())
+        if (selected && selected->first == result.window && std::abs(selected->second - lag) <= same_lag * fit.motion.spacing())
           return;
         selected    = { result.window, lag };
         result.used = fit.used(result.window, lag);

@@ -152,6 +152,8 @@ namespace sprag
   class StrokeFit
   {
   public:
+    const MeasuredMotion &motion;
+
     StrokeFit(const Scene &scene, const MeasuredMotion &motion, const LeverUnknowns &unknowns);
 
     /// Returns the values that count with this window behind each turn [mm] and lag: x > 0, a speed of more than 2 % of the
@@ -174,14 +176,8 @@ namespace sprag
     /// Returns the unknowns in their units.
     std::vector<double> in_units(const std::vector<double> &scaled) const;
 
-    const MeasuredMotion &way() const
-    {
-      return motion;
-    }
-
   private:
     const Scene &scene;
-    const MeasuredMotion &motion;
     const LeverUnknowns &unknowns;
     const double inertia; ///< J, which a steady speed already turns unevenly [t mm^2]; 0 for the closed form
   };

@@ -203,8 +203,8 @@ namespace sprag
   }
 
   StrokeFit::StrokeFit(const Scene &scene_, const MeasuredMotion &motion_, const LeverUnknowns &unknowns_)
-      : scene(scene_)
-      , motion(motion_)
+      : motion(motion_)
+      , scene(scene_)
       , unknowns(unknowns_)
       , inertia(identifies_by_model(scene) ? scene.lever.moment_of_inertia : 0.)
   {

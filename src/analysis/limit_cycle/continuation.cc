@@ -32,7 +32,7 @@ namespace sprag
       std::vector<Sample> P, indentation;
       double open = 0., stuck = 0., mean = 0.;
       const double begin = run.drive().time;
-      const auto n       = static_cast<unsigned int>(std::ceil(duration / run.time_step() - 1e-6));
+      const auto n       = static_cast<unsigned int>(std::ceil(duration / run.dt - 1e-6));
       for (unsigned int i = 0; i < n; ++i)
       {
         const Row &row = run.step(path);
@@ -42,7 +42,7 @@ namespace sprag
         stuck += run.slides(slide.speed) ? 0. : 1.;
         sink(row);
       }
-      Signal signal{ run.time_step(), {} };
+      Signal signal{ run.dt, {} };
       for (const auto &sample : P)
       {
         mean += sample.value / n;

@@ -31,10 +31,13 @@ namespace sprag
   class HeldRun
   {
   public:
+    double spectral_radius = 1.; ///< of the steps from now on, 0 ... 1
+    const double dt;             ///< duration of a step [s]
+
     /// Prepares steps of `dt` > 0 [s]; one without solution is divided in two, up to 12 times.
     HeldRun(DynamicModel &dynamic_model, const double step_duration)
-        : model(dynamic_model)
-        , dt(step_duration)
+        : dt(step_duration)
+        , model(dynamic_model)
     {
     }
 
@@ -50,12 +53,6 @@ namespace sprag
       return now;
     }
 
-    /// Sets the spectral radius of the steps from now on, 0 ... 1; at first it is 1.
-    void use_spectral_radius(const double radius)
-    {
-      spectral_radius = radius;
-    }
-
     /// Goes on by dt and returns the row there. Throws AnalysisError where there is no solution, or when the run is interrupted.
     const Row &step(const DrivePath &path);
 
@@ -63,11 +60,6 @@ namespace sprag
     const DrivePoint &drive() const
     {
       return now.motion.drive;
-    }
-
-    double time_step() const
-    {
-      return dt;
     }
 
     /// Returns the number of steps so far.
@@ -86,8 +78,6 @@ namespace sprag
     unsigned int advance(const DrivePath &path, double duration, unsigned int halvings);
 
     DynamicModel &model;
-    const double dt;
-    double spectral_radius = 1.;
     RunState now;
     ForceHistory forces;
     Row row;
