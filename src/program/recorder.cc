@@ -4,7 +4,7 @@
 #include "base/append.h"
 #include "base/system/interrupt.h"
 #include "base/text.h"
-#include "report/transient_report.h"
+#include "report/report.h"
 #include "report/warnings.h"
 #include "results/row_archive.h"
 #include "results/stress_entries.h"

@@ -243,17 +243,15 @@ namespace sprag
     Scene beam          = scene;
     beam.analysis.type  = AnalysisType::stability;
     beam.analysis.model = ModelType::beam;
-    double largest      = -infinite;
+    auto &maker         = *in_memory.dynamics;
     try
     {
-      for (const auto direction : { Direction::forward, Direction::backward })
-        for (const double x : sample_positions(scene))
-          largest = std::max(largest, compute_growth(slide_at(beam, x, direction, *in_memory.dynamics)));
+      const double forward = slides_along(beam, Direction::forward, maker).growth_rate;
+      return std::max(forward, slides_along(beam, Direction::backward, maker).growth_rate);
     }
     catch (const AnalysisError &)
     {
       return infinite;
     }
-    return largest;
   }
 } // namespace sprag

@@ -6,7 +6,7 @@
 #include "base/unknown.h"
 #include "laws/friction.h"
 #include "program/result_writer.h"
-#include "report/transient_report.h"
+#include "report/report.h"
 #include "report/warnings.h"
 #include "results/result_file.h"
 #include "run/analyses.h"

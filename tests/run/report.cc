@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "report/report.h"
 #include "report/console_summary.h"
-#include "report/transient_report.h"
 
 #include "scene/closed_form.h"
 #include "scene/scene.h"

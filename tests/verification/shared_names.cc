@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/closed_form.h"
-#include "report/transient_report.h"
+#include "report/report.h"
 #include "run/vibration_report.h"
 #include "scene/scene.h"
 #include "verification/meshed_in_time.h"

@@ -53,7 +53,6 @@ namespace sprag
                P.back().time,
                amplitude(P),
                amplitude(indentation),
-               mean,
                open / n,
                stuck / n,
                ringing(signal, least_ringing * mean).frequency,
@@ -96,7 +95,6 @@ namespace sprag
         }
         sum.amplitude_P           = std::max(sum.amplitude_P, window.amplitude_P);
         sum.amplitude_indentation = std::max(sum.amplitude_indentation, window.amplitude_indentation);
-        sum.mean_P += share * window.mean_P;
         sum.open_share += share * window.open_share;
         sum.stick_share += share * window.stick_share;
       }

@@ -93,7 +93,6 @@ namespace sprag
     double end                   = 0.; ///< [s]
     double amplitude_P           = 0.; ///< half of largest less smallest [N]
     double amplitude_indentation = 0.; ///< the same [mm]
-    double mean_P                = 0.; ///< [N]
     double open_share            = 0.; ///< of the time, without contact
     double stick_share           = 0.; ///< of the time, with a point in contact that does not slide on with the cylinder
     double frequency             = 0.; ///< strongest line of P's spectrum [Hz]; NaN without one
