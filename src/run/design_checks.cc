@@ -51,22 +51,14 @@ namespace sprag
       return slide.kind == SlideKind::jammed ? infinite : slide.growth_rate();
     }
 
-    /// Forces of slides over those of the closed form.
-    struct Ratios
+    /// Returns the force of a slide near rest over that of the closed form.
+    double ratio_near_rest(const Scene &scene, const Direction direction, DynamicsMaker &maker)
     {
-      double forward, backward;
-    };
-
-    Ratios ratios_near_rest(const Scene &scene, DynamicsMaker &maker)
-    {
-      const double x  = scene.drive.minimum() + share_for_slopes * (scene.drive.maximum() - scene.drive.minimum());
-      const double v  = scene.drive.peak_speed();
-      const auto part = [&](const Direction direction, const double speed)
-      {
-        const auto found = slide_at(scene, x, direction, maker);
-        return found.slide ? found.slide->forces.Q / closed_form(scene, x, speed).Q : std::numeric_limits<double>::quiet_NaN();
-      };
-      return { part(Direction::forward, v), part(Direction::backward, -v) };
+      const double x     = scene.drive.minimum() + share_for_slopes * (scene.drive.maximum() - scene.drive.minimum());
+      const double v     = scene.drive.peak_speed();
+      const double speed = direction == Direction::forward ? v : -v;
+      const auto found   = slide_at(scene, x, direction, maker);
+      return found.slide ? found.slide->forces.Q / closed_form(scene, x, speed).Q : std::numeric_limits<double>::quiet_NaN();
     }
 
     /// Q and P of slides at places, of one way.
@@ -215,9 +207,10 @@ namespace sprag
       check.failure = "there is no unique slide at some x of the stroke: the lever jams";
       return;
     }
-    const auto ideal  = lever_quantities(scene);
-    const auto ratios = ratios_near_rest(scene, maker);
-    add_slopes(scene, ratios.forward * ideal[Q::forward_slope], ratios.backward * ideal[Q::backward_slope], check.found);
+    const auto ideal      = lever_quantities(scene);
+    const double forward  = ratio_near_rest(scene, Direction::forward, maker);
+    const double backward = ratio_near_rest(scene, Direction::backward, maker);
+    add_slopes(scene, forward * ideal[Q::forward_slope], backward * ideal[Q::backward_slope], check.found);
     add_forces(scene, out, back, check.found);
   }
 

@@ -18,11 +18,6 @@ namespace sprag
 {
   namespace
   {
-    double coordinate(const MapSite &site, const unsigned int parameter)
-    {
-      return parameter == 0 ? site.first : site.second;
-    }
-
     // Kinds of cells beside those of SlideKind.
     constexpr unsigned int inadmissible_cell = 4; ///< the scene is refused
     constexpr unsigned int failed_cell       = 5; ///< its analysis fails
@@ -81,7 +76,8 @@ namespace sprag
       return a + share * (b - a);
     }
 
-    double &coordinate(MapSite &site, const unsigned int along)
+    template <class Site>
+    auto &coordinate(Site &site, const unsigned int along)
     {
       return along == 0 ? site.first : site.second;
     }
