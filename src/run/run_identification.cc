@@ -80,12 +80,6 @@ namespace sprag
              "lengths, sign and scale of each force; seek offsets or lag in Identification/Unknowns.";
     }
 
-    std::string indistinct_remedy()
-    {
-      return "Measure both directions, over more of the stroke, P beside Q, or at other speeds; or leave one of them out of "
-             "Identification/Unknowns and give its value.";
-    }
-
     std::vector<ColumnInfo> identification_columns(const MeasuredStroke &measured)
     {
       std::vector<ColumnInfo> result;
@@ -204,10 +198,12 @@ namespace sprag
                              another_remedy(found, is_sign_turned(scene, fit, found)) });
       const auto &indistinct = found.knowledge.indistinct;
       if (!indistinct.empty())
-        warnings.push_back({ "indistinct_unknowns", boost::algorithm::join(indistinct, " "),
-                             "Their values are hardly better than where the search began, and the intervals, which a straight "
-                             "line through the model gives, are only a sign of it.",
-                             indistinct_remedy() });
+        warnings.push_back(
+            { "indistinct_unknowns", boost::algorithm::join(indistinct, " "),
+              "Their values are hardly better than where the search began, and the intervals, which a straight "
+              "line through the model gives, are only a sign of it.",
+              "Measure both directions, over more of the stroke, P beside Q, or at other speeds; or leave one of them out of "
+              "Identification/Unknowns and give its value." });
       if (found.window_is_full)
         warnings.push_back(
             { "long_vibration",

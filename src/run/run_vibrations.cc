@@ -177,11 +177,11 @@ namespace sprag
                { "coordinates", static_cast<double>(dynamics.meshed.n_coordinates) } };
     }
 
-    /// Counts the wall and CPU time of finding a slide and its vibrations.
+    /// Counts the wall and CPU time of a phase, which finds a slide and its vibrations.
     template <class Find>
-    auto timed(DynamicsMaker &maker, const Find &find)
+    auto timed(DynamicsMaker &maker, const Find &find, const std::string &phase = "eigenvalues")
     {
-      const PhaseTimer::Scope scope(maker.timer(), "eigenvalues");
+      const PhaseTimer::Scope scope(maker.timer(), phase);
       return find();
     }
 
@@ -249,13 +249,6 @@ namespace sprag
       return result;
     }
 
-    std::vector<ErrorEstimate> estimate_accuracy(const Scene &held, const SlideStability &found, const MeshedDynamics &dynamics,
-                                                 DynamicsMaker &maker)
-    {
-      const PhaseTimer::Scope scope(maker.timer(), "accuracy");
-      return vibration_accuracy(held, found, dynamics, maker);
-    }
-
     RunEnd stability(const Scene &whole, DynamicsMaker &maker, const RunOptions &options, Warnings &warnings)
     {
       RunEnd result;
@@ -280,12 +273,12 @@ namespace sprag
           if (found.beyond)
             append(warnings, beam_warnings(scene, mode_frequency(*found.beyond), found.beyond->mode.eigenvalue.real()));
         }
-        const auto accuracy =
-            estimates_errors(options) ? estimate_accuracy(held, found, dynamics.meshed, maker) : std::vector<ErrorEstimate>();
+        if (estimates_errors(options))
+          result.accuracy = timed(
+              maker, [&] { return vibration_accuracy(held, found, dynamics.meshed, maker); }, "accuracy");
         // A slide that jams is decided without its growth rate.
-        is_decided      = found.kind == SlideKind::jammed || accuracy.empty() || !(total_error(accuracy.front()) > 1.);
-        result.summary  = slide_entries(found, is_decided);
-        result.accuracy = accuracy;
+        is_decided = found.kind == SlideKind::jammed || result.accuracy.empty() || !(total_error(result.accuracy.front()) > 1.);
+        result.summary = slide_entries(found, is_decided);
         if (options.verbose)
         {
           print_modes(std::cout, modes);

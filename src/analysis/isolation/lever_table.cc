@@ -257,7 +257,9 @@ namespace sprag
         now.time = solver.grid.step_end();
         solver.grid.advance();
         adapt(h, error);
-        return find_event(before);
+        if (before.rate * now.rate < 0.)
+          return TableEvent::turn;
+        return before.z * now.z < 0. ? TableEvent::centre : TableEvent::none;
       }
       if (is_last)
         throw AnalysisError("no step beyond t = " + rounded_text(now.time) + " s (z = " + mm(now.z) + "): " + failure +
@@ -350,13 +352,6 @@ namespace sprag
            ", the Drive/Stroke. Try Drive/Stroke = " + rounded_text(needed) +
            ", as on levers of the closed form the table goes to " + mm(by_closed_form.largest_displacement) +
            ", or a smaller motion of the base or of the beginning, or more damping";
-  }
-
-  TableEvent LeverTable::find_event(const TableState &before) const
-  {
-    if (before.rate * now.rate < 0.)
-      return TableEvent::turn;
-    return before.z * now.z < 0. ? TableEvent::centre : TableEvent::none;
   }
 
   double LeverTable::damper_energy() const

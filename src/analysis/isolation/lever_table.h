@@ -211,7 +211,6 @@ namespace sprag
     void accept_levers(Trial &trial, double h);
     void add_integrals(double h, const Accelerations &before, const Accelerations &behind);
     std::string beyond_the_way() const;
-    TableEvent find_event(const TableState &before) const;
   };
 
   void serialise(Archive &archive, LeverTable &table);
