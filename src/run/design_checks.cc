@@ -9,7 +9,7 @@
 #include "levers/prepared_scene.h"
 #include "program/cost.h"
 #include "report/report.h"
-#include "run/analyses.h"
+#include "run/run.h"
 #include "scene/closed_form.h"
 #include "scene/contact_width.h"
 #include "scene/held_slide.h"

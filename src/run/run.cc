@@ -12,8 +12,6 @@
 #include "program/cost.h"
 #include "program/output_folder.h"
 #include "report/warnings.h"
-#include "run/analyses.h"
-#include "run/run.h"
 #include "run/study_runs.h"
 #include "scene/analysis_use.h"
 #include "scene/scene.h"

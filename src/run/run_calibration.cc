@@ -4,7 +4,7 @@
 #include "input/read.h"
 #include "levers/prepared_scene.h"
 #include "program/result_writer.h"
-#include "run/analyses.h"
+#include "run/run.h"
 #include "scene/scene.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/statics/contact_law.h"
 #include "program/result_writer.h"
-#include "run/analyses.h"
+#include "run/run.h"
 
 #include <cmath>
 #include <iomanip>

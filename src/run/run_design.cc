@@ -8,8 +8,8 @@
 #include "input/read.h"
 #include "program/result_writer.h"
 #include "results/result_file.h"
-#include "run/analyses.h"
 #include "run/design_checks.h"
+#include "run/run.h"
 #include "scene/scene.h"
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 #include "report/summary_lines.h"
 #include "results/result_file.h"
 #include "results/row_statistics.h"
-#include "run/analyses.h"
+#include "run/run.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
 

@@ -8,8 +8,8 @@
 #include "program/checkpoint.h"
 #include "program/isolation_report.h"
 #include "program/result_writer.h"
-#include "run/analyses.h"
 #include "run/in_memory.h"
+#include "run/run.h"
 #include "scene/scene.h"
 
 #include <iostream>

@@ -3,7 +3,7 @@
 #include "base/append.h"
 #include "program/result_writer.h"
 #include "report/summary_lines.h"
-#include "run/analyses.h"
+#include "run/run.h"
 #include "scene/scene.h"
 
 #include <algorithm>

@@ -7,9 +7,9 @@
 #include "program/cost.h"
 #include "program/recorder.h"
 #include "report/report.h"
-#include "run/analyses.h"
 #include "run/field_recorder.h"
 #include "run/in_memory.h"
+#include "run/run.h"
 #include "scene/scene.h"
 
 #include <filesystem>

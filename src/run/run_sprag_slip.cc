@@ -9,8 +9,8 @@
 #include "report/report.h"
 #include "report/warnings.h"
 #include "results/result_file.h"
-#include "run/analyses.h"
 #include "run/in_memory.h"
+#include "run/run.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 

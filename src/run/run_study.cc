@@ -9,7 +9,7 @@
 #include "report/console_summary.h"
 #include "report/summary_lines.h"
 #include "results/result_file.h"
-#include "run/analyses.h"
+#include "run/run.h"
 #include "run/study_runs.h"
 #include "scene/scene.h"
 

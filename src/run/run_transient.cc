@@ -6,9 +6,9 @@
 #include "levers/dynamics.h"
 #include "program/recorder.h"
 #include "results/stress_entries.h"
-#include "run/analyses.h"
 #include "run/field_recorder.h"
 #include "run/in_memory.h"
+#include "run/run.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"
 

@@ -11,7 +11,7 @@
 #include "input/scene_key.h"
 #include "program/cost.h"
 #include "report/warnings.h"
-#include "run/analyses.h"
+#include "run/run.h"
 #include "scene/analysis_use.h"
 #include "scene/scene.h"
 

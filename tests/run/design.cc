@@ -6,8 +6,8 @@
 #include "levers/prepared_scene.h"
 #include "mpi_environment.h"
 #include "report/report.h"
-#include "run/analyses.h"
 #include "run/design_checks.h"
+#include "run/run.h"
 #include "scene/scene.h"
 #include "support/temporary_folder.h"
 

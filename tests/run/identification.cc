@@ -4,7 +4,7 @@
 #include "levers/prepared_scene.h"
 #include "mpi_environment.h"
 #include "results/hdf5.h"
-#include "run/analyses.h"
+#include "run/run.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
 #include "support/temporary_folder.h"
