@@ -24,6 +24,11 @@
 
 namespace sprag
 {
+  static void serialise(Archive &archive, NamedColumn &column)
+  {
+    archive(column.name, column.unit, column.values);
+  }
+
   namespace
   {
     using hdf5::Handle;
@@ -371,15 +376,14 @@ namespace sprag
     /// The reply of the process that reads a file of HDF5.
     struct Found
     {
-      Names names, units; ///< of the columns
-      std::vector<std::vector<double>> values;
-      std::vector<std::size_t> chosen; ///< the number of columns for one that the file lacks
+      std::vector<NamedColumn> columns;
+      Chosen chosen;
       Names mistakes;
     };
 
     void serialise(Archive &archive, Found &found)
     {
-      archive(found.names, found.units, found.values, found.chosen, found.mistakes);
+      archive(found.columns, found.chosen, found.mistakes);
     }
 
     /// A damaged file may keep HDF5 busy for ever [s], or ask for all the memory there is [bytes].
@@ -399,22 +403,14 @@ namespace sprag
         Found found;
         try
         {
-          auto [columns, chosen] = read_open_hdf5(path, choose);
-          for (auto &column : columns)
-          {
-            found.names.push_back(column.name);
-            found.units.push_back(column.unit);
-            found.values.push_back(std::move(column.values));
-          }
-          for (const auto &index : chosen)
-            found.chosen.push_back(index.value_or(columns.size()));
+          std::tie(found.columns, found.chosen) = read_open_hdf5(path, choose);
         }
         catch (const InputError &error)
         {
           found.mistakes = error.messages;
         }
         Archive archive;
-        serialise(archive, found);
+        archive(found);
         return archive.bytes();
       };
       const auto answer = in_child_process(work, file_patience + 1e-7 * static_cast<double>(bytes));
@@ -422,16 +418,10 @@ namespace sprag
         throw InputError(path + ": HDF5 " + answer.failure + " on it: the file is damaged");
       Found found;
       Archive archive(answer.text);
-      serialise(archive, found);
+      archive(found);
       if (!found.mistakes.empty())
         throw InputError(found.mistakes);
-      std::vector<NamedColumn> columns;
-      for (std::size_t i = 0; i < found.names.size(); ++i)
-        columns.push_back({ found.names[i], found.units[i], std::move(found.values[i]) });
-      Chosen chosen;
-      for (const auto index : found.chosen)
-        chosen.push_back(index < columns.size() ? std::make_optional(index) : std::nullopt);
-      return { std::move(columns), chosen };
+      return { std::move(found.columns), found.chosen };
     }
 
     /// The columns whose names satisfy `is_named`.
