@@ -30,68 +30,25 @@ namespace sprag
     constexpr std::uint32_t refused = SECCOMP_RET_ERRNO | EACCES;
 
     /// System calls that a mesh needs for nothing, all those that change files among them.
-    constexpr int refused_calls[] = { __NR_execve,
-                                      __NR_execveat,
-                                      __NR_ptrace,
-                                      __NR_process_vm_readv,
-                                      __NR_process_vm_writev,
-                                      __NR_kill,
-                                      __NR_tkill,
-                                      __NR_socket,
-                                      __NR_socketpair,
-                                      __NR_connect,
-                                      __NR_bind,
-                                      __NR_mkdirat,
-                                      __NR_mknodat,
-                                      __NR_unlinkat,
-                                      __NR_symlinkat,
-                                      __NR_linkat,
-                                      __NR_renameat,
-                                      __NR_renameat2,
-                                      __NR_truncate,
-                                      __NR_fchmod,
-                                      __NR_fchmodat,
-                                      __NR_fchown,
-                                      __NR_fchownat,
-                                      __NR_utimensat,
-                                      __NR_setxattr,
-                                      __NR_lsetxattr,
-                                      __NR_fsetxattr,
-                                      __NR_removexattr,
-                                      __NR_lremovexattr,
-                                      __NR_fremovexattr,
-                                      __NR_mount,
-                                      __NR_umount2,
-                                      __NR_pivot_root,
-                                      __NR_chroot,
-                                      __NR_setns,
-                                      __NR_unshare,
-                                      __NR_open_by_handle_at,
-                                      __NR_bpf,
-                                      __NR_keyctl,
-                                      __NR_add_key,
-                                      __NR_request_key,
-                                      __NR_shmget,
-                                      __NR_msgget,
-                                      __NR_semget,
-                                      __NR_mq_open,
-                                      __NR_io_uring_setup,
-                                      __NR_openat2,
+    constexpr int refused_calls[] = {
+      // They reach other programs and processes.
+      __NR_execve, __NR_execveat, __NR_ptrace, __NR_process_vm_readv, __NR_process_vm_writev, __NR_kill, __NR_tkill,
+      // They reach other machines.
+      __NR_socket, __NR_socketpair, __NR_connect, __NR_bind,
+      // They change files and folders.
+      __NR_mkdirat, __NR_mknodat, __NR_unlinkat, __NR_symlinkat, __NR_linkat, __NR_renameat, __NR_renameat2, __NR_truncate,
+      __NR_fchmod, __NR_fchmodat, __NR_fchown, __NR_fchownat, __NR_utimensat, __NR_setxattr, __NR_lsetxattr, __NR_fsetxattr,
+      __NR_removexattr, __NR_lremovexattr, __NR_fremovexattr,
+      // They change what the system shows to a process.
+      __NR_mount, __NR_umount2, __NR_pivot_root, __NR_chroot, __NR_setns, __NR_unshare,
+      // They share keys, memory or messages with other processes.
+      __NR_keyctl, __NR_add_key, __NR_request_key, __NR_shmget, __NR_msgget, __NR_semget, __NR_mq_open,
+      // They go past the checks of opening a file.
+      __NR_open_by_handle_at, __NR_bpf, __NR_io_uring_setup, __NR_openat2,
 #ifdef __x86_64__
-                                      __NR_creat,
-                                      __NR_mkdir,
-                                      __NR_rmdir,
-                                      __NR_mknod,
-                                      __NR_unlink,
-                                      __NR_symlink,
-                                      __NR_link,
-                                      __NR_rename,
-                                      __NR_chmod,
-                                      __NR_chown,
-                                      __NR_lchown,
-                                      __NR_utime,
-                                      __NR_utimes,
-                                      __NR_futimesat
+      // Older names of those that change files.
+      __NR_creat, __NR_mkdir, __NR_rmdir, __NR_mknod, __NR_unlink, __NR_symlink, __NR_link, __NR_rename, __NR_chmod, __NR_chown,
+      __NR_lchown, __NR_utime, __NR_utimes, __NR_futimesat
 #endif
     };
 
