@@ -6,7 +6,7 @@
 #include "base/errors.h"
 #include "base/krylov_size.h"
 #include "base/phase_timer.h"
-#include "base/system/available_memory.h"
+#include "base/system/memory.h"
 #include "base/text.h"
 #include "program/recorder.h"
 #include "scene/across.h"

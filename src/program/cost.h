@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "base/system/available_memory.h"
+#include "base/system/memory.h"
 
 #include <iosfwd>
 #include <optional>

@@ -3,7 +3,7 @@
 
 #include "base/append.h"
 #include "base/system/interrupt.h"
-#include "base/system/peak_memory.h"
+#include "base/system/memory.h"
 #include "base/version.h"
 #include "input/read.h"
 #include "program/run_options.h"

@@ -5,7 +5,7 @@
 #include "base/errors.h"
 #include "base/phase_timer.h"
 #include "base/progress.h"
-#include "base/system/peak_memory.h"
+#include "base/system/memory.h"
 #include "estimate/choice.h"
 #include "estimate/expected_cost.h"
 #include "input/scene_key.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/system/available_memory.h"
+#include "base/system/memory.h"
 
 #include "support/temporary_folder.h"
 

@@ -3,10 +3,10 @@
 
 #include "base/archive.h"
 #include "base/errors.h"
-#include "base/system/available_memory.h"
 #include "base/system/child_process.h"
 #include "base/system/confinement.h"
 #include "base/system/file_content.h"
+#include "base/system/memory.h"
 #include "base/text.h"
 
 #include <deal.II/base/utilities.h>

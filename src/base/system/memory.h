@@ -18,4 +18,10 @@ namespace sprag
 
   /// Returns the bytes that are free on the disk of a folder; 0 where its file system lives in memory, or does not tell.
   double bytes_free_on_disk(const std::string &folder);
+
+  /// Begins to look for the peak anew, where the system can (Linux).
+  void reset_peak_memory();
+
+  /// Returns the largest resident memory of the process since then, or since its beginning [bytes]; 0 where it is not told.
+  double peak_memory();
 } // namespace sprag

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/system/available_memory.h"
+#include "base/system/memory.h"
 
 #include <filesystem>
 #include <fstream>
@@ -115,5 +115,15 @@ namespace sprag
     if (::statfs(folder.c_str(), &file_system) != 0 || file_system.f_type == TMPFS_MAGIC)
       return 0.;
     return static_cast<double>(file_system.f_bavail) * static_cast<double>(file_system.f_bsize);
+  }
+
+  void reset_peak_memory()
+  {
+    std::ofstream("/proc/self/clear_refs") << "5";
+  }
+
+  double peak_memory()
+  {
+    return 1024. * read_entry("/proc/self/status", "VmHWM:");
   }
 } // namespace sprag
