@@ -375,9 +375,7 @@ namespace sprag
     map({ all, "Map" }, scene.map);
     study({ all, "Study" }, scene.study);
     sprag_slip({ all, "Sprag slip" }, scene.sprag_slip);
-    add_isolation_parameters(scene, all);
-    add_design_parameters(scene, all);
-    add_identification_parameters(scene, all);
+    add_analysis_parameters(scene, all);
     accuracy({ all, "Accuracy" }, scene.accuracy);
     return all;
   }

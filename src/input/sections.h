@@ -69,12 +69,6 @@ namespace sprag
   /// Adds those of the parts of the apparatus: spring, lever frame, friction plate, cylinder, pair and what is calibrated.
   void add_apparatus_parameters(Scene &scene, std::vector<Parameter> &all);
 
-  /// Adds those of what is found from a measured stroke.
-  void add_identification_parameters(Scene &scene, std::vector<Parameter> &all);
-
-  /// Adds those of the isolation system.
-  void add_isolation_parameters(Scene &scene, std::vector<Parameter> &all);
-
-  /// Adds those of what a lever is designed for.
-  void add_design_parameters(Scene &scene, std::vector<Parameter> &all);
+  /// Adds those of the isolation system, of what a lever is designed for and of what is found from a measured stroke.
+  void add_analysis_parameters(Scene &scene, std::vector<Parameter> &all);
 } // namespace sprag

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "input/section.h"
 #include "input/sections.h"
+
+#include "input/section.h"
 #include "scene/scene.h"
 
 namespace sprag
@@ -99,13 +100,65 @@ namespace sprag
                              "Time between rows of the table, which events have too; auto: a hundredth of the natural period, a "
                              "tenth of the base's shortest or the record's own, whichever is least");
     }
+
+    void design(Section section, DesignSettings &settings)
+    {
+      section.text("Free", settings.free,
+                   "Free parameters of the lever and their bounds: list of SECTION/NAME = FROM ... TO, separated by semicolons");
+      section.text(
+          "Demands", settings.demands,
+          "Demands on a quantity of params/design.md or a free parameter: list of QUANTITY <= VALUE, QUANTITY >= VALUE or "
+          "QUANTITY = VALUE +- TOLERANCE, separated by semicolons");
+      section.text("Aim", settings.aim, "Aim of the search: minimise QUANTITY or maximise QUANTITY");
+      section.text("Second aim", settings.second_aim, "Second aim in the same form, for the front of both; empty: none");
+      section.integer("Front points", settings.front_points, { 3., 200. }, "Points of the front, both ends included");
+      section.text("Judges", settings.checks,
+                   "Models that check the lever found: list of table (its levers' table in time), beam, condensed; or none");
+      section.integer(
+          "Positions", settings.positions, { 2., 200. },
+          "Number of x at which beam and condensed judge the slide both ways, equally apart up to the drive's largest");
+      section.choice("Judge in time", settings.checks_in_time, { { "on", true }, { "off", false } },
+                     "on: the last of beam and condensed also follows the drive in time");
+      section.integer("Rounds", settings.rounds, { 1., 20. },
+                      "Levers proposed to each judge; from the second on the closed form is corrected by the judge's result");
+      section.integer("Evaluations", settings.evaluations, { 100., 1e7 }, "Evaluations of the closed form in each global search");
+      section.integer("Seed", settings.seed, { 0., 4294967295. },
+                      "Seed of the global search; the same seed finds the same lever");
+    }
+
+    void identification(Section section, IdentificationSettings &settings)
+    {
+      section.text(
+          "Table", settings.table,
+          "Measured stroke: columns time or x or both, and any of P, Q and sensor_1 ... sensor_n or sensor_sum, with units "
+          "in brackets in the header, as in 'time [s], Q [N]', or a result.h5; relative to the folder of this file",
+          Rule::Kind::file);
+      section.text("Forces", settings.forces, "Forces that are used: list of P, Q, sensors; auto: all in the table");
+      section.text(
+          "Unknowns", settings.unknowns,
+          "Unknowns to be found: mu, mu polynomial, mu table or friction factor, and any of k, e, th0, offsets (of each "
+          "force), rest (the spring's rest angle), lag (of all forces behind x); they start from the values of this scene");
+      section.numbers("Friction speeds", settings.friction_speeds, at_least(0.), "mm/s",
+                      "Speeds at which mu table has its values, increasing, at least 4");
+      section.number_or_auto(
+          "Reversal window", settings.window, at_least(0.), "mm",
+          "Travel that is left out after the beginning and each reversal, where the lever vibrates; auto: from "
+          "the data, up to a quarter of each stroke");
+      section.choice("Loss", settings.loss,
+                     { { "least squares", IdentificationLoss::squares }, { "Huber", IdentificationLoss::huber } },
+                     "Function of the residuals that is minimised; Huber's grows linearly beyond 1.345 standard deviations, so "
+                     "that outliers hardly count");
+      section.number("Confidence", settings.confidence, { 0.5, 0.9999 }, "", "Confidence level of the intervals");
+    }
   } // namespace
 
-  void add_isolation_parameters(Scene &scene, std::vector<Parameter> &all)
+  void add_analysis_parameters(Scene &scene, std::vector<Parameter> &all)
   {
-    const Section section(all, "Isolation");
-    table_and_damper(section, scene.isolation);
-    base_motion(section, scene.isolation);
-    motion(section, scene.isolation);
+    const Section isolation(all, "Isolation");
+    table_and_damper(isolation, scene.isolation);
+    base_motion(isolation, scene.isolation);
+    motion(isolation, scene.isolation);
+    design({ all, "Design" }, scene.design);
+    identification({ all, "Identification" }, scene.identification);
   }
 } // namespace sprag
