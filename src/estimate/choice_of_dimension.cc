@@ -7,7 +7,7 @@
 #include "fe/mesh/mesh.h"
 #include "fe/statics/static_lever.h"
 #include "report/summary_lines.h"
-#include "scene/accuracy.h"
+#include "scene/analysis_use.h"
 #include "scene/contact_reference.h"
 #include "scene/contact_width.h"
 #include "scene/held_slide.h"

@@ -11,7 +11,7 @@
 #include "input/check_parts.h"
 #include "report/summary_lines.h"
 #include "results/row_statistics.h"
-#include "scene/accuracy.h"
+#include "scene/analysis_use.h"
 #include "scene/contact_reference.h"
 #include "scene/contact_width.h"
 #include "scene/held_slide.h"

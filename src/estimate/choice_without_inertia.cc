@@ -13,7 +13,7 @@
 #include "report/report.h"
 #include "report/summary_lines.h"
 #include "results/row_statistics.h"
-#include "scene/accuracy.h"
+#include "scene/analysis_use.h"
 #include "scene/contact_reference.h"
 #include "scene/contact_width.h"
 #include "scene/lever_shape.h"

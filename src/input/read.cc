@@ -11,7 +11,6 @@
 #include "input/own_units.h"
 #include "input/sections.h"
 #include "input/variation.h"
-#include "scene/accuracy.h"
 #include "scene/analysis_use.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"

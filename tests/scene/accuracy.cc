@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "scene/accuracy.h"
 #include "input/read.h"
+#include "scene/analysis_use.h"
 #include "scene/contact_width.h"
 
 #include "base/errors.h"
