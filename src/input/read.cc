@@ -288,10 +288,6 @@ namespace sprag
       {
         const FrictionSettings &friction = input.friction;
         FrictionLaw &law                 = input.scene.friction;
-        law.speed                        = friction.speed;
-        law.factor                       = friction.factor;
-        law.regularisation_speed         = friction.regularisation_speed;
-        law.memory_length                = friction.memory_length;
         if (friction.law == FrictionChoice::coulomb)
           law.law = friction.coulomb;
         else if (friction.law == FrictionChoice::cork_on_aluminium)

@@ -93,7 +93,7 @@ namespace sprag
           "fits the rows within half of it best. Waves of this period keep 91 %, of half of it 29 %; 0: the rows as they are");
     }
 
-    void friction(Section section, FrictionSettings &settings)
+    void friction(Section section, FrictionSettings &settings, FrictionLaw &law)
     {
       section.choice(
           "Law", settings.law,
@@ -115,12 +115,12 @@ namespace sprag
       section.only_with("Law", "table")
           .text("Table", settings.table, "File with the columns speed [mm/s] and mu [-], relative to the folder of this one",
                 Rule::Kind::file);
-      section.choice("Speed", settings.speed, { { "sliding", FrictionSpeed::sliding }, { "drive", FrictionSpeed::drive } },
+      section.choice("Speed", law.speed, { { "sliding", FrictionSpeed::sliding }, { "drive", FrictionSpeed::drive } },
                      "Speed that mu depends on: that of sliding, or that of the drive as in the paper");
-      section.number("Factor", settings.factor, at_least(0.), "", "Factor on mu of any law");
-      section.number("Regularisation speed", settings.regularisation_speed, at_least(0.), "mm/s",
+      section.number("Factor", law.factor, at_least(0.), "", "Factor on mu of any law");
+      section.number("Regularisation speed", law.regularisation_speed, at_least(0.), "mm/s",
                      "Sliding speed over which friction changes sign in time; 0: stick is resolved");
-      section.number("Memory length", settings.memory_length, above(0.), "mm",
+      section.number("Memory length", law.memory_length, above(0.), "mm",
                      "Path over which mu follows the speed where it falls with it, in time");
     }
 
@@ -360,7 +360,7 @@ namespace sprag
     analysis({ all, "Analysis" }, settings);
     geometry({ all, "Geometry" }, scene.geometry);
     drive({ all, "Drive" }, settings.drive);
-    friction({ all, "Friction" }, settings.friction);
+    friction({ all, "Friction" }, settings.friction, scene.friction);
     lever({ all, "Lever" }, scene.lever);
     friction_layer({ all, "Friction layer" }, scene.layer);
     add_apparatus_parameters(scene, all);

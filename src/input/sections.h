@@ -31,16 +31,12 @@ namespace sprag
     table
   };
 
-  /// Friction as a parameter file gives it.
+  /// The choice of a friction law as a parameter file gives it; its other settings are those of the scene's law.
   struct FrictionSettings
   {
     FrictionChoice law = FrictionChoice::cork_on_aluminium;
     CoulombFriction coulomb;
     StribeckFriction stribeck;
-    FrictionSpeed speed         = FrictionSpeed::sliding;
-    double regularisation_speed = 0.;
-    double factor               = 1.;
-    double memory_length        = 0.01;
     std::string table;
   };
 

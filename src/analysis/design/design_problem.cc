@@ -281,9 +281,6 @@ namespace sprag
   {
     for (std::size_t i = 0; i < free.size(); ++i)
       free[i].store(number_text(parameters[i]));
-    if (std::any_of(base.design.free_parameters.begin(), base.design.free_parameters.end(),
-                    [](const auto &parameter) { return parameter.name == "Friction/Factor"; }))
-      input->scene.friction.factor = input->friction.factor;
     return input->scene;
   }
 
