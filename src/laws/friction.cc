@@ -2,76 +2,19 @@
 #include "laws/friction.h"
 
 #include "base/errors.h"
-#include "base/monotone_cubic.h"
 #include "base/text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sprag
 {
-  class TabulatedFriction::Interpolant : public MonotoneCubic
-  {
-  public:
-    Interpolant(const std::vector<double> &x, const std::vector<double> &y)
-        : MonotoneCubic(x, y)
-        , fastest(x.back())
-    {
-      constexpr double scatter = 0.01; ///< of the largest coefficient
-      double highest           = 0.;
-      for (const double mu : y)
-      {
-        highest = std::max(highest, mu);
-        falls   = falls || mu < highest - scatter * *std::max_element(y.begin(), y.end());
-      }
-    }
-
-    const double fastest; ///< [mm/s]
-    bool falls = false;
-  };
-
   namespace
   {
+    constexpr double scatter             = 0.01; ///< in a table, of its largest coefficient
     constexpr double largest_coefficient = 10.;
     constexpr double plausible           = 2.; ///< for a coefficient, and too slow for the fastest of a table [mm/s]
-  }                                            // namespace
 
-  TabulatedFriction::TabulatedFriction(std::vector<double> speeds, std::vector<double> coefficients)
-      : interpolant(std::make_shared<const Interpolant>(speeds, coefficients))
-  {
-    if (speeds.front() < 0.)
-      throw InputError("row 1: speed " + number_text(speeds.front()) + " mm/s: must be >= 0");
-    const auto negative = std::find_if(coefficients.begin(), coefficients.end(), [](const double mu) { return mu < 0.; });
-    if (negative != coefficients.end())
-      throw InputError("row " + std::to_string(negative - coefficients.begin() + 1) + ": coefficient " + number_text(*negative) +
-                       ": must be >= 0");
-    const auto largest   = std::max_element(coefficients.begin(), coefficients.end());
-    const bool exchanged = *largest > plausible && speeds.back() <= plausible;
-    if (*largest > largest_coefficient || exchanged)
-      throw InputError("row " + std::to_string(largest - coefficients.begin() + 1) + ": coefficient " + number_text(*largest) +
-                       (exchanged ? " with speeds of " + number_text(speeds.back()) + " mm/s at most" : "") +
-                       ": must be <= " + number_text(exchanged ? plausible : largest_coefficient) +
-                       "; the speed is the first column, mu the second: are they exchanged?");
-  }
-
-  FrictionValue TabulatedFriction::value(const double speed) const
-  {
-    return { interpolant->value(speed), interpolant->derivative(speed) };
-  }
-
-  double TabulatedFriction::fastest() const
-  {
-    return interpolant->fastest;
-  }
-
-  bool TabulatedFriction::falls() const
-  {
-    return interpolant->falls;
-  }
-
-  namespace
-  {
     FrictionValue evaluate(const CoulombFriction &law, const double /*speed*/)
     {
       return { law.coefficient, 0. };
@@ -99,9 +42,34 @@ namespace sprag
 
     FrictionValue evaluate(const TabulatedFriction &law, const double speed)
     {
-      return law.value(speed);
+      return { law.curve.value(speed), law.curve.derivative(speed) };
     }
   } // namespace
+
+  TabulatedFriction::TabulatedFriction(const std::vector<double> &speeds, const std::vector<double> &coefficients)
+      : curve(speeds, coefficients)
+      , fastest(speeds.back())
+  {
+    if (speeds.front() < 0.)
+      throw InputError("row 1: speed " + number_text(speeds.front()) + " mm/s: must be >= 0");
+    const auto negative = std::find_if(coefficients.begin(), coefficients.end(), [](const double mu) { return mu < 0.; });
+    if (negative != coefficients.end())
+      throw InputError("row " + std::to_string(negative - coefficients.begin() + 1) + ": coefficient " + number_text(*negative) +
+                       ": must be >= 0");
+    const auto largest   = std::max_element(coefficients.begin(), coefficients.end());
+    const bool exchanged = *largest > plausible && speeds.back() <= plausible;
+    if (*largest > largest_coefficient || exchanged)
+      throw InputError("row " + std::to_string(largest - coefficients.begin() + 1) + ": coefficient " + number_text(*largest) +
+                       (exchanged ? " with speeds of " + number_text(speeds.back()) + " mm/s at most" : "") +
+                       ": must be <= " + number_text(exchanged ? plausible : largest_coefficient) +
+                       "; the speed is the first column, mu the second: are they exchanged?");
+    double highest = 0.;
+    for (const double mu : coefficients)
+    {
+      highest = std::max(highest, mu);
+      falls   = falls || mu < highest - scatter * *largest;
+    }
+  }
 
   FrictionValue friction_coefficient(const FrictionLaw &law, const double speed)
   {
@@ -133,7 +101,7 @@ namespace sprag
       return evaluate(*stribeck, steepest).derivative < 0.;
     }
     if (const auto *const table = std::get_if<TabulatedFriction>(&law.law))
-      return table->falls();
+      return table->falls;
     return false;
   }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include <memory>
+#include "base/monotone_cubic.h"
+
 #include <string>
 #include <variant>
 #include <vector>
@@ -41,24 +42,15 @@ namespace sprag
   };
 
   /// mu over speed from a file, joined by a monotone cubic (PCHIP) and constant beyond its ends.
-  class TabulatedFriction
+  struct TabulatedFriction
   {
-  public:
     /// `speeds` [mm/s] start at >= 0 and increase; 0 <= `coefficients` <= 10; at least 4 rows. Throws InputError otherwise, and
     /// where it looks as if both were exchanged: no speed beyond 2 mm/s, but a coefficient.
-    TabulatedFriction(std::vector<double> speeds, std::vector<double> coefficients);
+    TabulatedFriction(const std::vector<double> &speeds, const std::vector<double> &coefficients);
 
-    FrictionValue value(double speed) const;
-
-    /// Returns true if mu falls from one row to a later one by more than 1 % of its largest value.
-    bool falls() const;
-
-    /// Returns the speed of the last row [mm/s].
-    double fastest() const;
-
-  private:
-    class Interpolant;
-    std::shared_ptr<const Interpolant> interpolant;
+    MonotoneCubic curve;
+    double fastest = 0.;    ///< speed of the last row [mm/s]
+    bool falls     = false; ///< whether mu falls from one row to a later one by more than 1 % of its largest value
   };
 
   /// Which speed mu depends on: the true material sliding speed, or the drive's (the paper's choice).

@@ -276,7 +276,7 @@ namespace sprag
         return;
       const Column column = scene.friction.speed == FrictionSpeed::drive ? Column::v : Column::v_rel;
       const Row *fastest  = find_largest_row(rows, [=](const Row &row) { return std::abs(row[column]); });
-      const double last   = table->fastest();
+      const double last   = table->fastest;
       // Speeds of a drive that is a table too have round-off.
       if (fastest == nullptr || std::abs((*fastest)[column]) <= (1. + 1e-6) * last)
         return;
