@@ -9,7 +9,6 @@
 #include "report/summary_lines.h"
 #include "scene/analysis_use.h"
 #include "scene/contact_reference.h"
-#include "scene/contact_width.h"
 #include "scene/held_slide.h"
 #include "scene/lever_shape.h"
 #include "scene/scene.h"

@@ -15,7 +15,6 @@
 #include "results/row_statistics.h"
 #include "scene/analysis_use.h"
 #include "scene/contact_reference.h"
-#include "scene/contact_width.h"
 #include "scene/lever_shape.h"
 #include "scene/scene.h"
 

@@ -10,7 +10,6 @@
 #include "program/recorder.h"
 #include "scene/analysis_use.h"
 #include "scene/contact_reference.h"
-#include "scene/contact_width.h"
 #include "scene/held_slide.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"

@@ -7,7 +7,6 @@
 #include "scene/analysis_use.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"
-#include "scene/contact_width.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"
 

@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "input/sections.h"
 #include "scene/across.h"
-#include "scene/contact_width.h"
+#include "scene/contact_reference.h"
 #include "scene/scene.h"
 
 namespace sprag

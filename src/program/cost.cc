@@ -11,7 +11,7 @@
 #include "program/recorder.h"
 #include "scene/across.h"
 #include "scene/analysis_use.h"
-#include "scene/contact_width.h"
+#include "scene/contact_reference.h"
 #include "scene/held_slide.h"
 #include "scene/lever_shape.h"
 #include "scene/scene.h"

@@ -7,7 +7,6 @@
 #include "results/row_statistics.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"
-#include "scene/contact_width.h"
 #include "scene/scene.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 #include "scene/contact_reference.h"
 
 #include "scene/closed_form.h"
-#include "scene/contact_width.h"
 #include "scene/device.h"
 
 #include <algorithm>
@@ -13,6 +12,33 @@ namespace sprag
 {
   namespace
   {
+    /// The layer under the contact, or the bare lever.
+    struct FaceMaterial
+    {
+      double E, nu, h; ///< [MPa, -, mm]
+    };
+
+    FaceMaterial face_material(const Device &device)
+    {
+      if (device.layer.thickness > 0.)
+        return { device.layer.young_modulus, device.layer.poisson_ratio, device.layer.thickness };
+      return { device.lever.young_modulus, device.lever.poisson_ratio, device.lever.depth };
+    }
+
+    // Shares of Mesh/Face size: of the shortest faces, as the width of a contact begins at none, and of the longest.
+    constexpr double shortest_share = 0.25;
+    constexpr double least_longest  = 0.5;
+
+    constexpr double room_behind  = 4.;  ///< shortest faces beyond the last place of the contact's centre
+    constexpr unsigned int places = 256; ///< of the drive that are looked at
+
+    double needed_length(const Device &device, const double x)
+    {
+      const double v = device.drive.peak_speed();
+      const double P = std::min(closed_form(device, x, v).P, closed_form(device, x, -v).P);
+      return estimated_contact_width(device, std::max(0., P)) / device.mesh.faces_in_contact;
+    }
+
     /// P of the closed form over the drive, both ways at peak speed, with s at the largest. It is infinite where the lever locks.
     void set_forces(const Device &device, ContactReference &result)
     {
@@ -40,13 +66,10 @@ namespace sprag
     /// too small at nu = 0.4. A bare lever is its own layer, and the cylinder counts as rigid.
     double face_stiffness(const Device &device, const double P)
     {
-      const bool has_layer = device.layer.thickness > 0.;
-      const double h       = has_layer ? device.layer.thickness : device.lever.depth;
-      const double E       = has_layer ? device.layer.young_modulus : device.lever.young_modulus;
-      const double nu      = has_layer ? device.layer.poisson_ratio : device.lever.poisson_ratio;
-      const bool is_short  = device.analysis.dimension == 3 && device.cylinder.length > 0.;
-      const double width   = is_short ? std::min(device.lever.width, device.cylinder.length) : device.lever.width;
-      const double slender = h / estimated_contact_width(device, P);
+      const auto [E, nu, h] = face_material(device);
+      const bool is_short   = device.analysis.dimension == 3 && device.cylinder.length > 0.;
+      const double width    = is_short ? std::min(device.lever.width, device.cylinder.length) : device.lever.width;
+      const double slender  = h / estimated_contact_width(device, P);
       return width * E / (1. - nu * nu) / std::min(slender, M_2_PI * std::log1p(2.426 * slender));
     }
 
@@ -58,18 +81,55 @@ namespace sprag
     }
   } // namespace
 
+  double estimated_contact_width(const Device &device, const double P)
+  {
+    const auto [E, nu, h] = face_material(device);
+    const double load     = P * device.geometry.cylinder_radius * (1. - nu * nu) / (device.lever.width * E);
+    const double hertz    = 4. * std::sqrt(load / M_PI);
+    return device.layer.thickness > 0. ? std::min(hertz, 2. * std::cbrt(1.5 * load * h)) : hertz;
+  }
+
+  std::optional<FaceGrading> face_grading(const Device &device)
+  {
+    const double size = device.mesh.face_size;
+    const double from = device.drive.minimum();
+    const double way  = device.drive.maximum() - from;
+    if (!(device.mesh.faces_in_contact > 0.) || !device.mesh.file.empty() || device.lever.outline != LeverOutline::bar)
+      return {};
+    const double longest  = std::min(size, needed_length(device, device.drive.maximum()));
+    const double shortest = std::max(shortest_share * size, needed_length(device, from));
+    if (longest < least_longest * size || shortest >= longest)
+      return {};
+    double x = from;
+    for (unsigned int i = 1; i <= places && needed_length(device, x) < longest; ++i)
+      x = from + way * i / places;
+    const double end = kinematics(device.geometry, from).s + room_behind * shortest;
+    return FaceGrading{ kinematics(device.geometry, x).s, end, longest, shortest };
+  }
+
+  double layer_pressure(const Device &device, const double P)
+  {
+    const double t       = device.layer.thickness;
+    const double nu      = device.layer.poisson_ratio;
+    const double modulus = device.layer.plane == PlaneState::stress
+                               ? device.layer.young_modulus / (1. - nu * nu)
+                               : device.layer.young_modulus * (1. - nu) / ((1. + nu) * (1. - 2. * nu));
+    if (t == 0.)
+      return 0.;
+    const double half_width_at_unit_pressure = std::sqrt(2. * device.geometry.cylinder_radius * t / modulus);
+    return std::pow(0.75 * P / (device.lever.width * half_width_at_unit_pressure), 2. / 3.);
+  }
+
   ContactReference contact_reference(const Device &device)
   {
     const auto &contact = device.contact;
-    const auto &layer   = device.layer;
     ContactReference result{};
     set_forces(device, result);
 
     result.stiffness   = is_meshed(device.analysis.model) ? face_stiffness(device, result.P) : law_stiffness(contact, result.P);
     const double omega = result.s * std::sqrt(result.stiffness / moment_of_inertia(device));
     result.relaxation  = 2. * contact.damping / omega;
-    const double nu    = layer.thickness > 0. ? layer.poisson_ratio : device.lever.poisson_ratio;
-    result.tangential  = contact.tangential_stiffness.value_or(result.stiffness / (2. * (1. + nu)));
+    result.tangential  = contact.tangential_stiffness.value_or(result.stiffness / (2. * (1. + face_material(device).nu)));
     return result;
   }
 

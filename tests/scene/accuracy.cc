@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "input/read.h"
 #include "scene/analysis_use.h"
-#include "scene/contact_width.h"
+#include "scene/contact_reference.h"
 
 #include "base/errors.h"
 #include "scene/scene.h"

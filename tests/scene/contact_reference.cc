@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/contact_reference.h"
 
-#include "scene/contact_width.h"
 #include "scene/scene.h"
 #include "scenes.h"
 

@@ -9,7 +9,7 @@
 #include "fe/mesh/mesh_look.h"
 #include "fe/mesh/solid_file.h"
 #include "scene/across.h"
-#include "scene/contact_width.h"
+#include "scene/contact_reference.h"
 #include "scene/device.h"
 #include "scene/lever_shape.h"
 
