@@ -16,78 +16,57 @@ namespace sprag
 {
   namespace
   {
-    /// Tells from the state at the same phase of each period of the base whether the motion repeats.
-    class SteadyState
+    /// State at an instant of each period of the base; all of the unit of `amplitude`, the largest displacement of the period
+    /// that ends with it.
+    struct Instant
     {
-    public:
-      /// Adds a state, both of the unit of `amplitude`, the largest displacement of the period that ends with it.
-      void add(double z, double rate_over_frequency, double amplitude);
-
-      /// Returns after how many periods, at most 8, the motion repeats so closely that the way left to the steady state is below
-      /// this share of the amplitude, at the last two instants; none where it does not. What is left follows from how fast
-      /// changes become smaller.
-      std::optional<unsigned int> periods(double tolerance) const;
-
-    private:
-      friend void serialise(Archive &archive, SteadyState &steady);
-
-      struct Instant
-      {
-        double z, rate, amplitude;
-      };
-
-      std::vector<Instant> instants;
-
-      double change(std::size_t instant, unsigned int periods) const;
-      unsigned int shortest(unsigned int repeating, double tolerance) const;
-      bool repeats(std::size_t instant, unsigned int periods, double tolerance) const;
+      double z, rate_over_frequency, amplitude;
     };
 
-    void SteadyState::add(const double z, const double rate_over_frequency, const double amplitude)
+    /// Tells from the states at the same phase of each period of the base whether the motion repeats.
+    struct SteadyState
     {
-      instants.push_back({ z, rate_over_frequency, amplitude });
-    }
+      const std::vector<Instant> &instants;
+      const double tolerance; ///< way left to the steady state, over the amplitude
 
-    double SteadyState::change(const std::size_t instant, const unsigned int periods) const
-    {
-      const auto &now = instants[instant], &before = instants[instant - periods];
-      return std::hypot(now.z - before.z, now.rate - before.rate);
-    }
+      double change(const std::size_t instant, const unsigned int periods) const
+      {
+        const auto &now = instants[instant], &before = instants[instant - periods];
+        return std::hypot(now.z - before.z, now.rate_over_frequency - before.rate_over_frequency);
+      }
 
-    bool SteadyState::repeats(const std::size_t instant, const unsigned int periods, const double tolerance) const
-    {
-      constexpr double round_off = 1e-13;
-      const double last = change(instant, periods), before = change(instant - periods, periods);
-      const double amplitude = instants[instant].amplitude;
-      if (last <= round_off * amplitude)
-        return true;
-      const double ratio = last / before;
-      return ratio < 1. && last * ratio / (1. - ratio) <= tolerance * amplitude && last <= 1e3 * tolerance * amplitude;
-    }
+      /// The way left follows from how fast changes become smaller.
+      bool repeats(const std::size_t instant, const unsigned int periods) const
+      {
+        constexpr double round_off = 1e-13;
+        const double last = change(instant, periods), before = change(instant - periods, periods);
+        const double amplitude = instants[instant].amplitude;
+        if (last <= round_off * amplitude)
+          return true;
+        const double ratio = last / before;
+        return ratio < 1. && last * ratio / (1. - ratio) <= tolerance * amplitude && last <= 1e3 * tolerance * amplitude;
+      }
 
-    /// A decay that turns seems to repeat after several periods first; close to the steady state all that is left is small.
-    unsigned int SteadyState::shortest(const unsigned int repeating, const double tolerance) const
-    {
-      const std::size_t last = instants.size() - 1;
-      for (unsigned int p = 1; p < repeating; ++p)
-        if (repeating % p == 0 && change(last, p) <= 4. * tolerance * instants[last].amplitude)
-          return p;
-      return repeating;
-    }
+      /// A decay that turns seems to repeat after several periods first; close to the steady state all that is left is small.
+      unsigned int shortest(const unsigned int repeating) const
+      {
+        const std::size_t last = instants.size() - 1;
+        for (unsigned int p = 1; p < repeating; ++p)
+          if (repeating % p == 0 && change(last, p) <= 4. * tolerance * instants[last].amplitude)
+            return p;
+        return repeating;
+      }
 
-    std::optional<unsigned int> SteadyState::periods(const double tolerance) const
-    {
-      constexpr unsigned int most = 8;
-      for (unsigned int p = 1; p <= most && 2 * p + 2 <= instants.size(); ++p)
-        if (repeats(instants.size() - 1, p, tolerance) && repeats(instants.size() - 2, p, tolerance))
-          return shortest(p, tolerance);
-      return {};
-    }
-
-    void serialise(Archive &archive, SteadyState &steady)
-    {
-      archive(steady.instants);
-    }
+      /// Returns after how many periods, at most 8, the motion repeats at the last two instants; none where it does not.
+      std::optional<unsigned int> periods() const
+      {
+        constexpr unsigned int most = 8;
+        for (unsigned int p = 1; p <= most && 2 * p + 2 <= instants.size(); ++p)
+          if (repeats(instants.size() - 1, p) && repeats(instants.size() - 2, p))
+            return shortest(p);
+        return {};
+      }
+    };
 
     /// Peaks, means and stops of one period of a harmonic base.
     struct Period
@@ -134,7 +113,7 @@ namespace sprag
       unsigned int periods_ended = 0;
       unsigned int period_stops  = 0;
       bool has_ended             = false;
-      SteadyState steady;
+      std::vector<Instant> instants; ///< at the ends of periods
       std::vector<Period> periods;   ///< the last
       std::vector<Section> sections; ///< that ended
       std::vector<double> last_turns;
@@ -145,8 +124,8 @@ namespace sprag
 
     void serialise(Archive &archive, SolverState &solver)
     {
-      auto &[rows, ended, stops, has_ended, steady, periods, sections, turns, square, energy, residual] = solver;
-      archive(rows, ended, stops, has_ended, steady, periods, sections, turns, square, energy, residual);
+      auto &[rows, ended, stops, has_ended, instants, periods, sections, turns, square, energy, residual] = solver;
+      archive(rows, ended, stops, has_ended, instants, periods, sections, turns, square, energy, residual);
     }
 
     /// Adds to the last ones, of which so many are kept.
@@ -333,11 +312,11 @@ namespace sprag
                          solver.period_stops },
                  8, solver.periods);
         solver.square += state.square;
-        solver.steady.add(state.z, state.rate / (2. * M_PI * settings.base_frequency), motion.largest_displacement());
+        solver.instants.push_back({ state.z, state.rate / (2. * M_PI * settings.base_frequency), motion.largest_displacement() });
         ++solver.periods_ended;
         solver.period_stops = 0;
         motion.reset_period();
-        const auto repeats = solver.steady.periods(settings.periodic_tolerance);
+        const auto repeats = SteadyState{ solver.instants, settings.periodic_tolerance }.periods();
         if (repeats && !found.is_steady)
           found.steady_from = state.time;
         found.is_steady  = repeats.has_value();
