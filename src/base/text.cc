@@ -50,6 +50,15 @@ namespace sprag
     return parts;
   }
 
+  std::vector<std::string> split_all(const std::string &text, const char delimiter)
+  {
+    std::vector<std::string> parts;
+    boost::algorithm::split(parts, text, [delimiter](const char c) { return c == delimiter; });
+    for (auto &part : parts)
+      part = trim(part);
+    return parts;
+  }
+
   std::string single_spaced(const std::string &text)
   {
     std::istringstream words(text);

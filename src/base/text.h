@@ -14,6 +14,9 @@ namespace sprag
   /// Returns the parts between the delimiters, without blanks at their ends. Behind a delimiter at the end there is no part.
   std::vector<std::string> split(const std::string &text, char delimiter);
 
+  /// Returns all parts between the delimiters, empty ones included, without white space at their ends.
+  std::vector<std::string> split_all(const std::string &text, char delimiter);
+
   /// Returns the text with single blanks between its words and none at its ends.
   std::string single_spaced(const std::string &text);
 

@@ -17,18 +17,6 @@ namespace sprag
   {
     const std::string dots = "...";
 
-    std::vector<std::string> split_parts(const std::string &text, const char separator)
-    {
-      std::vector<std::string> parts;
-      std::size_t begin = 0;
-      for (std::size_t end = 0; end != std::string::npos; begin = end + 1)
-      {
-        end = text.find(separator, begin);
-        parts.push_back(trim(text.substr(begin, end == std::string::npos ? end : end - begin)));
-      }
-      return parts;
-    }
-
     bool has_number(const Rule &rule)
     {
       return rule.kind == Rule::Kind::number || rule.kind == Rule::Kind::integer || rule.kind == Rule::Kind::number_or_auto;
@@ -97,7 +85,7 @@ namespace sprag
       void read(const std::string &text)
       {
         std::set<std::string> seen;
-        for (const auto &part : split_parts(text, ';'))
+        for (const auto &part : split_all(text, ';'))
         {
           const auto equals = part.find('=');
           if (part.empty())
@@ -160,7 +148,7 @@ namespace sprag
       void take(const Parameter &parameter, const std::string &text)
       {
         VariedParameter varied{ full_name(parameter), {} };
-        for (const auto &item : lists ? split_parts(text, ',') : std::vector<std::string>{ text })
+        for (const auto &item : lists ? split_all(text, ',') : std::vector<std::string>{ text })
           if (lists && has_number(parameter.rule) && item.find(dots) != std::string::npos)
             take_range(item, parameter, varied);
           else

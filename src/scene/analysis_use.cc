@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/analysis_use.h"
 
+#include "base/text.h"
 #include "scene/scene.h"
-
-#include <boost/algorithm/string.hpp>
 
 #include <algorithm>
 #include <tuple>
@@ -83,13 +82,7 @@ namespace sprag
   std::vector<std::string> quantities_meant(const std::string &text, const AnalysisType type)
   {
     if (text != "auto")
-    {
-      std::vector<std::string> words;
-      boost::split(words, text, [](const char c) { return c == ','; });
-      for (auto &word : words)
-        boost::trim(word);
-      return words;
-    }
+      return split_all(text, ',');
     if (type == AnalysisType::quasi_static)
       return { "P", "Q", "loop_area" };
     if (type == AnalysisType::transient)
