@@ -215,25 +215,18 @@ namespace sprag
     std::vector<MeasuredForce> forces;
     if (!all)
       forces = read_list(settings.forces, force_words(), "Identification/Forces", "force", report);
-    if (settings.table.empty())
-      return report(table_parameter, "must name a file");
-    if (!all && forces.empty())
-      return;
-    try
+    const auto read = [&]
     {
+      if (!all && forces.empty())
+        return;
       const StrokeReader reader(settings.table);
       auto stroke = reader.stroke(forces, all);
       need_usable(stroke);
       settings.measured       = std::move(stroke);
       unused[table_parameter] = reader.unused();
-    }
-    catch (const InputError &error)
-    {
-      for (const auto &message : error.messages)
-        report(table_parameter, message);
-      return;
-    }
-    if (settings.measured.time.empty() && contains(settings.sought, Unknown::lag))
-      report(unknowns_parameter, "lag needs a column time in Identification/Table");
+      if (settings.measured.time.empty() && contains(settings.sought, Unknown::lag))
+        report(unknowns_parameter, "lag needs a column time in Identification/Table");
+    };
+    read_file(table_parameter, settings.table, report, read);
   }
 } // namespace sprag

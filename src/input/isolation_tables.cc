@@ -131,30 +131,30 @@ namespace sprag
       unused[loop_parameter] = table.unused;
       need_dissipation(settings.loop);
     }
-
-    void read_file(IsolationSettings &settings, const std::string &parameter, const std::string &file,
-                   void (*read)(IsolationSettings &, UnusedColumns &), UnusedColumns &unused, const ReportMistake &report)
-    {
-      if (file.empty())
-        return report(parameter, "must name a file");
-      try
-      {
-        read(settings, unused);
-      }
-      catch (const InputError &error)
-      {
-        for (const auto &message : error.messages)
-          report(parameter, message);
-      }
-    }
   } // namespace
+
+  void read_file(const std::string &parameter, const std::string &file, const ReportMistake &report,
+                 const std::function<void()> &read)
+  {
+    if (file.empty())
+      return report(parameter, "must name a file");
+    try
+    {
+      read();
+    }
+    catch (const InputError &error)
+    {
+      for (const auto &message : error.messages)
+        report(parameter, message);
+    }
+  }
 
   void read_isolation_tables(IsolationSettings &settings, UnusedColumns &unused, const ReportMistake &report)
   {
     if (settings.damper == DamperType::loop)
-      read_file(settings, loop_parameter, settings.loop_file, read_loop, unused, report);
+      read_file(loop_parameter, settings.loop_file, report, [&] { read_loop(settings, unused); });
     if (settings.base == BaseMotionType::record ||
         (settings.base == BaseMotionType::random && settings.spectrum == BaseSpectrum::table))
-      read_file(settings, base_parameter, settings.base_file, read_base, unused, report);
+      read_file(base_parameter, settings.base_file, report, [&] { read_base(settings, unused); });
   }
 } // namespace sprag

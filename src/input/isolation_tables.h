@@ -13,6 +13,10 @@ namespace sprag
   /// Takes the full name of a parameter and the rule that it breaks.
   using ReportMistake = std::function<void(const std::string &parameter, const std::string &rule)>;
 
+  /// Reads a file by `read`; reports against the parameter that names it what is wrong with it, or that there is none.
+  void read_file(const std::string &parameter, const std::string &file, const ReportMistake &report,
+                 const std::function<void()> &read);
+
   /// Unused columns of tables, by the parameter that names the table.
   using UnusedColumns = std::map<std::string, std::vector<std::string>>;
 

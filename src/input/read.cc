@@ -102,7 +102,7 @@ namespace sprag
         store();
         make_drive();
         make_friction();
-        read_analysis_texts(input.scene, parameters, [this](const auto &name, const auto &rule) { report(name, rule); });
+        read_analysis_texts(input.scene, parameters, reporter());
         check_unused();
         check();
         check_ranges();
@@ -441,19 +441,13 @@ namespace sprag
       void use_table(const std::string &parameter, const std::string &file, const TableColumn &first, const TableColumn &second,
                      const std::function<void(const std::vector<double> &, const std::vector<double> &)> &use)
       {
-        if (file.empty())
-          return report(parameter, "must name a file");
-        try
-        {
-          const auto table = read_two_columns(file, first.names, second.names);
-          use(values_in(first.unit, table.columns[0]), values_in(second.unit, table.columns[1]));
-          input.scene.unused_columns[parameter] = table.unused;
-        }
-        catch (const InputError &error)
-        {
-          for (const auto &message : error.messages)
-            report(parameter, message);
-        }
+        read_file(parameter, file, reporter(),
+                  [&]
+                  {
+                    const auto table = read_two_columns(file, first.names, second.names);
+                    use(values_in(first.unit, table.columns[0]), values_in(second.unit, table.columns[1]));
+                    input.scene.unused_columns[parameter] = table.unused;
+                  });
       }
 
       /// The printed parameters hold absolute paths, so that they can be read back from anywhere.
@@ -469,6 +463,11 @@ namespace sprag
       {
         add_mistake(settings, parameters, parameter, rule);
         settings.doubtful.insert(parameter);
+      }
+
+      ReportMistake reporter()
+      {
+        return [this](const auto &name, const auto &rule) { report(name, rule); };
       }
 
       bool doubtful(const std::string &parameter) const
