@@ -137,21 +137,17 @@ namespace sprag
         items.erase(items.begin());
     }
 
-    class Follower
+    struct Follower
     {
-    public:
-      Follower(const Scene &scene_, IsolatedTable &table, IsolationFindings &findings_, const RecordTable &recorder,
-               const TableKeeper *const table_keeper)
-          : scene(scene_)
-          , settings(scene.isolation)
-          , found(findings_)
-          , record(recorder)
-          , keeper(table_keeper)
-          , motion(table)
-          , is_harmonic(settings.base == BaseMotionType::harmonic)
-          , between_rows(output_step(settings))
-      {
-      }
+      const Scene &scene;
+      IsolatedTable &motion;
+      IsolationFindings &found;
+      const RecordTable &record;
+      const TableKeeper *const keeper;
+      const IsolationSettings &settings = scene.isolation;
+      const bool is_harmonic            = settings.base == BaseMotionType::harmonic;
+      const double between_rows         = output_step(settings);
+      SolverState solver                = {};
 
       void follow()
       {
@@ -215,17 +211,6 @@ namespace sprag
                               " of the largest energy open, more than Analysis/Maximum energy residual = " + rounded_text(most) +
                               ". Try a smaller Isolation/Tolerance");
       }
-
-    private:
-      const Scene &scene;
-      const IsolationSettings &settings;
-      IsolationFindings &found;
-      const RecordTable &record;
-      const TableKeeper *const keeper;
-      IsolatedTable &motion;
-      const bool is_harmonic;
-      const double between_rows;
-      SolverState solver;
 
       double period_end() const
       {
@@ -365,7 +350,7 @@ namespace sprag
   void run_isolation(const Scene &scene, IsolatedTable &table, IsolationFindings &findings, const RecordTable &record,
                      const TableKeeper *const keeper)
   {
-    Follower follower(scene, table, findings, record, keeper);
+    Follower follower{ scene, table, findings, record, keeper };
     try
     {
       follower.follow();

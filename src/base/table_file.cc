@@ -138,16 +138,18 @@ namespace sprag
     }
 
     /// Reads a text line by line.
-    class TextReader
+    struct TextReader
     {
-    public:
-      /// A cell may be empty where the columns must be `named`.
-      TextReader(const std::string &path, const Choose &choice, const bool must_be_named)
-          : file(path)
-          , choose(choice)
-          , named(must_be_named)
-      {
-      }
+      const std::string file;
+      const Choose &choose;
+      const bool named; ///< whether the columns must be; a cell may be empty then
+      unsigned int number              = 0;
+      bool has_rows                    = false;
+      bool decimal_commas              = false;
+      std::vector<NamedColumn> columns = {};
+      std::vector<char> is_read        = {}; ///< of each column
+      Chosen chosen                    = {};
+      Names mistakes                   = {};
 
       std::pair<std::vector<NamedColumn>, Chosen> read()
       {
@@ -175,18 +177,6 @@ namespace sprag
           throw InputError(mistakes);
         return { std::move(columns), chosen };
       }
-
-    private:
-      const std::string file;
-      const Choose &choose;
-      const bool named;
-      unsigned int number = 0;
-      bool has_rows       = false;
-      bool decimal_commas = false;
-      std::vector<NamedColumn> columns;
-      std::vector<char> is_read; ///< of each column
-      Chosen chosen;
-      Names mistakes;
 
       void mistake(const std::string &rule)
       {
@@ -504,7 +494,7 @@ namespace sprag
 
     NamedColumns read_table(const std::string &file, const Choose &choose, const bool named)
     {
-      auto [columns, chosen] = is_hdf5(file) ? read_hdf5(file, choose) : TextReader(file, choose, named).read();
+      auto [columns, chosen] = is_hdf5(file) ? read_hdf5(file, choose) : TextReader{ file, choose, named }.read();
       NamedColumns table;
       for (std::size_t i = 0; i < columns.size(); ++i)
       {
