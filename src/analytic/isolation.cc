@@ -367,7 +367,8 @@ namespace sprag
   void run_isolation(const Scene &scene, IsolationFindings &findings, const RecordTable &record)
   {
     const auto &settings = scene.isolation;
-    TableMotion table(isolation_system(scene), settings.initial_displacement, settings.initial_velocity, settings.tolerance);
-    run_isolation(scene, table, findings, record);
+    const auto table =
+        make_table_motion(isolation_system(scene), settings.initial_displacement, settings.initial_velocity, settings.tolerance);
+    run_isolation(scene, *table, findings, record);
   }
 } // namespace sprag

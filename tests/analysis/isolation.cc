@@ -130,8 +130,9 @@ TEST(Isolation, LinearFrictionDissipatesTwiceTheSlopeTimesTheSquareOfTheAmplitud
     scene.isolation.friction_slope = gamma * scene.isolation.stiffness;
     scene.isolation.base_amplitude = amplitude;
     const double period            = 1. / scene.isolation.base_frequency;
-    TableMotion motion(isolation_system(scene), 0., 0., 1e-13);
-    const auto go_to = [&](const double until)
+    const auto table               = make_table_motion(isolation_system(scene), 0., 0., 1e-13);
+    auto &motion                   = *table;
+    const auto go_to               = [&](const double until)
     {
       while (motion.state().time < until)
         motion.advance(until);
