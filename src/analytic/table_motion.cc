@@ -410,10 +410,6 @@ namespace sprag
     return { scene.isolation.mass, scene.isolation.stiffness, make_damper(scene), base_motion(scene.isolation) };
   }
 
-  namespace
-  {
-  }
-
   std::unique_ptr<IsolatedTable> make_table_motion(IsolationSystem system, const double z, const double rate,
                                                    const double tolerance)
   {
