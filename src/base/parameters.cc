@@ -2,7 +2,6 @@
 #include "base/parameters.h"
 
 #include "base/errors.h"
-#include "base/escaped.h"
 #include "base/system/file_content.h"
 #include "base/text.h"
 #include "base/units.h"
@@ -13,6 +12,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iomanip>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -99,105 +99,64 @@ namespace sprag
         return std::nullopt;
       return "must be " + description(rule) + did_you_mean(nearest(value, rule.choices));
     }
-  } // namespace
 
-  bool depends_on_others(const Rule &rule)
-  {
-    return boost::starts_with(rule.unit, "of ") || boost::ends_with(rule.unit, "^n");
-  }
+    constexpr std::size_t comment_width = 74;
 
-  Interval any_number()
-  {
-    return {};
-  }
-
-  Interval above(const double low)
-  {
-    return { low, infinity, false, true };
-  }
-
-  Interval at_least(const double low)
-  {
-    return { low, infinity, true, true };
-  }
-
-  Interval between(const double low, const double high)
-  {
-    return { low, high, false, false };
-  }
-
-  std::string description(const Rule &rule)
-  {
-    switch (rule.kind)
+    /// Breaks a text between words, where there is room for them.
+    std::vector<std::string> split_lines(const std::string &text)
     {
-    case Rule::Kind::number:
-      return "a number" + description(rule.interval);
-    case Rule::Kind::integer:
-      return "an integer" + description(rule.interval);
-    case Rule::Kind::number_or_auto:
-      return "auto or a number" + description(rule.interval);
-    case Rule::Kind::numbers:
-      return "numbers" + description(rule.interval) + ", separated by commas";
-    case Rule::Kind::choice:
-      return "one of " + boost::algorithm::join(rule.choices, " | ");
-    case Rule::Kind::file:
-      return "a file";
-    case Rule::Kind::text:
-      break;
+      std::vector<std::string> lines;
+      std::istringstream words(text);
+      for (std::string word; words >> word;)
+        if (!lines.empty() && lines.back().size() + 1 + word.size() <= comment_width)
+          lines.back() += " " + word;
+        else
+          lines.push_back(word);
+      return lines;
     }
-    return "a text";
-  }
 
-  std::optional<std::string> violation(const Rule &rule, const std::string &value)
-  {
-    switch (rule.kind)
+    /// An entry as it is printed.
+    struct Entry
     {
-    case Rule::Kind::number_or_auto:
-      return value == "auto" ? std::nullopt : number_violation(rule, value);
-    case Rule::Kind::number:
-    case Rule::Kind::integer:
-      return number_violation(rule, value);
-    case Rule::Kind::numbers:
-      return list_violation(rule, value);
-    case Rule::Kind::choice:
-      return choice_violation(rule, value);
-    case Rule::Kind::text:
-    case Rule::Kind::file:
-      break;
-    }
-    return std::nullopt;
-  }
+      const Parameter &parameter;
+      std::string value;
+      std::string written; ///< with a unit; empty where it had none
+    };
 
-  std::string kept_value(const Rule &rule, const std::string &value)
-  {
-    const bool is_number =
-        rule.kind == Rule::Kind::number || rule.kind == Rule::Kind::integer || rule.kind == Rule::Kind::number_or_auto;
-    const auto number = leading_number(value);
-    if (is_number && depends_on_others(rule) && number && begins_as_unit(number->rest) && !with_decimal_point(value))
-      return value;
-    std::string kept = is_number ? without_unit(rule, value) : value;
-    if (rule.kind == Rule::Kind::numbers)
+    template <class Length>
+    int longest(const std::vector<Entry> &entries, const Length &length)
     {
-      std::vector<std::string> specified = split(value, ','), parts;
-      for (const auto &part : specified)
-        parts.push_back(without_unit(rule, part));
-      kept = parts == specified ? value : boost::algorithm::join(parts, ", ");
+      std::size_t result = 0;
+      for (const auto &entry : entries)
+        result = std::max(result, length(entry));
+      return static_cast<int>(result);
     }
-    if (const auto broken = violation(rule, kept))
-      throw InputError(*broken);
-    return kept;
-  }
 
-  std::vector<double> parse_numbers(const std::string &value)
-  {
-    std::vector<double> numbers;
-    for (const auto &part : split(value, ','))
-      numbers.push_back(leading_number(part)->value);
-    return numbers;
-  }
+    void print(std::ostream &text, const std::string &section, const std::vector<Entry> &entries)
+    {
+      const int name  = longest(entries, [](const Entry &entry) { return entry.parameter.name.size(); });
+      const int value = longest(entries, [](const Entry &entry) { return entry.value.size(); });
+      text << "subsection " << section << '\n' << std::left;
+      for (const auto &entry : entries)
+      {
+        const Parameter &parameter = entry.parameter;
+        if (&entry != &entries.front())
+          text << '\n';
+        for (const auto &line : split_lines(documentation(parameter)))
+          text << "  # " << line << '\n';
+        text << "  set " << std::setw(name) << parameter.name << " = ";
+        const std::string by_default = escaped(parameter.default_value);
+        const std::string written    = entry.written.empty() ? "" : "given as " + escaped(entry.written);
+        const std::string usual      = entry.value == by_default ? "" : "default: " + by_default;
+        if (written.empty() && usual.empty())
+          text << entry.value << '\n';
+        else
+          text << std::setw(value) << entry.value << " # " << written << (written.empty() || usual.empty() ? "" : "; ") << usual
+               << '\n';
+      }
+      text << "end\n\n\n";
+    }
 
-  namespace
-  {
     /// A line of the file, continued ones joined, without its comment.
     struct Statement
     {
@@ -419,6 +378,81 @@ namespace sprag
     };
   } // namespace
 
+  bool depends_on_others(const Rule &rule)
+  {
+    return boost::starts_with(rule.unit, "of ") || boost::ends_with(rule.unit, "^n");
+  }
+
+  std::string description(const Rule &rule)
+  {
+    switch (rule.kind)
+    {
+    case Rule::Kind::number:
+      return "a number" + description(rule.interval);
+    case Rule::Kind::integer:
+      return "an integer" + description(rule.interval);
+    case Rule::Kind::number_or_auto:
+      return "auto or a number" + description(rule.interval);
+    case Rule::Kind::numbers:
+      return "numbers" + description(rule.interval) + ", separated by commas";
+    case Rule::Kind::choice:
+      return "one of " + boost::algorithm::join(rule.choices, " | ");
+    case Rule::Kind::file:
+      return "a file";
+    case Rule::Kind::text:
+      break;
+    }
+    return "a text";
+  }
+
+  std::optional<std::string> violation(const Rule &rule, const std::string &value)
+  {
+    switch (rule.kind)
+    {
+    case Rule::Kind::number_or_auto:
+      return value == "auto" ? std::nullopt : number_violation(rule, value);
+    case Rule::Kind::number:
+    case Rule::Kind::integer:
+      return number_violation(rule, value);
+    case Rule::Kind::numbers:
+      return list_violation(rule, value);
+    case Rule::Kind::choice:
+      return choice_violation(rule, value);
+    case Rule::Kind::text:
+    case Rule::Kind::file:
+      break;
+    }
+    return std::nullopt;
+  }
+
+  std::string kept_value(const Rule &rule, const std::string &value)
+  {
+    const bool is_number =
+        rule.kind == Rule::Kind::number || rule.kind == Rule::Kind::integer || rule.kind == Rule::Kind::number_or_auto;
+    const auto number = leading_number(value);
+    if (is_number && depends_on_others(rule) && number && begins_as_unit(number->rest) && !with_decimal_point(value))
+      return value;
+    std::string kept = is_number ? without_unit(rule, value) : value;
+    if (rule.kind == Rule::Kind::numbers)
+    {
+      std::vector<std::string> specified = split(value, ','), parts;
+      for (const auto &part : specified)
+        parts.push_back(without_unit(rule, part));
+      kept = parts == specified ? value : boost::algorithm::join(parts, ", ");
+    }
+    if (const auto broken = violation(rule, kept))
+      throw InputError(*broken);
+    return kept;
+  }
+
+  std::vector<double> parse_numbers(const std::string &value)
+  {
+    std::vector<double> numbers;
+    for (const auto &part : split(value, ','))
+      numbers.push_back(leading_number(part)->value);
+    return numbers;
+  }
+
   std::string full_name(const Parameter &parameter)
   {
     return parameter.section + "/" + parameter.name;
@@ -470,5 +504,27 @@ namespace sprag
         specified == settings.specified.end() ? Setting{ settings.file, parameter->default_value } : specified->second;
     const auto &value = setting.written.empty() ? setting.value : setting.written;
     settings.mistakes.push_back(setting.place + ": " + name + " = " + value + ": " + rule);
+  }
+
+  std::string parameters_text(const std::vector<Parameter> &declared, const ParameterValues &specified,
+                              const ParameterValues &written)
+  {
+    std::vector<std::string> sections;
+    std::map<std::string, std::vector<Entry>> entries;
+    for (const auto &parameter : declared)
+    {
+      const auto value = specified.find(full_name(parameter));
+      const auto text  = written.find(full_name(parameter));
+      if (entries.count(parameter.section) == 0)
+        sections.push_back(parameter.section);
+      entries[parameter.section].push_back({ parameter,
+                                             escaped(value == specified.end() ? parameter.default_value : value->second),
+                                             text == written.end() ? "" : text->second });
+    }
+    std::ostringstream text;
+    text << "# Listing of Parameters\n# ---------------------\n";
+    for (const auto &section : sections)
+      print(text, section, entries.at(section));
+    return text.str();
   }
 } // namespace sprag

@@ -20,11 +20,26 @@ namespace sprag
     bool has_high = true;
   };
 
-  Interval any_number();
-  Interval above(double low);
-  Interval at_least(double low);
+  inline Interval any_number()
+  {
+    return {};
+  }
+
+  inline Interval above(const double low)
+  {
+    return { low, std::numeric_limits<double>::infinity(), false, true };
+  }
+
+  inline Interval at_least(const double low)
+  {
+    return { low, std::numeric_limits<double>::infinity(), true, true };
+  }
+
   /// Returns an interval to which neither bound belongs.
-  Interval between(double low, double high);
+  inline Interval between(const double low, const double high)
+  {
+    return { low, high, false, false };
+  }
 
   /// A rule that the text of a parameter's value must keep.
   struct Rule

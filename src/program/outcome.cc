@@ -2,8 +2,8 @@
 #include "program/outcome.h"
 
 #include "base/errors.h"
-#include "base/escaped.h"
 #include "base/system/coloured.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "input/read.h"
 #include "program/run_options.h"
