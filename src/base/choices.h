@@ -13,6 +13,16 @@ namespace sprag
   template <class T>
   using Choices = std::vector<std::pair<std::string, T>>;
 
+  /// Returns all words.
+  template <class T>
+  std::vector<std::string> words_in(const Choices<T> &choices)
+  {
+    std::vector<std::string> words;
+    for (const auto &choice : choices)
+      words.push_back(choice.first);
+    return words;
+  }
+
   /// Returns the word for a value; throws std::out_of_range where it has none.
   template <class T>
   std::string word_for(const Choices<T> &choices, const T &value)

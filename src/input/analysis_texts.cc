@@ -30,6 +30,10 @@ namespace sprag
       return is_number && (free_sections.count(parameter.section) > 0 || full_name(parameter) == free_friction);
     }
 
+    const Choices<CheckModel> check_model_words = { { "table", CheckModel::table },
+                                                    { "beam", CheckModel::beam },
+                                                    { "condensed", CheckModel::condensed } };
+
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
     /// Reads all texts; a mistake is reported against the parameter that is being read.
@@ -188,33 +192,24 @@ namespace sprag
 
       void read_models()
       {
-        const std::vector<std::pair<std::string, CheckModel>> words = { { "table", CheckModel::table },
-                                                                        { "beam", CheckModel::beam },
-                                                                        { "condensed", CheckModel::condensed } };
-        std::vector<std::string> names                              = { "none", "table", "beam", "condensed" };
-        const auto listed                                           = split(settings.checks, ',');
+        const auto listed = split(settings.checks, ',');
         if (listed == std::vector<std::string>{ "none" })
           return;
-        for (const auto &[word, check_model] : words)
+        const auto names = words_in(check_model_words);
+        for (const auto &[word, check_model] : check_model_words)
           if (std::find(listed.begin(), listed.end(), word) != listed.end())
             settings.check_models.push_back(check_model);
         for (const auto &word : listed)
-          if (word == "none" || std::find(names.begin(), names.end(), word) == names.end())
-            mistake("'" + word + "' is no judge beside others" + did_you_mean(nearest(word, { names.begin() + 1, names.end() })));
+          if (std::find(names.begin(), names.end(), word) == names.end())
+            mistake("'" + word + "' is no judge beside others" + did_you_mean(nearest(word, names)));
       }
 
       void check_models() const
       {
         const auto asks = [&](const DesignQuantity quantity)
-        {
-          const auto is_it = [&](const auto &asked) { return asked.term.quantity == quantity; };
-          return std::any_of(settings.demanded.begin(), settings.demanded.end(), is_it) ||
-                 std::any_of(settings.aims.begin(), settings.aims.end(), is_it);
-        };
-        const auto has = [&](const CheckModel check_model) {
-          return std::find(settings.check_models.begin(), settings.check_models.end(), check_model) !=
-                 settings.check_models.end();
-        };
+        { return asks_for(settings, [&](const DesignQuantity asked) { return asked == quantity; }); };
+        const auto &models = settings.check_models;
+        const auto has = [&](const CheckModel model) { return std::find(models.begin(), models.end(), model) != models.end(); };
         for (const auto &aim : settings.aims)
           if (aim.term.quantity == DesignQuantity::growth_rate)
             report(&aim == &settings.aims.front() ? "Design/Aim" : "Design/Second aim",

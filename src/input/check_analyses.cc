@@ -71,23 +71,12 @@ namespace sprag
                  "must have densities between Lowest frequency and Highest frequency");
     }
 
-    bool asks_for(const DesignSettings &design, bool (*is_meant)(DesignQuantity))
-    {
-      const auto is_it = [&](const auto &asked) { return is_meant(asked.term.quantity); };
-      return std::any_of(design.demanded.begin(), design.demanded.end(), is_it) ||
-             std::any_of(design.aims.begin(), design.aims.end(), is_it);
-    }
-
-    bool is_offset(const DesignQuantity quantity)
-    {
-      return quantity == DesignQuantity::residual_offset;
-    }
-
     void table(const Scene &scene, Rules &rules)
     {
       const auto &isolation = scene.isolation;
       rules.need(isolation.damper == DamperType::lever, "Isolation/Damper", { "Analysis/Type", "Design/Demands", "Design/Aim" },
                  "must be lever where something of the table is asked for: its levers are designed");
+      const auto is_offset = [](const DesignQuantity quantity) { return quantity == DesignQuantity::residual_offset; };
       rules.need(!asks_for(scene.design, is_offset) || isolation.base != BaseMotionType::none ||
                      isolation.initial_displacement != 0. || isolation.initial_velocity != 0.,
                  "Isolation/Initial displacement", { "Analysis/Type", "Isolation/Base motion", "Isolation/Initial velocity" },

@@ -25,15 +25,6 @@ namespace sprag
                                                      Unknown::friction_table, Unknown::friction_factor };
 
     template <class T>
-    Names to_words(const Choices<T> &choices)
-    {
-      Names result;
-      for (const auto &choice : choices)
-        result.push_back(choice.first);
-      return result;
-    }
-
-    template <class T>
     bool contains(const std::vector<T> &all, const T &one)
     {
       return std::find(all.begin(), all.end(), one) != all.end();
@@ -45,7 +36,7 @@ namespace sprag
                              const std::string &what, const ReportMistake &report)
     {
       std::vector<T> result;
-      const Names words = to_words(choices);
+      const Names words = words_in(choices);
       for (const auto &item : split(text, ','))
       {
         const auto word = single_spaced(item);

@@ -75,11 +75,7 @@ namespace sprag
     template <typename T>
     void choice(const std::string &entry, T &value, const Choices<T> &choices, const std::string &meaning)
     {
-      Rule rule;
-      rule.kind = Rule::Kind::choice;
-      for (const auto &[word, meant] : choices)
-        rule.choices.push_back(word);
-      add(entry, word_for(choices, value), rule, meaning,
+      add(entry, word_for(choices, value), { Rule::Kind::choice, {}, "", words_in(choices) }, meaning,
           [&value, choices](const auto &text) { value = value_for(choices, text); });
     }
 

@@ -3,6 +3,7 @@
 
 #include "scene/design.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,15 @@ namespace sprag
   const DesignQuantityInfo &design_quantity_info(DesignQuantity quantity);
 
   std::optional<DesignQuantity> find_design_quantity(const std::string &name);
+
+  /// Returns whether a design demands or aims at a quantity that `is_meant` accepts.
+  template <class Condition>
+  bool asks_for(const DesignSettings &design, const Condition &is_meant)
+  {
+    const auto is_it = [&](const auto &asked) { return is_meant(asked.term.quantity); };
+    return std::any_of(design.demanded.begin(), design.demanded.end(), is_it) ||
+           std::any_of(design.aims.begin(), design.aims.end(), is_it);
+  }
 
   /// Returns whether a quantity is of the table on its levers, not of a lever alone.
   bool is_table_quantity(DesignQuantity quantity);
