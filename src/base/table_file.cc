@@ -104,15 +104,9 @@ namespace sprag
       return lower(cell) == "nan" || leading_number(cell) || lower(cell) == "inf" || lower(cell) == "-inf";
     }
 
-    std::optional<double> number_in(const std::string &cell)
-    {
-      const auto number = leading_number(cell);
-      return number && number->rest.empty() ? std::make_optional(number->value) : std::nullopt;
-    }
-
     bool are_numbers(const Names &cells)
     {
-      return std::all_of(cells.begin(), cells.end(), [](const auto &cell) { return number_in(cell).has_value(); });
+      return std::all_of(cells.begin(), cells.end(), [](const auto &cell) { return number_alone(cell).has_value(); });
     }
 
     /// "Q [N]", "Q (N)" or "Q/N"
@@ -225,7 +219,7 @@ namespace sprag
         {
           if (is_read[i] == 0)
             continue;
-          const auto value = number_in(cells[i]);
+          const auto value = number_alone(cells[i]);
           if (!value && !(named && is_missing(cells[i])))
             return tell_cell(cells[i], line);
           columns[i].values.push_back(value.value_or(missing));

@@ -118,6 +118,12 @@ namespace sprag
     return LeadingNumber{ value, trim(std::string(result.ptr, end)) };
   }
 
+  std::optional<double> number_alone(const std::string &text)
+  {
+    const auto number = leading_number(text);
+    return number && number->rest.empty() ? std::make_optional(number->value) : std::nullopt;
+  }
+
   std::optional<std::string> with_decimal_point(const std::string &text)
   {
     const auto whole   = leading_number(text);

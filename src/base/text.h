@@ -51,6 +51,9 @@ namespace sprag
   /// Reads the number that a text begins with; returns none where it does not begin with a finite decimal number.
   std::optional<LeadingNumber> leading_number(const std::string &text);
 
+  /// Reads a text that is a finite decimal number and nothing else; returns none for another.
+  std::optional<double> number_alone(const std::string &text);
+
   /// Returns the number that a text begins with, written with a decimal point, where the text has a comma instead; none
   /// otherwise.
   std::optional<std::string> with_decimal_point(const std::string &text);

@@ -29,12 +29,6 @@ namespace sprag
       return number_text(leading_number(formatted("%.*g", digits, value))->value);
     }
 
-    std::optional<double> number_alone(const std::string &text)
-    {
-      const auto number = leading_number(text);
-      return number && number->rest.empty() ? std::make_optional(number->value) : std::nullopt;
-    }
-
     /// A number alone or with a unit, in that of the rule; none where the text is another.
     std::optional<double> number_in_unit(const Rule &rule, const std::string &text)
     {

@@ -106,12 +106,6 @@ namespace sprag
     return sliding_friction(device.friction, v, sliding_speed(device.geometry, x, v));
   }
 
-  ClosedFormState closed_form(const Geometry &geometry, const FrictionLaw &friction, const double moment, const double x,
-                              const double v)
-  {
-    return closed_form(geometry, friction, moment, kinematics(geometry, x), v);
-  }
-
   ClosedFormState closed_form(const Geometry &geometry, const FrictionLaw &friction, const double moment,
                               const Kinematics &contact, const double v)
   {
@@ -128,8 +122,9 @@ namespace sprag
 
   ClosedFormState closed_form(const Device &device, const double x, const double v)
   {
-    const double turn = kinematics(device.geometry, x).theta - kinematics(device.geometry, 0.).theta;
-    return closed_form(device.geometry, device.friction, moment_law(device.spring).moment(turn), x, v);
+    const auto contact = kinematics(device.geometry, x);
+    const double turn  = contact.theta - kinematics(device.geometry, 0.).theta;
+    return closed_form(device.geometry, device.friction, moment_law(device.spring).moment(turn), contact, v);
   }
 
   double representative_slope(const Geometry &geometry, const double spring_stiffness, const double coefficient, const int sign)

@@ -45,10 +45,7 @@ namespace sprag
   /// s + sgn(v) mu e <= 0.
   ClosedFormState closed_form(const Device &device, double x, double v);
 
-  /// Returns the state of any lever, which a moment presses on the cylinder [N mm].
-  ClosedFormState closed_form(const Geometry &geometry, const FrictionLaw &friction, double moment, double x, double v);
-
-  /// Does so with a contact that is known.
+  /// Returns the state of any lever with a contact that is known, which a moment presses on the cylinder [N mm].
   ClosedFormState closed_form(const Geometry &geometry, const FrictionLaw &friction, double moment, const Kinematics &contact,
                               double v);
 

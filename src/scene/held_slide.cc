@@ -43,9 +43,9 @@ namespace sprag
         return {};
       const auto take_number = [&]
       {
-        const auto number = leading_number(words.back());
+        const auto number = number_alone(words.back());
         words.pop_back();
-        return number && number->rest.empty() ? std::make_optional(number->value) : std::nullopt;
+        return number;
       };
       const auto to   = take_number();
       const auto from = take_number();

@@ -50,8 +50,9 @@ namespace sprag
     {
       if (!turn.touches())
         return { { { rest_inclination(device) + turn.lever_rotation(), 0., 0. }, 0., 0., 0., 0., 0. }, false, 0. };
-      const auto law = moment_law(device.spring);
-      return { closed_form(lever_geometry(device, lever), lever_friction(device, lever), law.moment(turn.spring), x, v), true,
+      const auto law      = moment_law(device.spring);
+      const auto geometry = lever_geometry(device, lever);
+      return { closed_form(geometry, lever_friction(device, lever), law.moment(turn.spring), kinematics(geometry, x), v), true,
                law.energy(turn.spring) };
     }
   } // namespace
