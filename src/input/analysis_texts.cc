@@ -4,10 +4,7 @@
 #include "base/errors.h"
 #include "base/parameters.h"
 #include "base/text.h"
-#include "input/identification_text.h"
-#include "input/isolation_tables.h"
 #include "scene/design.h"
-#include "scene/design_quantities.h"
 #include "scene/scene.h"
 
 #include <algorithm>

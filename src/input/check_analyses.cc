@@ -5,7 +5,7 @@
 #include "scene/analysis_use.h"
 #include "scene/closed_form.h"
 #include "scene/damper.h"
-#include "scene/design_quantities.h"
+#include "scene/design.h"
 #include "scene/scene.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 #include "input/check_parts.h"
 
 #include "base/text.h"
-#include "scene/across.h"
 #include "scene/analysis_use.h"
+#include "scene/lever_shape.h"
 #include "scene/scene.h"
 
 #include <cmath>

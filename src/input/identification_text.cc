@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "input/identification_text.h"
+#include "input/analysis_texts.h"
 
 #include "base/errors.h"
 #include "base/table_file.h"

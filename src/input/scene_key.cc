@@ -5,8 +5,8 @@
 #include "base/fingerprint.h"
 #include "base/text.h"
 #include "input/sections.h"
-#include "scene/across.h"
 #include "scene/contact_reference.h"
+#include "scene/lever_shape.h"
 #include "scene/scene.h"
 
 namespace sprag

@@ -9,7 +9,6 @@
 #include "base/system/memory.h"
 #include "base/text.h"
 #include "program/recorder.h"
-#include "scene/across.h"
 #include "scene/analysis_use.h"
 #include "scene/contact_reference.h"
 #include "scene/held_slide.h"

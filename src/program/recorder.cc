@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "report/report.h"
 #include "report/warnings.h"
-#include "results/row_archive.h"
+#include "results/result_file.h"
 #include "results/stress_entries.h"
 #include "scene/scene.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/archive.h"
 #include "results/columns.h"
 #include "results/warning.h"
 
@@ -131,4 +132,7 @@ namespace sprag
     std::string path;
     std::unique_ptr<Writer> writer; ///< null once the file is finished
   };
+
+  void serialise(Archive &archive, Row &row);
+  void serialise(Archive &archive, FaceState &face);
 } // namespace sprag

@@ -2,7 +2,7 @@
 #include "run/field_recorder.h"
 
 #include "model/step/state_archive.h"
-#include "results/row_archive.h"
+#include "results/result_file.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"
 

@@ -5,7 +5,7 @@
 #include "base/system/interrupt.h"
 #include "base/text.h"
 #include "base/unknown.h"
-#include "input/identification_text.h"
+#include "input/analysis_texts.h"
 #include "input/read.h"
 #include "program/result_writer.h"
 #include "report/summary_lines.h"

@@ -4,7 +4,6 @@
 #include "laws/friction_law.h"
 #include "scene/analysis_settings.h"
 #include "scene/apparatus.h"
-#include "scene/contact_settings.h"
 #include "scene/discretisation_settings.h"
 #include "scene/drive.h"
 #include "scene/lever.h"

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "scene/apparatus.h"
+
 #include <array>
+#include <string>
+#include <vector>
 
 namespace sprag
 {
@@ -20,4 +24,27 @@ namespace sprag
 
   /// Returns the first and last xi of the part of lever or plate that carries the friction layer.
   std::array<double, 2> friction_face(const Device &device);
+
+  /// Returns the distance of the middles of the force sensors in three dimensions from the middle of the width [mm]: where the
+  /// scene has them, else flush with the sides of the plate.
+  double sensors_across(const Device &device);
+
+  /// Returns whether lever, cylinder and motion are the same on both sides of the middle of the width, so that one half is
+  /// enough: an axis that its shaft lets yield then stays as it is. Modes need not be the same.
+  bool is_symmetric_across(const Device &device);
+
+  /// Returns the compliances of the cylinder's shaft against tilt and skew, 0 where they are fixed [rad/(N mm)].
+  std::array<double, 2> slope_compliances(const Cylinder &cylinder);
+
+  /// Returns the planes between the elements across the width of three dimensions, from its middle, growing from both edges to
+  /// the middle [mm]; where it is symmetric those of one half.
+  std::vector<double> planes_across(const Device &device);
+
+  /// Returns the rule, beginning with "must", that a Cylinder/Length breaks which covers less than two of the elements between
+  /// planes across [mm], or an empty text.
+  std::string cylinder_too_short(const Device &device, const std::vector<double> &planes);
+
+  /// Returns the planes stretched so that they hold both sides of a web in the middle: those nearest to them move there, or
+  /// further ones are added. `web`: its width, at most that of the planes [mm].
+  std::vector<double> with_web_sides(double web, std::vector<double> planes);
 } // namespace sprag

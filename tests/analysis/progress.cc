@@ -4,7 +4,7 @@
 #include "base/errors.h"
 #include "model/step/state_archive.h"
 #include "model/step/stored_jacobian.h"
-#include "results/row_archive.h"
+#include "results/result_file.h"
 #include "scene/scene.h"
 #include "toy_model.h"
 #include "verification/run_transient.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
+#include "scene/design.h"
 #include "messages.h"
-#include "scene/design_quantities.h"
 #include "scene/scene.h"
 #include "support/params_folder.h"
 

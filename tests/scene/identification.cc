@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/text.h"
-#include "input/identification_text.h"
+#include "input/analysis_texts.h"
 #include "messages.h"
 #include "scene/scene.h"
 #include "support/temporary_folder.h"

@@ -4,7 +4,6 @@
 #include "base/parameters.h"
 #include "input/sections.h"
 #include "scene/design.h"
-#include "scene/design_quantities.h"
 
 #include <array>
 #include <functional>

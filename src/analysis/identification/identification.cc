@@ -2,7 +2,7 @@
 #include "analysis/identification/identification.h"
 
 #include "base/errors.h"
-#include "input/identification_text.h"
+#include "input/analysis_texts.h"
 #include "results/row_statistics.h"
 #include "scene/scene.h"
 

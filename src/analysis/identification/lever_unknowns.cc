@@ -7,7 +7,7 @@
 #include "base/errors.h"
 #include "base/least_squares.h"
 #include "base/text.h"
-#include "input/identification_text.h"
+#include "input/analysis_texts.h"
 #include "input/read.h"
 #include "input/sections.h"
 #include "scene/closed_form.h"

@@ -4,7 +4,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "model/step/state_archive.h"
-#include "results/row_archive.h"
+#include "results/result_file.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "base/progress_keeper.h"
 #include "model/interface/newton.h"
 #include "model/step/model.h"
-#include "scene/contact_settings.h"
+#include "scene/discretisation_settings.h"
 #include "scene/drive.h"
 
 #include <functional>

@@ -9,7 +9,6 @@
 #include "fe/statics/contact_penalties.h"
 #include "fe/statics/lever_properties.h"
 #include "model/lever/assemble_lever.h"
-#include "scene/across.h"
 #include "scene/device.h"
 #include "scene/lever_shape.h"
 #include "scene/mirrored_pair.h"

@@ -7,7 +7,6 @@
 #include "fe/mesh/geometry_script.h"
 #include "fe/mesh/mesh.h"
 #include "fe/mesh/mesh_look.h"
-#include "scene/across.h"
 #include "scene/device.h"
 #include "scene/lever_shape.h"
 

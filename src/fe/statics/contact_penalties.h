@@ -3,7 +3,7 @@
 
 #include "fe/body/elastic_body.h"
 #include "fe/contact/face_contact_point.h"
-#include "scene/contact_settings.h"
+#include "scene/discretisation_settings.h"
 
 #include <optional>
 

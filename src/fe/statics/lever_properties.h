@@ -8,7 +8,7 @@
 #include "results/columns.h"
 #include "scene/analysis_settings.h"
 #include "scene/apparatus.h"
-#include "scene/contact_settings.h"
+#include "scene/discretisation_settings.h"
 #include "scene/lever.h"
 
 #include <functional>

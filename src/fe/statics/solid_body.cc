@@ -5,9 +5,9 @@
 #include "base/messages.h"
 #include "fe/body/solid_stiffness.h"
 #include "fe/statics/lever_properties.h"
-#include "scene/across.h"
 #include "scene/analysis_use.h"
 #include "scene/device.h"
+#include "scene/lever_shape.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include "base/messages.h"
 #include "fe/body/body_properties.h"
 #include "fe/mesh/solid_file.h"
-#include "scene/across.h"
 #include "scene/device.h"
+#include "scene/lever_shape.h"
 
 #include <deal.II/grid/grid_tools.h>
 

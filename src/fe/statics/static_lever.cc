@@ -8,7 +8,6 @@
 #include "laws/friction_law.h"
 #include "model/contact/joined_history.h"
 #include "model/structure/joined_interfaces.h"
-#include "scene/across.h"
 #include "scene/closed_form.h"
 #include "scene/device.h"
 #include "scene/lever_shape.h"

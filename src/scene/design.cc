@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "scene/design_quantities.h"
+#include "scene/design.h"
 
 #include <algorithm>
 
