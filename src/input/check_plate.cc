@@ -15,13 +15,12 @@ namespace sprag
   {
     using Names = std::vector<std::string>;
 
-    const Names sweep = { "Geometry/Cylinder radius",
-                          "Geometry/Interface offset",
-                          "Geometry/Pivot distance",
-                          "Drive/Start",
-                          "Drive/Stroke",
-                          "Drive/Profile",
-                          "Drive/Table" };
+    const Names sweep = {
+      // The contact's way along the lever depends on the geometry.
+      "Geometry/Cylinder radius", "Geometry/Interface offset", "Geometry/Pivot distance",
+      // So do the ends of the drive.
+      "Drive/Start", "Drive/Stroke", "Drive/Profile", "Drive/Table"
+    };
 
     void frame(const Scene &scene, Rules &rules)
     {

@@ -65,18 +65,12 @@ namespace sprag
 
   const std::vector<Column> &lever_columns()
   {
-    static const std::vector<Column> columns = { Column::theta,
-                                                 Column::theta_rate,
-                                                 Column::s,
-                                                 Column::P,
-                                                 Column::F,
-                                                 Column::Q,
-                                                 Column::v_rel,
-                                                 Column::mu,
-                                                 Column::centre_offset,
-                                                 Column::contact_width,
-                                                 Column::largest_pressure,
-                                                 Column::largest_pressure_xi };
+    static const std::vector<Column> columns = {
+      // Motion and forces of the lever.
+      Column::theta, Column::theta_rate, Column::s, Column::P, Column::F, Column::Q, Column::v_rel, Column::mu,
+      // Shape of its contact.
+      Column::centre_offset, Column::contact_width, Column::largest_pressure, Column::largest_pressure_xi
+    };
     return columns;
   }
 
