@@ -17,29 +17,29 @@ namespace sprag::hdf5
     return description.empty() ? "unknown HDF5 error" : description;
   }
 
-  std::vector<std::string> names_in(const Handle &group)
+  namespace
   {
-    const auto collect = [](hid_t, const char *name, const H5L_info_t *, void *names) -> herr_t
+    /// Takes each name that the library finds in a group or at a dataset.
+    template <class Info>
+    herr_t collect(hid_t, const char *const name, const Info *, void *const names)
     {
       static_cast<std::vector<std::string> *>(names)->emplace_back(name);
       return 0;
-    };
+    }
+  } // namespace
+
+  std::vector<std::string> names_in(const Handle &group)
+  {
     std::vector<std::string> names;
-    hsize_t position = 0;
-    if (H5Literate(group.id(), H5_INDEX_NAME, H5_ITER_INC, &position, collect, &names) < 0)
-      return {};
-    return names;
+    hsize_t position  = 0;
+    const auto status = H5Literate(group.id(), H5_INDEX_NAME, H5_ITER_INC, &position, collect<H5L_info_t>, &names);
+    return status < 0 ? std::vector<std::string>() : names;
   }
 
   std::vector<std::string> attribute_names(const Handle &dataset)
   {
     std::vector<std::string> names;
-    const auto add = [](hid_t, const char *const name, const H5A_info_t *, void *const list) -> herr_t
-    {
-      static_cast<std::vector<std::string> *>(list)->emplace_back(name);
-      return 0;
-    };
-    H5Aiterate2(dataset.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names);
+    H5Aiterate2(dataset.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect<H5A_info_t>, &names);
     return names;
   }
 

@@ -315,22 +315,19 @@ namespace sprag
       const double offset = scene.geometry.interface_offset;
       rules.need(!use.meshed || use.own_mesh || offset == 0. || offset >= thinnest_hub, "Geometry/Interface offset",
                  { "Mesh/File" }, "must be 0 or at least " + mm(thinnest_hub) + ", or the hub is too thin to be meshed");
-      if (rules.broken.empty() && use.positions)
-        drive(scene, rules);
-      if (rules.broken.empty() && use.positions)
-        sliding(scene, rules);
-      if (rules.broken.empty() && use.follows_drive && use.meshed)
-        pressing(scene, rules);
-      if (rules.broken.empty() && use.lever && !use.own_mesh)
-        tip(scene, rules);
-      if (rules.broken.empty() && use.meshed && !use.own_mesh)
-        check_sweep(scene, rules);
-      if (rules.broken.empty() && can_lock(scene, use))
-        locked(scene, rules);
-      if (rules.broken.empty() && use.type == AnalysisType::isolation)
-        check_isolation(scene, rules);
-      if (rules.broken.empty() && use.type == AnalysisType::identification)
-        check_identification(scene, rules);
+      const std::pair<bool, void (*)(const Scene &, Rules &)> checks[] = {
+        { use.positions, drive },
+        { use.positions, sliding },
+        { use.follows_drive && use.meshed, pressing },
+        { use.lever && !use.own_mesh, tip },
+        { use.meshed && !use.own_mesh, check_sweep },
+        { can_lock(scene, use), locked },
+        { use.type == AnalysisType::isolation, check_isolation },
+        { use.type == AnalysisType::identification, check_identification },
+      };
+      for (const auto &[counts, check] : checks)
+        if (rules.broken.empty() && counts)
+          check(scene, rules);
       return rules.broken;
     }
 
