@@ -427,12 +427,10 @@ namespace sprag
 
   std::string kept_value(const Rule &rule, const std::string &value)
   {
-    const bool is_number =
-        rule.kind == Rule::Kind::number || rule.kind == Rule::Kind::integer || rule.kind == Rule::Kind::number_or_auto;
     const auto number = leading_number(value);
-    if (is_number && depends_on_others(rule) && number && begins_as_unit(number->rest) && !with_decimal_point(value))
+    if (is_number(rule) && depends_on_others(rule) && number && begins_as_unit(number->rest) && !with_decimal_point(value))
       return value;
-    std::string kept = is_number ? without_unit(rule, value) : value;
+    std::string kept = is_number(rule) ? without_unit(rule, value) : value;
     if (rule.kind == Rule::Kind::numbers)
     {
       std::vector<std::string> specified = split(value, ','), parts;

@@ -61,6 +61,12 @@ namespace sprag
     std::vector<std::string> choices; ///< choice
   };
 
+  /// Returns whether a value is one number, or auto.
+  inline bool is_number(const Rule &rule)
+  {
+    return rule.kind == Rule::Kind::number || rule.kind == Rule::Kind::integer || rule.kind == Rule::Kind::number_or_auto;
+  }
+
   /// Returns whether the unit depends on other parameters, as in "N/mm^n" or "of First parameter". A value keeps the unit behind
   /// it until these are known.
   bool depends_on_others(const Rule &rule);

@@ -17,12 +17,6 @@ namespace sprag
   {
     const std::string dots = "...";
 
-    bool has_number(const Rule &rule)
-    {
-      return rule.kind == Rule::Kind::number || rule.kind == Rule::Kind::integer || rule.kind == Rule::Kind::number_or_auto;
-    }
-
-    /// A number that is no more exact than its ends make it, so that it is short where they are.
     /// A number between two others, as short as can be.
     std::string short_text(const double value, const int digits)
     {
@@ -143,7 +137,7 @@ namespace sprag
       {
         VariedParameter varied{ full_name(parameter), {} };
         for (const auto &item : lists ? split_all(text, ',') : std::vector<std::string>{ text })
-          if (lists && has_number(parameter.rule) && item.find(dots) != std::string::npos)
+          if (lists && is_number(parameter.rule) && item.find(dots) != std::string::npos)
             take_range(item, parameter, varied);
           else
             take_value(item, parameter, varied);
