@@ -44,11 +44,16 @@ namespace sprag
 
   void DiskReserve::cover(const std::size_t bytes)
   {
-    const std::size_t needed = file_size(file) + bytes + margin;
+    const std::size_t needed = file_size(file) + bytes + margin, end = needed + margin;
     if (needed <= reserved)
       return;
-    reserve(needed + margin);
-    reserved = needed + margin;
+    rlimit limit = {};
+    if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && end > limit.rlim_cur)
+      fail(path, EFBIG);
+    if (fallocate(file.number(), FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(end)) != 0)
+      if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG)
+        fail(path, errno);
+    reserved = end;
   }
 
   void DiskReserve::rename(const std::string &new_path)
@@ -62,16 +67,6 @@ namespace sprag
   {
     if (!file.is_same_as(OpenFile(path, O_PATH)))
       throw AnalysisError(path + " was removed or replaced while the run wrote it: its results are lost");
-  }
-
-  void DiskReserve::reserve(const std::size_t end) const
-  {
-    rlimit limit = {};
-    if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && end > limit.rlim_cur)
-      fail(path, EFBIG);
-    if (fallocate(file.number(), FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(end)) != 0)
-      if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG)
-        fail(path, errno);
   }
 
   void require_space(const std::string &path, const std::size_t bytes)

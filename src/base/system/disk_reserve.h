@@ -33,8 +33,6 @@ namespace sprag
     void require_in_place() const;
 
   private:
-    void reserve(std::size_t end) const;
-
     std::string path;
     OpenFile file;
     std::size_t reserved = 0; ///< from the start of the file
