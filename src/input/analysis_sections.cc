@@ -154,7 +154,7 @@ namespace sprag
 
   void add_analysis_parameters(Scene &scene, std::vector<Parameter> &all)
   {
-    const Section isolation(all, "Isolation");
+    const Section isolation{ all, "Isolation" };
     table_and_damper(isolation, scene.isolation);
     base_motion(isolation, scene.isolation);
     motion(isolation, scene.isolation);

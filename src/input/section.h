@@ -4,6 +4,7 @@
 #include "base/choices.h"
 #include "base/parameters.h"
 #include "base/text.h"
+#include "scene/plane_state.h"
 
 #include <optional>
 #include <string>
@@ -12,14 +13,12 @@
 namespace sprag
 {
   /// Collects the parameters of one section, each bound to the variable it sets.
-  class Section
+  struct Section
   {
-  public:
-    Section(std::vector<Parameter> &all, std::string section_name)
-        : parameters(all)
-        , name(std::move(section_name))
-    {
-    }
+    std::vector<Parameter> &parameters;
+    const std::string name;
+    std::string choice_needed = {};
+    std::string word_needed   = {};
 
     /// Returns the section for parameters that count only with a choice in it.
     Section only_with(const std::string &entry, const std::string &word) const
@@ -78,12 +77,6 @@ namespace sprag
       add(entry, word_for(choices, value), { Rule::Kind::choice, {}, "", words_in(choices) }, meaning,
           [&value, choices](const auto &text) { value = value_for(choices, text); });
     }
-
-  private:
-    std::vector<Parameter> &parameters;
-    const std::string name;
-    std::string choice_needed;
-    std::string word_needed;
 
     void add(const std::string &entry, const std::string &value, const Rule &rule, const std::string &meaning,
              const std::function<void(const std::string &)> &store)
