@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "input/check_parts.h"
 
+#include "base/append.h"
 #include "base/text.h"
+#include "scene/analysis_use.h"
+#include "scene/lever_shape.h"
+#include "scene/mirrored_pair.h"
 #include "scene/scene.h"
 
 #include <algorithm>
@@ -17,6 +21,229 @@ namespace sprag
       if (scene.layer.thickness > 0.)
         return scene.layer.young_modulus;
       return scene.plate.type == PlateType::on_sensors ? scene.plate.young_modulus : scene.lever.young_modulus;
+    }
+
+    using Names = std::vector<std::string>;
+
+    const Names sweep = {
+      // The contact's way along the lever depends on the geometry.
+      "Geometry/Cylinder radius", "Geometry/Interface offset", "Geometry/Pivot distance",
+      // So do the ends of the drive.
+      "Drive/Start", "Drive/Stroke", "Drive/Profile", "Drive/Table"
+    };
+
+    void frame(const Scene &scene, Rules &rules)
+    {
+      const auto &frame      = scene.frame;
+      const double shallow   = std::min(frame.tip_depth, scene.lever.depth);
+      const double least     = frame_hub_radius + frame_wall;
+      const double arm       = scene.lever.length - frame.root;
+      const double rib_sum   = (frame.pockets + 1) * frame.rib;
+      const std::string ribs = std::to_string(frame.pockets + 1) + (frame.pockets == 0 ? " rib of " : " ribs of ");
+      rules.need(2. * frame.flange < shallow, "Lever frame/Flange", { "Lever frame/Tip depth", "Lever/Depth", "Lever/Outline" },
+                 "must be less than half the arm's least depth, " + mm(shallow));
+      rules.need(frame.web <= scene.lever.width, "Lever frame/Web", { "Lever/Width", "Lever/Outline" },
+                 "must not be more than Lever/Width = " + mm(scene.lever.width));
+      rules.need(frame.root > least, "Lever frame/Root", { "Lever/Outline" },
+                 "must be more than " + mm(least) + ", radius and wall of the hub that the root is held by");
+      rules.need(rib_sum < arm, "Lever frame/Pockets", { "Lever frame/Rib", "Lever frame/Root", "Lever/Length", "Lever/Outline" },
+                 "must leave the pockets room: " + ribs + mm(frame.rib) + " are no shorter than the arm, " + mm(arm));
+    }
+
+    void sensors(const FrictionPlate &plate, Rules &rules)
+    {
+      rules.need(plate.sensors.size() >= 2, "Friction plate/Sensors", { "Friction plate/Type" },
+                 "must be at least two, or the plate tilts");
+      for (std::size_t i = 1; i < plate.sensors.size(); ++i)
+        if (plate.sensors[i] < plate.sensors[i - 1] + plate.sensor_length)
+          return rules.need(false, "Friction plate/Sensors", { "Friction plate/Sensor length", "Friction plate/Type" },
+                            "must increase by at least Sensor length = " + mm(plate.sensor_length) +
+                                " from one to the next: " + rounded_text(plate.sensors[i - 1]) + " and " + mm(plate.sensors[i]));
+    }
+
+    void on_plate(const FrictionPlate &plate, const std::string &parameter, const std::vector<double> &middles, Rules &rules)
+    {
+      for (const double middle : middles)
+        if (middle < plate.begin + 0.5 * plate.sensor_length || middle > plate.end - 0.5 * plate.sensor_length)
+          return rules.need(
+              false, parameter,
+              { "Friction plate/Begin", "Friction plate/End", "Friction plate/Sensor length", "Friction plate/Type" },
+              "must lie on the plate with all its Sensor length = " + mm(plate.sensor_length) + ": " + mm(middle) +
+                  " is no middle between Begin = " + mm(plate.begin) + " and End = " + mm(plate.end));
+    }
+
+    void plate(const Scene &scene, Rules &rules)
+    {
+      const auto &plate = scene.plate;
+      rules.need(plate.end > plate.begin, "Friction plate/End", { "Friction plate/Begin", "Friction plate/Type" },
+                 "must be more than Begin = " + mm(plate.begin));
+      rules.need(plate.end <= scene.lever.length, "Friction plate/End", { "Lever/Length", "Friction plate/Type" },
+                 "must not be more than Lever/Length = " + mm(scene.lever.length));
+      if (scene.lever.outline == LeverOutline::frame)
+        rules.need(plate.begin >= scene.frame.root, "Friction plate/Begin",
+                   { "Lever frame/Root", "Friction plate/Type", "Lever/Outline" },
+                   "must not be less than Lever frame/Root = " + mm(scene.frame.root));
+      if (plate.end <= plate.begin)
+        return;
+      on_plate(plate, "Friction plate/Sensors", plate.sensors, rules);
+      on_plate(plate, "Friction plate/Guide", { plate.guide }, rules);
+    }
+
+    /// Room for the width of the contact, which is below a millimetre each way.
+    constexpr double margin = 2.;
+
+    void check_frame_face(const Scene &scene, Rules &rules)
+    {
+      const double first = swept_contact(scene)[0];
+      const double begin = friction_face(scene)[0];
+      rules.need(begin <= first - margin, "Lever frame/Root", joined<std::string>({ "Lever frame/Rib", "Lever/Outline" }, sweep),
+                 "must leave the contact its place: the friction face begins behind root and rib at " + mm(begin) +
+                     ", and the cylinder comes as near as s = " + mm(first));
+    }
+
+    void root_beside_cylinder(const Scene &scene, Rules &rules)
+    {
+      const double radius   = scene.geometry.cylinder_radius;
+      const double axis     = scene.geometry.interface_offset - radius;
+      const double nearest  = std::max(axis, -frame_hub_radius - frame_wall);
+      const double distance = std::hypot(swept_contact(scene)[0] - scene.frame.root, axis - nearest);
+      rules.need(distance > radius, "Lever frame/Root", joined<std::string>({ "Lever/Outline" }, sweep),
+                 "must leave room for the cylinder, whose axis comes as near to the root as " + mm(distance) +
+                     " with R = " + mm(radius));
+    }
+
+    void check_plate_face(const Scene &scene, Rules &rules)
+    {
+      const auto [first, last] = swept_contact(scene);
+      rules.need(scene.plate.begin <= first - margin, "Friction plate/Begin",
+                 joined<std::string>({ "Friction plate/Type" }, sweep),
+                 "must be at most " + mm(first - margin) + ": the cylinder comes as near to the pivot as s = " + mm(first));
+      rules.need(scene.plate.end >= last + margin, "Friction plate/End", joined<std::string>({ "Friction plate/Type" }, sweep),
+                 "must be at least " + mm(last + margin) + ": the cylinder goes as far as s = " + mm(last));
+    }
+
+    void what_there_is(const Scene &scene, Rules &rules)
+    {
+      const std::string in_plane = ": in three dimensions there is no other yet";
+      const auto need            = [&](const bool kept, const std::string &parameter, const std::string &word)
+      { rules.need(kept, parameter, { "Analysis/Dimension" }, "must be " + word + in_plane); };
+      const auto &analysis = scene.analysis;
+      const auto type      = analysis.type == AnalysisType::study ? scene.study.type : analysis.type;
+      const bool is_static = type == AnalysisType::quasi_static;
+      need(runs_model(type) || type == AnalysisType::isolation,
+           analysis.type == AnalysisType::study ? "Study/Type" : "Analysis/Type",
+           "quasi-static, modal, stability, sprag-slip, map, transient or isolation");
+      if (is_static)
+        need(analysis.model == ModelType::finite_element, "Analysis/Model", "finite element without inertia");
+      else
+        need(analysis.model == ModelType::condensed, "Analysis/Model", "condensed with inertia");
+      need(type != AnalysisType::isolation || scene.isolation.damper == DamperType::lever, "Isolation/Damper", "lever");
+      need(analysis.solution == Solution::automatic, "Analysis/Solution", "automatic");
+      need(scene.cylinder.type == CylinderType::rigid, "Cylinder/Type", "rigid");
+      rules.need(scene.pair.type == PairType::half || !scene.cylinder.has_free_axis(),
+                 scene.cylinder.tilt_stiffness ? "Cylinder/Tilt stiffness" : "Cylinder/Skew stiffness",
+                 { "Mirrored pair/Type", "Analysis/Dimension" },
+                 "must be auto between the levers of a full pair: an axis that yields to both is not looked at yet");
+    }
+
+    void cylinder_across(const Scene &scene, Rules &rules)
+    {
+      const auto &cylinder = scene.cylinder;
+      const double half    = 0.5 * scene.lever.width;
+      if (cylinder.length > 0.)
+      {
+        rules.need(std::abs(cylinder.position) < half + 0.5 * cylinder.length, "Cylinder/Position", { "Cylinder/Length" },
+                   "must leave a part of the cylinder over the lever, " + mm(-half) + " to " + mm(half) + " from its middle");
+        rules.need(cylinder.edge_radius <= 0.5 * cylinder.length, "Cylinder/Edge radius", { "Cylinder/Length" },
+                   "must be at most half of Length = " + mm(cylinder.length));
+        if (scene.mesh.file.empty())
+        {
+          const auto too_short = cylinder_too_short(scene, planes_across(scene));
+          rules.need(too_short.empty(), "Cylinder/Length", { "Mesh/Elements across", "Mesh/Growth across", "Lever/Width" },
+                     too_short);
+        }
+      }
+      else
+        rules.need(cylinder.edge_radius == 0., "Cylinder/Edge radius", { "Cylinder/Length" },
+                   "must be 0 where Length = 0: the ends then lie beyond the lever");
+    }
+
+    void sensors_at_sides(const Scene &scene, Rules &rules)
+    {
+      const auto &plate   = scene.plate;
+      const double half   = 0.5 * scene.lever.width;
+      const double middle = sensors_across(scene), zeta = 0.5 * plate.sensor_width;
+      const double small = 1e-9 * half;
+      rules.need(plate.sensor_width <= half + small, "Friction plate/Sensor width", { "Lever/Width", "Friction plate/Type" },
+                 "must be at most half of Lever/Width = " + mm(scene.lever.width) + ", or left and right overlap");
+      if (plate.sensor_width <= half + small)
+        rules.need(middle - zeta >= -small && middle + zeta <= half + small, "Friction plate/Sensors across",
+                   { "Friction plate/Sensor width", "Lever/Width", "Friction plate/Type" },
+                   "must be " + rounded_text(zeta) + " to " + mm(half - zeta) + ": with all its Sensor width = " +
+                       mm(plate.sensor_width) + " each lies on its side of the middle and on the plate");
+    }
+
+    bool are_alike(const MirroredPair &pair)
+    {
+      return pair.cylinder_offset == 0. && pair.friction_ratio == 1.;
+    }
+
+    void analysis(const Scene &scene, Rules &rules)
+    {
+      const auto reject = [&](const std::string &rule) {
+        rules.need(false, "Mirrored pair/Type", { "Analysis/Type", "Analysis/Model", "Contact/Type", "Support/Type" }, rule);
+      };
+      const auto type  = scene.analysis.type;
+      const auto model = scene.analysis.model;
+      if (!runs_model(type))
+        reject("must be half but in a quasi-static, transient, modal, stability, map or sprag-slip analysis");
+      else if (type == AnalysisType::transient && (model == ModelType::closed_form || scene.contact.type == ContactType::ideal))
+        reject("must be half with an ideal contact in time");
+      else if (type == AnalysisType::quasi_static && scene.support.type == SupportType::sprung && model == ModelType::closed_form)
+        reject("must be half on a sprung support in the closed form without inertia; with finite elements and in time it may be "
+               "full");
+    }
+
+    /// Rules where a slide is held.
+    void vibration(const Scene &scene, Rules &rules)
+    {
+      const auto &pair = scene.pair;
+      rules.need(scene.analysis.model != ModelType::finite_element || are_alike(pair),
+                 pair.cylinder_offset != 0. ? "Mirrored pair/Cylinder offset" : "Mirrored pair/Friction ratio",
+                 { "Mirrored pair/Type", "Analysis/Type", "Analysis/Model" },
+                 "must leave the levers alike where a slide is held with finite elements; Analysis/Model = condensed takes "
+                 "levers that differ");
+      rules.need(scene.analysis.type != AnalysisType::modal || scene.stability.contact != HeldContact::open ||
+                     pair.joint != SpringJoint::free,
+                 "Stability/Contact", { "Mirrored pair/Type", "Mirrored pair/Joint", "Analysis/Type" },
+                 "must not be open with Mirrored pair/Joint = free: nothing holds levers that swing together");
+    }
+
+    void joint(const Scene &scene, Rules &rules)
+    {
+      const auto &leaf = scene.spring.leaf;
+      const bool free  = scene.pair.joint == SpringJoint::free;
+      const bool leafs = scene.spring.type == SpringType::leaf;
+      const bool held  = leaf.axial == LeafAxial::held;
+      rules.need(!free || scene.geometry.pivot_height == 0., "Geometry/Pivot height",
+                 { "Mirrored pair/Type", "Mirrored pair/Joint" },
+                 "must be 0 mm with Mirrored pair/Joint = free: the levers swing together about one axis");
+      rules.need(!free || !leafs || (!held && leaf.end != LeafEnd::guided), held ? "Leaf spring/Axial" : "Leaf spring/Joint",
+                 { "Mirrored pair/Type", "Mirrored pair/Joint", "Rotational spring/Type" },
+                 std::string("must be ") + (held ? "free" : "clamped or pinned") +
+                     " with Mirrored pair/Joint = free, which nothing but the springs holds");
+      rules.need(scene.pair.joint_mass <= 0. || leafs, "Mirrored pair/Joint mass", { "Rotational spring/Type" },
+                 "must be 0 t with a torsional spring, which has no joint");
+    }
+
+    void offset(const Scene &scene, Rules &rules)
+    {
+      const Geometry &g    = scene.geometry;
+      const double most    = g.cylinder_radius - g.interface_offset - g.pivot_height;
+      const double largest = 0.5 * most;
+      rules.need(most <= 0. || std::abs(scene.pair.cylinder_offset) <= largest, "Mirrored pair/Cylinder offset",
+                 { "Mirrored pair/Type", "Geometry/Cylinder radius", "Geometry/Interface offset", "Geometry/Pivot height" },
+                 "must be at most (R - e - h)/2 = " + mm(largest) + " either way");
     }
   } // namespace
 
@@ -84,5 +311,44 @@ namespace sprag
                { "Analysis/Type", "Rotational spring/Type" }, "needs Rotational spring/Type = leaf, whose thickness is found");
     rules.need(scene.lever.material == MaterialModel::linear, "Lever/Material", { "Analysis/Type" },
                "must be linear where it is calibrated");
+  }
+
+  void check_plate(const Scene &scene, const bool own_mesh, Rules &rules)
+  {
+    if (scene.lever.outline == LeverOutline::frame && !own_mesh)
+      frame(scene, rules);
+    if (scene.plate.type == PlateType::on_sensors)
+      sensors(scene.plate, rules);
+    if (scene.plate.type == PlateType::on_sensors && !own_mesh)
+      plate(scene, rules);
+  }
+
+  void check_sweep(const Scene &scene, Rules &rules)
+  {
+    if (scene.lever.outline == LeverOutline::frame)
+      root_beside_cylinder(scene, rules);
+    if (scene.plate.type == PlateType::on_sensors)
+      check_plate_face(scene, rules);
+    else if (scene.lever.outline == LeverOutline::frame)
+      check_frame_face(scene, rules);
+  }
+
+  void check_solid(const Scene &scene, Rules &rules)
+  {
+    what_there_is(scene, rules);
+    cylinder_across(scene, rules);
+    if (scene.plate.type == PlateType::on_sensors)
+      sensors_at_sides(scene, rules);
+  }
+
+  void check_pair(const Scene &scene, Rules &rules)
+  {
+    if (count_levers(scene) == 1)
+      return;
+    analysis(scene, rules);
+    if (holds_slide(scene.analysis.type))
+      vibration(scene, rules);
+    joint(scene, rules);
+    offset(scene, rules);
   }
 } // namespace sprag
