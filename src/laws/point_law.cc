@@ -51,18 +51,18 @@ namespace sprag
     }
   } // namespace
 
-  FrictionLag friction_lag(const FrictionLaw &law, const double stiffness, const double slope, const double speed)
+  SlipLaw slip_law(const FrictionLaw &friction, const double stiffness, const bool is_layer)
   {
-    if (slope == 0.)
-      return { 0., 1. };
-    if (falls_with_speed(law))
-      return { law.memory_length / std::abs(speed), 0. };
-    return { law.regularisation_speed > 0. ? 0. : std::max(0., slope / stiffness), 1. };
+    return { friction, stiffness, {}, falls_with_speed(friction), is_layer };
   }
 
-  SlipLaw slip_law(const FrictionLaw &friction, const double stiffness)
+  FrictionLag friction_lag(const SlipLaw &law, const double slope, const double speed)
   {
-    return { friction, stiffness, {}, falls_with_speed(friction) };
+    const double memory   = law.follows_speed ? law.friction.memory_length / std::abs(speed) : 0.;
+    const bool has_spring = law.friction.regularisation_speed == 0. && (law.is_layer || !law.follows_speed);
+    const double spring   = has_spring ? (law.follows_speed ? slope : std::max(0., slope)) / law.stiffness : 0.;
+    const double time     = slope == 0. ? 0. : memory + spring;
+    return { time, time == 0. ? 1. : spring / time };
   }
 
   FrictionValue slip_friction(const FrictionLaw &law, const double load, const double resistance, const double pressure)

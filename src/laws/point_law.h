@@ -48,13 +48,9 @@ namespace sprag
   /// Lag of friction in a slide.
   struct FrictionLag
   {
-    double time;     ///< [s]; 0: it does not
-    double pressure; ///< 1 if it lags behind pressure and speed, 0 if behind the speed alone
+    double time;     ///< [s]; 0: it does not; below 0: slip runs away
+    double pressure; ///< share of the pressure behind which it lags; 0: it lags behind the speed alone
   };
-
-  /// A mu that falls with speed follows the speed w of a slide over the memory length L, in the time L / |w|. Else the spring of
-  /// stick in series delays all friction while mu rises, by mu' p / stiffness; `slope` = mu' p [N s/mm].
-  FrictionLag friction_lag(const FrictionLaw &law, double stiffness, double slope, double speed);
 
   /// Friction as a step applies it.
   struct SlipLaw
@@ -62,10 +58,17 @@ namespace sprag
     FrictionLaw friction;
     double stiffness                  = 0.;    ///< in stick, > 0
     std::vector<FrictionPiece> pieces = {};    ///< see rising_pieces(); none: the law is asked
-    bool takes_face_speed             = false; ///< see falls_with_speed()
+    bool follows_speed                = false; ///< over the memory length, see falls_with_speed()
+    bool is_layer                     = false; ///< the spring of stick is a layer's shear, else a penalty
   };
 
-  SlipLaw slip_law(const FrictionLaw &friction, double stiffness);
+  SlipLaw slip_law(const FrictionLaw &friction, double stiffness, bool is_layer = false);
+
+  /// A mu that falls with speed follows the speed w of a slide over the memory length L, in the time L / |w|. The spring of stick
+  /// in series delays all friction by mu' p / stiffness, a penalty only while mu rises; `slope` = mu' p [N s/mm]. Both together,
+  ///   t (1 + (L / |w| + slope / stiffness) s) = mu (1 + L / |w| s) p + slope v   with the Laplace variable s,
+  /// leave a time below 0 where mu falls faster than it can follow: there slip runs away.
+  FrictionLag friction_lag(const SlipLaw &law, double slope, double speed);
 
   /// Friction of a point at the end of a step, see end_friction().
   template <class N, int slips>
@@ -275,7 +278,7 @@ namespace sprag
     const V share      = extrapolated_share(history, value(last), dt);
     const N w          = (1. + share) * (1. / dt * path.size) - share * last;
     const N speed      = select(value(w) < 0., N(-w), w);
-    const N followed   = law.takes_face_speed ? lagged_speed(law, history, path.size, speed) : speed;
+    const N followed   = law.follows_speed ? lagged_speed(law, history, path.size, speed) : speed;
     const auto pressed = value(p) > 0.;
     V mu{}, slope{};
     set_friction(law.friction, pressed, value(followed), mu, slope);
@@ -297,19 +300,77 @@ namespace sprag
     return result;
   }
 
-  /// Traction that falls with speed. mu follows the speed of the faces, elastic slip included, over the memory length; in stick
-  /// it forgets how fast the point slid. At its own speed of slip a spring without mass would run away.
+  /// Returns true if the faces slide by what a layer's shear leaves. A step that begins in stick counts that, too.
+  template <class V, int slips>
+  SPRAG_PART bool slides_behind_layer(const SlipLaw &law, const SlipHistory<V, slips> &history)
+  {
+    if constexpr (std::is_same_v<V, Batch>)
+      return false;
+    else
+      return law.follows_speed && law.is_layer && history.speed > 0.;
+  }
+
+  /// Traction that falls with speed behind a layer whose shear takes a part of the slip:
+  ///   t = mu(w) p,   w follows the speed of the path (t_trial - t) / stiffness.
+  /// Newton's method is kept inside 0 <= t <= t_trial.
+  template <class N, int slips>
+  PointFriction<N, slips> following_behind_layer(const SlipLaw &law, const SlipHistory<Plain<N>, slips> &history,
+                                                 const Several<N, slips> &trial, const N &p, const double dt)
+  {
+    const double k = law.stiffness, length = law.friction.memory_length;
+    const SizeAndDirection<N, slips> split(trial);
+    const double last      = value(dot(history.slip_speed, split.direction));
+    const double share     = extrapolated_share(history, last, dt);
+    const double round_off = 4. * std::numeric_limits<double>::epsilon() * value(split.size);
+    PointFriction<N, slips> result;
+    N t          = split.size;
+    double lower = 0., upper = value(t);
+    for (unsigned int i = 0; i < 60; ++i)
+    {
+      const N path        = 1. / k * (split.size - t);
+      const N end_speed   = (1. + share) / dt * path - share * last;
+      const N v           = select(value(end_speed) > 0., end_speed, N{});
+      const N w           = lagged_speed(law, history, path, v);
+      const auto friction = friction_coefficient(law.friction, value(w));
+      const N excess      = t - chained(friction.coefficient, friction.derivative, w) * p;
+      const double rest   = std::exp(-value(path) / length);
+      const double by_path =
+          (value(end_speed) > 0. ? (1. - rest) * (1. + share) / dt : 0.) - rest / length * (history.speed - value(v));
+      result.mu       = friction.coefficient;
+      result.slipping = value(t) < value(split.size) || value(excess) > 0.;
+      result.speed    = value(w);
+      if (!result.slipping)
+        break;
+      (value(excess) > 0. ? upper : lower) = value(t);
+      const bool found                     = std::abs(value(excess)) <= round_off;
+      t                                    = t - 1. / (1. + friction.derivative * value(p) * by_path / k) * excess;
+      if (found)
+        break;
+      if (!(value(t) >= lower && value(t) <= upper))
+        t = N{} + 0.5 * (lower + upper);
+    }
+    for (int i = 0; i < slips; ++i)
+      result.traction[i] = t * split.direction[i];
+    return result;
+  }
+
+  /// Traction that falls with speed. mu follows the speed of the faces over the memory length; in stick it forgets how fast the
+  /// point slid. Slip of a penalty's spring counts as that of the faces: a mesh has the layer's shear.
   template <class N, int slips>
   SPRAG_PART PointFriction<N, slips> following_faces(const SlipLaw &law, const SlipHistory<Plain<N>, slips> &history,
                                                      const Several<N, slips> &slip, const N &p, const double dt)
   {
-    using V = Plain<N>;
+    using V          = Plain<N>;
+    const auto trial = stick_traction(law, history.traction, slip);
+    if constexpr (!std::is_same_v<V, Batch>)
+      if (slides_behind_layer(law, history) && value(p) > 0.)
+        return following_behind_layer(law, history, trial, p, dt);
     const SizeAndDirection<N, slips> path(slip);
     const N last  = dot(history.slip_speed, path.direction);
     const V share = select(history.speed > 0., extrapolated_share(history, value(last), dt), V{});
     const N v     = (1. + share) * (1. / dt * path.size) - share * last;
     const N w     = lagged_speed(law, history, path.size, select(value(v) > 0., v, N{}));
-    auto result   = return_at_speed(law, stick_traction(law, history.traction, slip), p, w);
+    auto result   = return_at_speed(law, trial, p, w);
     result.speed  = select(result.slipping, value(w), V{});
     return result;
   }
@@ -340,13 +401,14 @@ namespace sprag
     using V = Plain<N>;
     if (law.friction.regularisation_speed > 0.)
       return regularised(law, history, slip, p, dt);
-    const double k = law.stiffness;
-    auto result = law.takes_face_speed ? following_faces(law, history, slip, p, dt) : following_slip(law, history, slip, p, dt);
+    const double k            = law.stiffness;
+    const bool counts_elastic = law.follows_speed && !slides_behind_layer(law, history);
+    auto result = law.follows_speed ? following_faces(law, history, slip, p, dt) : following_slip(law, history, slip, p, dt);
     for (int i = 0; i < slips; ++i)
     {
       const V t = value(result.traction[i]), before = history.traction[i];
       const V slipped      = value(slip[i]) - (t - before) / k;
-      result.slip_speed[i] = select(result.slipping, V((law.takes_face_speed ? value(slip[i]) : slipped) / dt), V{});
+      result.slip_speed[i] = select(result.slipping, V((counts_elastic ? value(slip[i]) : slipped) / dt), V{});
       result.energy        = result.energy + 0.5 / k * t * t;
       result.dissipated    = result.dissipated + 0.5 * (before + t) * slipped;
     }

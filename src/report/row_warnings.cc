@@ -297,12 +297,6 @@ namespace sprag
         return;
       const double shear  = slope * slide[Column::P] / contact_reference(scene).tangential;
       const double memory = friction.memory_length / speed;
-      if (is_reduced(scene.analysis.model))
-        warnings.push_back({ "shear_left_out",
-                             "Friction falls with speed " + place(slide) + ", mu by " + rounded_text(slope) +
-                                 " s/mm. Rigid and beam leave out the layer's shear, which then feeds vibrations.",
-                             "A slide that is stable here may flutter.",
-                             "Take Analysis/Model = condensed, whose mesh has the shear." });
       if (shear > memory)
         warnings.push_back({ "runaway_slip",
                              "Friction falls so fast with speed " + place(slide) +

@@ -339,6 +339,51 @@ TEST(EndFriction, FallingFrictionFollowsTheSpeedOfTheFacesOverTheMemoryLength)
   }
 }
 
+// The layer takes the part dt/dt / k of the speed v = 100 mm/s + 4e5 mm/s^2 t, which its faces then do not slide by:
+//   dw/dt = v_f (v_f - w) / L,   v_f = v - mu' p (dw/dt) / k.
+TEST(EndFriction, FallingFrictionFollowsTheSpeedBehindTheShearOfALayer)
+{
+  const FrictionLaw falling{ StribeckFriction{ 0.9, 0.5, 60. } };
+  constexpr double growth = 4e5, step = 2e-6, soft = 100. * pressure; // p over 0.01 mm
+  const auto v     = [](const double t) { return 100. + growth * t; };
+  const auto slope = [](const double w) { return -0.4 / 60. * std::exp(-w / 60.); };
+  const auto rate  = [&](const double t, const double w)
+  {
+    double result = 0.;
+    for (unsigned int i = 0; i < 40; ++i)
+    {
+      const double face = v(t) - slope(w) * pressure * result / soft;
+      result            = face * (face - w) / falling.memory_length;
+    }
+    return result;
+  };
+  test::FrictionHistory<1> history;
+  history.traction[0]   = (0.5 + 0.4 * std::exp(-100. / 60.)) * pressure;
+  history.slip_speed[0] = 100.;
+  history.step          = step;
+  history.speed         = 100.;
+  double w              = 100.;
+  const auto at         = [&](const double slip, const double p)
+  { return test::end_friction<1>(history, soft, dealii::Tensor<1, 1>({ slip }), p, falling, step, true); };
+  for (unsigned int i = 0; i < 100; ++i)
+  {
+    const double t = i * step, slip = v(t + 0.5 * step) * step;
+    const auto friction = at(slip, pressure);
+    const double k_1 = rate(t, w), k_2 = rate(t + 0.5 * step, w + 0.5 * step * k_1);
+    const double k_3 = rate(t + 0.5 * step, w + 0.5 * step * k_2), k_4 = rate(t + step, w + step * k_3);
+    w += step / 6. * (k_1 + 2. * k_2 + 2. * k_3 + k_4);
+    ASSERT_TRUE(friction.slipping);
+    EXPECT_NEAR(friction.speed, w, 0.6 * growth * step) << i;
+    EXPECT_NEAR(friction.traction[0], (0.5 + 0.4 * std::exp(-friction.speed / 60.)) * pressure, 1e-11);
+    const double h = 1e-3 * slip, dp = 1e-4 * pressure;
+    EXPECT_NEAR(friction.d_slip[0][0] * 2. * h, at(slip + h, pressure).traction[0] - at(slip - h, pressure).traction[0],
+                1e-4 * std::abs(friction.d_slip[0][0]) * h);
+    EXPECT_NEAR(friction.d_pressure[0] * 2. * dp, at(slip, pressure + dp).traction[0] - at(slip, pressure - dp).traction[0],
+                1e-4 * std::abs(friction.d_pressure[0]) * dp);
+    history = { friction.traction, friction.slip_speed, step, friction.speed };
+  }
+}
+
 TEST(EndFriction, NeverGivesEnergyWhileItSlipsOneWay)
 {
   History history;

@@ -94,7 +94,7 @@ namespace sprag::test
   template <int slips>
   EndFriction<slips> end_friction(const FrictionHistory<slips> &history, const double stiffness,
                                   const dealii::Tensor<1, slips> &slip, const double pressure, const FrictionLaw &law,
-                                  const double dt)
+                                  const double dt, const bool is_layer = false)
   {
     using N = Dual<double, slips + 1>;
     SlipHistory<double, slips> slip_history;
@@ -105,8 +105,8 @@ namespace sprag::test
       slip_history.traction[i]   = history.traction[i];
       slip_history.slip_speed[i] = history.slip_speed[i];
     }
-    const auto found =
-        sprag::end_friction(slip_law(law, stiffness), slip_history, variables<N>(slip, 0), variable<N>(pressure, slips), dt);
+    const auto found = sprag::end_friction(slip_law(law, stiffness, is_layer), slip_history, variables<N>(slip, 0),
+                                           variable<N>(pressure, slips), dt);
     return { values(found.traction),
              derivatives(found.traction, 0),
              derivative(found.traction, slips),

@@ -230,24 +230,19 @@ class RitzBeam:
         f_v = jacobian(lambda r: np.array([friction(q, r)]), at_rest, 1e5 * sizes)[0]
         g, n = along(q), len(q)
         slope = self.slope_of_mu(slip) * pressure(q, at_rest)
-        falls = slope < 0
-        # The spring of stick in series: tau + mu' P/k_t tau' = F. A mu that falls follows the speed of the faces over a length:
-        # w + L/|v| w' = g rate, F = mu P + mu' P w.
-        delay = MEMORY_LENGTH / abs(slip) if falls else slope / d["k_t"]
-        f_pressure = f_v - slope * g
-        inverse = np.linalg.inv(self.M)
-        A = np.zeros((2 * n + 1,) * 2)
-        A[:n, n : 2 * n] = np.eye(n)
-        A[n : 2 * n, :n], A[n : 2 * n, n : 2 * n] = -inverse @ K, -inverse @ C
-        if falls:
-            A[n : 2 * n, :n] -= inverse @ np.outer(g, f_q)
-            A[n : 2 * n, n : 2 * n] -= inverse @ np.outer(g, f_pressure)
-            A[n : 2 * n, -1] = -inverse @ g * slope
-            A[-1, n : 2 * n], A[-1, -1] = g / delay, -1 / delay
-        else:
-            A[n : 2 * n, -1] = -inverse @ g
-            A[-1, :n], A[-1, n : 2 * n], A[-1, -1] = f_q / delay, f_v / delay, -1 / delay
-        values = np.linalg.eigvals(A)
+        # The spring of stick in series takes a part of the slip, and a mu that falls follows the speed of the faces over a length:
+        # L/|v| w' + F'/k_t = g rate - w, F = mu P + mu' P w. The eigenvalues of A over B are one over those of B over A.
+        A, B = np.zeros((2 * n + 2,) * 2), np.zeros((2 * n + 2,) * 2)
+        w, traction = 2 * n, 2 * n + 1
+        B[:n, :n] = A[:n, n : 2 * n] = np.eye(n)
+        B[n : 2 * n, n : 2 * n] = self.M
+        A[n : 2 * n, :n], A[n : 2 * n, n : 2 * n], A[n : 2 * n, traction] = -K, -C, -g
+        B[w, w] = MEMORY_LENGTH / abs(slip) if slope < 0 else 0
+        B[w, traction] = 1 / d["k_t"]
+        A[w, n : 2 * n], A[w, w] = g, -1
+        A[traction, :n], A[traction, n : 2 * n], A[traction, w], A[traction, traction] = f_q, f_v - slope * g, slope, -1
+        inverse = np.linalg.eigvals(np.linalg.solve(A, B))
+        values = 1 / inverse[np.abs(inverse) > 1e-12]
         return values[np.argmax(values.real)]
 
 

@@ -102,6 +102,25 @@ TEST(Stribeck, FrameVibratesWhereFallingFrictionOutweighsItsDamping)
   EXPECT_GT(damping(41., 1.), 0.);
 }
 
+// A mesh has the shear of its layer, a beam a spring in its place. With a rigid stick the beam grows by 193 1/s.
+TEST(Stribeck, ShearOfTheLayerFeedsABeamAsItFeedsAMesh)
+{
+  double growth[2], frequency[2];
+  for (const unsigned int i : { 0, 1 })
+  {
+    const auto scene =
+        read_scene((params_folder() / "stability-a.prm").string(),
+                   { i == 0 ? "Analysis/Model=beam" : "Analysis/Model=condensed", "Friction/Law=Stribeck",
+                     "Friction/Stribeck speed=10", "Drive/Speed=10", "Stability/Position=65", "Stability/Direction=backward" });
+    const auto eigenvalue = CheckedSlide(scene).stability.modes.front().mode.eigenvalue;
+    growth[i]             = eigenvalue.real();
+    frequency[i]          = eigenvalue.imag();
+  }
+  EXPECT_NEAR(growth[0], growth[1], 0.04 * growth[1]); // the mesh's own error is 2.3 %
+  EXPECT_NEAR(frequency[0], frequency[1], 0.01 * frequency[1]);
+  EXPECT_GT(growth[0], 230.);
+}
+
 // Once it sticks the frame has the drive's speed v and lags by what static friction holds more than kinetic: the circle on which
 // it then slips back, in displacement times omega over velocity, has a radius between v and the hypotenuse of both.
 TEST(Stribeck, FrameSticksToTheCylinderAndSlipsBackAsFastAsItWasCarried)

@@ -255,7 +255,7 @@ namespace sprag
     StepContactLaw law;
     law.normal              = properties.normal;
     law.damping             = properties.damping;
-    law.slip                = slip_law(step_friction(properties.friction, step.to.v), properties.tangential);
+    law.slip                = slip_law(step_friction(properties.friction, step.to.v), properties.tangential, true);
     law.weights             = step.weights;
     auto &response          = found.response;
     response                = step_response(kinematics, step.history.front(), law);
@@ -332,9 +332,9 @@ namespace sprag
                                                            const Evaluation &found) const
   {
     const double slope    = found.sliding.derivative * found.response.pressure;
-    const auto lag        = friction_lag(law, properties.tangential, slope, found.slip_rate);
+    const auto lag        = friction_lag(slip_law(law, properties.tangential, true), slope, found.slip_rate);
     const double friction = lag.pressure * found.sliding.coefficient;
-    if (!(lag.time > 0.))
+    if (lag.time == 0.)
       return {};
     return { { lag.time, row_on_dofs(places, -1. * found.end.slip_row), row_on_dofs(places, friction * found.d_pressure),
                row_on_dofs(places, friction * found.d_pressure_rate + slope * found.end.slip_row) } };

@@ -41,11 +41,11 @@ namespace sprag
 
   /// Friction at a point that lags behind,
   ///   time tau' + tau = stiffness_row . z + rate_row . z',
-  /// tau being its delayed traction and `force` the interface forces by a unit of that; see friction_lag(). While mu rises with
-  /// speed, all of the traction is delayed, where it falls what follows the speed.
+  /// tau being its delayed traction and `force` the interface forces by a unit of that; see friction_lag(). Where a meshed mu
+  /// falls with speed, what follows the speed is delayed, elsewhere all of the traction or a part.
   struct FrictionDelay
   {
-    double time; ///< [s], > 0
+    double time; ///< [s]; below 0 where slip runs away
     dealii::Vector<double> force;
     dealii::Vector<double> stiffness_row;
     dealii::Vector<double> rate_row;
