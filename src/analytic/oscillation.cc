@@ -296,12 +296,10 @@ namespace sprag
                                     [](const Oscillation &each) { return std::isfinite(each.passing_frequency); });
     if (found == oscillations.end())
       return {};
-    return { { "element_passing",
-               "After the reversal at x = " + mm(found->x) + " P rings at " + rounded_text(found->frequency) +
-                   " Hz, and elements of " + mm(face_size) + ", or halves of them, pass at " +
-                   rounded_text(found->passing_frequency) + " Hz.",
-               "That frequency, its growth rate and what is left of P at the end belong to the mesh, not to the lever.",
-               "Use Mesh/Degree = 2, shorter elements (Mesh/Face size) or Contact/Penalty = auto." } };
+    return { make_warning("element_passing", "After the reversal at x = " + mm(found->x) + " P rings at " +
+                                                 rounded_text(found->frequency) + " Hz, and elements of " + mm(face_size) +
+                                                 ", or halves of them, pass at " + rounded_text(found->passing_frequency) +
+                                                 " Hz.") };
   }
 
   std::vector<Oscillation> oscillations(const std::vector<Row> &rows, const Drive &drive, const double face_size)

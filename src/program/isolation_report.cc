@@ -75,11 +75,9 @@ namespace sprag
     {
       if (!is_harmonic(scene) || found.is_steady)
         return {};
-      return { { "no_steady_state",
-                 "After " + rounded_text(found.time) + " s the motion does not repeat within Isolation/Periodic tolerance = " +
-                     rounded_text(scene.isolation.periodic_tolerance) + ".",
-                 "Transmissibilities are those of the last period and hold what is left of the beginning.",
-                 "A longer Isolation/Duration, or a damper that dissipates more." } };
+      return { make_warning("no_steady_state", "After " + rounded_text(found.time) +
+                                                   " s the motion does not repeat within Isolation/Periodic tolerance = " +
+                                                   rounded_text(scene.isolation.periodic_tolerance) + ".") };
     }
   } // namespace
 

@@ -137,8 +137,10 @@ namespace sprag
     }
     if (missed.empty())
       return {};
-    return { { "target_missed", "The run tells errors of " + missed + ", where " + percent(asked.target) + " was asked for.",
-               "These quantities are less accurate than asked for, or nobody knows.", remedy } };
+    auto warning   = make_warning("target_missed",
+                                  "The run tells errors of " + missed + ", where " + percent(asked.target) + " was asked for.");
+    warning.remedy = remedy;
+    return { warning };
   }
 
   Group answer_lines(const AnalysisType type, const std::vector<Entry> &summary)

@@ -190,25 +190,23 @@ namespace sprag
     const auto peak = largest_pressure(rows);
     if (!peak.row || !(peak.width > 0.))
       return {};
-    const double elements = peak.width / scene.mesh.face_size;
-    const double enough   = enough_elements(scene.mesh.degree);
-    if (elements < enough)
-      return { { "coarse_contact",
-                 "Where its pressure is largest, at x = " + mm((*peak.row)[Column::x]) + ", the contact is " + mm(peak.width) +
-                     " wide, " + times_the_size(scene, elements),
-                 "The largest pressure may be wrong by " +
-                     rounded_text(std::ceil(100. * expected_pressure_error(elements, scene.mesh.degree))) +
-                     " %; P, Q and theta are not.",
-                 remedy(scene, peak.width) } };
-    const double narrow = width_over_share(rows, admitted_share);
-    if (!(narrow > 0.) || narrow >= enough * scene.mesh.face_size)
+    const double face_size = scene.mesh.face_size;
+    const double enough    = enough_elements(scene.mesh.degree);
+    const bool is_at_peak  = peak.width / face_size < enough;
+    const double width     = is_at_peak ? peak.width : width_over_share(rows, admitted_share);
+    if (!is_at_peak && (!(width > 0.) || width >= enough * face_size))
       return {};
-    return { { "coarse_contact",
-               "Over more than " + rounded_text(100. * admitted_share) + " % of its way the contact is at most " + mm(narrow) +
-                   " wide, " + times_the_size(scene, narrow / scene.mesh.face_size),
-               "Where it is as narrow as that the pressure may be wrong by " +
-                   rounded_text(std::ceil(100. * expected_pressure_error(narrow / scene.mesh.face_size, scene.mesh.degree))) +
-                   " % or more; the largest of the run, P, Q and theta are not.",
-               remedy(scene, narrow) } };
+    const double elements   = width / face_size;
+    const std::string error = rounded_text(std::ceil(100. * expected_pressure_error(elements, scene.mesh.degree))) + " %";
+    auto warning            = make_warning(
+                   "coarse_contact",
+                   (is_at_peak ? "Where its pressure is largest, at x = " + mm((*peak.row)[Column::x]) + ", the contact is "
+                               : "Over more than " + rounded_text(100. * admitted_share) + " % of its way the contact is at most ") +
+                       mm(width) + " wide, " + times_the_size(scene, elements));
+    warning.effect = is_at_peak ? "The largest pressure may be wrong by " + error + "; P, Q and theta are not."
+                                : "Where it is as narrow as that the pressure may be wrong by " + error +
+                                      " or more; the largest of the run, P, Q and theta are not.";
+    warning.remedy = remedy(scene, width);
+    return { warning };
   }
 } // namespace sprag

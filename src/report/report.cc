@@ -335,9 +335,7 @@ namespace sprag
         }
     if (worst.empty())
       return {};
-    return { { "far_from_closed_form", worst + " is " + percent(largest) + " of its peak off the closed form.",
-               "Flexure, layer or contact moves P and Q that far, or a value, unit or mesh is another than was meant.",
-               "Check dimensions, Young's moduli and Mesh/File. A device that is meant to be so soft needs no change." } };
+    return { make_warning("far_from_closed_form", worst + " is " + percent(largest) + " of its peak off the closed form.") };
   }
 
   void check_deviation(const Scene &scene, const std::vector<Entry> &summary)

@@ -69,26 +69,19 @@ namespace sprag
       const Row *deepest     = find_largest_row(rows, [](const Row &row) { return row[Column::penetration]; });
       if (deepest == nullptr)
         return;
-      const std::string remedy = "Leave Contact/Penalty at auto, or give ten times as much.";
       const double penetration = (*deepest)[Column::penetration];
       if (thickness > 0. && penetration > largest_layer_penetration * thickness)
-        warnings.push_back({ "overlap_of_layer",
-                             "Cylinder and friction face overlap by " + mm(penetration) + ' ' + place(*deepest) + ", " +
-                                 per_cent(penetration / thickness) + " of the layer's thickness; admitted are " +
-                                 per_cent(largest_layer_penetration) + '.',
-                             "The lever is opened by that much less than the cylinder asks for: P, Q, work and theta are too "
-                             "small, and pressures and contact width are those of a soft spring, not of the layer.",
-                             remedy });
+        warnings.push_back(make_warning("overlap_of_layer", "Cylinder and friction face overlap by " + mm(penetration) + ' ' +
+                                                                place(*deepest) + ", " + per_cent(penetration / thickness) +
+                                                                " of the layer's thickness; admitted are " +
+                                                                per_cent(largest_layer_penetration) + '.'));
       const double at_peak  = peak[Column::penetration];
       const double approach = at_peak + peak[Column::indentation];
       if (at_peak > largest_approach_penetration * approach)
-        warnings.push_back({ "soft_penalty",
-                             "The overlap of " + mm(at_peak) + ' ' + place(peak) + ", where P is largest, is " +
-                                 per_cent(at_peak / approach) + " of the approach of cylinder and lever; admitted are " +
-                                 per_cent(largest_approach_penetration) + '.',
-                             "The contact is softer than its layer: contact width too large, the largest pressure too small, in "
-                             "time the frequency of ringing too low.",
-                             remedy });
+        warnings.push_back(make_warning("soft_penalty", "The overlap of " + mm(at_peak) + ' ' + place(peak) +
+                                                            ", where P is largest, is " + per_cent(at_peak / approach) +
+                                                            " of the approach of cylinder and lever; admitted are " +
+                                                            per_cent(largest_approach_penetration) + '.'));
     }
 
     void add_tangential(const Row &peak, Warnings &warnings)
@@ -98,14 +91,11 @@ namespace sprag
       if (!(slip > largest_elastic_slip * width))
         return;
       const std::string share = per_cent(slip / width);
-      warnings.push_back(
-          { "soft_tangential_penalty",
-            "The elastic slip of " + mm(slip) + ' ' + place(peak) + " is " + share + " of the contact's width, over " +
-                "which a point of the lever slips while it is touched; admitted are " + per_cent(largest_elastic_slip) + '.',
-            "Points leave the contact before friction has built up: F, Q and the work of friction are too small by up to that "
-            "share, P off where friction presses the lever on.",
-            "Leave Contact/Tangential penalty at auto, or make it " + rounded_text(std::ceil(100. * slip / width)) +
-                " times as large." });
+      warnings.push_back(make_warning(
+          "soft_tangential_penalty",
+          "The elastic slip of " + mm(slip) + ' ' + place(peak) + " is " + share + " of the contact's width, over " +
+              "which a point of the lever slips while it is touched; admitted are " + per_cent(largest_elastic_slip) + '.',
+          { rounded_text(std::ceil(100. * slip / width)) }));
     }
 
     double peak_over_mean(const Scene &scene, const Row &row)
@@ -135,16 +125,13 @@ namespace sprag
         }
       if (worst == nullptr || static_cast<double>(peaked) <= admitted_peak_share * static_cast<double>(pressed))
         return;
-      warnings.push_back(
-          { "stiff_penalty",
-            "Contact/Penalty = " + rounded_text(*scene.contact.penalty) + " N/mm3 lets single points carry the pressure in " +
-                per_cent(static_cast<double>(peaked) / static_cast<double>(pressed)) + " of the rows: " + place(*worst) +
-                " the largest pressure is " + rounded_text(peak_over_mean(scene, *worst)) +
-                " times the mean over the contact; a smooth contact has no more than " + rounded_text(admitted) + '.',
-            "Largest pressures there are up to several times too large, and contact widths too small; P, Q and theta "
-            "are not off.",
-            "Leave Contact/Penalty at auto, or give Mesh/Degree = 2 and a Mesh/Face size of at most " +
-                mm((*worst)[Column::contact_width] / 4.) + "." });
+      warnings.push_back(make_warning(
+          "stiff_penalty",
+          "Contact/Penalty = " + rounded_text(*scene.contact.penalty) + " N/mm3 lets single points carry the pressure in " +
+              per_cent(static_cast<double>(peaked) / static_cast<double>(pressed)) + " of the rows: " + place(*worst) +
+              " the largest pressure is " + rounded_text(peak_over_mean(scene, *worst)) +
+              " times the mean over the contact; a smooth contact has no more than " + rounded_text(admitted) + '.',
+          { mm((*worst)[Column::contact_width] / 4.) }));
     }
 
     double finite(const double value)
@@ -172,13 +159,10 @@ namespace sprag
       const double s = (*worst)[Column::s];
       const double arm =
           std::isfinite(s) ? s : kinematics(scene.geometry, std::min((*worst)[Column::x], scene.drive.maximum())).s;
-      warnings.push_back(
-          { "large_deflection",
-            "The lever bends by about " + mm(ratio * arm) + ' ' + place(*worst) + ", " + per_cent(ratio) +
-                " of the distance from the pivot; linear theory is meant for no more than " + per_cent(largest_deflection) + '.',
-            "P and Q are off by about as large a share (a lever of 1 mm bent by 2.4 % has 2.1 % too much P), more close to "
-            "jamming.",
-            "Use a thicker lever, or Lever/Material = neo-Hookean with Analysis/Plane = strain without inertia." });
+      warnings.push_back(make_warning(
+          "large_deflection", "The lever bends by about " + mm(ratio * arm) + ' ' + place(*worst) + ", " + per_cent(ratio) +
+                                  " of the distance from the pivot; linear theory is meant for no more than " +
+                                  per_cent(largest_deflection) + '.'));
     }
 
     void add_strain(const Scene &scene, const std::vector<Row> &rows, Warnings &warnings)
@@ -189,14 +173,10 @@ namespace sprag
         return;
       const double strain = (*worst)[Column::indentation] / thickness;
       if (strain > largest_strain)
-        warnings.push_back({ "large_strain",
-                             "The friction layer is compressed by " + mm((*worst)[Column::indentation]) + ' ' + place(*worst) +
-                                 ", " + per_cent(strain) + " of its thickness; linear theory is meant for no more than " +
-                                 per_cent(largest_strain) + '.',
-                             "Pressure, contact width and compression are off by about as large a share; P and Q by the change "
-                             "of the lever's turn alone.",
-                             "Use a stiffer or thicker layer or less force, or Lever/Material = neo-Hookean with Analysis/Plane "
-                             "= strain without inertia." });
+        warnings.push_back(make_warning(
+            "large_strain", "The friction layer is compressed by " + mm((*worst)[Column::indentation]) + ' ' + place(*worst) +
+                                ", " + per_cent(strain) + " of its thickness; linear theory is meant for no more than " +
+                                per_cent(largest_strain) + '.'));
     }
 
     void add_pressure(const Scene &scene, const std::vector<Row> &rows, const Row &peak, Warnings &warnings)
@@ -210,15 +190,11 @@ namespace sprag
       if (pressure <= *strength)
         return;
       const std::string source = scene.layer.strength ? "Friction layer/Strength" : "0.04 E, at which the cells of cork buckle";
-      warnings.push_back({ "pressure_beyond_strength",
-                           "The largest pressure on the friction layer is " + rounded_text(pressure) + " MPa" +
-                               (pressed != nullptr ? "" : " (by an elastic foundation)") +
-                               ", under P = " + rounded_text(location_row[Column::P]) + " N " + place(location_row) +
-                               "; the layer gives way from " + rounded_text(*strength) + " MPa (" + source + ").",
-                           "The layer is modelled as elastic: a real one is crushed, its pressure stays near that value and its "
-                           "contact is wider; P and Q change by the lever's turn alone, stiffness in contact and ringing more.",
-                           "Lower the force or widen the lever, give the Friction layer/Strength of the sheet in use, or take "
-                           "pressure and frequencies in contact for upper bounds." });
+      warnings.push_back(make_warning("pressure_beyond_strength",
+                                      "The largest pressure on the friction layer is " + rounded_text(pressure) + " MPa" +
+                                          (pressed != nullptr ? "" : " (by an elastic foundation)") +
+                                          ", under P = " + rounded_text(location_row[Column::P]) + " N " + place(location_row) +
+                                          "; the layer gives way from " + rounded_text(*strength) + " MPa (" + source + ")."));
     }
 
     /// Quasi-static alone: in time Analysis/Maximum energy residual looks at the whole ledger. The springs of the penalties,
@@ -238,12 +214,10 @@ namespace sprag
       if (!(open > largest_open_energy * work))
         return;
       const Row *longest = find_largest_row(rows, [](const Row &row) { return std::abs(row[Column::step]); });
-      warnings.push_back({ "long_steps",
-                           "Work of the drive, work of friction and stored energy differ by " + per_cent(open / work) +
-                               " of the largest work, with steps of up to " + mm(std::abs((*longest)[Column::step])) +
-                               "; admitted are " + per_cent(largest_open_energy) + '.',
-                           "The works loop_area and friction_work are off by some ten times that share; P and Q are not.",
-                           "Set Analysis/Step to a quarter of that length; if the gap remains, refine Mesh/Face size." });
+      warnings.push_back(make_warning("long_steps", "Work of the drive, work of friction and stored energy differ by " +
+                                                        per_cent(open / work) + " of the largest work, with steps of up to " +
+                                                        mm(std::abs((*longest)[Column::step])) + "; admitted are " +
+                                                        per_cent(largest_open_energy) + '.'));
     }
 
     /// A sensor that only presses needs a preload where the plate would pull it.
@@ -261,10 +235,8 @@ namespace sprag
           lowest = &row;
       if (lowest == nullptr || !(pull(*lowest) > least * largest(rows, [](const Row &row) { return row[Column::P]; })))
         return;
-      warnings.push_back({ "sensor_in_tension",
-                           "A force sensor is pulled by " + rounded_text(pull(*lowest)) + " N " + place(*lowest) + '.',
-                           "A sensor that the plate only rests on opens there, and the others carry other forces.",
-                           "Preload the sensors by more than that, or place them nearer to the contact." });
+      warnings.push_back(make_warning("sensor_in_tension", "A force sensor is pulled by " + rounded_text(pull(*lowest)) + " N " +
+                                                               place(*lowest) + '.'));
     }
 
     /// Beyond its last row a table is constant.
@@ -279,11 +251,9 @@ namespace sprag
       // Speeds of a drive that is a table too have round-off.
       if (fastest == nullptr || std::abs((*fastest)[column]) <= (1. + 1e-6) * last)
         return;
-      warnings.push_back({ "speed_beyond_table",
-                           "The speed that friction depends on is " + rounded_text(std::abs((*fastest)[column])) + " mm/s " +
-                               place(*fastest) + "; Friction/Table ends at " + rounded_text(last) + " mm/s.",
-                           "There mu is that of the table's last row: P, Q and work follow from a guess.",
-                           "A table that goes on to this speed, if only by a row with the same mu." });
+      warnings.push_back(make_warning(
+          "speed_beyond_table", "The speed that friction depends on is " + rounded_text(std::abs((*fastest)[column])) + " mm/s " +
+                                    place(*fastest) + "; Friction/Table ends at " + rounded_text(last) + " mm/s."));
     }
 
     /// The layer's shear k_t delays what friction does to the slip: where mu falls by |mu'| a speed, |mu'| P / k_t [s] feeds a
@@ -298,12 +268,10 @@ namespace sprag
       const double shear  = slope * slide[Column::P] / contact_reference(scene).tangential;
       const double memory = friction.memory_length / speed;
       if (shear > memory)
-        warnings.push_back({ "runaway_slip",
-                             "Friction falls so fast with speed " + place(slide) +
-                                 " that slip runs away sooner than mu follows: mu' P / k_t is " + rounded_text(1e3 * shear) +
-                                 " ms, Friction/Memory length over the speed " + rounded_text(1e3 * memory) + " ms.",
-                             "There is no steady slide. A growth rate depends on the mesh, and steps in time fail or shake.",
-                             "Measure mu over speed more finely and Friction/Memory length." });
+        warnings.push_back(make_warning(
+            "runaway_slip", "Friction falls so fast with speed " + place(slide) +
+                                " that slip runs away sooner than mu follows: mu' P / k_t is " + rounded_text(1e3 * shear) +
+                                " ms, Friction/Memory length over the speed " + rounded_text(1e3 * memory) + " ms."));
     }
   } // namespace
 
@@ -357,10 +325,9 @@ namespace sprag
 
   Warnings beam_warnings(const Scene &scene, const double frequency, const double growth_rate)
   {
-    return { { "beyond_the_beam",
-               "A mode of " + rounded_text(frequency) + " Hz grows by " + rounded_text(growth_rate) + " 1/s. Up to " +
-                   rounded_text(highest_beam_frequency(scene)) + " Hz waves are longer than six depths of the lever.",
-               "No lever has that mode. The verdict leaves it out; in time it would grow.",
-               "Give Lever/Modal damping, or take Analysis/Model = condensed." } };
+    return { make_warning("beyond_the_beam", "A mode of " + rounded_text(frequency) + " Hz grows by " +
+                                                 rounded_text(growth_rate) + " 1/s. Up to " +
+                                                 rounded_text(highest_beam_frequency(scene)) +
+                                                 " Hz waves are longer than six depths of the lever.") };
   }
 } // namespace sprag

@@ -89,15 +89,12 @@ namespace sprag
       if (found.value <= largest_amplification)
         return;
       warnings.push_back(
-          { "near_locking",
-            "Moving back at x = " + mm(found.x) + " the friction coefficient " + rounded_text(found.mu) +
-                " is close to s/e = " + rounded_text(found.s / scene.geometry.interface_offset) +
-                ", at which a rigid lever locks: dP/dmu mu/P = mu e/(s - mu e) = " + rounded_text(found.value) + ", more than " +
-                rounded_text(largest_amplification) + ".",
-            "P and Q near there are off by " + rounded_text(found.value) +
-                " % for each per cent of error in the friction coefficient, and by as much for the same error of s through "
-                "flexure or compression.",
-            "Shorten Drive/Stroke or lower Friction/Factor, or take P and Q there for no more than an order of magnitude." });
+          make_warning("near_locking",
+                       "Moving back at x = " + mm(found.x) + " the friction coefficient " + rounded_text(found.mu) +
+                           " is close to s/e = " + rounded_text(found.s / scene.geometry.interface_offset) +
+                           ", at which a rigid lever locks: dP/dmu mu/P = mu e/(s - mu e) = " + rounded_text(found.value) +
+                           ", more than " + rounded_text(largest_amplification) + ".",
+                       { rounded_text(found.value) }));
     }
 
     /// At the surface in the clamp, a beam: M = a EI/L (1 + b c/L) turn with the clamp c behind the pivot.
@@ -120,14 +117,11 @@ namespace sprag
       const double strain = leaf_strain(leaf, turn);
       if (strain <= largest_leaf_strain)
         return;
-      warnings.push_back(
-          { "leaf_beyond_yield",
-            "Turned by " + rounded_text(turn) + " rad at x = " + mm(x) + " a leaf of " + mm(leaf.thickness) + " thickness and " +
-                mm(leaf.length) + " length is strained by " + rounded_text(100. * strain) + " % in its clamp (" +
-                rounded_text(strain * leaf.young_modulus) + " MPa); more than " + rounded_text(100. * largest_leaf_strain) +
-                " % few spring steels bear for long.",
-            "The leaf is modelled as elastic: a real one yields or breaks, its moment stays behind, and so do P, Q and work.",
-            "Use a thinner or longer leaf; Analysis/Type = calibration finds the thickness for a stiffness." });
+      warnings.push_back(make_warning(
+          "leaf_beyond_yield", "Turned by " + rounded_text(turn) + " rad at x = " + mm(x) + " a leaf of " + mm(leaf.thickness) +
+                                   " thickness and " + mm(leaf.length) + " length is strained by " + rounded_text(100. * strain) +
+                                   " % in its clamp (" + rounded_text(strain * leaf.young_modulus) + " MPa); more than " +
+                                   rounded_text(100. * largest_leaf_strain) + " % few spring steels bear for long."));
     }
 
     void add_plane_stress(const Scene &scene, Warnings &warnings)
@@ -138,16 +132,12 @@ namespace sprag
           nu <= largest_plane_stress_ratio)
         return;
       const double ratio = (1. - nu) * (1. - nu) / (1. - 2. * nu);
-      warnings.push_back(
-          { "plane_stress_of_layer",
-            "Friction layer/Poisson's ratio = " + rounded_text(nu) + " with Friction layer/Plane = stress; above " +
-                rounded_text(largest_plane_stress_ratio) +
-                " a layer held between two faces, much wider than thick, is more than twice as stiff as plane stress says.",
-            "The layer of " + mm(layer.thickness) + " thickness and " + mm(scene.lever.width) +
-                " width is too soft, by up to a factor of " + rounded_text(ratio) +
-                ": compression and contact width come out too large, the largest pressure too small; P, Q and theta hardly "
-                "change.",
-            "Set Friction layer/Plane = strain." });
+      warnings.push_back(make_warning(
+          "plane_stress_of_layer",
+          "Friction layer/Poisson's ratio = " + rounded_text(nu) + " with Friction layer/Plane = stress; above " +
+              rounded_text(largest_plane_stress_ratio) +
+              " a layer held between two faces, much wider than thick, is more than twice as stiff as plane stress says.",
+          { mm(layer.thickness), mm(scene.lever.width), rounded_text(ratio) }));
     }
 
     /// Points that lie beside the cylinder do not feel it.
@@ -162,15 +152,11 @@ namespace sprag
       const double sagitta = spacing * spacing / (8. * scene.geometry.cylinder_radius);
       if (opening >= least_opening * sagitta)
         return;
-      warnings.push_back(
-          { "contact_between_points",
-            "The cylinder opens the lever by no more than " + mm(opening) + " (at x = " + mm(x) +
-                "), but between the points at which the friction face feels it, every " + mm(spacing) + ", its circle rises by " +
-                mm(sagitta) + "; at least " + rounded_text(least_opening) + " times that are needed.",
-            "The cylinder sinks in between points: P, Q, theta and work too small, by 1 % to all of them, with places "
-            "without contact.",
-            "Shorter elements (Mesh/Face size), a smaller Geometry/Interface offset or a longer Drive/Stroke; "
-            "Analysis/Model = closed form for a lever that hardly opens." });
+      warnings.push_back(make_warning("contact_between_points",
+                                      "The cylinder opens the lever by no more than " + mm(opening) + " (at x = " + mm(x) +
+                                          "), but between the points at which the friction face feels it, every " + mm(spacing) +
+                                          ", its circle rises by " + mm(sagitta) + "; at least " + rounded_text(least_opening) +
+                                          " times that are needed."));
     }
 
     /// Parameter by its full name, and whether the scene uses it.
@@ -233,26 +219,19 @@ namespace sprag
           list += (list.empty() ? "" : ", ") + name + " = " + find_parameter(parameters, name)->default_value;
       if (list.empty())
         return;
-      warnings.push_back({ "defaults_of_model_a",
-                           std::string(is_other_device ? "The geometry or spring" : "The lever") +
-                               " is of another device than model A, but the scene does not give " + list +
-                               ": what it does not give is model A's.",
-                           "The device modelled is a mixture of two: forces follow geometry and spring, flexure the lever's "
-                           "dimensions, frequencies and stability the moment of inertia, to which densities are scaled, and the "
-                           "contact stiffness as well.",
-                           "Give these parameters, even where the value is the same; Analysis/Type = contact law fits the "
-                           "contact stiffness, Lever/Inertia = as built takes densities as they are." });
+      warnings.push_back(
+          make_warning("defaults_of_model_a", std::string(is_other_device ? "The geometry or spring" : "The lever") +
+                                                  " is of another device than model A, but the scene does not give " + list +
+                                                  ": what it does not give is model A's."));
     }
 
     void add_locking(const Scene &scene, Warnings &warnings)
     {
       const auto found = follows_drive(scene) && scene.analysis.model != ModelType::closed_form ? locking(scene) : std::nullopt;
       if (found)
-        warnings.push_back({ "locks",
-                             "Moving back at x = " + mm(found->x) + " a rigid lever locks: s = " + mm(found->s) + " <= mu e = " +
-                                 mm(found->mu * scene.geometry.interface_offset) + " with mu = " + rounded_text(found->mu) + ".",
-                             "The run ends where the lever jams, unless it bends enough to slide on.",
-                             "Take a smaller friction coefficient, Geometry/Interface offset or Drive/Stroke." });
+        warnings.push_back(make_warning(
+            "locks", "Moving back at x = " + mm(found->x) + " a rigid lever locks: s = " + mm(found->s) + " <= mu e = " +
+                         mm(found->mu * scene.geometry.interface_offset) + " with mu = " + rounded_text(found->mu) + "."));
     }
 
     struct Shaking
@@ -317,13 +296,11 @@ namespace sprag
       const auto found = find_shaking(scene.drive);
       if (!found.is_known())
         return;
-      warnings.push_back({ "shaking_drive",
-                           "The speed of Drive/Table goes up and down again from row to row, " + std::to_string(found.turns) +
-                               " times, by up to " + rounded_text(found.largest) + " mm/s; its largest is " +
-                               rounded_text(scene.drive.peak_speed()) +
-                               " mm/s. So do positions of coarse resolution or with noise.",
-                           "The cylinder is shaken like that: in time P and Q ring with it, and friction follows its speeds.",
-                           "Give Drive/Smoothing, some 30 times the rows' distance in time, if the real motion is smooth." });
+      warnings.push_back(make_warning("shaking_drive", "The speed of Drive/Table goes up and down again from row to row, " +
+                                                           std::to_string(found.turns) + " times, by up to " +
+                                                           rounded_text(found.largest) + " mm/s; its largest is " +
+                                                           rounded_text(scene.drive.peak_speed()) +
+                                                           " mm/s. So do positions of coarse resolution or with noise."));
     }
 
     /// A slide is held at the largest speed. Near its ends such a drive is slower, where a mu that depends on speed is another.
@@ -333,11 +310,9 @@ namespace sprag
       const bool is_varied = profile == DriveProfile::harmonic || profile == DriveProfile::table;
       if (!is_varied || !looks_over_stroke(scene) || std::holds_alternative<CoulombFriction>(scene.friction.law))
         return;
-      warnings.push_back({ "largest_speed_alone",
-                           "Slides are held at the largest speed of the drive, " + rounded_text(scene.drive.peak_speed()) +
-                               " mm/s, at every x. The drive passes most of its way more slowly, where mu is another.",
-                           "A slide that is stable at that speed may flutter at a smaller one.",
-                           "Judge several constant speeds: Drive/Profile = triangle with Stability/Ranges = Drive/Speed." });
+      warnings.push_back(make_warning(
+          "largest_speed_alone", "Slides are held at the largest speed of the drive, " + rounded_text(scene.drive.peak_speed()) +
+                                     " mm/s, at every x. The drive passes most of its way more slowly, where mu is another."));
     }
 
     /// A value, what it can be with room, and units that are used by mistake in place of its own.
@@ -463,10 +438,10 @@ namespace sprag
         if (const auto likely = meant(checked); !likely.empty())
           remedy += checked.parameter + " may be meant as " + likely + ". ";
       }
-      if (!found.empty())
-        warnings.push_back({ "implausible_values", found,
-                             "No solid or no such device has that: all results that depend on it are of another one.",
-                             remedy + "Give the unit behind the number, or the number in the parameter's own unit." });
+      if (found.empty())
+        return;
+      warnings.push_back(make_warning("implausible_values", found));
+      warnings.back().remedy.insert(0, remedy);
     }
 
     /// Those that a run writes, be it of a pair or in three dimensions, cannot be misspelt.
@@ -492,9 +467,7 @@ namespace sprag
           found += (found.empty() ? "" : " ") + std::string("Of ") + parameter + " these columns are not used: " + names + '.';
       }
       if (!found.empty())
-        warnings.push_back(
-            { "unused_columns", found, "What they hold is in no result.",
-              "Nothing, if none of them was meant; a column that is meant needs its name, see params/scene-files.md." });
+        warnings.push_back(make_warning("unused_columns", found));
     }
   } // namespace
 
@@ -502,11 +475,9 @@ namespace sprag
   {
     if (parameters.empty())
       return {};
-    return { { "without_effect",
-               "What Stability/Ranges and Stability/Critical vary changes nothing, to the last digit: " +
-                   boost::algorithm::join(parameters, ", ") + '.',
-               "The verdict says nothing of these ranges: this model does not have the parameter.",
-               "Vary what the model has. params/parameters.md says what is of reduced levers alone." } };
+    return { make_warning("without_effect",
+                          "What Stability/Ranges and Stability/Critical vary changes nothing, to the last digit: " +
+                              boost::algorithm::join(parameters, ", ") + '.') };
   }
 
   Warnings scene_warnings(const Scene &scene)

@@ -9,19 +9,19 @@
 
 namespace sprag
 {
-  /// A row of a table on the pages of postprocess/ that describe results: results.md, summary.md and summary-of-analyses.md are
-  /// built into the program, which takes names, units and meanings from there.
+  /// A row of a table on the pages that describe results and warnings: results.md, summary.md and summary-of-analyses.md of
+  /// postprocess/ and params/warnings.md are built into the program, which takes names, units and meanings from there.
   struct PageRow
   {
     std::string unit;
-    std::string printed; ///< line that a run prints; empty without one
-    std::string meaning;
-    std::string word; ///< what `*` in the name of the row stands for, and in its other cells; empty without one
+    std::string printed; ///< line that a run prints, empty without one; effect of a warning
+    std::string meaning; ///< remedy of a warning
+    std::string word;    ///< what `*` in the name of the row stands for, and in its other cells; empty without one
   };
 
-  /// Finds the row for a name among tables of one `kind`, "entry", "column" or "fact", as the heading of their first column says:
-  /// in sections whose heading has `type` in code or, where none of these fits, in sections without code. Of several rows it is
-  /// the one whose `*` stands for least.
+  /// Finds the row for a name among tables of one `kind`, "entry", "column", "fact" or "warning", as the heading of their first
+  /// column says: in sections whose heading has `type` in code or, where none of these fits, in sections without code. Of several
+  /// rows it is the one whose `*` stands for least.
   std::optional<PageRow> page_row(const std::string &kind, const std::string &type, const std::string &name);
 
   /// Returns the columns with these names, separated by blanks. Throws std::out_of_range where the pages have none.

@@ -2,8 +2,13 @@
 #include "results/warning.h"
 
 #include "base/system/coloured.h"
+#include "results/page_tables.h"
 
+#include <boost/algorithm/string/replace.hpp>
+
+#include <algorithm>
 #include <sstream>
+#include <stdexcept>
 #include <unistd.h>
 
 namespace sprag
@@ -29,6 +34,21 @@ namespace sprag
       return result + line + '\n';
     }
   } // namespace
+
+  Warning make_warning(const std::string &name, const std::string &found, const std::vector<std::string> &values)
+  {
+    const auto row = page_row("warning", "", name);
+    if (!row)
+      throw std::logic_error("no warning '" + name + "' in params/warnings.md");
+    // The page has the columns warning, when, effect and remedy.
+    std::string text = row->printed + '\n' + row->meaning;
+    if (std::count(text.begin(), text.end(), '*') != static_cast<std::ptrdiff_t>(values.size()))
+      throw std::logic_error("warning '" + name + "' has another number of values in params/warnings.md");
+    for (const auto &value : values)
+      boost::replace_first(text, "*", value);
+    const auto end = text.find('\n');
+    return { name, found, text.substr(0, end), text.substr(end + 1) };
+  }
 
   std::string to_text(const Warnings &warnings)
   {

@@ -68,7 +68,8 @@ namespace sprag
       return numbers[0] > 0. && numbers[1] > 0. && sums[0] / numbers[0] < sums[1] / numbers[1];
     }
 
-    std::string another_remedy(const Identification &found, const bool is_turned)
+    /// Puts in front of a remedy what would explain the residuals; a turned sign does so alone.
+    std::string another_remedy(const std::string &remedy, const Identification &found, const bool is_turned)
     {
       if (is_turned)
         return "Turn the sign of Q: as measured, friction gives work back to the drive.";
@@ -76,8 +77,7 @@ namespace sprag
       for (const auto &more : found.more)
         named.push_back(more.name + " (by about " + with_unit(more.change, more.unit) + ")");
       return (named.empty() ? "" : "Check " + boost::algorithm::join(named, " or ") + ", which would explain the residuals. ") +
-             "Look at the residuals over x. Check what is taken as known: Geometry/Cylinder radius and the other "
-             "lengths, sign and scale of each force; seek offsets or lag in Identification/Unknowns.";
+             remedy;
     }
 
     std::vector<ColumnInfo> identification_columns(const MeasuredStroke &measured)
@@ -192,28 +192,21 @@ namespace sprag
           not_followed.push_back(formatted("%.0f", noise.rows) + " values of " + to_word(channels[i]) + " are worth " +
                                  formatted("%.0f", noise.effective_rows()) + " independent ones");
       if (!not_followed.empty())
-        warnings.push_back({ "model_does_not_follow", boost::algorithm::join(not_followed, ", ") + ".",
-                             "Residuals follow each other, as they do where the lever of the scene is another than the measured "
-                             "one. The intervals count noise alone and then miss the true values by many times their width.",
-                             another_remedy(found, is_sign_turned(scene, fit, found)) });
+      {
+        auto warning   = make_warning("model_does_not_follow", boost::algorithm::join(not_followed, ", ") + ".");
+        warning.remedy = another_remedy(warning.remedy, found, is_sign_turned(scene, fit, found));
+        warnings.push_back(warning);
+      }
       const auto &indistinct = found.knowledge.indistinct;
       if (!indistinct.empty())
-        warnings.push_back(
-            { "indistinct_unknowns", boost::algorithm::join(indistinct, " "),
-              "Their values are hardly better than where the search began, and the intervals, which a straight "
-              "line through the model gives, are only a sign of it.",
-              "Measure both directions, over more of the stroke, P beside Q, or at other speeds; or leave one of them out of "
-              "Identification/Unknowns and give its value." });
+        warnings.push_back(make_warning("indistinct_unknowns", boost::algorithm::join(indistinct, " ")));
       if (found.window_is_full)
-        warnings.push_back(
-            { "long_vibration",
-              "Residuals are larger than noise up to a quarter of a stroke behind a turn, the most that is left out.",
-              "Vibration, or what the lever cannot follow, may go on behind it and bias the values.",
-              "Give a longer Identification/Reversal window, or look at the residuals for another model." });
+        warnings.push_back(make_warning(
+            "long_vibration",
+            "Residuals are larger than noise up to a quarter of a stroke behind a turn, the most that is left out."));
       if (!found.converged)
-        warnings.push_back({ "not_converged", "The fit still changes after " + std::to_string(found.rounds) + " rounds.",
-                             "Values and intervals are those of the last round.",
-                             "Start from other values, or take fewer unknowns." });
+        warnings.push_back(
+            make_warning("not_converged", "The fit still changes after " + std::to_string(found.rounds) + " rounds."));
       return warnings;
     }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sstream>
+#include <stdexcept>
 
 using namespace sprag;
 
@@ -16,6 +17,22 @@ TEST(WarningText, CountsAndNames)
   EXPECT_EQ(count_text({}), "no warnings");
   EXPECT_EQ(count_text({ soft }), "1 warning: soft");
   EXPECT_EQ(count_text({ soft, { "narrow", "", "", "" } }), "2 warnings: soft, narrow");
+}
+
+TEST(WarningsPage, HoldsEffectAndRemedy)
+{
+  const auto vibration = make_warning("hidden_vibration", "Found.", { "3", "0.1" });
+  EXPECT_EQ(vibration.name, "hidden_vibration");
+  EXPECT_EQ(vibration.found, "Found.");
+  EXPECT_EQ(vibration.effect, "P, Q and their peaks lack that vibration: the run models none above 3 Hz.");
+  EXPECT_EQ(vibration.remedy, "Leave Time/Step out, so that steps adapt, or give one of 0.1 s or less.");
+}
+
+TEST(WarningsPage, UnknownNamesAndOtherNumbersOfValuesAreErrors)
+{
+  EXPECT_THROW(make_warning("no_such_warning", "Found."), std::logic_error);
+  EXPECT_THROW(make_warning("hidden_vibration", "Found.", { "3" }), std::logic_error);
+  EXPECT_THROW(make_warning("locks", "Found.", { "3" }), std::logic_error);
 }
 
 TEST(WarningText, NothingWithoutWarnings)

@@ -426,12 +426,11 @@ namespace sprag
                                           return longest_step(a, time.spectral_radius) < longest_step(b, time.spectral_radius);
                                         });
     const double limit = longest_step(*worst, time.spectral_radius);
-    return { { "hidden_vibration",
-               "The slide at x = " + mm(worst->x) + " vibrates by itself at " + rounded_text(worst->frequency) +
-                   " Hz, growing by " + rounded_text(worst->growth_rate) + " 1/s, and Time/Step = " + rounded_text(time.step) +
-                   " s damps that by more than a tenth of its growth: steps of up to " + rounded_text(limit) + " s do not.",
-               "P, Q and their peaks lack that vibration: the run models none above " +
-                   rounded_text(largest_angle / (2. * M_PI * time.step)) + " Hz.",
-               "Leave Time/Step out, so that steps adapt, or give one of " + rounded_text(limit) + " s or less." } };
+    return { make_warning(
+        "hidden_vibration",
+        "The slide at x = " + mm(worst->x) + " vibrates by itself at " + rounded_text(worst->frequency) + " Hz, growing by " +
+            rounded_text(worst->growth_rate) + " 1/s, and Time/Step = " + rounded_text(time.step) +
+            " s damps that by more than a tenth of its growth: steps of up to " + rounded_text(limit) + " s do not.",
+        { rounded_text(largest_angle / (2. * M_PI * time.step)), rounded_text(limit) }) };
   }
 } // namespace sprag
