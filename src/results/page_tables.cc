@@ -102,17 +102,20 @@ namespace sprag
     return find_row(name, [&](const PageTable &one) { return one.kind == kind && !boost::contains(one.heading, "`"); });
   }
 
+  ColumnInfo page_column(const std::string &type, const std::string &name)
+  {
+    const auto row = page_row("column", type, name);
+    if (!row)
+      throw std::out_of_range("no column '" + name + "' on the pages");
+    return { name, row->unit, row->meaning };
+  }
+
   std::vector<ColumnInfo> page_columns(const std::string &type, const std::string &names)
   {
     std::vector<ColumnInfo> columns;
     std::istringstream words(names);
     for (std::string name; words >> name;)
-    {
-      const auto row = page_row("column", type, name);
-      if (!row)
-        throw std::out_of_range("no column '" + name + "' on the pages");
-      columns.push_back({ name, row->unit, row->meaning });
-    }
+      columns.push_back(page_column(type, name));
     return columns;
   }
 } // namespace sprag

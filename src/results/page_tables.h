@@ -9,8 +9,9 @@
 
 namespace sprag
 {
-  /// A row of a table on the pages that describe results and warnings: results.md, summary.md and summary-of-analyses.md of
-  /// postprocess/ and params/warnings.md are built into the program, which takes names, units and meanings from there.
+  /// A row of a table on the pages that describe results and warnings: results.md, summary.md, summary-of-analyses.md and
+  /// modes-maps-studies.md of postprocess/ and params/warnings.md are built into the program, which takes names, units and
+  /// meanings from there.
   struct PageRow
   {
     std::string unit;
@@ -23,6 +24,9 @@ namespace sprag
   /// column says: in sections whose heading has `type` in code or, where none of these fits, in sections without code. Of several
   /// rows it is the one whose `*` stands for least.
   std::optional<PageRow> page_row(const std::string &kind, const std::string &type, const std::string &name);
+
+  /// Returns the column of one name. Throws std::out_of_range where the pages have none.
+  ColumnInfo page_column(const std::string &type, const std::string &name);
 
   /// Returns the columns with these names, separated by blanks. Throws std::out_of_range where the pages have none.
   std::vector<ColumnInfo> page_columns(const std::string &type, const std::string &names);

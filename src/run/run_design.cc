@@ -7,6 +7,7 @@
 #include "base/unknown.h"
 #include "input/read.h"
 #include "program/result_writer.h"
+#include "results/page_tables.h"
 #include "results/result_file.h"
 #include "run/design_checks.h"
 #include "run/run.h"
@@ -96,12 +97,11 @@ namespace sprag
       Group group{ "judgements", {}, {} };
       const auto add = [&](const ColumnInfo &info, const auto &value)
       { group.datasets.push_back(make_dataset(checks, info, value)); };
-      add({ "round", "1", "of this judge" }, [](const ModelCheck &check) { return static_cast<double>(check.round); });
-      add({ "passes", "1", "1: it meets what is demanded of what the judge tells" },
-          [&](const ModelCheck &check) { return check.passes(design.demanded) ? 1. : 0.; });
-      add({ "in_time", "1", "1: the drive was followed in time as well" },
-          [](const ModelCheck &check) { return check.in_time ? 1. : 0.; });
-      add({ "cpu_time", "s", "of the judge" }, [](const ModelCheck &check) { return check.cpu_seconds; });
+      const auto judged = [](const std::string &name) { return page_column("judgements", name); };
+      add(judged("round"), [](const ModelCheck &check) { return static_cast<double>(check.round); });
+      add(judged("passes"), [&](const ModelCheck &check) { return check.passes(design.demanded) ? 1. : 0.; });
+      add(judged("in_time"), [](const ModelCheck &check) { return check.in_time ? 1. : 0.; });
+      add(judged("cpu_time"), [](const ModelCheck &check) { return check.cpu_seconds; });
       for (std::size_t i = 0; i < design.free_parameters.size(); ++i)
         add({ to_identifier(design.free_parameters[i].name), design.free_parameters[i].unit, design.free_parameters[i].name },
             [i](const ModelCheck &check) { return check.lever.parameters[i]; });

@@ -9,6 +9,7 @@
 #include "input/read.h"
 #include "program/result_writer.h"
 #include "report/summary_lines.h"
+#include "results/page_tables.h"
 #include "results/result_file.h"
 #include "results/row_statistics.h"
 #include "run/run.h"
@@ -82,21 +83,13 @@ namespace sprag
 
     std::vector<ColumnInfo> identification_columns(const MeasuredStroke &measured)
     {
-      std::vector<ColumnInfo> result;
-      if (!measured.time.empty())
-        result.push_back({ "time", "s", "as measured" });
-      result.insert(result.end(), { { "x", "mm", "position of the cylinder that the forces belong to, the lag taken off" },
-                                    { "v", "mm/s", "its speed" },
-                                    { "direction", "1", "1 forward, -1 back" },
-                                    { "used", "1", "1: the row counted" } });
+      std::string names = measured.time.empty() ? "x v direction used" : "time x v direction used";
       for (const auto &channel : measured.channels)
       {
         const auto word = to_word(channel);
-        result.push_back({ word, "N", "as measured" });
-        result.push_back({ word + "_fitted", "N", "of the lever found, offset included" });
-        result.push_back({ word + "_residual", "N", "measured less fitted" });
+        names += ' ' + word + ' ' + word + "_fitted " + word + "_residual";
       }
-      return result;
+      return page_columns("identification", names);
     }
 
     /// Returns the rows of the columns, one a row of the measurement.
@@ -164,18 +157,14 @@ namespace sprag
       const auto value     = [](const FoundNumber &one) { return one.value; };
       const auto deviation = [](const FoundNumber &one) { return one.deviation; };
       const auto scale     = [](const FoundNumber &one) { return one.number.scale; };
+      const auto column    = [](const std::string &name) { return page_column("identification", name); };
       Group group{ "identification",
-                   { make_dataset(found.found, { "values", "", "of the unknowns, in the order of names" }, value),
-                     make_dataset(found.found, { "deviations", "", "their standard deviations" }, deviation),
-                     make_dataset(found.found, { "scales", "", "changes of them that are large, by which the next are scaled" },
-                                  scale),
-                     { { "correlation", "1", "of each two unknowns" }, known.correlation, { n, n } },
-                     { { "singular_values", "1", "of the Jacobian of scaled unknowns over the noise, decreasing" },
-                       known.singular.values,
-                       {} },
-                     { { "directions", "1", "components of the scaled unknowns, a column each singular value" },
-                       known.singular.directions,
-                       { n, n } } } };
+                   { make_dataset(found.found, column("values"), value),
+                     make_dataset(found.found, column("deviations"), deviation),
+                     make_dataset(found.found, column("scales"), scale),
+                     { column("correlation"), known.correlation, { n, n } },
+                     { column("singular_values"), known.singular.values, {} },
+                     { column("directions"), known.singular.directions, { n, n } } } };
       group.texts = { make_texts(found.found, "names", "of the unknowns",
                                  [](const FoundNumber &one) { return one.number.name; }) };
       return { group };

@@ -8,6 +8,7 @@
 #include "program/result_writer.h"
 #include "report/report.h"
 #include "report/warnings.h"
+#include "results/page_tables.h"
 #include "results/result_file.h"
 #include "run/in_memory.h"
 #include "run/run.h"
@@ -36,45 +37,34 @@ namespace sprag
       unsigned long steps = 0;
     };
 
-    using Value = std::function<double(const ContinuationPoint &)>;
-
     void add_branch(const std::vector<ContinuationPoint> &points, const std::string &way,
                     const Settled ContinuationPoint::*branch, std::vector<Dataset> &datasets)
     {
-      const auto add = [&](const std::string &name, const std::string &unit, const std::string &meaning,
-                           const std::function<double(const Settled &)> &value)
+      const auto add = [&](const std::string &name, const std::function<double(const Settled &)> &value)
       {
-        datasets.push_back(make_dataset(points, { name + '_' + way, unit, meaning + " on the way " + way },
+        datasets.push_back(make_dataset(points, page_column("continuation", name + '_' + way),
                                         [&](const ContinuationPoint &point)
                                         { return point.holds() ? value(point.*branch) : unknown; }));
       };
-      add("kind", "1", "0 slide, 1 cycle, 2 irregular vibration, 3 undecided,",
-          [](const Settled &settled) { return static_cast<double>(settled.kind); });
-      add("amplitude_P", "N", "amplitude of P", [](const Settled &settled) { return settled.window.amplitude_P; });
-      add("amplitude_indentation", "mm", "amplitude of the indentation",
-          [](const Settled &settled) { return settled.window.amplitude_indentation; });
-      add("open_share", "1", "share of time without contact", [](const Settled &settled) { return settled.window.open_share; });
-      add("stick_share", "1", "share of time with part of the contact not sliding on",
-          [](const Settled &settled) { return settled.window.stick_share; });
-      add("frequency", "Hz", "frequency of P", [](const Settled &settled) { return settled.window.frequency; });
+      add("kind", [](const Settled &settled) { return static_cast<double>(settled.kind); });
+      add("amplitude_P", [](const Settled &settled) { return settled.window.amplitude_P; });
+      add("amplitude_indentation", [](const Settled &settled) { return settled.window.amplitude_indentation; });
+      add("open_share", [](const Settled &settled) { return settled.window.open_share; });
+      add("stick_share", [](const Settled &settled) { return settled.window.stick_share; });
+      add("frequency", [](const Settled &settled) { return settled.window.frequency; });
     }
 
     Group continuation_group(const std::vector<ContinuationPoint> &points)
     {
       Group group{ "continuation", {} };
-      const auto add = [&](const ColumnInfo &info, const Value &value)
-      { group.datasets.push_back(make_dataset(points, info, value)); };
-      add({ "x", "mm", "where the slide is held" }, [](const ContinuationPoint &point) { return point.x; });
-      add({ "stable", "1", "1: the slide is stable by its eigenvalues, 0: it is not, or there is none" },
-          [](const ContinuationPoint &point) { return point.slide.kind == SlideKind::stable ? 1. : 0.; });
-      add({ "growth_rate", "1/s", "largest real part of the eigenvalues" },
-          [](const ContinuationPoint &point) { return point.slide.growth_rate(); });
-      add({ "mode_frequency", "Hz", "of that eigenvalue" },
-          [](const ContinuationPoint &point) { return point.slide.frequency(); });
-      add({ "P", "N", "of the slide" },
-          [](const ContinuationPoint &point) { return point.holds() ? point.slide.slide->forces.P : unknown; });
-      add({ "indentation", "mm", "of the slide" },
-          [](const ContinuationPoint &point) { return point.holds() ? point.slide.slide->indentation : unknown; });
+      const auto add = [&](const std::string &name, const auto &value)
+      { group.datasets.push_back(make_dataset(points, page_column("continuation", name), value)); };
+      add("x", [](const ContinuationPoint &point) { return point.x; });
+      add("stable", [](const ContinuationPoint &point) { return point.slide.kind == SlideKind::stable ? 1. : 0.; });
+      add("growth_rate", [](const ContinuationPoint &point) { return point.slide.growth_rate(); });
+      add("mode_frequency", [](const ContinuationPoint &point) { return point.slide.frequency(); });
+      add("P", [](const ContinuationPoint &point) { return point.holds() ? point.slide.slide->forces.P : unknown; });
+      add("indentation", [](const ContinuationPoint &point) { return point.holds() ? point.slide.slide->indentation : unknown; });
       add_branch(points, "away", &ContinuationPoint::away, group.datasets);
       add_branch(points, "back", &ContinuationPoint::back, group.datasets);
       return group;

@@ -8,6 +8,7 @@
 #include "program/result_writer.h"
 #include "report/console_summary.h"
 #include "report/summary_lines.h"
+#include "results/page_tables.h"
 #include "results/result_file.h"
 #include "run/run.h"
 #include "run/study_runs.h"
@@ -114,23 +115,18 @@ namespace sprag
 
     void add_costs(const StudyRows &rows, StudyTable &table)
     {
-      const auto add = [&](const ColumnInfo &info, const auto &value)
-      { table.numbers.push_back(make_dataset(rows, info, [&](const StudyRecord *row) { return value(*row); })); };
-      add({ "run", "1", "place among the runs of the study" },
-          [](const StudyRecord &row) { return static_cast<double>(row.run); });
-      add({ "outcome", "1", "0 completed, 1 failed, 2 refused" },
-          [](const StudyRecord &row) { return static_cast<double>(row.outcome); });
-      add({ "cpu_time", "s", "that the run takes alone, meshes and bases that it shares with others included" },
-          [](const StudyRecord &row) { return row.cpu_time; });
-      add({ "cpu_time_spent", "s", "that it took here" }, [](const StudyRecord &row) { return row.cpu_spent; });
-      add({ "work", "s",
-            "count of what the run takes alone, by which runs are ranked: CPU time on another machine, NaN: not counted" },
-          [](const StudyRecord &row) { return row.work; });
-      add({ "wall_time", "s", "that passed" }, [](const StudyRecord &row) { return row.wall_time; });
-      add({ "peak_memory", "MiB", "largest resident memory of its process while it ran" },
-          [](const StudyRecord &row) { return row.peak_memory; });
-      add({ "warnings", "1", "number of warnings" },
-          [](const StudyRecord &row) { return static_cast<double>(row.warnings.size()); });
+      const auto add = [&](const std::string &name, const auto &value) {
+        table.numbers.push_back(
+            make_dataset(rows, page_column("study", name), [&](const StudyRecord *row) { return value(*row); }));
+      };
+      add("run", [](const StudyRecord &row) { return static_cast<double>(row.run); });
+      add("outcome", [](const StudyRecord &row) { return static_cast<double>(row.outcome); });
+      add("cpu_time", [](const StudyRecord &row) { return row.cpu_time; });
+      add("cpu_time_spent", [](const StudyRecord &row) { return row.cpu_spent; });
+      add("work", [](const StudyRecord &row) { return row.work; });
+      add("wall_time", [](const StudyRecord &row) { return row.wall_time; });
+      add("peak_memory", [](const StudyRecord &row) { return row.peak_memory; });
+      add("warnings", [](const StudyRecord &row) { return static_cast<double>(row.warnings.size()); });
       table.texts = { make_texts(rows, "outcome", "how the run ended",
                                  [](const StudyRecord *row) { return outcome_name(row->outcome); }),
                       make_texts(rows, "reason", "why it was not completed", [](const StudyRecord *row) { return row->reason; }),

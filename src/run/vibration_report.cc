@@ -4,6 +4,7 @@
 #include "base/append.h"
 #include "base/text.h"
 #include "report/summary_lines.h"
+#include "results/page_tables.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 
@@ -45,15 +46,14 @@ namespace sprag
     struct EnergyPart
     {
       std::string column; ///< printed
-      std::string name;   ///< in /modes
-      std::string where;
+      std::string name;   ///< in /modes, behind energy_
       double EnergyShares::*share;
     };
 
-    const std::vector<EnergyPart> energy_parts = { { "spring", "rotation", "in the rotational spring", &EnergyShares::rotation },
-                                                   { "lever", "bending", "in lever and layer", &EnergyShares::bending },
-                                                   { "support", "support", "in the support", &EnergyShares::support },
-                                                   { "contact", "contact", "in the contact", &EnergyShares::contact } };
+    const std::vector<EnergyPart> energy_parts = { { "spring", "rotation", &EnergyShares::rotation },
+                                                   { "lever", "bending", &EnergyShares::bending },
+                                                   { "support", "support", &EnergyShares::support },
+                                                   { "contact", "contact", &EnergyShares::contact } };
 
     /// Those that say anything of one of the modes.
     std::vector<EnergyPart> energy_columns(const std::vector<Eigenmode> &modes)
@@ -73,22 +73,17 @@ namespace sprag
     {
       std::string cause; ///< printed
       int width;         ///< of its printed column
-      std::string name;  ///< in /modes
-      std::string meaning;
+      std::string name;  ///< in /modes, behind growth_by_
       double GrowthShares::*share;
     };
 
     const std::vector<GrowthPart> growth_parts = {
-      { "friction on rotation", 10, "friction_rotation", "friction that follows displacements, on the hub's rotation",
-        &GrowthShares::friction_rotation },
-      { "friction on bending", 11, "friction_bending", "friction that follows displacements, on the deflection of the lever",
-        &GrowthShares::friction_bending },
-      { "friction on the support", 10, "friction_support",
-        "friction that follows displacements, on the displacement of the support", &GrowthShares::friction_support },
-      { "friction by velocities", 12, "friction_speed",
-        "friction that follows velocities: mu'(v), and mu times the contact damping's pressure", &GrowthShares::friction_speed },
-      { "contact damping", 10, "contact_damping", "contact damping", &GrowthShares::contact_damping },
-      { "structural damping", 11, "structure_damping", "damping of lever, layer and support", &GrowthShares::structure_damping }
+      { "friction on rotation", 10, "friction_rotation", &GrowthShares::friction_rotation },
+      { "friction on bending", 11, "friction_bending", &GrowthShares::friction_bending },
+      { "friction on the support", 10, "friction_support", &GrowthShares::friction_support },
+      { "friction by velocities", 12, "friction_speed", &GrowthShares::friction_speed },
+      { "contact damping", 10, "contact_damping", &GrowthShares::contact_damping },
+      { "structural damping", 11, "structure_damping", &GrowthShares::structure_damping }
     };
 
     /// Names the part that feeds a mode most and the part that damps it most.
@@ -112,35 +107,28 @@ namespace sprag
 
     void append_numbers(const std::vector<Eigenmode> &modes, Group &group)
     {
-      const auto add = [&](const ColumnInfo &info, const ModeValue &value)
-      { group.datasets.push_back(make_dataset(modes, info, value)); };
-      add({ "frequency", "Hz", "Im lambda / 2 pi" }, mode_frequency);
-      add({ "growth_rate", "1/s", "Re lambda" }, [](const auto &mode) { return mode.mode.eigenvalue.real(); });
-      add({ "damping_ratio", "1", "-Re lambda / |lambda|" },
-          [](const auto &mode) { return -mode.mode.eigenvalue.real() / std::abs(mode.mode.eigenvalue); });
-      add({ "kind", "1", "0 stable, 1 flutter, 2 divergence" },
-          [](const auto &mode) { return static_cast<double>(classify(mode)); });
-      add({ "residual", "1", "backward error of the eigenpair" }, [](const auto &mode) { return mode.mode.residual; });
-
+      const auto add = [&](const std::string &name, const ModeValue &value)
+      { group.datasets.push_back(make_dataset(modes, page_column("modes", name), value)); };
+      add("frequency", mode_frequency);
+      add("growth_rate", [](const auto &mode) { return mode.mode.eigenvalue.real(); });
+      // A table on a page cannot hold the bars.
+      group.datasets.push_back(make_dataset(modes, { "damping_ratio", "1", "-Re lambda / |lambda|" },
+                                            [](const auto &mode)
+                                            { return -mode.mode.eigenvalue.real() / std::abs(mode.mode.eigenvalue); }));
+      add("kind", [](const auto &mode) { return static_cast<double>(classify(mode)); });
+      add("residual", [](const auto &mode) { return mode.mode.residual; });
       if (is_pair(modes))
-        add({ "mirroring", "1", "1 where the levers of a pair mirror each other, -1 where both swing the same way" },
-            [](const auto &mode) { return mode.symmetry; });
-
-      const auto across = [&](const std::string &name, double Eigenmode::AcrossShares::*share, const std::string &what)
+        add("mirroring", [](const auto &mode) { return mode.symmetry; });
+      if (is_solid(modes))
       {
-        if (is_solid(modes))
-          add({ name, "1", "share of the kinetic energy in " + what }, [share](const auto &mode) { return mode.across.*share; });
-      };
-      across("plane", &Eigenmode::AcrossShares::plane, "motion as in a plane");
-      across("twisting", &Eigenmode::AcrossShares::twisting, "twisting");
-      across("sideways", &Eigenmode::AcrossShares::sideways, "motion along the cylinder's axis");
-
+        add("plane", [](const auto &mode) { return mode.across.plane; });
+        add("twisting", [](const auto &mode) { return mode.across.twisting; });
+        add("sideways", [](const auto &mode) { return mode.across.sideways; });
+      }
       for (const auto &part : energy_parts)
-        add({ "energy_" + part.name, "1", "share of the potential energy " + part.where },
-            [&](const auto &mode) { return mode.energy.*part.share; });
+        add("energy_" + part.name, [&](const auto &mode) { return mode.energy.*part.share; });
       for (const auto &part : growth_parts)
-        add({ "growth_by_" + part.name, "1/s", "part of the growth rate: " + part.meaning },
-            [&](const auto &mode) { return mode.growth.*part.share; });
+        add("growth_by_" + part.name, [&](const auto &mode) { return mode.growth.*part.share; });
     }
 
     void append_shapes(const std::vector<Eigenmode> &modes, const Dynamics &dynamics, Group &group)
@@ -169,7 +157,7 @@ namespace sprag
           add("support_", { complex_part(shape.support) });
         }
       }
-      group.datasets.push_back({ { "xi", "mm", "lever coordinate of the shapes' points, from the pivot" }, xi, {} });
+      group.datasets.push_back({ page_column("modes", "xi"), xi, {} });
       for (const auto &[name, numbers] : values)
       {
         const bool has_points  = name.front() == 'a' || name.rfind("sideways", 0) == 0;

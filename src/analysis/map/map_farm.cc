@@ -5,6 +5,7 @@
 #include "base/errors.h"
 #include "input/read.h"
 #include "levers/prepared_scene.h"
+#include "results/page_tables.h"
 #include "scene/closed_form.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
@@ -129,20 +130,9 @@ namespace sprag
 
   const std::vector<ColumnInfo> &cell_columns()
   {
-    static const auto columns = []
-    {
-      const std::string kinds     = "0 stable, 1 flutter, 2 divergence, 3 jammed, 4 inadmissible, 5 failed";
-      std::vector<ColumnInfo> all = { { "theta_0", "rad", "inclination of the lever at x = 0" } };
-      for (const std::string way : { "forward", "backward" })
-      {
-        all.push_back({ "kind_" + way, "1", kinds });
-        all.push_back({ "growth_rate_" + way, "1/s", "largest Re lambda of the slide " + way });
-        all.push_back({ "frequency_" + way, "Hz", "of that vibration, 0: no vibration" });
-        all.push_back({ "uniqueness_" + way, "1", "of the equilibrium: 1 without friction, <= 0 where it has lost uniqueness" });
-        all.push_back({ "P_" + way, "N", "normal force of the slide" });
-      }
-      return all;
-    }();
+    static const auto columns =
+        page_columns("map", "theta_0 kind_forward growth_rate_forward frequency_forward uniqueness_forward P_forward "
+                            "kind_backward growth_rate_backward frequency_backward uniqueness_backward P_backward");
     return columns;
   }
 
