@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/slope.h"
 #include "laws/friction.h"
-#include "scene/scene.h"
-
+#include "results/page_tables.h"
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,17 +12,10 @@ namespace sprag
 {
   namespace
   {
-    const ColumnInfo dimensionless_forward{ "dimensionless_forward", "1", "C_Q R l / k moving forward" };
-    const ColumnInfo dimensionless_backward{ "dimensionless_backward", "1", "C_Q R l / k moving backward" };
-
     Sweep over_coefficient(const Scene &scene)
     {
       Sweep sweep;
-      sweep.columns  = { { "mu", "1", "friction coefficient" },
-                         { "slope_forward", "N/mm", "representative slope C_Q moving forward" },
-                         { "slope_backward", "N/mm", "representative slope C_Q moving backward" },
-                         dimensionless_forward,
-                         dimensionless_backward };
+      sweep.columns  = page_columns("slope", "mu slope_forward slope_backward dimensionless_forward dimensionless_backward");
       const auto &at = scene.geometry;
       for (unsigned int i = 0; i < scene.slope.n_points; ++i)
       {
@@ -37,10 +30,7 @@ namespace sprag
     Sweep over_inclination(const Scene &scene)
     {
       Sweep sweep;
-      sweep.columns   = { { "theta0", "rad", "fundamental inclination th0" },
-                          { "offset_ratio", "1", "interface offset e/R" },
-                          dimensionless_forward,
-                          dimensionless_backward };
+      sweep.columns   = page_columns("slope", "theta0 offset_ratio dimensionless_forward dimensionless_backward");
       const double mu = friction_coefficient(scene.friction, scene.drive.peak_speed()).coefficient;
       for (const double ratio : scene.slope.offset_ratios)
       {

@@ -4,6 +4,7 @@
 #include "input/read.h"
 #include "levers/prepared_scene.h"
 #include "program/result_writer.h"
+#include "results/page_tables.h"
 #include "run/run.h"
 #include "scene/scene.h"
 
@@ -69,13 +70,7 @@ namespace sprag
     const auto beam       = variant(scene, joined(joined(parts.overrides, reduced.overrides), { in_time }));
     const auto found      = compare(prepared(calibrated), prepared(beam));
 
-    ResultWriter writer(scene, options, timer,
-                        { { "x", "mm", "position of the cylinder" },
-                          { "direction", "1", "1 forward, -1 backward" },
-                          { "P", "N", "normal force of the meshed lever in steady sliding" },
-                          { "P_beam", "N", "of the calibrated beam" },
-                          { "Q", "N", "x-force of the meshed lever in steady sliding" },
-                          { "Q_beam", "N", "of the calibrated beam" } });
+    ResultWriter writer(scene, options, timer, page_columns("calibration", "x direction P P_beam Q Q_beam"));
     if (options.in_memory == nullptr)
     {
       write_file(options.folder + "/calibrated.prm", "# Calibrated parts, in time, condensed\n" + parameters_text(calibrated));

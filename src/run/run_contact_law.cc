@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/statics/contact_law.h"
 #include "program/result_writer.h"
+#include "results/page_tables.h"
 #include "run/run.h"
 
 #include <cmath>
@@ -24,12 +25,7 @@ namespace sprag
     PhaseTimer timer;
     require_folder(options);
     const auto law = indent(scene);
-    ResultWriter writer(scene, options, timer,
-                        { { "P", "N", "normal force" },
-                          { "approach", "mm", "overlap of the cylinder with the undeformed lever" },
-                          { "bending", "mm", "deflection of the Euler-Bernoulli lever at the contact" },
-                          { "local", "mm", "approach less bending: what the contact law has to give" },
-                          { "P_fitted", "N", "P of the fitted law at the local approach" } });
+    ResultWriter writer(scene, options, timer, page_columns("contact law", "P approach bending local P_fitted"));
     for (const auto &point : law.points)
       writer.append(std::vector<double>{ point.P, point.approach, point.bending, point.local(),
                                          law.fit.stiffness * std::pow(point.local(), law.fit.exponent) });
