@@ -5,13 +5,17 @@
 #include "input/sections.h"
 #include "scene/scene.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <ostream>
 
 namespace sprag
 {
   std::string padded(const std::string &text, const int width)
   {
-    return formatted("%*s", width, text.c_str());
+    const auto size = static_cast<std::size_t>(std::abs(width));
+    const std::string blanks(size - std::min(size, text.size()), ' ');
+    return width < 0 ? text + blanks : blanks + text;
   }
 
   std::string four_digits(const double value)

@@ -7,6 +7,7 @@
 #include "base/unknown.h"
 #include "input/read.h"
 #include "program/result_writer.h"
+#include "report/summary_lines.h"
 #include "results/page_tables.h"
 #include "results/result_file.h"
 #include "run/design_checks.h"
@@ -70,12 +71,6 @@ namespace sprag
       for (std::size_t i = 0; i < lever.parameters.size(); ++i)
         text += (i > 0 ? ", " : "") + design.free_parameters[i].name + " = " + rounded_text(lever.parameters[i]) +
                 unit_text(design.free_parameters[i].unit);
-      return text;
-    }
-
-    std::string padded(std::string text, const std::size_t width)
-    {
-      text.resize(std::max(width, text.size()), ' ');
       return text;
     }
 
@@ -158,7 +153,7 @@ namespace sprag
           stream << "  " << lever_text(design, check.lever) << '\n';
         for (const auto &info : design_quantities())
           if (!std::isnan(check.found[info.quantity]) && is_asked_for(design, info.quantity))
-            stream << "  " << padded(info.name, 34) << padded(rounded_text(check.found[info.quantity]), 14)
+            stream << "  " << padded(info.name, -34) << padded(rounded_text(check.found[info.quantity]), -14)
                    << (std::isnan(check.lever.quantities[info.quantity])
                            ? std::string()
                            : "expected " + rounded_text(check.lever.quantities[info.quantity]) + unit_text(info.unit))
@@ -275,15 +270,15 @@ namespace sprag
       stream << (findings.unmet.empty() ? "\nThe lever found" : "\nThe nearest lever") << ", " << findings.evaluations
              << " levers of the closed form, " << formatted("%.3g", findings.search_seconds) << " CPU s:\n";
       for (std::size_t i = 0; i < lever.parameters.size(); ++i)
-        stream << "  " << padded(design.free_parameters[i].name, 34) << rounded_text(lever.parameters[i])
+        stream << "  " << padded(design.free_parameters[i].name, -34) << rounded_text(lever.parameters[i])
                << unit_text(design.free_parameters[i].unit) << '\n';
       for (const auto &aim : design.aims)
-        stream << "  " << padded(aim.text, 34) << rounded_text(best_known(aim.term, lever, findings))
+        stream << "  " << padded(aim.text, -34) << rounded_text(best_known(aim.term, lever, findings))
                << term_unit(design, aim.term) << '\n';
       for (const auto &demand : design.demanded)
       {
         const double value = best_known(demand.term, lever, findings);
-        stream << "  " << padded(demand.text, 34) << rounded_text(value) << term_unit(design, demand.term)
+        stream << "  " << padded(demand.text, -34) << rounded_text(value) << term_unit(design, demand.term)
                << (std::isnan(value) || demand_violation(demand, value) <= 1e-9 ? "" : "  MISSED") << '\n';
       }
       if (!findings.front.empty())

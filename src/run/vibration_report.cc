@@ -13,10 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iomanip>
 #include <map>
 #include <ostream>
-#include <sstream>
 
 namespace sprag
 {
@@ -36,10 +34,7 @@ namespace sprag
 
     std::string cell(const double value, const int width)
     {
-      std::ostringstream number;
-      number << std::setprecision(4) << (std::abs(value) < 1e-6 ? 0. : value);
-      const std::string text = std::isnan(value) ? "-" : number.str();
-      return std::string(static_cast<std::size_t>(std::max(1, width - static_cast<int>(text.size()))), ' ') + text;
+      return ' ' + padded(std::isnan(value) ? "-" : four_digits(std::abs(value) < 1e-6 ? 0. : value), width - 1);
     }
 
     /// A part of a mode's potential energy.
