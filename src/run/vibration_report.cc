@@ -404,11 +404,12 @@ namespace sprag
     std::vector<Entry> result;
     for (const auto &role : roles)
     {
-      append<Entry>(result, { { role.name + "_verdict", role.kind ? kind_name(*role.kind) : "not found", "", role.meaning },
-                              { role.name + "_growth_rate", role.growth_rate },
-                              { role.name + "_frequency", role.frequency } });
-      if (!role.motion.empty())
-        result.push_back({ role.name + "_motion", role.motion });
+      const auto slide = role.found.value_or(SlideStability());
+      append<Entry>(result, { { role.name + "_verdict", role.found ? kind_name(slide.kind) : "not found", "", role.meaning },
+                              { role.name + "_growth_rate", slide.growth_rate() },
+                              { role.name + "_frequency", slide.frequency() } });
+      if (const auto motion = slide.motion(); !motion.empty())
+        result.push_back({ role.name + "_motion", motion });
     }
     return result;
   }

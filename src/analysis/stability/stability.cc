@@ -31,8 +31,7 @@ namespace sprag
     {
       try
       {
-        const auto found = check_slide(scene, maker);
-        return { name, meaning, found.kind, found.growth_rate(), found.frequency(), found.motion() };
+        return { name, meaning, check_slide(scene, maker) };
       }
       catch (const AnalysisError &error)
       {
@@ -43,9 +42,9 @@ namespace sprag
     /// Without mass nothing vibrates: what is left is whether the equilibrium is unique.
     Role without_inertia(const SlideStability &present)
     {
-      const bool unique = present.slide && present.uniqueness() > 0.;
-      return { "without_inertia", "massless: stable where the equilibrium is unique",
-               unique ? SlideKind::stable : SlideKind::jammed };
+      SlideStability massless;
+      massless.kind = present.slide && present.uniqueness() > 0. ? SlideKind::stable : SlideKind::jammed;
+      return { "without_inertia", "massless: stable where the equilibrium is unique", massless };
     }
   } // namespace
 
