@@ -33,7 +33,7 @@ namespace sprag
     SceneSettings settings;
     const auto parameters       = scene_parameters(settings);
     const auto *const parameter = find_parameter(parameters, name);
-    return parameter == nullptr ? "" : parameter->rule.unit;
+    return parameter == nullptr || parameter->rule.unit.empty() ? "1" : parameter->rule.unit;
   }
 
   void summary_line(std::ostream &stream, const std::string &label, const std::string &text)

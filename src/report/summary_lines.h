@@ -19,7 +19,7 @@ namespace sprag
   /// Returns a number and its unit, "23.67 N"; the number alone where the unit is "1" or empty.
   std::string with_unit(double value, const std::string &unit);
 
-  /// Returns the unit of a parameter, "Section/Entry"; "" if it has none.
+  /// Returns the unit of a parameter, "Section/Entry"; "1" if it has none.
   std::string parameter_unit(const std::string &name);
 
   /// Prints a line of a label and a text.

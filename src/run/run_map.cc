@@ -38,15 +38,9 @@ namespace sprag
       }
     }
 
-    std::string quantity_unit(const std::string &name)
-    {
-      const auto unit = parameter_unit(name);
-      return unit.empty() ? "1" : unit;
-    }
-
     Dataset axis(const std::string &name, const ParameterRange &range)
     {
-      Dataset result{ { name, quantity_unit(range.name), range.name }, {}, {} };
+      Dataset result{ { name, parameter_unit(range.name), range.name }, {}, {} };
       for (unsigned int i = 0; i < range.points; ++i)
         result.values.push_back(parameter_at(range, i));
       return result;
@@ -76,12 +70,12 @@ namespace sprag
 
     std::vector<ColumnInfo> boundary_columns(const MapSettings &map)
     {
-      return { { "first", quantity_unit(map.first.name), map.first.name + " where the kind changes" },
-               { "second", quantity_unit(map.second.name), map.second.name + " there" },
+      const auto first = parameter_unit(map.first.name), second = parameter_unit(map.second.name);
+      return { { "first", first, map.first.name + " where the kind changes" },
+               { "second", second, map.second.name + " there" },
                { "direction", "1", "of motion: 1 forward, -1 backward" },
                { "along", "1", "parameter that was varied to find the point: 1 first, 2 second" },
-               { "width", quantity_unit(map.first.name) == quantity_unit(map.second.name) ? quantity_unit(map.first.name) : "1",
-                 "of the bracket about the point, in that parameter's unit" },
+               { "width", first == second ? first : "1", "of the bracket about the point, in that parameter's unit" },
                { "kind_low", "1", "kind at the bracket's end with the lower number of grid point" },
                { "kind_high", "1", "kind at its other end" } };
     }

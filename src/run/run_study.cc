@@ -261,7 +261,7 @@ namespace sprag
     std::string setting_with_unit(const std::string &name, const std::string &value)
     {
       const auto unit = parameter_unit(name);
-      return name + " = " + value + (unit.empty() ? "" : ' ' + unit);
+      return name + " = " + value + (unit == "1" ? "" : ' ' + unit);
     }
 
     std::string settings_with_units(const StudyFindings &findings, const std::size_t run)

@@ -420,8 +420,7 @@ namespace sprag
     for (const auto &search : searches)
     {
       const std::string name = "critical_" + to_identifier(search.range.name);
-      const auto own_unit    = parameter_unit(search.range.name);
-      const auto unit        = own_unit.empty() ? "1" : own_unit;
+      const auto unit        = parameter_unit(search.range.name);
       for (std::size_t i = 0; i < search.changes.size(); ++i)
       {
         const auto &critical = search.changes[i];
