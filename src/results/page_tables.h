@@ -9,9 +9,8 @@
 
 namespace sprag
 {
-  /// A row of a table on the pages that describe results and warnings: results.md, summary.md, summary-of-analyses.md and
-  /// modes-maps-studies.md of postprocess/ and params/warnings.md are built into the program, which takes names, units and
-  /// meanings from there.
+  /// A row of a table on a page that is built into the program, which takes names, units and meanings from there. These are
+  /// params/warnings.md and, of postprocess/, results.md, summary.md, summary-of-analyses.md and modes-maps-studies.md.
   struct PageRow
   {
     std::string unit;
