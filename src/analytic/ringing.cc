@@ -4,6 +4,7 @@
 #include "base/least_squares.h"
 
 #include <boost/numeric/ublas/lu.hpp>
+#include <gsl/gsl_fft_complex.h>
 
 #include <algorithm>
 #include <array>
@@ -47,32 +48,6 @@ namespace sprag
       return { signal.step, { begin + (first - level.values.begin()), begin + (last - level.values.begin()) } };
     }
 
-    /// In place; the number of values is a power of 2.
-    void fourier_transform(std::vector<Complex> &values)
-    {
-      const std::size_t n = values.size();
-      for (std::size_t i = 1, reversed = 0; i < n; ++i)
-      {
-        std::size_t bit = n / 2;
-        for (; reversed & bit; bit /= 2)
-          reversed ^= bit;
-        reversed ^= bit;
-        if (i < reversed)
-          std::swap(values[i], values[reversed]);
-      }
-      for (std::size_t length = 2; length <= n; length *= 2)
-        for (std::size_t i = 0; i < length / 2; ++i)
-        {
-          const Complex turn = std::polar(1., -2. * M_PI * static_cast<double>(i) / static_cast<double>(length));
-          for (std::size_t start = i; start < n; start += length)
-          {
-            const Complex odd          = turn * values[start + length / 2];
-            values[start + length / 2] = values[start] - odd;
-            values[start] += odd;
-          }
-        }
-    }
-
     /// Magnitudes at multiples of 1 / (2 (size - 1) step), after a Hann window.
     std::vector<double> spectrum(const Signal &signal)
     {
@@ -83,7 +58,7 @@ namespace sprag
       std::vector<Complex> values(padded);
       for (std::size_t i = 0; i < n; ++i)
         values[i] = signal.values[i] * std::pow(std::sin(M_PI * (static_cast<double>(i) + 0.5) / static_cast<double>(n)), 2);
-      fourier_transform(values);
+      gsl_fft_complex_radix2_forward(reinterpret_cast<double *>(values.data()), 1, padded);
       std::vector<double> magnitudes;
       for (std::size_t i = 0; i <= padded / 2; ++i)
         magnitudes.push_back(std::abs(values[i]));
