@@ -8,7 +8,6 @@ namespace sprag
 {
   StepClock::StepClock(const Drive &drive, const double step, const unsigned int doublings)
       : ends(drive.kinks())
-      , first(step)
       , largest(std::ldexp(step, static_cast<int>(doublings)))
       , nominal_step(step)
   {
@@ -52,7 +51,7 @@ namespace sprag
 
   void serialise(Archive &archive, StepClock &clock)
   {
-    auto &[ends, first, largest, nominal_step, segment, begin, count, passed] = clock;
-    archive(ends, first, largest, nominal_step, segment, begin, count, passed);
+    auto &[ends, largest, nominal_step, segment, begin, count, passed] = clock;
+    archive(ends, largest, nominal_step, segment, begin, count, passed);
   }
 } // namespace sprag

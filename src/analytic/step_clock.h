@@ -52,7 +52,6 @@ namespace sprag
     void begin_segment();
 
     std::vector<double> ends; ///< of the segments
-    double first;
     double largest;
     double nominal_step;
     std::size_t segment  = 0;
