@@ -8,11 +8,6 @@ namespace sprag
 {
   namespace
   {
-    double total(const StoredEnergy &energy)
-    {
-      return energy.kinetic + energy.spring + energy.elastic + energy.support + energy.contact;
-    }
-
     double dissipated(const StepWork &work)
     {
       return work.friction + work.damping + work.algorithmic;
@@ -50,7 +45,7 @@ namespace sprag
 
   double EnergyLedger::residual() const
   {
-    return sum.drive - (total(now) - total(start)) - dissipated(sum);
+    return sum.drive - (now.total() - start.total()) - dissipated(sum);
   }
 
   void EnergyLedger::add(const double time, const StoredEnergy &stored, const StepWork &work)
@@ -60,8 +55,9 @@ namespace sprag
     now                       = stored;
     sum += work;
 
-    found.residual     = std::max(found.residual, std::abs(residual()));
-    found.largest_work = std::max({ found.largest_work, std::abs(sum.drive), sum.friction, std::abs(total(now) - total(start)) });
+    found.residual = std::max(found.residual, std::abs(residual()));
+    found.largest_work =
+        std::max({ found.largest_work, std::abs(sum.drive), sum.friction, std::abs(now.total() - start.total()) });
     if (const double change = std::abs(residual() - before); change > largest_change)
     {
       largest_change = change;

@@ -12,6 +12,12 @@ namespace sprag
     double layer   = 0.; ///< the friction layer's part of it; NaN where it cannot be told
     double support = 0.;
     double contact = 0.; ///< springs of the penalties, normal and tangential: numerical
+
+    /// Returns the sum, in which that of the layer is contained already.
+    double total() const
+    {
+      return kinetic + spring + elastic + support + contact;
+    }
   };
 
   /// Works done in a step [N mm], each from forces times displacements or the scheme's own formula, none as a remainder.

@@ -39,11 +39,6 @@ namespace sprag
       return !motion.contact.empty() || !motion.surface_contact.empty();
     }
 
-    double total_energy(const StoredEnergy &energy)
-    {
-      return energy.kinetic + energy.spring + energy.elastic + energy.support + energy.contact;
-    }
-
     double rounded(const double duration)
     {
       int exponent          = 0;
@@ -356,7 +351,7 @@ namespace sprag
 
   double LeverTable::damper_energy() const
   {
-    return levers * (total_energy(sides[0].stored) + total_energy(sides[1].stored));
+    return levers * (sides[0].stored.total() + sides[1].stored.total());
   }
 
   double LeverTable::energy() const
