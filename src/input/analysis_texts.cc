@@ -203,17 +203,16 @@ namespace sprag
 
       void check_models() const
       {
-        const auto asks = [&](const DesignQuantity quantity)
-        { return asks_for(settings, [&](const DesignQuantity asked) { return asked == quantity; }); };
         const auto &models = settings.check_models;
         const auto has = [&](const CheckModel model) { return std::find(models.begin(), models.end(), model) != models.end(); };
         for (const auto &aim : settings.aims)
           if (aim.term.quantity == DesignQuantity::growth_rate)
             report(&aim == &settings.aims.front() ? "Design/Aim" : "Design/Second aim",
                    "can be any quantity but the growth rate, which can be demanded");
-        if (asks(DesignQuantity::growth_rate) && !has(CheckModel::beam))
+        if (asks_for(settings, DesignQuantity::growth_rate) && !has(CheckModel::beam))
           mistake("must have beam where a growth rate is asked for, which the closed form does not know");
-        if (has(CheckModel::table) && !asks(DesignQuantity::transmissibility) && !asks(DesignQuantity::relative_amplitude))
+        if (has(CheckModel::table) && !asks_for(settings, DesignQuantity::transmissibility) &&
+            !asks_for(settings, DesignQuantity::relative_amplitude))
           mistake("table counts only where transmissibility or relative amplitude is asked for");
       }
     };

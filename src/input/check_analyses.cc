@@ -76,8 +76,7 @@ namespace sprag
       const auto &isolation = scene.isolation;
       rules.need(isolation.damper == DamperType::lever, "Isolation/Damper", { "Analysis/Type", "Design/Demands", "Design/Aim" },
                  "must be lever where something of the table is asked for: its levers are designed");
-      const auto is_offset = [](const DesignQuantity quantity) { return quantity == DesignQuantity::residual_offset; };
-      rules.need(!asks_for(scene.design, is_offset) || isolation.base != BaseMotionType::none ||
+      rules.need(!asks_for(scene.design, DesignQuantity::residual_offset) || isolation.base != BaseMotionType::none ||
                      isolation.initial_displacement != 0. || isolation.initial_velocity != 0.,
                  "Isolation/Initial displacement", { "Analysis/Type", "Isolation/Base motion", "Isolation/Initial velocity" },
                  "must not be 0 mm with Base motion = none where a residual offset is asked for: nothing moves");

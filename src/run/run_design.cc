@@ -131,13 +131,6 @@ namespace sprag
                { make_texts(design.demanded, "demand", "as it was given", [](const Demand &demand) { return demand.text; }) } };
     }
 
-    bool is_asked_for(const DesignSettings &design, const DesignQuantity quantity)
-    {
-      const auto is_it = [&](const auto &asked) { return asked.term.quantity == quantity; };
-      return std::any_of(design.demanded.begin(), design.demanded.end(), is_it) ||
-             std::any_of(design.aims.begin(), design.aims.end(), is_it);
-    }
-
     void print_checks(std::ostream &stream, const DesignSettings &design, const std::vector<ModelCheck> &checks)
     {
       for (const auto &check : checks)
@@ -152,7 +145,7 @@ namespace sprag
         if (!passes)
           stream << "  " << lever_text(design, check.lever) << '\n';
         for (const auto &info : design_quantities())
-          if (!std::isnan(check.found[info.quantity]) && is_asked_for(design, info.quantity))
+          if (!std::isnan(check.found[info.quantity]) && asks_for(design, info.quantity))
             stream << "  " << padded(info.name, -34) << padded(rounded_text(check.found[info.quantity]), -14)
                    << (std::isnan(check.lever.quantities[info.quantity])
                            ? std::string()

@@ -51,6 +51,11 @@ namespace sprag
     return {};
   }
 
+  bool asks_for(const DesignSettings &design, const DesignQuantity quantity)
+  {
+    return asks_for(design, [quantity](const DesignQuantity asked) { return asked == quantity; });
+  }
+
   bool is_table_quantity(const DesignQuantity quantity)
   {
     return quantity == DesignQuantity::friction_ratio || quantity == DesignQuantity::transmissibility ||

@@ -130,6 +130,9 @@ namespace sprag
            std::any_of(design.aims.begin(), design.aims.end(), is_it);
   }
 
+  /// Returns whether a design demands or aims at this quantity.
+  bool asks_for(const DesignSettings &design, DesignQuantity quantity);
+
   /// Returns whether a quantity is of the table on its levers, not of a lever alone.
   bool is_table_quantity(DesignQuantity quantity);
 } // namespace sprag

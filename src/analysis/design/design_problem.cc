@@ -144,16 +144,6 @@ namespace sprag
     {
       return demand.kind == DemandKind::equal ? std::min(room, 0.25 * demand.tolerance / demand_scale(demand)) : room;
     }
-
-    std::vector<DesignQuantity> quantities_asked(const DesignSettings &design)
-    {
-      std::vector<DesignQuantity> asked;
-      for (const auto &demand : design.demanded)
-        asked.push_back(demand.term.quantity);
-      for (const auto &aim : design.aims)
-        asked.push_back(aim.term.quantity);
-      return asked;
-    }
   } // namespace
 
   LeverRule hardest_rule(const Scene &scene, const bool has_length)
@@ -226,12 +216,11 @@ namespace sprag
     return result;
   }
 
-  void add_table_quantities(const Scene &scene, const std::vector<DesignQuantity> &asked, DesignQuantities &quantities)
+  void add_table_quantities(const Scene &scene, const DesignSettings &design, DesignQuantities &quantities)
   {
-    const auto asks = [&](const Q quantity) { return std::find(asked.begin(), asked.end(), quantity) != asked.end(); };
-    if (asks(Q::transmissibility) || asks(Q::relative_amplitude))
+    if (asks_for(design, Q::transmissibility) || asks_for(design, Q::relative_amplitude))
       add_harmonic(scene, quantities);
-    if (asks(Q::residual_offset))
+    if (asks_for(design, Q::residual_offset))
       quantities[Q::residual_offset] = compute_offset(scene);
   }
 
@@ -262,7 +251,6 @@ namespace sprag
   DesignProblem::DesignProblem(const Scene &scene)
       : base(scene)
       , input(std::make_unique<SceneSettings>())
-      , asked(quantities_asked(scene.design))
   {
     input->scene        = base;
     const auto declared = scene_parameters(*input);
@@ -272,9 +260,8 @@ namespace sprag
 
   bool DesignProblem::is_dear() const
   {
-    return dear || std::any_of(asked.begin(), asked.end(),
-                               [](const DesignQuantity quantity)
-                               { return is_table_quantity(quantity) && quantity != DesignQuantity::friction_ratio; });
+    return dear ||
+           asks_for(base.design, [](const Q quantity) { return is_table_quantity(quantity) && quantity != Q::friction_ratio; });
   }
 
   const Scene &DesignProblem::scene_at(const std::vector<double> &parameters) const
@@ -298,7 +285,7 @@ namespace sprag
     if (result.rule.violation < 0.)
     {
       result.quantities = lever_quantities(scene);
-      add_table_quantities(scene, asked, result.quantities);
+      add_table_quantities(scene, base.design, result.quantities);
       if (dear)
         dear(scene, result.quantities);
       for (const auto &[quantity, name, unit, definition] : design_quantities())

@@ -80,10 +80,10 @@ namespace sprag
   /// Returns those quantities of a lever that keeps the rules which follow from the closed form on the stroke.
   DesignQuantities lever_quantities(const Scene &scene);
 
-  /// Fills in what the table does on such levers, as far as it is asked for: by one harmonic, and the offset by a run in time. A
-  /// table without a motion of one harmonic within the levers' way has an infinite transmissibility, one whose levers end or
-  /// lock an infinite offset.
-  void add_table_quantities(const Scene &scene, const std::vector<DesignQuantity> &asked, DesignQuantities &quantities);
+  /// Fills in what the table does on such levers, as far as the design asks for it: by one harmonic, and the offset by a run in
+  /// time. A table without a motion of one harmonic within the levers' way has an infinite transmissibility, one whose levers end
+  /// or lock an infinite offset.
+  void add_table_quantities(const Scene &scene, const DesignSettings &design, DesignQuantities &quantities);
 
   /// A lever within the bounds and what it does.
   struct Proposal
@@ -159,7 +159,6 @@ namespace sprag
     const Scene base;
     std::unique_ptr<SceneSettings> input; ///< whose scene the stores of the parameters write to
     std::vector<Parameter> free;
-    std::vector<DesignQuantity> asked;
     DesignQuantities factors;     ///< NaN: 1
     DesignQuantities differences; ///< NaN: 0
     std::shared_ptr<std::size_t> count = std::make_shared<std::size_t>(0);
