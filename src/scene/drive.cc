@@ -495,6 +495,15 @@ namespace sprag
     return at(distance < 1.001 * dx ? end : motion->moved_by(piece, time, dx));
   }
 
+  DrivePoint Drive::step(const double time, double dx, const double speed_change) const
+  {
+    const double v = at(time, Side::after).v;
+    auto point     = step(time, dx);
+    while (std::abs(point.v - v) > speed_change * peak_speed())
+      point = step(time, dx *= 0.5);
+    return point;
+  }
+
   double Drive::largest_reversal_duration(const double start, const double stroke, const double speed, const double cycles)
   {
     const auto all = strokes(start, stroke, cycles);

@@ -100,6 +100,10 @@ namespace sprag
     /// than 1e-3 dx before a reversal or the end is taken along, so that those are hit exactly and never by a sliver of a step.
     DrivePoint step(double time, double dx) const;
 
+    /// Returns the end of the longest such step, dx halved as often as needed, that changes v by at most this share of the peak
+    /// speed.
+    DrivePoint step(double time, double dx, double speed_change) const;
+
   private:
     std::shared_ptr<const DriveMotion> motion;
   };

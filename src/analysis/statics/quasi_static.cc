@@ -20,7 +20,7 @@ namespace sprag
     constexpr double growth               = 1.5;
     constexpr double cut                  = 0.25;
     constexpr double stalled_penetration  = 100.; ///< admitted after all augmentations, over the tolerance
-    constexpr double largest_speed_change = 0.02; ///< in a step, over the drive's peak speed
+    constexpr double largest_speed_change = 0.02; ///< in a step, over the drive's peak speed: mu depends on its mean speed
     constexpr double slow                 = 1e-6; ///< as rest, over the drive's peak speed
 
     // The passage through stick after a reversal is about (|F+| + |F-|) / k_t long; its steps are these shares of it.
@@ -160,32 +160,21 @@ namespace sprag
       Evaluation found{};
     };
 
-    /// A step of at most dx that also resolves how the speed changes, on which mu depends: the slip speed of a step is its mean.
-    DrivePoint step_end(const Drive &drive, const double time, double dx)
-    {
-      const double v = drive.at(time, Drive::Side::after).v;
-      auto point     = drive.step(time, dx);
-      while (std::abs(point.v - v) > largest_speed_change * drive.peak_speed())
-      {
-        dx *= 0.5;
-        point = drive.step(time, dx);
-      }
-      return point;
-    }
-
     /// One accepted step of at most dx, which is cut back where no equilibrium is found.
     Progression advance(Model &model, const Drive &drive, const QuasiStaticSettings &settings, const Progression &from,
                         const bool reversed, const bool sticking, double &dx)
     {
       StepCost cost;
-      const double time = from.state.drive.time;
-      auto next         = solve_step(model, from.state, step_end(drive, time, dx), settings, sticking, cost);
+      const double time  = from.state.drive.time;
+      const auto attempt = [&]
+      { return solve_step(model, from.state, drive.step(time, dx, largest_speed_change), settings, sticking, cost); };
+      auto next = attempt();
       while (!next)
       {
         if (dx * cut < settings.minimum_step)
           give_up(from.row, dx, cost);
         dx *= cut;
-        next = solve_step(model, from.state, step_end(drive, time, dx), settings, sticking, cost);
+        next = attempt();
       }
       auto &[state, found] = *next;
       Row row              = observed(model, state, found);

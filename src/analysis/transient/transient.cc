@@ -45,6 +45,8 @@ namespace sprag
     /// it turns.
     struct QuasiStaticCurve
     {
+      static constexpr double speed_change = 0.05; ///< between samples, over the drive's peak speed
+
       DynamicModel &model;
       const Drive &drive;
       const double spacing; ///< of x [mm]
@@ -67,7 +69,7 @@ namespace sprag
       {
         while (samples.back().time < time)
         {
-          const double end  = next(samples.back().time);
+          const double end  = drive.step(samples.back().time, spacing, speed_change).time;
           const auto before = drive.at(end, Drive::Side::before);
           const auto after  = drive.at(end, Drive::Side::after);
           samples.push_back(sample(before));
@@ -92,17 +94,6 @@ namespace sprag
       {
         const auto forces = model.sliding_forces(point).value_or(SlidingForces{ std::nan(""), std::nan("") });
         return { point.time, forces.P, forces.Q };
-      }
-
-      double next(const double time) const
-      {
-        constexpr double speed_change = 0.05;
-        const double v                = drive.at(time, Drive::Side::after).v;
-        double dx                     = spacing;
-        auto point                    = drive.step(time, dx);
-        while (std::abs(point.v - v) > speed_change * drive.peak_speed())
-          point = drive.step(time, dx *= 0.5);
-        return point.time;
       }
     };
 
