@@ -174,6 +174,8 @@ namespace sprag
         for (const auto &parameter : parameters)
           if (const auto found = settings.specified.find(full_name(parameter)); found != settings.specified.end())
           {
+            if (parameter.rule.kind == Rule::Kind::file || found->first == "Condensed/Cache")
+              resolve(found->second.value);
             parameter.store(found->second.value);
             if (input.scene.chosen.count(found->first) == 0)
               input.scene.specified.insert(found->first);
@@ -181,13 +183,6 @@ namespace sprag
               input.scene.written.emplace(found->first, found->second.written);
           }
         input.scene.slope.maximum_inclination = input.maximum_inclination * M_PI / 180.;
-        resolve("Drive/Table", input.drive.table);
-        resolve("Friction/Table", input.friction.table);
-        resolve("Mesh/File", input.scene.mesh.file);
-        resolve("Condensed/Cache", input.scene.condensed.cache);
-        resolve("Identification/Table", input.scene.identification.table);
-        resolve("Isolation/Loop table", input.scene.isolation.loop_file);
-        resolve("Isolation/Base table", input.scene.isolation.base_file);
         make_time_tolerance();
         make_model();
         make_discretisation(input);
@@ -451,12 +446,10 @@ namespace sprag
       }
 
       /// The printed parameters hold absolute paths, so that they can be read back from anywhere.
-      void resolve(const std::string &parameter, std::string &path)
+      void resolve(std::string &path) const
       {
-        if (path.empty())
-          return;
-        path                                   = (std::filesystem::path(input.scene.folder) / path).lexically_normal().string();
-        settings.specified.at(parameter).value = path;
+        if (!path.empty())
+          path = (std::filesystem::path(input.scene.folder) / path).lexically_normal().string();
       }
 
       void report(const std::string &parameter, const std::string &rule)
