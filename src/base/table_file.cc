@@ -44,6 +44,19 @@ namespace sprag
     using Chosen = std::vector<std::optional<std::size_t>>;
     using Choose = std::function<Chosen(const std::vector<NamedColumn> &header)>;
 
+    /// The columns of a file, or what is wrong with it.
+    struct Content
+    {
+      std::vector<NamedColumn> columns;
+      Chosen chosen;
+      Names mistakes;
+    };
+
+    void serialise(Archive &archive, Content &content)
+    {
+      archive(content.columns, content.chosen, content.mistakes);
+    }
+
     std::string lower(const std::string &text)
     {
       return boost::algorithm::to_lower_copy(text);
@@ -145,7 +158,7 @@ namespace sprag
       Chosen chosen                    = {};
       Names mistakes                   = {};
 
-      std::pair<std::vector<NamedColumn>, Chosen> read()
+      Content read()
       {
         std::istringstream input(read_whole_file(file, largest_table));
         std::string line, comment;
@@ -167,9 +180,7 @@ namespace sprag
         }
         if (mistakes.empty() && !has_rows)
           mistakes.push_back(file + (named && columns.empty() ? ": holds no columns" : ": holds no numbers"));
-        if (!mistakes.empty())
-          throw InputError(mistakes);
-        return { std::move(columns), chosen };
+        return { std::move(columns), std::move(chosen), std::move(mistakes) };
       }
 
       void mistake(const std::string &rule)
@@ -309,7 +320,7 @@ namespace sprag
         }
     }
 
-    std::pair<std::vector<NamedColumn>, Chosen> read_open_hdf5(const std::string &path, const Choose &choose)
+    Content read_open_hdf5(const std::string &path, const Choose &choose)
     {
       hdf5::silence();
       const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -317,16 +328,15 @@ namespace sprag
       H5Pset_file_locking(access.id(), false, true);
       const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
       if (file.id() < 0)
-        throw InputError(path + ": cannot be read as HDF5");
+        return { {}, {}, { path + ": cannot be read as HDF5" } };
       H5O_info_t info;
       const bool grouped = H5Lexists(file.id(), "table", H5P_DEFAULT) > 0 &&
                            H5Oget_info_by_name(file.id(), "table", &info, H5P_DEFAULT) >= 0 && info.type == H5O_TYPE_GROUP;
       const Handle table(H5Gopen2(file.id(), grouped ? "table" : "/", H5P_DEFAULT), H5Gclose);
-      std::vector<NamedColumn> columns;
+      Content content;
+      auto &[columns, chosen, mistakes] = content;
       for (const auto &name : hdf5::names_in(table))
         columns.push_back({ name, "", {} });
-      Names mistakes;
-      Chosen chosen;
       try
       {
         chosen = choose(columns);
@@ -352,22 +362,7 @@ namespace sprag
         {
           mistakes.push_back(error.what());
         }
-      if (!mistakes.empty())
-        throw InputError(mistakes);
-      return { std::move(columns), chosen };
-    }
-
-    /// The reply of the process that reads a file of HDF5.
-    struct Found
-    {
-      std::vector<NamedColumn> columns;
-      Chosen chosen;
-      Names mistakes;
-    };
-
-    void serialise(Archive &archive, Found &found)
-    {
-      archive(found.columns, found.chosen, found.mistakes);
+      return content;
     }
 
     /// A damaged file may keep HDF5 busy for ever [s], or ask for all the memory there is [bytes].
@@ -375,7 +370,7 @@ namespace sprag
     constexpr std::size_t file_room = std::size_t(1) << 30;
 
     /// A stranger's file may crash the library or name other files: it is read in a process without rights.
-    std::pair<std::vector<NamedColumn>, Chosen> read_hdf5(const std::string &path, const Choose &choose)
+    Content read_hdf5(const std::string &path, const Choose &choose)
     {
       if (const auto reason = reason_unreadable(path, largest_table); !reason.empty())
         throw InputError(path + ": " + reason);
@@ -384,28 +379,18 @@ namespace sprag
       {
         limit_growth(file_room + 20 * bytes);
         confine({ path });
-        Found found;
-        try
-        {
-          std::tie(found.columns, found.chosen) = read_open_hdf5(path, choose);
-        }
-        catch (const InputError &error)
-        {
-          found.mistakes = error.messages;
-        }
+        auto content = read_open_hdf5(path, choose);
         Archive archive;
-        archive(found);
+        archive(content);
         return archive.bytes();
       };
       const auto answer = in_child_process(work, file_patience + 1e-7 * static_cast<double>(bytes));
       if (!answer.failure.empty())
         throw InputError(path + ": HDF5 " + answer.failure + " on it: the file is damaged");
-      Found found;
+      Content content;
       Archive archive(answer.text);
-      archive(found);
-      if (!found.mistakes.empty())
-        throw InputError(found.mistakes);
-      return { std::move(found.columns), found.chosen };
+      archive(content);
+      return content;
     }
 
     /// The columns whose names satisfy `is_named`.
@@ -488,7 +473,9 @@ namespace sprag
 
     NamedColumns read_table(const std::string &file, const Choose &choose, const bool named)
     {
-      auto [columns, chosen] = is_hdf5(file) ? read_hdf5(file, choose) : TextReader{ file, choose, named }.read();
+      auto [columns, chosen, mistakes] = is_hdf5(file) ? read_hdf5(file, choose) : TextReader{ file, choose, named }.read();
+      if (!mistakes.empty())
+        throw InputError(mistakes);
       NamedColumns table;
       for (std::size_t i = 0; i < columns.size(); ++i)
       {
