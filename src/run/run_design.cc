@@ -425,7 +425,7 @@ namespace sprag
         found.lever          = problem.at(problem.search_point(found.lever.parameters));
         const bool is_stable = std::all_of(found.lever.violations.begin(), found.lever.violations.end(),
                                            [](const double violation) { return violation <= 0.; });
-        return is_stable ? found : best_dear_lever(problem, near);
+        return is_stable ? found : best_lever(problem, near);
       }
     };
 

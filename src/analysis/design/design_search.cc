@@ -245,11 +245,6 @@ namespace sprag
       return search;
     }
 
-    Found found_at(const DesignProblem &problem, const Optimum &optimum)
-    {
-      return { problem.at(optimum.place), optimum.violation <= 0., std::max(0., optimum.violation) };
-    }
-
     /// Turns a demand into an aim: the quantity is to come from `value` towards the target.
     DesignAim towards(const Demand &demand, const double value)
     {
@@ -280,17 +275,13 @@ namespace sprag
     }
   } // namespace
 
-  Found best_lever(const DesignProblem &problem)
+  Found best_lever(const DesignProblem &problem, const std::optional<Proposal> &near)
   {
-    return found_at(problem, search_everywhere(problem.box(problem.settings().aims.front()), search_settings(problem)));
-  }
-
-  Found best_dear_lever(const DesignProblem &problem, const std::optional<Proposal> &near)
-  {
-    auto few = search_settings(problem);
+    auto search = search_settings(problem);
     if (near)
-      few.near = problem.search_point(near->parameters);
-    return found_at(problem, search_everywhere(problem.box(problem.settings().aims.front()), few));
+      search.near = problem.search_point(near->parameters);
+    const auto optimum = search_everywhere(problem.box(problem.settings().aims.front()), search);
+    return { problem.at(optimum.place), optimum.violation <= 0., std::max(0., optimum.violation) };
   }
 
   std::vector<StoppingDemand> stopping_demands(const DesignProblem &problem)
@@ -312,13 +303,11 @@ namespace sprag
 
   std::vector<Proposal> pareto_front(const DesignProblem &problem)
   {
-    const auto &aims    = problem.settings().aims;
-    const auto settings = search_settings(problem);
-    const auto best     = [&](const DesignAim &aim, const std::optional<Demand> &limit)
-    { return problem.at(search_everywhere(problem.box(aim, {}, limit), settings).place); };
-    const auto value      = [](const DesignAim &aim, const Proposal &lever) { return term_value(aim.term, lever); };
-    const auto best_first = best(aims[0], {}), best_second = best(aims[1], {});
-    const double from = value(aims[1], best_first), to = value(aims[1], best_second);
+    const auto &aims      = problem.settings().aims;
+    const auto settings   = search_settings(problem);
+    const auto best       = [&](const DesignAim &aim) { return problem.at(search_everywhere(problem.box(aim), settings).place); };
+    const auto best_first = best(aims[0]), best_second = best(aims[1]);
+    const double from = term_value(aims[1].term, best_first), to = term_value(aims[1].term, best_second);
     std::vector<Proposal> all = { best_first };
     const unsigned int last   = problem.settings().front_points - 1;
     for (unsigned int i = 1; i <= last; ++i)

@@ -24,12 +24,9 @@ namespace sprag
     double distance = 0.;    ///< largest violation, of one that misses any
   };
 
-  /// Finds the lever that meets all demands and is best by the first aim.
-  Found best_lever(const DesignProblem &problem);
-
-  /// Finds it with few evaluations, as they are dear. `near`: a lever in whose neighbourhood it is looked for first, and where
-  /// one is found nowhere else; none: everywhere.
-  Found best_dear_lever(const DesignProblem &problem, const std::optional<Proposal> &near);
+  /// Finds the lever that meets all demands and is best by the first aim. `near`: a lever in whose neighbourhood it is looked for
+  /// first, and where one is found nowhere else; none: everywhere.
+  Found best_lever(const DesignProblem &problem, const std::optional<Proposal> &near = {});
 
   /// Leaves out each demand in turn and returns those without which there is a lever; none where two or more exclude one
   /// another in pairs, or the rules that every lever keeps exclude all.
