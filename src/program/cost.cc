@@ -256,10 +256,8 @@ namespace sprag
     /// The check models of condensed finite elements keep the model of the slides beside that in time.
     double design_memory(Scene scene)
     {
-      const auto &checks      = scene.design.check_models;
-      const bool is_condensed = std::count(checks.begin(), checks.end(), CheckModel::condensed) > 0;
-      scene.analysis.type     = AnalysisType::stability;
-      scene.analysis.model    = is_condensed ? ModelType::condensed : ModelType::beam;
+      scene.analysis.model = is_checked_by_mesh(scene) ? ModelType::condensed : ModelType::beam;
+      scene.analysis.type  = AnalysisType::stability;
       return library_memory(scene) + 2. * matrix_bytes(scene);
     }
   } // namespace
