@@ -58,11 +58,11 @@ namespace sprag
     std::map<std::string, Phase> all;
   };
 
-  /// Does `work` as a visit of the phase.
+  /// Does `work` as a visit of the phase and returns what it returns.
   template <class Work>
-  void timed(PhaseTimer &timer, const std::string &phase, const Work &work)
+  auto timed(PhaseTimer &timer, const std::string &phase, const Work &work)
   {
     const PhaseTimer::Scope scope(timer, phase);
-    work();
+    return work();
   }
 } // namespace sprag

@@ -177,13 +177,7 @@ namespace sprag
                { "coordinates", static_cast<double>(dynamics.meshed.n_coordinates) } };
     }
 
-    /// Counts the wall and CPU time of a phase, which finds a slide and its vibrations.
-    template <class Find>
-    auto timed(DynamicsMaker &maker, const Find &find, const std::string &phase = "eigenvalues")
-    {
-      const PhaseTimer::Scope scope(maker.timer(), phase);
-      return find();
-    }
+    const std::string search_phase = "eigenvalues"; ///< which finds slides and their vibrations
 
     DevicePose slide_pose(const Scene &scene, const DynamicModel &model, const HeldSlide &slide)
     {
@@ -224,18 +218,19 @@ namespace sprag
 
     RunEnd modal(const Scene &scene, DynamicsMaker &maker, const RunOptions &options)
     {
+      auto &timer                = maker.timer();
       Scene undamped             = scene;
       undamped.stability.damping = false;
       undamped                   = held_scene(undamped);
       const auto friction        = scene.stability.contact == HeldContact::stuck ? ContactFriction::stuck : ContactFriction::none;
       const auto dynamics        = maker.make(undamped);
       auto &model                = dynamics.model();
-      const auto slide           = timed(maker, [&] { return model.hold(held_drive(undamped), friction); });
+      const auto slide           = timed(timer, search_phase, [&] { return model.hold(held_drive(undamped), friction); });
       if (!slide)
         throw AnalysisError("no equilibrium at x = " + mm(held_drive(undamped).x) + ". Try another Stability/Position.");
       const bool in_contact = scene.stability.contact != HeldContact::open;
-      const auto found      = timed(maker, [&] { return model.vibrations(*slide, in_contact, scene.stability.modes); });
-      auto modes            = reported(found, scene.stability.modes);
+      const auto found = timed(timer, search_phase, [&] { return model.vibrations(*slide, in_contact, scene.stability.modes); });
+      auto modes       = reported(found, scene.stability.modes);
       if (dynamics.solid)
         tell_motion(structure_modes(*dynamics.solid, count_levers(undamped)), modes);
       if (!options.quiet)
@@ -251,16 +246,18 @@ namespace sprag
 
     RunEnd stability(const Scene &whole, DynamicsMaker &maker, const RunOptions &options, Warnings &warnings)
     {
+      auto &timer = maker.timer();
       RunEnd result;
       SlideStability found;
       bool is_decided   = true;
-      const auto swept  = timed(maker, [&] { return sweep(whole, maker, true); });
+      const auto swept  = timed(timer, search_phase, [&] { return sweep(whole, maker, true); });
       const Scene scene = slide_scene(whole, swept.worst());
       auto idle         = ranges_without_effect(whole, swept);
       {
         const Scene held    = held_scene(scene);
         const auto dynamics = maker.make(held);
-        found       = timed(maker, [&] { return check_slide(dynamics.model(), held_drive(scene), checked_modes(scene)); });
+        found =
+            timed(timer, search_phase, [&] { return check_slide(dynamics.model(), held_drive(scene), checked_modes(scene)); });
         result.meta = meshed_entries(dynamics);
         auto modes  = reported(found.modes, scene.stability.modes);
         if (dynamics.solid)
@@ -274,8 +271,7 @@ namespace sprag
             append(warnings, beam_warnings(scene, mode_frequency(*found.beyond), found.beyond->mode.eigenvalue.real()));
         }
         if (estimates_errors(options))
-          result.accuracy = timed(
-              maker, [&] { return vibration_accuracy(held, found, dynamics.meshed, maker); }, "accuracy");
+          result.accuracy = timed(timer, "accuracy", [&] { return vibration_accuracy(held, found, dynamics.meshed, maker); });
         // A slide that jams is decided without its growth rate.
         is_decided = found.kind == SlideKind::jammed || result.accuracy.empty() || !(total_error(result.accuracy.front()) > 1.);
         result.summary = slide_entries(found, is_decided);
@@ -291,8 +287,8 @@ namespace sprag
       if (found.slide && is_decided && scene.stability.damping && whole.stability.ranges == "none" &&
           options.in_memory == nullptr)
       {
-        append(result.summary, timed(maker, [&] { return damping_entries(whole, swept.worst(), maker); }));
-        append(result.summary, timed(maker, [&] { return unmeasured_entries(whole, maker); }));
+        append(result.summary, timed(timer, search_phase, [&] { return damping_entries(whole, swept.worst(), maker); }));
+        append(result.summary, timed(timer, search_phase, [&] { return unmeasured_entries(whole, maker); }));
       }
       if (scene.stability.roles)
         append(result.summary, role_entries(roles(scene, found, maker)));
