@@ -13,13 +13,18 @@ namespace sprag
     return std::regex_match(name, pattern);
   }
 
-  void remove_field_files(const std::string &folder)
+  void remove_files(const std::string &folder, const std::function<bool(const std::string &)> &is_named_so)
   {
     std::vector<std::filesystem::path> found;
     for (const auto &entry : std::filesystem::directory_iterator(folder))
-      if (is_field_file(entry.path().filename().string()))
+      if (is_named_so(entry.path().filename().string()))
         found.push_back(entry.path());
     for (const auto &path : found)
       std::filesystem::remove(path);
+  }
+
+  void remove_field_files(const std::string &folder)
+  {
+    remove_files(folder, is_field_file);
   }
 } // namespace sprag

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include <functional>
 #include <string>
 
 namespace sprag
@@ -8,6 +9,9 @@ namespace sprag
   /// Returns whether a file in a folder of results has a name that FieldFiles gives, of leaf springs of earlier versions
   /// included.
   bool is_field_file(const std::string &name);
+
+  /// Removes the files of a folder that are named so.
+  void remove_files(const std::string &folder, const std::function<bool(const std::string &)> &is_named_so);
 
   /// Removes what FieldFiles of any run left in a folder.
   void remove_field_files(const std::string &folder);

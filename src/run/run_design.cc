@@ -8,15 +8,17 @@
 #include "input/read.h"
 #include "program/result_writer.h"
 #include "report/summary_lines.h"
+#include "results/earlier_fields.h"
 #include "results/page_tables.h"
 #include "results/result_file.h"
 #include "run/design_checks.h"
 #include "run/run.h"
 #include "scene/scene.h"
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <iosfwd>
 #include <iostream>
@@ -439,19 +441,6 @@ namespace sprag
         throw AnalysisError("cannot write " + name + ".prm");
     }
 
-    /// Those of an earlier run in the same folder.
-    void remove_scenes(const RunOptions &options)
-    {
-      const auto is_ours = [](const std::filesystem::path &path)
-      { return path.extension() == ".prm" && path.filename().string().rfind("design-", 0) == 0; };
-      std::vector<std::filesystem::path> ours;
-      for (const auto &entry : std::filesystem::directory_iterator(options.folder))
-        if (is_ours(entry.path()))
-          ours.push_back(entry.path());
-      for (const auto &path : ours)
-        std::filesystem::remove(path);
-    }
-
     /// The lever found, or the nearest, and those of the front, ready to run.
     void write_scenes(const Scene &scene, const RunOptions &options, const DesignFindings &findings)
     {
@@ -467,7 +456,8 @@ namespace sprag
     PhaseTimer timer;
     const auto &design = scene.design;
     ResultWriter writer(scene, options, timer, design_columns(design));
-    remove_scenes(options);
+    remove_files(options.folder, [](const std::string &name) // of an earlier run
+                 { return boost::starts_with(name, "design-") && boost::ends_with(name, ".prm"); });
     DesignFindings findings;
     finish_in_any_case(
         [&] { DesignRun(scene, findings).carry_out(); },
