@@ -68,7 +68,7 @@ namespace sprag
       , longest_step(adapts() ? std::min(first_step_limit * settings.time.step,
                                          find_shortest_period(m, K, base_excitation) / steps_per_period)
                               : settings.time.step)
-      , way_tolerance(way_share * settings.force_scale / settings.contact_stiffness * local_tolerance())
+      , way_tolerance(way_share * settings.force_scale / settings.contact_stiffness * settings.local_tolerance())
       , sides{ { { outward, 1, {}, {}, {} }, { inward, -1, {}, {}, {} } } }
   {
     if (scene.analysis.model == ModelType::finite_element || scene.analysis.dimension == 3)
@@ -204,7 +204,7 @@ namespace sprag
     for (unsigned int i = 0; i < sides.size(); ++i)
       if (!is_free(sides[i], trial.levers[i]))
         largest = std::max(largest, trial.levers[i].error);
-    return largest * settings.contact_stiffness / settings.force_scale / local_tolerance();
+    return largest * settings.contact_stiffness / settings.force_scale / settings.local_tolerance();
   }
 
   TableEvent LeverTable::advance(const double until)

@@ -8,7 +8,6 @@
 #include "scene/drive.h"
 
 #include <array>
-#include <cmath>
 #include <optional>
 #include <string>
 
@@ -186,12 +185,6 @@ namespace sprag
     bool adapts() const
     {
       return settings.time.tolerance > 0.;
-    }
-
-    /// Errors of steps go with dt^3 and that of the run with dt^2, see run_transient().
-    double local_tolerance() const
-    {
-      return std::pow(0.5 * settings.time.tolerance, 1.5);
     }
 
     /// Returns true if a lever is out of contact over a whole step.

@@ -110,7 +110,7 @@ namespace sprag
           return false;
         if (settings.time.tolerance == 0.)
           return true;
-        error = outcome.error * settings.contact_stiffness / (settings.force_scale * local_tolerance());
+        error = outcome.error * settings.contact_stiffness / (settings.force_scale * settings.local_tolerance());
         small = error < small_error ? small + 1 : 0;
         return error <= 1. || shortest;
       }
@@ -118,13 +118,6 @@ namespace sprag
       bool wants_longer() const
       {
         return settings.time.tolerance > 0. && small >= small_errors;
-      }
-
-      /// Errors of steps go with dt^3 and that of the run with dt^2; for the ringing of models A and B their sizes are as
-      /// follows.
-      double local_tolerance() const
-      {
-        return std::pow(0.5 * settings.time.tolerance, 1.5);
       }
     };
 

@@ -9,6 +9,7 @@
 #include "scene/discretisation_settings.h"
 #include "scene/drive.h"
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
@@ -53,6 +54,13 @@ namespace sprag
     double contact_stiffness    = 1.;   ///< dP/d(gap) that turns errors of the gap into such of P [N/mm], > 0
     double quasi_static_spacing = 0.25; ///< change of x from one equilibrium to the next, lines between [mm], > 0
     double longest_step         = std::numeric_limits<double>::infinity(); ///< of adaptive ones [s], > 0
+
+    /// Returns the tolerance of a step. Errors of steps go with dt^3 and that of the run with dt^2; for the ringing of models A
+    /// and B their sizes are as follows.
+    double local_tolerance() const
+    {
+      return std::pow(0.5 * time.tolerance, 1.5);
+    }
   };
 
   /// Called with every accepted motion, the first included, right after the model made it.
