@@ -217,8 +217,7 @@ namespace sprag
     const auto loads        = bond_loads(body, begin - beyond * depth, end + beyond * depth, spacing, depth);
     const int n             = loads.size();
     const auto n_surface    = static_cast<unsigned int>(dofs.size());
-    FullMatrix<double> face_response(n_surface, n);
-    LAPACKFullMatrix<double> products(n);
+    LAPACKFullMatrix<double> products(n), lower(n), transposed(n, n_surface);
     for (int first = 0; first < n; first += chunk)
     {
       const int last = std::min(n, first + chunk);
@@ -234,7 +233,7 @@ namespace sprag
       {
         const double *const response = &responses[static_cast<std::size_t>(j - first) * body.n_dofs()];
         for (unsigned int surface_dof = 0; surface_dof < n_surface; ++surface_dof)
-          face_response(surface_dof, j) = response[dofs[surface_dof]];
+          transposed(j, surface_dof) = response[dofs[surface_dof]];
         for (int i = 0; i < n; ++i)
           for (int k = loads.begin[i]; k < loads.begin[i + 1]; ++k)
             products(i, j) += loads.value[k - 1] * response[loads.row[k - 1] - 1];
@@ -244,13 +243,9 @@ namespace sprag
     // B^T K^-1 B = L L^T, Z = (K^-1 B)_face L^-T.
     products.set_property(LAPACKSupport::symmetric);
     products.compute_cholesky_factorization();
-    LAPACKFullMatrix<double> lower(n), transposed(n, n_surface);
     for (int i = 0; i < n; ++i)
       for (int j = 0; j <= i; ++j)
         lower(i, j) = products(i, j);
-    for (unsigned int surface_dof = 0; surface_dof < n_surface; ++surface_dof)
-      for (int j = 0; j < n; ++j)
-        transposed(j, surface_dof) = face_response(surface_dof, j);
     lower.set_property(LAPACKSupport::lower_triangular);
     lower.solve(transposed);
     basis.reinit(n_surface, n);
