@@ -319,9 +319,7 @@ namespace sprag
       std::vector<RitzPair> pairs() const
       {
         FullMatrix<double> square(n, n);
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
-            square(i, j) = projected(i, j);
+        square.fill(projected);
         std::vector<RitzPair> result;
         for (auto &pair : eigenpairs(square))
         {

@@ -31,9 +31,7 @@ namespace sprag
           if (forces.dofs[a] < data.face_compliance.m())
             ++n_static;
         shapes.reinit(n_forces, n);
-        for (unsigned int a = 0; a < n_forces; ++a)
-          for (unsigned int i = 0; i < n; ++i)
-            shapes(a, i) = data.shapes(forces.dofs[a], i);
+        shapes.extract_submatrix_from(data.shapes, forces.dofs, all_dofs(n));
         assemble();
       }
 
@@ -110,9 +108,7 @@ namespace sprag
         FullMatrix<double> whole(left.m(), right.n());
         left.mmult(half, middle);
         half.mmult(whole, right);
-        for (unsigned int i = 0; i < whole.m(); ++i)
-          for (unsigned int j = 0; j < whole.n(); ++j)
-            sum(row + i, column + j) += factor * whole(i, j);
+        sum.add(whole, factor, row, column);
       }
 
       void assemble()
