@@ -177,10 +177,10 @@ namespace sprag
           throw no_equilibrium(drive, end.share);
         if (end.share < 1.)
           return slide;
-        const auto grown   = slides.last_equilibrium();
+        const auto grown   = slides.last;
         const double ratio = slides.speed_ratio(drive, nearby);
-        slides.start_from(grown);
-        slide = slide_at(drive, friction, ratio);
+        slides.last        = grown;
+        slide              = slide_at(drive, friction, ratio);
         if (!slide)
           throw no_equilibrium(drive, 1.);
       }
@@ -414,7 +414,7 @@ namespace sprag
       for (unsigned int i = 0; i < most_corrections && force != nullptr; ++i)
       {
         auto change = structure->positions(structure->deform(*force));
-        change -= slides.last_equilibrium().displacements;
+        change -= slides.last.displacements;
         const auto counts = [&](const unsigned int dof)
         { return std::abs(frame.lengths[dof] * change[dof]) > 1e-10 * found.penetration(); };
         if (std::none_of(force->dofs.begin(), force->dofs.end(), counts))
@@ -427,7 +427,7 @@ namespace sprag
       HeldSlide slide;
       slide.drive         = drive;
       slide.motion        = completed(structure->deform(*force), { drive.time, drive.x, 0., 0. }, *force);
-      slide.displacements = slides.last_equilibrium().displacements;
+      slide.displacements = slides.last.displacements;
       slide.friction      = friction;
       slide.speed         = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
       slide.penetration   = found.penetration();
@@ -468,14 +468,14 @@ namespace sprag
       const double speed   = sliding_speed(frame.geometries.front(), drive.x, drive.v);
       const auto is_unique = [&](const double share)
       {
-        const auto displacements = slides.last_equilibrium().displacements;
+        const auto displacements = slides.last.displacements;
         return uniqueness({ displacements, drive, speed, nullptr, ContactFriction::sliding, Request::with_tangent, share }) > 0.;
       };
       std::vector<BranchPoint> branch = { { 0., found.penetration() } };
       for (double step = 0.25; branch.back().share < 1. && step > smallest_step;)
       {
         const double next = std::min(1., branch.back().share + step);
-        const auto before = slides.last_equilibrium();
+        const auto before = slides.last;
         if (slides.solve_with_share(drive, next) != nullptr && is_unique(next))
         {
           if (indentation() > frame.largest_indentation)
@@ -485,7 +485,7 @@ namespace sprag
         }
         else
         {
-          slides.start_from(before);
+          slides.last = before;
           step *= 0.5;
         }
       }

@@ -105,16 +105,7 @@ namespace sprag
       return slip / (2. * h * sliding_speed(frame.geometries.front(), drive.x, 1.));
     }
 
-    const Equilibrium &last_equilibrium() const
-    {
-      return last;
-    }
-
-    /// Seeks the next equilibrium from this one.
-    void start_from(Equilibrium equilibrium)
-    {
-      last = std::move(equilibrium);
-    }
+    Equilibrium last; ///< that was found, from which the next one is sought
 
     /// Serialises the equilibrium from which the next one is sought.
     void serialise_history(Archive &archive)
@@ -129,7 +120,6 @@ namespace sprag
     typename Contact::Evaluation &found; ///< the model's
     const LeverFrame &frame;
     HubSpringExcess &hub_spring;
-    Equilibrium last;           ///< from which the next one starts
     ForceHistory followed;      ///< by follow(), where the contact keeps a tangent
     double followed_speed = 0.; ///< v of the last of them
     std::shared_ptr<const StoredJacobian> kept;
