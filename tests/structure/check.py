@@ -160,9 +160,19 @@ def check_places(page):
                 report(page, number, f"names {function}(), which the file named before it does not have")
 
 
+def check_named_files(page, sources):
+    """Reports sources that a page names, from any folder on, and that do not exist."""
+    for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
+        for name in re.findall(r"`([\w/.-]+\.(?:cc|h|py))`", line):
+            if not any(path.endswith("/" + name) for path in sources):
+                report(page, number, f"names {name}, which is not there")
+
+
 pages = [*ROOT.glob("*.md"), *(path for path in own_files() if path.suffix == ".md")]
+paths = ["/" + path.relative_to(ROOT).as_posix() for path in own_files()]
 for page in pages:
     check_links(page)
+    check_named_files(page, paths)
     check_words(page)
     if page.name.startswith("theory"):
         check_places(page)
