@@ -56,12 +56,16 @@ namespace sprag
     return { friction, stiffness, {}, falls_with_speed(friction), is_layer };
   }
 
-  FrictionLag friction_lag(const SlipLaw &law, const double slope, const double speed)
+  FrictionLag friction_lag(const FrictionLaw &law, const double stiffness, const bool is_layer, const double slope,
+                           const double speed)
   {
-    const double memory   = law.follows_speed ? law.friction.memory_length / std::abs(speed) : 0.;
-    const bool has_spring = law.friction.regularisation_speed == 0. && (law.is_layer || !law.follows_speed);
-    const double spring   = has_spring ? (law.follows_speed ? slope : std::max(0., slope)) / law.stiffness : 0.;
-    const double time     = slope == 0. ? 0. : memory + spring;
+    if (slope == 0.)
+      return { 0., 1. };
+    const bool falls      = falls_with_speed(law);
+    const bool has_spring = law.regularisation_speed == 0. && (is_layer || !falls);
+    const double memory   = falls ? law.memory_length / std::abs(speed) : 0.;
+    const double spring   = has_spring ? (falls ? slope : std::max(0., slope)) / stiffness : 0.;
+    const double time     = memory + spring;
     return { time, time == 0. ? 1. : spring / time };
   }
 

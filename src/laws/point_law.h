@@ -67,8 +67,8 @@ namespace sprag
   /// A mu that falls with speed follows the speed w of a slide over the memory length L, in the time L / |w|. The spring of stick
   /// in series delays all friction by mu' p / stiffness, a penalty only while mu rises; `slope` = mu' p [N s/mm]. Both together,
   ///   t (1 + (L / |w| + slope / stiffness) s) = mu (1 + L / |w| s) p + slope v   with the Laplace variable s,
-  /// leave a time below 0 where mu falls faster than it can follow: there slip runs away.
-  FrictionLag friction_lag(const SlipLaw &law, double slope, double speed);
+  /// leave a time below 0 where mu falls faster than it can follow: there slip runs away. `is_layer`: see SlipLaw.
+  FrictionLag friction_lag(const FrictionLaw &law, double stiffness, bool is_layer, double slope, double speed);
 
   /// Friction of a point at the end of a step, see end_friction().
   template <class N, int slips>
@@ -300,7 +300,7 @@ namespace sprag
     return result;
   }
 
-  /// Returns true if the faces slide by what a layer's shear leaves. A step that begins in stick counts that, too.
+  /// Returns true if the faces slide by what a layer's shear leaves. In a step that begins in stick the shear counts as slip.
   template <class V, int slips>
   SPRAG_PART bool slides_behind_layer(const SlipLaw &law, const SlipHistory<V, slips> &history)
   {

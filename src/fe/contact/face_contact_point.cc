@@ -71,7 +71,7 @@ namespace sprag
     sliding_tangent.coupled  = share.coefficient * penalty.normal;
     sliding_tangent.stuck    = sliding.friction == ContactFriction::stuck ? -penalty.tangential : 0.;
     sliding_tangent.by_speed = -share.derivative * state.pressure;
-    sliding_tangent.lag      = friction_lag(slip_law(law, penalty.tangential), -sliding_tangent.by_speed, speed);
+    sliding_tangent.lag      = friction_lag(law, penalty.tangential, false, -sliding_tangent.by_speed, speed);
     return sliding_tangent;
   }
 

@@ -332,7 +332,7 @@ namespace sprag
                                                            const Evaluation &found) const
   {
     const double slope    = found.sliding.derivative * found.response.pressure;
-    const auto lag        = friction_lag(slip_law(law, properties.tangential, true), slope, found.slip_rate);
+    const auto lag        = friction_lag(law, properties.tangential, true, slope, found.slip_rate);
     const double friction = lag.pressure * found.sliding.coefficient;
     if (lag.time == 0.)
       return {};
