@@ -69,7 +69,8 @@ namespace sprag
       archive(parameters, key, rows, progress);
     }
 
-    /// Returns what the checkpoint in a folder holds; none where there is none or it is not as it was written.
+    /// Returns what the checkpoint in a folder holds; none where there is none, it is not as it was written, or another build of
+    /// the program wrote other fields.
     std::optional<Content> content_in(const std::string &path)
     {
       std::ifstream input(path, std::ios::binary);
@@ -78,7 +79,14 @@ namespace sprag
         return {};
       Content content;
       Archive archive(*bytes);
-      archive(content);
+      try
+      {
+        archive(content);
+      }
+      catch (const AnalysisError &)
+      {
+        return {};
+      }
       return content;
     }
 

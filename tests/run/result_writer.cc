@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "program/result_writer.h"
 
+#include "base/archive.h"
 #include "base/version.h"
 #include "mpi_environment.h"
+#include "program/checkpoint.h"
+#include "program/output_folder.h"
 #include "results/hdf5.h"
 #include "scenes.h"
 #include "support/temporary_folder.h"
@@ -42,4 +45,15 @@ TEST(FinishInAnyCase, TellsHowTheStepsEndedAndPassesAFailureOn)
   EXPECT_EQ(status, "completed");
   EXPECT_THROW(finish_in_any_case([] { throw AnalysisError("no solution"); }, finish), AnalysisError);
   EXPECT_EQ(status, "no solution");
+}
+
+TEST(Checkpoint, OfABuildWithOtherFieldsIsNone)
+{
+  const TemporaryFolder folder;
+  std::string first = "a text more", key = "0123456789abcdef";
+  std::size_t rows = 10;
+  Archive archive;
+  archive(first, key, key, rows, key);
+  folder.write(checkpoint_name, sealed(archive.bytes()));
+  EXPECT_FALSE(has_checkpoint(folder.path, model_a()));
 }
