@@ -155,11 +155,10 @@ namespace sprag
       const double rigid_growth = compute_growth(changed, maker);
       if (has_memory(scene))
       {
-        constexpr double tenth = 0.1;
-        changed                = scene;
-        changed.friction.memory_length *= tenth;
+        changed                        = scene;
+        changed.friction.memory_length = 0.1 * scene.friction.memory_length;
         short_growth                   = compute_growth(changed, maker);
-        changed.friction.memory_length = scene.friction.memory_length / tenth;
+        changed.friction.memory_length = 10. * scene.friction.memory_length;
         long_growth                    = compute_growth(changed, maker);
       }
       return { { "growth_rate_soft_stick", soft_growth },
