@@ -11,7 +11,6 @@
 #include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
-#include <functional>
 #include <ostream>
 
 namespace sprag

@@ -54,8 +54,7 @@ namespace sprag
       return jamming_margin(device, model != ModelType::closed_form && model != ModelType::rigid);
     }
 
-    /// Returns the expected cost of a run, with the CPU time of choosing its settings, begun when the process had used `since`
-    /// [s].
+    /// Adds to the cost of a run what choosing its settings has taken since the process had used so much CPU time [s].
     ExpectedCost cost_with_trials(const Scene &scene, const double since)
     {
       const double spent = PhaseTimer::cpu_seconds() - since;

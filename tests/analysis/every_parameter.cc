@@ -124,7 +124,7 @@ namespace
     return text;
   }
 
-  /// Of both ends of a stroke, scaled.
+  /// A table of both ends of a stroke, scaled.
   std::string drive_table(const double stroke)
   {
     return table("time,x", { { 0., 0. }, { 0.2, 0.3 * stroke }, { 0.4, 0.8 * stroke }, { 0.6, stroke }, { 1.2, 0. } });

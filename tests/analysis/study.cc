@@ -81,7 +81,7 @@ TEST(StudyPoints, ARunIsTheSceneWithItsValues)
   EXPECT_EQ(run.output.fields, FieldOutput::none);
 }
 
-// As with --set: whoever gives a step has fixed ones.
+// Whoever gives a step has fixed ones, as with --set.
 TEST(StudyPoints, AStepWithoutAToleranceIsFixed)
 {
   const auto tolerance = [](const Messages &overrides) { return scene_at(make_scene(overrides), { 0 }).time.tolerance; };

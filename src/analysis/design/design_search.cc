@@ -211,7 +211,7 @@ namespace sprag
     /// Finds the smallest objective where all constraints are kept: by evolution (ISRES) over the cube, then from there and from
     /// other starts by linear approximations (COBYLA); of a start that keeps none the nearest place that does is the beginning.
     /// With `only_approaches` it stops where all constraints are kept. Where there is no such place it is the one at which the
-    /// largest is smallest.
+    /// largest constraint is smallest.
     Optimum search_everywhere(const BoxProblem &problem, const SearchSettings &settings, const bool only_approaches = false)
     {
       if (!settings.near.empty())

@@ -127,7 +127,7 @@ namespace sprag
 
     constexpr double limit_accuracy = 1e-3; ///< of x [mm]
 
-    /// So that the centre never exceeds the drive's speed.
+    /// Returns how long the centre takes from one slide to the next where it never exceeds the drive's speed [s].
     double path_duration(const HeldSlide &from, const HeldSlide &to)
     {
       constexpr double peak_over_mean = 1.875; ///< of the speed, see moving_path()

@@ -177,8 +177,7 @@ namespace sprag
     /// Bisections of the interval in which a vibration that was carried along dies.
     static constexpr unsigned int bisections = 3;
 
-    /// Starts at `drive`; `modes` is that of check_slide(). The run must begin at the slide
-    /// or vibration there.
+    /// Starts at `drive`; `modes` is that of check_slide(). The run must begin at the slide or vibration there.
     Continuation(DynamicModel &model, HeldRun &run, const DrivePoint &drive, const SettlingTimes &times,
                  const CheckedModes &modes, const SpragSlipSettings &settings);
 
