@@ -171,7 +171,7 @@ TEST(CriticalValues, TellTheMotionOfAPair)
   const auto without_damping =
       std::find_if(found_roles.begin(), found_roles.end(), [](const Role &role) { return role.name == "without_damping"; });
   ASSERT_NE(without_damping, found_roles.end());
-  EXPECT_EQ(without_damping->found->motion(), "either");
+  EXPECT_EQ(without_damping->found.value().motion(), "either");
   const auto free = check_slide(variant(scene, { "Mirrored pair/Joint=free" }), maker);
   EXPECT_TRUE(free.motion() == "swinging" || free.motion() == "mirroring") << free.motion();
 }
@@ -192,10 +192,10 @@ TEST(Roles, FlexureMakesTheSpragSlip)
   std::map<std::string, Role> found_roles;
   for (const auto &role : roles(scene, present, maker))
     found_roles[role.name] = role;
-  EXPECT_EQ(found_roles.at("without_flexure").found->kind, SlideKind::stable);
-  EXPECT_EQ(found_roles.at("without_inertia").found->kind, SlideKind::stable);
-  EXPECT_EQ(found_roles.at("without_friction_derivative").found->kind, SlideKind::flutter);
-  EXPECT_GT(found_roles.at("without_damping").found->growth_rate(), present.growth_rate());
+  EXPECT_EQ(found_roles.at("without_flexure").found.value().kind, SlideKind::stable);
+  EXPECT_EQ(found_roles.at("without_inertia").found.value().kind, SlideKind::stable);
+  EXPECT_EQ(found_roles.at("without_friction_derivative").found.value().kind, SlideKind::flutter);
+  EXPECT_GT(found_roles.at("without_damping").found.value().growth_rate(), present.growth_rate());
   EXPECT_EQ(found_roles.count("without_support"), 0u);
 }
 
@@ -208,8 +208,8 @@ TEST(Roles, SupportIsLeftOutWhereThereIsOne)
   for (const auto &role : roles(scene, present, maker))
     if (role.name == "without_support")
     {
-      EXPECT_DOUBLE_EQ(role.found->growth_rate(), fixed.growth_rate());
-      EXPECT_NE(role.found->growth_rate(), present.growth_rate());
+      EXPECT_DOUBLE_EQ(role.found.value().growth_rate(), fixed.growth_rate());
+      EXPECT_NE(role.found.value().growth_rate(), present.growth_rate());
       return;
     }
   FAIL() << "no role of the support";
