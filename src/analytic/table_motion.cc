@@ -329,9 +329,7 @@ namespace sprag
         take(at, stepped(at));
         now.time += at;
         fail("the damper locks: friction holds the table whatever pulls it back. Try less friction, a smaller motion of the base "
-             "or "
-             "of "
-             "the beginning, or levers with a smaller e");
+             "or of the beginning, or levers with a smaller e");
       }
 
       /// Updates the peaks. The acceleration's is the extreme of a quartic through five instants of the step.
@@ -367,8 +365,7 @@ namespace sprag
         const double y = std::abs(now.z);
         if (system.damper.locking_margin && system.damper.locking_margin(y, 0.) <= 0.)
           fail("the damper locks where the table came to rest: friction holds it whatever pulls it back. Try less friction, a "
-               "smaller "
-               "motion of the base or of the beginning, or levers with a smaller e");
+               "smaller motion of the base or of the beginning, or levers with a smaller e");
         set_out(way_out());
         return rests() ? TableEvent::stop : TableEvent::turn;
       }

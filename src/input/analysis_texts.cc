@@ -23,8 +23,8 @@ namespace sprag
 
     bool can_be_free(const Parameter &parameter)
     {
-      const bool is_number = parameter.rule.kind == Rule::Kind::number || parameter.rule.kind == Rule::Kind::number_or_auto;
-      return is_number && (free_sections.count(parameter.section) > 0 || full_name(parameter) == free_friction);
+      return is_number(parameter.rule) && parameter.rule.kind != Rule::Kind::integer &&
+             (free_sections.count(parameter.section) > 0 || full_name(parameter) == free_friction);
     }
 
     const Choices<CheckModel> check_model_words = { { "table", CheckModel::table },
@@ -224,6 +224,22 @@ namespace sprag
       DesignReader{ settings, declared, report }.read();
     }
   } // namespace
+
+  void read_file(const std::string &parameter, const std::string &file, const ReportMistake &report,
+                 const std::function<void()> &read)
+  {
+    if (file.empty())
+      return report(parameter, "must name a file");
+    try
+    {
+      read();
+    }
+    catch (const InputError &error)
+    {
+      for (const auto &message : error.messages)
+        report(parameter, message);
+    }
+  }
 
   void read_analysis_texts(Scene &scene, const std::vector<Parameter> &declared, const ReportMistake &report)
   {

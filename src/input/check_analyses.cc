@@ -31,7 +31,7 @@ namespace sprag
                  "must be 0 with Isolation/Damper = lever");
     }
 
-    /// Once the damper can be made.
+    /// Checks where the motion begins, of a damper that can be made.
     void beginning(const Scene &scene, Rules &rules)
     {
       const auto &settings = scene.isolation;

@@ -28,7 +28,7 @@ namespace sprag
     const Names sweep = {
       // The contact's way along the lever depends on the geometry.
       "Geometry/Cylinder radius", "Geometry/Interface offset", "Geometry/Pivot distance",
-      // So do the ends of the drive.
+      // It depends on the ends of the drive too.
       "Drive/Start", "Drive/Stroke", "Drive/Profile", "Drive/Table"
     };
 

@@ -133,22 +133,6 @@ namespace sprag
     }
   } // namespace
 
-  void read_file(const std::string &parameter, const std::string &file, const ReportMistake &report,
-                 const std::function<void()> &read)
-  {
-    if (file.empty())
-      return report(parameter, "must name a file");
-    try
-    {
-      read();
-    }
-    catch (const InputError &error)
-    {
-      for (const auto &message : error.messages)
-        report(parameter, message);
-    }
-  }
-
   void read_isolation_tables(IsolationSettings &settings, UnusedColumns &unused, const ReportMistake &report)
   {
     if (settings.damper == DamperType::loop)

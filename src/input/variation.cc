@@ -6,7 +6,6 @@
 
 #include <boost/algorithm/string/join.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
