@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/contact_reference.h"
 
+#include "input/read.h"
 #include "scene/scene.h"
 #include "scenes.h"
+#include "support/params_folder.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <string>
 
 using namespace sprag;
 
@@ -16,6 +19,11 @@ namespace
     Scene scene          = model_a();
     scene.analysis.model = ModelType::condensed;
     return scene;
+  }
+
+  std::string model_a_file()
+  {
+    return (params_folder() / "model-a.prm").string();
   }
 } // namespace
 
@@ -44,4 +52,31 @@ TEST(ContactReference, OfAContactThatIsNarrowAgainstItsLayerIsThatOfAHalfPlane)
   const double half_width   = 0.5 * estimated_contact_width(scene, reference.P);
   const double per_force    = 2. / (M_PI * scene.lever.width * 2000.) * (std::log(2. * 20. / half_width) - 0.5);
   EXPECT_NEAR(reference.stiffness * per_force, 1., 0.05);
+}
+
+// Widths of hard contact on faces of 0.03125 mm, from tests/benchmarks/pressure.md; estimates need not be better than a fifth.
+TEST(FaceGrading, WidthsOfModelAAreEstimated)
+{
+  const Scene scene = read_scene(model_a_file());
+  EXPECT_NEAR(estimated_contact_width(scene, 1.52), 0.723, 0.15);
+  EXPECT_NEAR(estimated_contact_width(scene, 6.15), 1.356, 0.27);
+  EXPECT_NEAR(estimated_contact_width(scene, 14.7), 1.940, 0.39);
+}
+
+TEST(FaceGrading, ShortFacesLieWhereTheContactIsNarrow)
+{
+  const auto grading = face_grading(read_scene(model_a_file()));
+  ASSERT_TRUE(grading);
+  EXPECT_DOUBLE_EQ(grading->longest, 0.25);
+  EXPECT_DOUBLE_EQ(grading->shortest, 0.0625);
+  EXPECT_LT(grading->begin, 175.);
+  EXPECT_GT(grading->begin, 160.);
+  EXPECT_GT(grading->end, 185.2); // of x = 0
+}
+
+TEST(FaceGrading, NoneWhereFacesAreShortEnoughOrFarTooLong)
+{
+  EXPECT_FALSE(face_grading(read_scene(model_a_file(), { "Mesh/Faces in contact=0" })));
+  EXPECT_FALSE(face_grading(read_scene(model_a_file(), { "Drive/Start=50", "Mesh/Face size=0.1" })));
+  EXPECT_FALSE(face_grading(read_scene(model_a_file(), { "Mesh/Face size=4" })));
 }

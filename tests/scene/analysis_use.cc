@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "input/read.h"
 #include "scene/analysis_use.h"
-#include "scene/contact_reference.h"
 
 #include "base/errors.h"
+#include "input/read.h"
 #include "scene/scene.h"
 #include "support/params_folder.h"
 
@@ -62,31 +61,4 @@ TEST(Accuracy, ContactIsEnforcedByMultipliersWhereThatIsCheap)
   EXPECT_EQ(enforcement({ "Analysis/Type=transient", "Analysis/Model=condensed" }), Enforcement::penalty);
   EXPECT_EQ(enforcement({ "Lever/Material=neo-Hookean", "Analysis/Plane=strain" }), Enforcement::penalty);
   EXPECT_EQ(enforcement({ "Contact/Enforcement=penalty" }), Enforcement::penalty);
-}
-
-// Widths of hard contact on faces of 0.03125 mm, from tests/benchmarks/pressure.md; estimates need not be better than a fifth.
-TEST(FaceGrading, WidthsOfModelAAreEstimated)
-{
-  const Scene scene = read_scene(scene_file("model-a"));
-  EXPECT_NEAR(estimated_contact_width(scene, 1.52), 0.723, 0.15);
-  EXPECT_NEAR(estimated_contact_width(scene, 6.15), 1.356, 0.27);
-  EXPECT_NEAR(estimated_contact_width(scene, 14.7), 1.940, 0.39);
-}
-
-TEST(FaceGrading, ShortFacesLieWhereTheContactIsNarrow)
-{
-  const auto grading = face_grading(read_scene(scene_file("model-a")));
-  ASSERT_TRUE(grading);
-  EXPECT_DOUBLE_EQ(grading->longest, 0.25);
-  EXPECT_DOUBLE_EQ(grading->shortest, 0.0625);
-  EXPECT_LT(grading->begin, 175.);
-  EXPECT_GT(grading->begin, 160.);
-  EXPECT_GT(grading->end, 185.2); // of x = 0
-}
-
-TEST(FaceGrading, NoneWhereFacesAreShortEnoughOrFarTooLong)
-{
-  EXPECT_FALSE(face_grading(read_scene(scene_file("model-a"), { "Mesh/Faces in contact=0" })));
-  EXPECT_FALSE(face_grading(read_scene(scene_file("model-a"), { "Drive/Start=50", "Mesh/Face size=0.1" })));
-  EXPECT_FALSE(face_grading(read_scene(scene_file("model-a"), { "Mesh/Face size=4" })));
 }
