@@ -121,6 +121,23 @@ TEST(Drive, StepMovesByWhatWasAskedFor)
   }
 }
 
+TEST(Drive, StepIsHalvedUntilTheSpeedChangesByNoMoreThanWasAskedFor)
+{
+  const Drive drive(DriveProfile::harmonic, 0., 65., 112., 1.);
+  for (const double time : { 0., 0.1, 0.3, 0.7 })
+  {
+    const auto from   = drive.at(time, Drive::Side::after);
+    const auto to     = drive.step(time, 8., 0.02);
+    const auto change = [&](const DrivePoint &point) { return std::abs(point.v - from.v) / drive.peak_speed(); };
+    const double dx   = std::abs(to.x - from.x);
+    EXPECT_NEAR(std::log2(8. / dx), std::round(std::log2(8. / dx)), 1e-6) << time;
+    EXPECT_LE(change(to), 0.02) << time;
+    EXPECT_GT(change(drive.step(time, 2. * dx)), 0.02) << time;
+  }
+  const Drive triangle(DriveProfile::triangle, 0., 65., 112., 1.);
+  EXPECT_EQ(triangle.step(0.1, 8., 0.02).time, triangle.step(0.1, 8.).time);
+}
+
 TEST(Drive, SliverBeforeAReversalIsTakenAlong)
 {
   const Drive drive(DriveProfile::triangle, 0., 10.0005, 100., 1.);
