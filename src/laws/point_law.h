@@ -338,7 +338,7 @@ namespace sprag
           (value(end_speed) > 0. ? (1. - rest) * (1. + share) / dt : 0.) - rest / length * (history.speed - value(v));
       result.mu       = friction.coefficient;
       result.slipping = value(t) < value(split.size) || value(excess) > 0.;
-      result.speed    = value(w);
+      result.speed    = result.slipping ? value(w) : 0.;
       if (!result.slipping)
         break;
       (value(excess) > 0. ? upper : lower) = value(t);

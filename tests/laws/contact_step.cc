@@ -384,6 +384,27 @@ TEST(EndFriction, FallingFrictionFollowsTheSpeedBehindTheShearOfALayer)
   }
 }
 
+// One step of stick behind a slide at 100 mm/s, whose mu is 0.576: then static friction, 0.9, holds a load that grows slowly.
+TEST(EndFriction, StickForgetsTheSpeedOfTheSlideBeforeIt)
+{
+  const FrictionLaw falling{ StribeckFriction{ 0.9, 0.5, 60. } };
+  for (const bool is_layer : { false, true })
+  {
+    const double kinetic = (0.5 + 0.4 * std::exp(-100. / 60.)) * pressure, slip = 0.02 * pressure / stiffness;
+    test::FrictionHistory<1> history{ dealii::Tensor<1, 1>({ kinetic }), dealii::Tensor<1, 1>({ 100. }), dt, 100. };
+    for (unsigned int i = 0; i < 16; ++i)
+    {
+      const double duration = i == 0 ? dt : 1e6 * slip; // at 1e-6 mm/s
+      const auto friction   = test::end_friction<1>(history, stiffness, dealii::Tensor<1, 1>({ i == 0 ? -slip : slip }), pressure,
+                                                  falling, duration, is_layer);
+      EXPECT_FALSE(friction.slipping) << is_layer << i;
+      EXPECT_EQ(friction.speed, 0.);
+      EXPECT_NEAR(friction.traction[0], kinetic + (i - 1.) * 0.02 * pressure, 1e-12);
+      history = { friction.traction, friction.slip_speed, duration, friction.speed };
+    }
+  }
+}
+
 TEST(EndFriction, NeverGivesEnergyWhileItSlipsOneWay)
 {
   History history;
