@@ -30,8 +30,11 @@ namespace sprag
         for (unsigned int a = 0; a < n_forces; ++a)
           if (forces.dofs[a] < data.face_compliance.m())
             ++n_static;
-        shapes.reinit(n_forces, n);
-        shapes.extract_submatrix_from(data.shapes, forces.dofs, all_dofs(n));
+        if (n_forces > 0)
+        {
+          shapes.reinit(n_forces, n);
+          shapes.extract_submatrix_from(data.shapes, forces.dofs, all_dofs(n));
+        }
         assemble();
       }
 
