@@ -108,9 +108,9 @@ namespace sprag
     Several<N, 7> result{ { lever_force.x, lever_force.y, lever_force.z, lever_force.y * point.x - lever_force.x * point.y,
                             -force.x } };
     for (int i = 0; i < 2; ++i)
-      result[5 + i] = dot(force, pose.axes.axis) * dot(pose.turned[i].axis, from_centre) +
-                      dot(force, pose.axes.right) * dot(pose.turned[i].right, from_centre) +
-                      dot(force, pose.axes.upward) * dot(pose.turned[i].upward, from_centre);
+      result[5 + i] = dot(force, pose.axes.axis) * dot(pose.by_slope[i].axis, from_centre) +
+                      dot(force, pose.axes.right) * dot(pose.by_slope[i].right, from_centre) +
+                      dot(force, pose.axes.upward) * dot(pose.by_slope[i].upward, from_centre);
     return result;
   }
 
@@ -127,7 +127,7 @@ namespace sprag
                                                       cosine(variable<N>(pose.theta, 3, rate)),
                                                       sine(variable<N>(pose.theta, 3, rate)),
                                                       turned.axes.each(number),
-                                                      { turned.turned[0].each(number), turned.turned[1].each(number) } };
+                                                      { turned.by_slope[0].each(number), turned.by_slope[1].each(number) } };
     };
     const double tilt = cylinder.slopes[0] + pose.turned[0], skew = cylinder.slopes[1] + pose.turned[1];
     if constexpr (slopes == 0)

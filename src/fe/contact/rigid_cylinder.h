@@ -80,7 +80,7 @@ namespace sprag
   {
     N x, cosine, sine; ///< of theta
     CylinderAxes<A> axes;
-    CylinderAxes<A> turned[2]; ///< derivatives of the axes by the slopes
+    CylinderAxes<A> by_slope[2]; ///< derivatives of the axes by the slopes
   };
 
   template <class N, class A>
@@ -104,8 +104,8 @@ namespace sprag
                                                                                         to_batch(pose.cosine),
                                                                                         to_batch(pose.sine),
                                                                                         pose.axes.each(widen),
-                                                                                        { pose.turned[0].each(widen),
-                                                                                          pose.turned[1].each(widen) } };
+                                                                                        { pose.by_slope[0].each(widen),
+                                                                                          pose.by_slope[1].each(widen) } };
   }
 
   /// The damper's cylinder as a rigid body of finite length: its axis may lie out of true, by slopes towards the lever (tilt) and
