@@ -203,6 +203,55 @@ class Damping(RunTest):
         self.assertAlmostEqual(beyond["contact_damping_limit_low"], limit, delta=0.01 * limit)
 
 
+class FallingFriction(RunTest):
+    """A beam moving back at x = 65 mm at 10 mm/s, mu = 0.6 + 0.3 exp(-v/10 mm/s)."""
+
+    CHANGES = ("Analysis/Model=beam", "Stability/Critical=none", "Stability/Roles=off", "Friction/Law=Stribeck", "Friction/Stribeck speed=10", "Drive/Speed=10")
+
+    def run_with(self, *changes):
+        settings = [word for change in (*self.CHANGES, *changes) for word in ("--set", change)]
+        done = sprag(SOURCE / "params" / "stability-a.prm", *settings, "--output", self.output, "--overwrite")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        with h5py.File(self.output / "result.h5", "r") as file:
+            return {name: file["summary"][name][()] for name in file["summary"]}, done.stdout
+
+    def stiffness_in_stick(self):
+        """dP/d(delta)/2 at the largest P of the closed form, the Poisson ratio of the layer being 0."""
+        l, e, R, k = 185.5, 45.6, 56.0, 7.4e4
+        largest = 0
+        for x in range(66):
+            theta, start = math.asin((R - e) / (l - x)), math.asin((R - e) / l)
+            s = (l - x) * math.cos(theta)
+            for sign in (1, -1):
+                slip = 10 * (math.cos(theta) - e * math.sin(theta) / s)
+                largest = max(largest, k * (theta - start) / (s + sign * (0.6 + 0.3 * math.exp(-slip / 10)) * e))
+        return 0.5 * 1.5 * 13068.5 ** (2 / 3) * largest ** (1 / 3)
+
+    def test_limits_are_those_of_runs_with_these_values(self):
+        found, printed = self.run_with()
+        self.assertIn("no warnings", printed)
+        k_t = self.stiffness_in_stick()
+        for name, change in {
+            "soft_stick": f"Contact/Tangential stiffness={0.1 * k_t}",
+            "rigid_stick": "Contact/Tangential stiffness=1e10",
+            "short_memory": "Friction/Memory length=1e-3",
+            "long_memory": "Friction/Memory length=0.1",
+        }.items():
+            with self.subTest(name):
+                other = self.run_with(change)[0]["growth_rate"]
+                self.assertAlmostEqual(found["growth_rate_" + name], other, delta=0.01 * abs(other))
+
+    def test_runs_away_where_shear_outweighs_memory(self):
+        theta = math.asin(10.4 / 120.5)
+        slip = 10 * (math.cos(theta) - 45.6 * math.sin(theta) / (120.5 * math.cos(theta)))
+        P = self.run_with()[0]["P"]
+        length = slip * 0.03 * math.exp(-slip / 10) * P / self.stiffness_in_stick()  # v mu' P / k_t
+        for factor in (0.97, 1.03):
+            with self.subTest(factor):
+                printed = self.run_with(f"Friction/Memory length={factor * length}")[1]
+                self.assertEqual("runaway_slip" in printed, factor < 1)
+
+
 class NearLocking(RunTest):
     """A lever of 20 mm moving back at x = 65 mm: Newton's method misses the slide from the ideal lever at 2.3, 2.45 and 2.5."""
 

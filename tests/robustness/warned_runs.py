@@ -33,6 +33,9 @@ PROVOKED = {
     "target of a drive that does not turn": ("reversal-a", ("Analysis/Model=rigid", "Drive/Start=64", "Drive/Cycles=0.5", "Accuracy/Target=0.01"), ["target_missed"]),
 }
 
+# Numbers of the run in effect and remedy.
+NUMBERS = {"near_locking": 1, "plane_stress_of_layer": 3, "stiff_penalty": 1, "soft_tangential_penalty": 1, "hidden_vibration": 2}
+
 # The same for rows of a study of model A, which needs one start for all.
 ROWS = {
     "penalty of 1e-3": (("Contact/Penalty=1e-3",), ["overlap_of_layer", "soft_penalty", "soft_tangential_penalty", "far_from_closed_form"]),
@@ -127,6 +130,9 @@ class WarnedRunsTest(RunTest):
         for path in (SOURCE / "src").rglob("*.cc"):
             program |= set(re.findall(r'make_warning\(\s*"(\w+)"', path.read_text(encoding="utf-8")))
         self.assertEqual(set(table), program)
+        # Rows whose effect and remedy hold numbers of the run: as many as the program gives them.
+        rows = {name: line.split("|", 3)[3].count("*") for name, line in re.findall(r"^(?=\| `(\w+)` \|)(.*)$", text, re.MULTILINE)}
+        self.assertEqual({name: count for name, count in rows.items() if count}, NUMBERS)
         self.assertLessEqual({name for *_, names in (*PROVOKED.values(), *ROWS.values()) for name in names}, program)
 
 
