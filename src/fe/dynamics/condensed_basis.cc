@@ -8,7 +8,10 @@
 #include <deal.II/base/timer.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace sprag
 {
@@ -137,18 +140,38 @@ namespace sprag
     return basis;
   }
 
+  namespace
+  {
+    /// Returns the basis of bytes from the cache; none where its sizes are not those of the body. The checksum of a file does not
+    /// tell who wrote it.
+    std::optional<CondensedBasis> stored_basis(std::string bytes, const ElasticBody<2> &body)
+    {
+      CondensedBasis basis;
+      Archive archive(std::move(bytes));
+      archive(basis);
+      const auto has_size = [](const FullMatrix<double> &matrix, const std::size_t rows, const std::size_t columns)
+      { return matrix.m() == rows && matrix.n() == columns; };
+      const auto m = basis.stiffness.size(), n = std::size_t(basis.layout.rotation()) + 1;
+      const auto is_whole = [&](const Vector<double> &mode) { return mode.size() == body.n_dofs(); };
+      const bool fits     = archive.at_end() && basis.layout.surface == surface_dofs(body).size() && basis.layout.levers == 1 &&
+                        has_size(basis.shapes, basis.layout.dofs_per_lever(), m) && has_size(basis.layer_stiffness, m, m) &&
+                        has_size(basis.face_compliance, n, n) && basis.rotation.size() == m && basis.displacements.size() == m &&
+                        std::all_of(basis.displacements.begin(), basis.displacements.end(), is_whole);
+      return fits ? std::optional(std::move(basis)) : std::nullopt;
+    }
+  } // namespace
+
   CondensedBasis condensed_basis(const ElasticBody<2> &body, const BasisSettings &settings)
   {
     const std::string folder = cache_folder(settings.cache);
     const std::string key    = make_key(body, settings);
     remove_abandoned(folder);
-    if (auto stored = load_basis(folder, key))
-    {
-      CondensedBasis basis;
-      Archive(std::move(*stored))(basis);
-      basis.from_cache = true;
-      return basis;
-    }
+    if (auto bytes = load_basis(folder, key))
+      if (auto stored = stored_basis(std::move(*bytes), body))
+      {
+        stored->from_cache = true;
+        return *std::move(stored);
+      }
     CondensedBasis basis = make_basis(body, settings);
     Archive archive;
     archive(basis);
