@@ -17,7 +17,7 @@ namespace sprag
       double elastic, damping;
     };
 
-    /// Over the quarters of a half cycle on which z > 0 grows and shrinks; the others are alike.
+    /// Integrates over the quarters of a half cycle on which z > 0 grows and shrinks; the others are alike.
     FirstHarmonic first_harmonic(const Damper &damper, const double amplitude, const double w)
     {
       const auto force = [&](const double angle, const int away)

@@ -37,7 +37,7 @@ namespace sprag
       return strokes;
     }
 
-    /// None beyond the ends, but for round-off.
+    /// Returns a force at x; none beyond the ends, but for round-off.
     std::optional<double> value_at(const StrokeCurve &points, double StrokePoint::*force, const double x)
     {
       const double margin = 1e-9 * (1. + std::abs(x));
@@ -54,7 +54,7 @@ namespace sprag
       return (1. - share) * ((*low).*force) + share * ((*high).*force);
     }
 
-    /// Over the reference's peak.
+    /// Returns the largest difference over the reference's peak.
     double compute_error(const Stroke &stroke, const Stroke &reference, double StrokePoint::*force)
     {
       double peak = 0., largest = unknown;

@@ -59,7 +59,7 @@ namespace sprag
       return bases.empty() || bases == "1" ? "has no dimension" : "has the dimension " + bases;
     }
 
-    /// None where the dimensions differ.
+    /// Returns one unit over another; none where their dimensions differ.
     std::optional<double> quotient(const Unit &from, const Unit &to)
     {
       const Unit ratio(ut_divide(from.get(), to.get()), ut_free);

@@ -23,7 +23,7 @@ namespace sprag
 {
   namespace
   {
-    /// None where the blocks are not as they were written.
+    /// Returns the content of blocks; none where they are not as they were written.
     std::optional<std::string> verified_content(const std::string &blocks)
     {
       Archive archive(blocks);

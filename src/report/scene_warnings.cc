@@ -97,7 +97,7 @@ namespace sprag
                        { rounded_text(found.value) }));
     }
 
-    /// At the surface in the clamp, a beam: M = a EI/L (1 + b c/L) turn with the clamp c behind the pivot.
+    /// Returns the strain at the surface in the clamp of a beam: M = a EI/L (1 + b c/L) turn with the clamp c behind the pivot.
     double leaf_strain(const LeafSpring &leaf, const double turn)
     {
       const double ratio  = leaf.clamp_distance / leaf.length;
@@ -444,7 +444,7 @@ namespace sprag
       warnings.back().remedy.insert(0, remedy);
     }
 
-    /// Those that a run writes, be it of a pair or in three dimensions, cannot be misspelt.
+    /// Columns that a run writes, be it of a pair or in three dimensions, cannot be misspelt.
     bool is_written_by_sprag(const std::string &column)
     {
       MirroredPair pair;

@@ -292,7 +292,7 @@ namespace sprag
       last_flush = std::chrono::steady_clock::now();
     }
 
-    /// At the end: false where there is no space left but for the end itself.
+    /// Returns false at the end of a run where there is no space left but for the end itself.
     bool flush_what_fits()
     {
       reserve.require_in_place();

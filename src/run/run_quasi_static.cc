@@ -78,7 +78,7 @@ namespace sprag
         append(face_samples, std::get<SolidStructure>(lever.structure()).samples(state.coordinates, state.forces));
       }
 
-      /// None of a body at finite strain, which is solved as a whole, nor where nothing touched.
+      /// A body at finite strain, which is solved as a whole, has none, nor has one that nothing touched.
       std::vector<Entry> entries(const StaticLever<3> &lever) const
       {
         if (!std::get<SolidStructure>(lever.structure()).is_linear() || face_samples.empty())

@@ -50,7 +50,7 @@ namespace sprag
                                                    { "support", "support", &EnergyShares::support },
                                                    { "contact", "contact", &EnergyShares::contact } };
 
-    /// Those that say anything of one of the modes.
+    /// Returns the parts of energy that are 5e-4 or more in one of the modes.
     std::vector<EnergyPart> energy_columns(const std::vector<Eigenmode> &modes)
     {
       auto columns            = energy_parts;

@@ -20,7 +20,8 @@ namespace sprag
 
   struct Damper
   {
-    /// At y >= 0 and a speed |z'| >= 0 [mm/s]. A little beyond these bounds, where trial steps end, it goes on smoothly.
+    /// Returns the resistance at y >= 0 and a speed |z'| >= 0 [mm/s]. A little beyond these bounds, where trial steps end, it
+    /// goes on smoothly.
     std::function<Resistance(double y, double speed, int away)> resistance;
 
     /// Returns the energy stored [N mm].

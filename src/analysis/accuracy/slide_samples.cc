@@ -99,7 +99,7 @@ namespace sprag
     // A single place may lie well by chance.
     constexpr double near_peak = 0.5; ///< pressure of the samples that count, over the largest
 
-    /// Over all samples, or those with at least a share of the largest value.
+    /// Returns the largest change over all samples, or those with at least a share of the largest value.
     double largest_change(const std::vector<Row> &samples, const std::vector<Row> &other, const Column column,
                           const double share = 0.)
     {

@@ -251,7 +251,7 @@ namespace sprag
       return { demand.term, value < demand.target, {} };
     }
 
-    /// At least as good by an aim as this.
+    /// Returns the demand to be at least as good by an aim as this value.
     Demand limited_by(const DesignAim &aim, const double value)
     {
       return { aim.term, aim.maximises ? DemandKind::at_least : DemandKind::at_most, value, 0., {} };

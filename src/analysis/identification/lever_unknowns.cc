@@ -55,7 +55,7 @@ namespace sprag
       double &(*number)(IdentifiedLever &lever);
     };
 
-    /// Those that unknowns stand for, by the names of these.
+    /// Parameters that unknowns stand for, by the names of these.
     const std::map<std::string, LeverParameter> lever_parameters = {
       { "k", { "Rotational spring/Stiffness", [](IdentifiedLever &lever) -> double & { return lever.stiffness; } } },
       { "rest", { "Rotational spring/Rest angle", [](IdentifiedLever &lever) -> double & { return lever.rest_angle; } } },

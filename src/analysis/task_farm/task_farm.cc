@@ -58,7 +58,7 @@ namespace sprag
       return lines;
     }
 
-    /// None where the line is not as it was written.
+    /// Returns what a line holds; none where it is not as it was written.
     std::optional<std::string> parse_content(const std::string &header, const std::string &line)
     {
       const std::size_t behind  = line.rfind(' ') + 1; // 0 without a blank

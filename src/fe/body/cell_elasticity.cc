@@ -144,7 +144,7 @@ namespace sprag
     }
   }
 
-  /// At constant pressure where it is projected.
+  /// The pressure is the projected one where it is projected.
   template <int dim>
   Stress<dim> CellElasticity<dim>::stress_at(const unsigned int q) const
   {

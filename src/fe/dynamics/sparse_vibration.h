@@ -30,10 +30,10 @@ namespace sprag
   /// friction: 2e-8 at three times the mu of cork.
   constexpr double largest_backward_error = 1e-6;
 
-  /// At least the `number` vibrations exp(lambda t) of smallest |lambda|, Im lambda > 0, under linear forces at the interface,
-  /// and what grows or was found below them without vibrating, by increasing |lambda|; of a structure that has fewer those found
-  /// so well. The method of Arnoldi for the inverse of the linearised problem, see InverseProblem, in a space of no more than 100
-  /// dimensions and 12 for each. Throws AnalysisError if they are not found in it, or not that well.
+  /// Returns at least the `number` vibrations exp(lambda t) of smallest |lambda|, Im lambda > 0, under linear forces at the
+  /// interface, and what grows or was found below them without vibrating, by increasing |lambda|; of a structure that has fewer
+  /// those found so well. The method of Arnoldi for the inverse of the linearised problem, see InverseProblem, in a space of no
+  /// more than 100 dimensions and 12 for each. Throws AnalysisError if they are not found in it, or not that well.
   std::vector<StructureMode> sparse_vibrations(const SparseOperator &structure, const LinearisedForces &forces,
                                                unsigned int number);
 } // namespace sprag

@@ -61,7 +61,7 @@ namespace sprag
       return result;
     }
 
-    /// Over all phases.
+    /// Returns the largest displacement over all phases.
     double largest(const std::array<Shape, 2> &parts)
     {
       double result = 0.;

@@ -22,7 +22,7 @@ namespace sprag
 
   namespace
   {
-    /// Over the length. Half of that is 0.4 % off by round-off, a twentieth buckles at rest.
+    /// A leaf is at least as thick, over its length. Half of that is 0.4 % off by round-off, a twentieth buckles at rest.
     constexpr double thinnest = 2e-4;
 
     void refuse_impossible_shapes(const LeafSpring &leaf)

@@ -51,8 +51,8 @@ namespace sprag
     /// Admissible error of the law between samples, over the largest moment.
     constexpr double precision = 1e-8;
 
-    /// Over the leaf's length: the arm at which the forces that round-off leaves err in moments between samples. They balance
-    /// cell by cell; leaves of 0.02 to 0.1 mm and 100 mm length have a sixth of that.
+    /// This times the leaf's length is the arm at which the forces that round-off leaves err in moments between samples. They
+    /// balance cell by cell; leaves of 0.02 to 0.1 mm and 100 mm length have a sixth of that.
     constexpr double round_off_arm = 0.01;
 
     /// Halvings of a step of the turn between samples.

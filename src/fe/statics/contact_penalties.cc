@@ -10,15 +10,16 @@ namespace sprag
 {
   namespace
   {
-    /// Over E/depth of the layer. The penetration is then a tenth of the layer's compression, which moves P by 0.03 % and the
-    /// largest pressure by 3 %.
+    /// This times E/depth of the layer is the penalty. The penetration is then a tenth of the layer's compression, which moves P
+    /// by 0.03 % and the largest pressure by 3 %.
     constexpr double penalty_factor = 12.;
 
     /// Leaves 0.25 % of the largest pressure where the cells are as fine as that takes.
     constexpr double largest_penalty_factor = 200.;
 
-    /// Over E/length of the cells, of degree 2. Much stiffer penalties make a contact narrower than the cells, which then tilts
-    /// with each of them. Linear cells meet a circle with their chords, whose pressures would show.
+    /// This times E/length of the cells, of degree 2, is the penalty without a layer. Much stiffer penalties make a contact
+    /// narrower than the cells, which then tilts with each of them. Linear cells meet a circle with their chords, whose pressures
+    /// would show.
     constexpr double penalty_over_cells = 12.5;
 
     /// In time the penalty lies in series with the layer and slows the ringing: by 2.4 % at 12, by 0.25 % at this one. Linear

@@ -21,7 +21,7 @@ namespace sprag
     const dealii::Vector<double> &lengths; ///< movement by a unit of each dof
     const DofSelection &selected;
 
-    /// Over the longest length.
+    /// Movements below this, over the longest length, are round-off.
     static constexpr double round_off = 1e-14;
 
     double smallest_movement() const
