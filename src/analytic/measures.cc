@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/measures.h"
 
+#include "base/pattern.h"
 #include "base/unknown.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
-#include <regex>
 
 namespace sprag
 {
@@ -146,9 +146,8 @@ namespace sprag
     std::vector<std::string> entry_names(const Compared &compared, const std::vector<Entry> &summary)
     {
       std::vector<std::string> names;
-      const std::regex pattern(compared.pattern);
       for (const auto &entry : summary)
-        if (std::regex_match(entry.name, pattern))
+        if (matches(entry.name, compared.pattern))
           if (const auto number = find_number(summary, entry.name); number && *number != 0.)
             names.push_back(entry.name);
       return names;

@@ -2,6 +2,7 @@
 #include "base/units.h"
 
 #include "base/errors.h"
+#include "base/pattern.h"
 #include "base/text.h"
 
 #include <boost/algorithm/string/predicate.hpp>
@@ -9,7 +10,6 @@
 #include <array>
 #include <memory>
 #include <optional>
-#include <regex>
 #include <udunits2.h>
 
 namespace sprag
@@ -37,9 +37,9 @@ namespace sprag
     /// Null where there is no such unit. Numbers are exponents alone, but the 1 of "1/s": "5 mm 20" is no length.
     Unit parsed(const std::string &text)
     {
-      static const std::regex non_unit("[^-A-Za-z0-9 ./*^()%\\x80-\\xff]|(^|[^A-Za-z0-9)^\\x80-\\xff-])[0-9]");
-      const std::string unit = text == "-" ? "" : boost::starts_with(text, "1/") ? "(s/s)" + text.substr(1) : text;
-      const bool is_unit     = unit == "1" || !std::regex_search(unit, non_unit);
+      const std::string non_unit = "[^-A-Za-z0-9 ./*^()%\\x80-\\xff]|(^|[^A-Za-z0-9)^\\x80-\\xff-])[0-9]";
+      const std::string unit     = text == "-" ? "" : boost::starts_with(text, "1/") ? "(s/s)" + text.substr(1) : text;
+      const bool is_unit         = unit == "1" || !contains_match(unit, non_unit);
       return { is_unit ? ut_parse(all_units(), unit.c_str(), UT_UTF8) : nullptr, ut_free };
     }
 
@@ -79,8 +79,8 @@ namespace sprag
       throw InputError("no unit can be converted to " + to);
     if (const auto factor = quotient(source, own))
       return *factor;
-    static const std::regex gravity("(^|[^A-Za-z])g(?![A-Za-z])");
-    if (const Unit accelerated = parsed(std::regex_replace(from, gravity, "$1gravity")); accelerated)
+    const std::string gravity = replace_matches(from, "(^|[^A-Za-z])g(?![A-Za-z])", "$1gravity");
+    if (const Unit accelerated = parsed(gravity); accelerated)
       if (const auto factor = quotient(accelerated, own))
         return *factor;
     throw InputError("'" + from + "' " + dimension(source) + ", " + (to.empty() ? "a bare number" : to) + ' ' + dimension(own));

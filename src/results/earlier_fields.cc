@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "results/earlier_fields.h"
 
+#include "base/pattern.h"
+
 #include <filesystem>
-#include <regex>
 #include <vector>
 
 namespace sprag
 {
   bool is_field_file(const std::string &name)
   {
-    static const std::regex pattern(R"((fields|face|leaf|mode-\d+)(-\d+\.h5|-mesh\.h5|\.h5|\.xdmf))");
-    return std::regex_match(name, pattern);
+    return matches(name, R"((fields|face|leaf|mode-\d+)(-\d+\.h5|-mesh\.h5|\.h5|\.xdmf))");
   }
 
   void remove_files(const std::string &folder, const std::function<bool(const std::string &)> &is_named_so)

@@ -3,6 +3,7 @@
 
 #include "base/archive.h"
 #include "base/errors.h"
+#include "base/pattern.h"
 #include "base/system/file_content.h"
 #include "base/system/open_file.h"
 
@@ -15,7 +16,6 @@
 #include <fstream>
 #include <functional>
 #include <map>
-#include <regex>
 #include <unistd.h>
 
 namespace sprag
@@ -28,7 +28,7 @@ namespace sprag
     /// Bounds the size of all bases in a folder.
     constexpr std::uintmax_t most_bytes = std::uintmax_t(1) << 30;
 
-    const std::regex basis_name(R"(basis-[0-9a-f]{16}\.bin)"), temporary_name(R"(basis-[0-9a-f]{16}\.bin\.[0-9]+)");
+    const std::string basis_name = R"(basis-[0-9a-f]{16}\.bin)", temporary_name = basis_name + R"(\.[0-9]+)";
 
     std::string cache_path(const std::string &folder, const std::string &key)
     {
@@ -36,10 +36,10 @@ namespace sprag
     }
 
     /// Returns whether a file in the folder, and no link, has a name like ours.
-    bool is_called(const std::regex &name, const std::filesystem::directory_entry &entry)
+    bool is_called(const std::string &name, const std::filesystem::directory_entry &entry)
     {
       std::error_code ignored;
-      return std::regex_match(entry.path().filename().string(), name) &&
+      return matches(entry.path().filename().string(), name) &&
              entry.symlink_status(ignored).type() == std::filesystem::file_type::regular;
     }
 
