@@ -6,6 +6,7 @@
 #include "base/system/supervisor.h"
 #include "input/read.h"
 #include "program/cost.h"
+#include "program/arguments.h"
 #include "program/outcome.h"
 #include "program/output_folder.h"
 #include "program/run_by_formulas.h"

@@ -12,6 +12,7 @@
 #include "fe/mesh/geometry_script.h"
 #include "input/read.h"
 #include "program/cost.h"
+#include "program/arguments.h"
 #include "program/outcome.h"
 #include "program/output_folder.h"
 #include "program/run_log.h"

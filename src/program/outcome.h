@@ -2,50 +2,20 @@
 #pragma once
 
 #include "base/errors.h"
+#include "program/arguments.h"
 #include "results/warning.h"
 
 #include <ctime>
 #include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace sprag
 {
   struct Scene;
 
-  /// The program's exit status.
-  enum ExitStatus
-  {
-    success         = 0,
-    analysis_failed = 1,
-    bad_input       = 2
-  };
-
-  /// Options of the command line.
-  struct Arguments
-  {
-    std::string file;
-    std::vector<std::string> overrides;
-    std::string folder;
-    bool validate         = false;
-    bool print_parameters = false;
-    bool quiet            = false;
-    bool verbose          = false; ///< prints all results
-    bool overwrite        = false;
-    bool trust_scripts    = false; ///< runs scripts of meshes with all rights of the user
-    unsigned int jobs     = 0;     ///< 0: as many as cores
-  };
-
-  /// Reads the command line. Returns the exit status where nothing else is to be done: help and version, which are printed, and
-  /// mistakes, which are told.
-  std::optional<int> read_arguments(int argc, char **argv, Arguments &arguments);
-
   /// Returns the folder for results, named or after the scene.
   std::string result_folder(const Arguments &arguments, const Scene &scene);
-
-  /// Returns whether an analysis is asked for, and not only a look at the scene.
-  bool is_run(const Arguments &arguments);
 
   /// Reads the scene. Throws InputError, also where no file is named.
   Scene load_scene(const Arguments &arguments);

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "program/arguments.h"
+
+#include "base/errors.h"
+#include "base/version.h"
+#include "input/read.h"
+#include "program/outcome.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+namespace sprag
+{
+  namespace
+  {
+    void declare(CLI::App &app, Arguments &arguments)
+    {
+      app.add_option("FILE.prm", arguments.file, "The scene: a parameter file; see params/README.md");
+      app.add_option("--set", arguments.overrides, "\"Section/Name=value\": overrides a parameter of the file; may be repeated")
+          ->allow_extra_args(false);
+      app.add_option("--output", arguments.folder, "Folder for results; default output/NAME_OF_THE_FILE");
+      app.add_flag("--overwrite", arguments.overwrite, "Replace whatever result is in that folder, and begin anew");
+      app.add_flag("--validate", arguments.validate, "Check the file and stop");
+      app.add_flag("--print-parameters", arguments.print_parameters, "Print every parameter with its meaning and stop");
+      auto *const quiet = app.add_flag("--quiet", arguments.quiet, "Print errors only");
+      app.add_flag("--verbose", arguments.verbose, "Print every result that is in /summary")->excludes(quiet);
+      app.add_flag("--trust-scripts", arguments.trust_scripts,
+                   "Let a .geo in Mesh/File do all that you may, not only read its own folder; see meshes/README.md");
+      app.add_option("--jobs", arguments.jobs, "Processes that work on a map or study; default: one a core")
+          ->check(CLI::Range(1u, 4096u));
+      app.set_help_flag("-h,--help",
+                        "Print this help and stop; with SECTION or SECTION/NAME in place of FILE.prm, what that means");
+      app.set_version_flag("--version", "sprag " + version());
+      app.footer(
+          "Exit status: 0 success, 1 the analysis failed or was interrupted (finished steps are kept), 2 bad input (nothing "
+          "is written).");
+    }
+
+    /// Prints a section or parameter. Returns the exit status.
+    int explain(const std::string &name)
+    {
+      try
+      {
+        std::cout << help_text(name);
+        return success;
+      }
+      catch (const InputError &error)
+      {
+        return tell(error);
+      }
+    }
+  } // namespace
+
+  std::optional<int> read_arguments(int argc, char **argv, Arguments &arguments)
+  {
+    CLI::App app("Finite-element contact of the linear friction damper of Yamaguchi & Yoshida");
+    declare(app, arguments);
+    try
+    {
+      app.parse(argc, argv);
+    }
+    catch (const CLI::CallForHelp &help)
+    {
+      const auto &words = app.get_option("FILE.prm")->results();
+      return words.empty() ? app.exit(help) : explain(words.front());
+    }
+    catch (const CLI::ParseError &error)
+    {
+      return app.exit(error) == 0 ? success : bad_input;
+    }
+    return {};
+  }
+
+  bool is_run(const Arguments &arguments)
+  {
+    return !arguments.validate && !arguments.print_parameters;
+  }
+} // namespace sprag
