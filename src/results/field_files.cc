@@ -17,7 +17,7 @@ namespace sprag
   namespace
   {
     // HDF5's own entries, and the index, which is rewritten.
-    constexpr std::size_t overhead = 512 * 1024;
+    constexpr std::size_t field_file_overhead = 512 * 1024;
 
     std::size_t count_bytes(const std::vector<Field> &fields)
     {
@@ -163,7 +163,7 @@ namespace sprag
 
   void FieldFiles::write_mesh_file() const
   {
-    std::size_t bytes = overhead;
+    std::size_t bytes = field_file_overhead;
     for (const auto &[path, mesh, grids] : indices)
       bytes += 8 * mesh.nodes.size() + 8 * mesh.cells.size() + count_bytes(mesh.fixed);
     require_space(folder + "/" + mesh_file(), bytes);
@@ -190,7 +190,7 @@ namespace sprag
     const std::string frame_name = own_file ? "" : formatted("frame-%04u", frame);
     const auto group_path = [&](const Index &index) { return (own_file ? "/" : "/" + frame_name + "/") + index.mesh.name; };
     std::vector<DatasetRows> rows;
-    std::size_t bytes = overhead;
+    std::size_t bytes = field_file_overhead;
     for (const auto &mesh_fields : fields)
       bytes += count_bytes(mesh_fields);
     if (own_file)
