@@ -65,7 +65,7 @@ TEST(Calibration, AddedMassMeetsJSlow)
       ASSERT_TRUE(parts.added);
       EXPECT_EQ(parts.scene.lever.inertia, InertiaSource::as_built);
       EXPECT_NEAR(reduced_constants(parts.scene).moment_of_inertia, J, 1e-10 * J);
-      // What a bar and its layer lack by themselves; the leaf has 0.004 t mm^2, and a mesh's bar has depth.
+      // The added inertia makes up for that of bar and layer alone; the leaf has 0.004 t mm^2, and a mesh's bar has depth.
       const auto &lever  = parts.scene.lever;
       const double L     = lever.length;
       const double e_a   = parts.scene.geometry.interface_offset + 1. + 0.5 * lever.depth;

@@ -128,7 +128,7 @@ TEST(ClosedFormRows, SmoothDriveAtRestKeepsTheDirectionItComesFromOrGoesTo)
   EXPECT_NEAR(rows[second][Column::mu], 0.3491, 1e-12);
 }
 
-// What round-off leaves of the speed at a turn has either sign.
+// Round-off gives the speed at a turn either sign.
 TEST(ClosedFormRows, RowsOfATurnKeepTheirPlacesInEveryCycle)
 {
   const auto rows    = compute_rows(driven(model_a(), Drive(DriveProfile::harmonic, 0., 65., 112., 5.)));

@@ -56,7 +56,7 @@ namespace
     return rows;
   }
 
-  /// What somebody knows who does not know the unknowns well.
+  /// Returns the scene with poor first values of the unknowns, as a user may supply them.
   Scene guess(Scene scene, const std::vector<Unknown> &unknowns)
   {
     scene.identification.sought = unknowns;

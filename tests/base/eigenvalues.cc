@@ -55,7 +55,7 @@ TEST(Eigenpairs, AreTheRootsOfTheCharacteristicPolynomial)
     EXPECT_LT(residual(companion, pair), 1e-13);
 }
 
-// Of a transposed matrix the eigenvalues are the same and the right vectors are not.
+// A transposed matrix has the same eigenvalues and other right vectors.
 TEST(Eigenpairs, VectorsAreRightOnes)
 {
   const Full shear = matrix(2, { 1., 5., 0., 2. });

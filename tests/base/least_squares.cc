@@ -13,7 +13,7 @@ TEST(LeastSquares, LineGoesThroughPointsOfALine)
   EXPECT_NEAR(line.at(0.), 3., 1e-14);
 }
 
-// Of y = 0, 0, 3 at x = 0, 1, 2 by hand: slope 3/2 and -1/2 at 0.
+// The line through y = 0, 0, 3 at x = 0, 1, 2 has by hand the slope 3/2 and is -1/2 at 0.
 TEST(LeastSquares, LineOfPointsOffAnyLine)
 {
   const auto line = fitted_line({ 0., 1., 2. }, { 0., 0., 3. });

@@ -369,7 +369,7 @@ TEST(Csv, ColumnsThatAreNotClearAreRefused)
   EXPECT_EQ(said("speed_mean, mu_k\n1, 2\n"), "");
 }
 
-// What is left of a first row that was taken for a header is a table without its friction at rest.
+// A first row taken for a header would leave a table without its friction at rest.
 TEST(Csv, AFirstRowIsNoHeader)
 {
   const std::string rest = "\n40, 0.6\n";

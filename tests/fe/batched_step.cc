@@ -16,7 +16,7 @@ namespace
   }
 } // namespace
 
-/// Whether the axis is free on its shaft.
+/// The parameter says if the axis is free on its shaft.
 class BatchedStepOfAnAxis : public testing::TestWithParam<bool>
 {
 };
@@ -136,8 +136,7 @@ TEST_P(BatchedStepOfAnAxis, AStepInTimeFollowsTheLawsAtEachPoint)
 
 namespace
 {
-  /// What a place `travel` before a point on its line tells of a quantity of points, between two of them; nothing beyond the
-  /// line.
+  /// Interpolates a quantity of points at `travel` before a point on its line; returns nothing beyond the line.
   template <class Quantity>
   std::optional<double> before(const std::vector<FacePoint<3>> &points, const unsigned int point, const double travel,
                                const Quantity &at_point)
@@ -317,8 +316,7 @@ TEST_P(BatchedStepOfAnAxis, ForcesAreTheSameWithAndWithoutATangent)
   check(slide);
 }
 
-// Where a contact goes on its way, what it knows of the way does not change what it finds: to the last bit it is what one finds
-// that has been nowhere else.
+// A contact that has travelled finds the same as one that starts here, to the last bit.
 TEST_P(BatchedStepOfAnAxis, NothingIsPassedOverThatTouches)
 {
   const FrictionLaw friction{ CoulombFriction{ 0.4 } };
@@ -368,7 +366,7 @@ TEST_P(BatchedStepOfAnAxis, NothingIsPassedOverThatTouches)
   EXPECT_LT(touching, 24u);
 }
 
-// Of a step those points alone are found that matter to what is recorded of it.
+// A step returns only those points that matter to its record.
 TEST_P(BatchedStepOfAnAxis, PointsInContactTellWhatAllPointsTell)
 {
   const FrictionLaw friction{ CoulombFriction{ 0.4 } };

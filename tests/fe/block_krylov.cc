@@ -85,7 +85,8 @@ TEST(BlockKrylov, FindsBothOfEqualVibrations)
   EXPECT_NEAR(product(pairs[0].vector, pairs[1].vector), 0., 1e-11);
 }
 
-// As of the layer's shear beside a soft spring: the space goes on after restarts, in which the soft one stays.
+// The layer's shear beside a soft spring has such a spectrum. The space grows on after restarts, and the soft vibration stays
+// in it.
 TEST(BlockKrylov, FindsVibrationsThatLieCloseTogether)
 {
   constexpr unsigned int n = 2000;

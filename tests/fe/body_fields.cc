@@ -47,7 +47,7 @@ namespace
     dealii::Vector<double> displacement;
   };
 
-  /// Of plane stress, by hand.
+  /// Returns the stress of plane stress, computed by hand.
   double stress_along(const double modulus, const double nu)
   {
     return modulus / (1. - nu * nu) * (along + nu * across);

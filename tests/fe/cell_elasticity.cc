@@ -150,8 +150,8 @@ TEST(CellElasticity, UniformStrainPassesThePatchTest)
     }
 }
 
-// Of a free body nothing but two translations and the rotation costs no energy: no hourglass. Round-off of the largest
-// eigenvalue, some lambda, on one side; on the other the softest true deformation, some tenths of mu.
+// Only two translations and the rotation of a free body cost no energy: there is no hourglass. The bound lies between the
+// round-off of the largest eigenvalue, some lambda, and the softest true deformation, some tenths of mu.
 TEST(CellElasticity, OnlyRigidMotionsCostNothing)
 {
   dealii::Triangulation<2> triangulation;
@@ -180,8 +180,8 @@ TEST(CellElasticity, OnlyRigidMotionsCostNothing)
   }
 }
 
-// As TangentIsTheDerivativeOfTheForcesAtFiniteStrain of ElasticBody and its neighbour: lambda, 3e3 times larger here, is in the
-// derivatives and in the round-off alike. Displacements of 0.01 mm are a thirtieth of the smallest cell.
+// The test resembles TangentIsTheDerivativeOfTheForcesAtFiniteStrain of ElasticBody and its neighbour. lambda, 3e3 times larger
+// here, is in the derivatives and in the round-off alike. Displacements of 0.01 mm are a thirtieth of the smallest cell.
 TEST(CellElasticity, TangentAndForcesAreDerivativesOfTheEnergyAtFiniteStrain)
 {
   dealii::Triangulation<2> triangulation;

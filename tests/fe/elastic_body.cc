@@ -256,7 +256,7 @@ TEST(ElasticBody, CellsOfTheHubDoNotMove)
       }
     }
   const ElasticBody<2> body(triangulation, soft_solid(1, MaterialModel::linear, 0.3));
-  // Of the four nodes on the lower side the hub holds the first two.
+  // The hub holds the first two of the four nodes on the lower side.
   EXPECT_EQ(body.friction_face().nodes.size(), 2u);
   EXPECT_EQ(body.friction_face().elements.size(), 2u);
   Matrix matrix;

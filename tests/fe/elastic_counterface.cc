@@ -16,7 +16,7 @@ namespace
   using Vector = dealii::Vector<double>;
 } // namespace
 
-// Where the cylinder's edges meet, what their kink times the gap moves is left out: 1e-9 of the tangent.
+// The tangent neglects the kink between the cylinder's edges times the gap: 1e-9 of it.
 TEST(ElasticObstacle, PartsAddUpToTheTangentAndPressureIsSymmetric)
 {
   const MeshedPair bodies;

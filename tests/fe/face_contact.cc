@@ -81,7 +81,7 @@ TEST_P(FaceContactOn, TangentOfSteadySlidingIsTheDerivativeOfTheForces)
     }
 }
 
-// How far it looks is found on the way and outlasts a kill.
+// The contact widens its search as it goes, and the width outlasts a kill.
 TEST_P(FaceContactOn, ReachIsHistory)
 {
   const auto contact_properties = properties(false, 0.);

@@ -245,7 +245,7 @@ TEST(FacePair, UniformTractionsGiveExactNodalForcesOnFacesThatDoNotMatch)
   for (const auto &node : upper.nodes)
     for (const unsigned int dof : node.dofs)
       EXPECT_NEAR(forces[dof], expected[dof], 1e-13) << node.position;
-  // Of the lower face the nodes all of whose edges lie below the upper one.
+  // This holds at those nodes of the lower face whose edges all lie below the upper one.
   const auto n_upper = static_cast<unsigned int>(upper.nodes.size());
   for (const auto &node : lower.nodes)
   {
@@ -299,7 +299,7 @@ TEST(FacePair, AnUndeformedCylinderIsTheRigidCircle)
       const unsigned int dof[] = { coordinates.theta(), coordinates.x() };
       for (unsigned int d = 0; d < 2; ++d)
       {
-        // Of the lever's nodes those of a force; the arms of theta are some 12 mm.
+        // The lever's nodes are summed, as for a force; the arms of theta are some 12 mm.
         double along = 0., across = 0.;
         for (unsigned int b = 0; b < 3; ++b)
         {

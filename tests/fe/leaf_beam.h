@@ -132,7 +132,7 @@ namespace sprag
       return at;
     }
 
-    /// What is wrong at the joint, along, across and in turning, by lengths of the leaf and radians.
+    /// Returns the residual at the joint along, across and in turning, by lengths of the leaf and radians.
     std::array<double, 3> misfit(const double turn, const std::array<double, 3> &unknowns) const
     {
       const State end     = end_state(turn, unknowns);

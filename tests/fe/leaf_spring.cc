@@ -19,7 +19,7 @@ namespace
 {
   constexpr double pi = dealii::numbers::PI;
 
-  /// What the default mesh leaves in stiffnesses, measured by StiffnessConvergesFromAbove.
+  /// The discretisation error of stiffnesses on the default mesh, as StiffnessConvergesFromAbove measures it.
   constexpr double mesh_tolerance = 2.5e-4;
 
   LeafSpring make_leaf(const LeafEnd end, const double thickness, const double poisson_ratio = 0.)

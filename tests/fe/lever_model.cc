@@ -115,7 +115,7 @@ namespace
     const auto sliding  = solved(model, accepted, forward_to(21.));
     ASSERT_GT(observed(model, sliding)[Column::P], 0.);
     expect_return(model, sliding.state, accepted, sprung);
-    // Of the passage through stick, some hundredths of a millimetre, a beginning, where all points stick; further on some slip.
+    // The passage through stick takes some hundredths of a millimetre: all points stick at its beginning; further on some slip.
     for (const double dx : { 1e-4, 5e-3 })
       expect_return(model, solved(model, accepted, back_by(dx)).state, accepted, sprung);
   }
@@ -192,7 +192,7 @@ TEST(LeverModel, ATriedStepLeavesTheNextStepAsItWas)
   EXPECT_TRUE(again.state.forces.values == direct.state.forces.values);
   EXPECT_EQ(again.state.coordinates[model.rotation()], direct.state.coordinates[model.rotation()]);
 
-  // What was found before can still be asked.
+  // The evaluation found before still answers.
   EXPECT_EQ(model.correction(direct.found).linfty_norm(), model.correction(again.found).linfty_norm());
   ASSERT_FALSE(first.contact.empty());
   ASSERT_EQ(second.contact.size(), first.contact.size());
@@ -237,7 +237,7 @@ TEST(LeverModel, HardeningSpringIsItsSecantAtEachTurn)
     EXPECT_NEAR(row[Column::theta], secant_row[Column::theta], 1e-13);
     EXPECT_NEAR(row[Column::P], secant_row[Column::P], 1e-9 * row[Column::P]);
     EXPECT_NEAR(row[Column::support_displacement], secant_row[Column::support_displacement], 1e-11);
-    // Of k turn + c turn^3: k turn^2 / 2 + c turn^4 / 4.
+    // The moment k turn + c turn^3 stores k turn^2 / 2 + c turn^4 / 4.
     const double linear = model_a().spring.stiffness * turn;
     EXPECT_NEAR(row[Column::spring_energy], 0.5 * linear * turn + 0.25 * (moment - linear) * turn,
                 1e-9 * row[Column::spring_energy]);

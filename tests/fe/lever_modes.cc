@@ -54,8 +54,8 @@ namespace
     return beta_length * beta_length * std::sqrt(bending / (bar_mass(bar) * L * L * L));
   }
 
-  /// What rotary inertia and shear take off omega (Timoshenko) of a beam between pins, relatively: 1/2 (beta r)^2 (1 + E/(kappa
-  /// G)).
+  /// Returns the relative decrease of omega of a beam between pins by rotary inertia and shear (Timoshenko): 1/2 (beta r)^2 (1
+  /// + E/(kappa G)).
   double slenderness_error(const Bar &bar, const double beta_length)
   {
     const double beta_r = beta_length / bar.length * bar.depth / std::sqrt(12.);

@@ -82,7 +82,7 @@ TEST(NeoHookean, TangentIsTheDerivativeOfTheStress)
       }
 }
 
-// What separates the two at a strain of s is quadratic in it, with second derivatives of about three times the stiffness.
+// The difference of the two at a strain of s is quadratic in it, with second derivatives of about three times the stiffness.
 TEST(NeoHookean, SmallStrainsAreLinear)
 {
   const auto displacement = gradient(0.3, -0.5, 0.7, 0.4);

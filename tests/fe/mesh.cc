@@ -188,7 +188,7 @@ namespace
            (hub.empty() ? "" : "Physical Curve(\"" + hub + "\") = {4};\n");
   }
 
-  /// What make_mesh() says about a user's file.
+  /// Returns the message of make_mesh() about a user's file.
   std::string complaint(const std::string &text, const std::string &name = "bar.geo")
   {
     const TemporaryFolder folder;

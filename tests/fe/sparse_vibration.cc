@@ -188,7 +188,8 @@ namespace
     return result;
   }
 
-  /// By increasing size, of the linearised problem in all coordinates, rates and delayed tractions: of A^-1 E in
+  /// Returns the eigenvalues by increasing size of the linearised problem in all coordinates, rates and delayed tractions. They
+  /// are those of A^-1 E in
   ///   q' = v,   M v' = -K q - C v + B^T F tau,   time tau' = (stiffness_row + rate_row d/dt) B q - tau
   std::vector<Complex> dense_eigenvalues(const MeshedLever &lever, const LinearisedForces &forces)
   {

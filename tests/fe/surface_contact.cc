@@ -34,7 +34,7 @@ TEST(SurfaceContact, ATiltedCylinderOnABedOfSpringsIsKnown)
   }
 }
 
-// What turns the shaft is the moment of the tractions about its middle.
+// The moment of the tractions about the shaft's middle turns it.
 TEST(SurfaceContact, TheForcesOnTheSlopesAreMomentsOfTheTractions)
 {
   Bed bed(skewed(true), 12.5, 6);
@@ -83,7 +83,7 @@ TEST(SurfaceContact, AShaftOnABedOfSpringsYieldsAsKnown)
       const double residual    = found.forces.values[place] - stiffness * at[bed.layout.slope(0)];
       at[bed.layout.slope(0)] += residual / (stiffness - found.forces.tangent(place, place));
     }
-    // As far as a parabola is a circle, and as the closed form's moment is off, see above.
+    // The tolerance is the error of the parabola for the circle and that of the closed form's moment, see above.
     const double approximation = 2. * (d_0 + 0.5 * width * Tilt) / 56. + 2.5 * 0.5 * 56. * Tilt * Tilt / d_0;
     const double tilt          = Tilt + at[bed.layout.slope(0)];
     EXPECT_NEAR(tilt, low, approximation * std::min(low, Tilt - low) + 1e-8) << stiffness;
@@ -181,7 +181,7 @@ namespace
   }
 } // namespace
 
-/// Whether the axis is free on its shaft.
+/// The parameter says if the axis is free on its shaft.
 class SurfaceContactOfAnAxis : public testing::TestWithParam<bool>
 {
 };
@@ -202,8 +202,8 @@ TEST_P(SurfaceContactOfAnAxis, TheTangentIsTheDerivativeOfTheForces)
   }
 }
 
-// Of friction that changes with the speed, which follows from the slope of the slip along the face. That makes 1e-5 of the
-// tangent and more; no point changes its state.
+// Friction changes with the speed, which follows from the slope of the slip along the face. That makes 1e-5 of the tangent and
+// more; no point changes its state.
 TEST_P(SurfaceContactOfAnAxis, TheTangentKnowsTheSpeedOfAContactThatTravels)
 {
   Bed bed(skewed(GetParam()), 12.5, 6);
@@ -227,8 +227,8 @@ TEST_P(SurfaceContactOfAnAxis, TheTangentKnowsTheSpeedOfAContactThatTravels)
   }
 }
 
-// Of friction that changes with the speed. Displacements are those of a slide at rest; points at the edge of the contact change
-// their state on the way.
+// Friction changes with the speed. Displacements are those of a slide at rest; points at the edge of the contact change their
+// state on the way.
 TEST_P(SurfaceContactOfAnAxis, SlidingIsLinearisedByDisplacementsAndVelocities)
 {
   const FrictionLaw friction{ StribeckFriction{ 0.9, 0.6, 30., 1., 1e-3 } };

@@ -80,7 +80,7 @@ TEST(Friction, FallsWhereAnySpeedHasASmallerCoefficient)
 
 TEST(Friction, DerivativesAgreeWithFiniteDifferences)
 {
-  // Of an exponential over 30 mm/s differences err by h^2/6 times a third derivative below 3e-4, and by round-off 1e-16/h.
+  // Differences of an exponential over 30 mm/s err by h^2/6 times a third derivative below 3e-4, and by round-off 1e-16/h.
   for (const double exponent : { 1., 1.5, 2., 4. })
     for (const double speed : { 2., 10., 30., 60., 300. })
     {

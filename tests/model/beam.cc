@@ -247,7 +247,7 @@ TEST(BeamDamping, OfRayleighLeavesTheSpringOut)
       const double expected = (i == j ? 3. + 1e-5 * data.stiffness[i] : 0.) - 1e-5 * 7.4e4 * turns;
       EXPECT_NEAR(data.damping(i, j), expected, 1e-12 * std::abs(expected) + 1e-13);
     }
-  // Of a stiff lever nothing is left but the mass' part.
+  // A stiff lever keeps the mass' part alone.
   scene.lever.young_modulus *= 1e6;
   EXPECT_NEAR(beam_modes(scene, make_beam_mesh(scene)).damping(0, 0), 3., 1e-5);
 }

@@ -187,7 +187,7 @@ namespace
     step.gap_row_end   = Place({ 0.04 * q_1[0], 0.02 * q_1[1], 1. });
     const Place middle = 0.5 * (q_0 + q_1);
     step.gap_row       = Place({ 0.04 * middle[0], 0.02 * middle[1], 1. });
-    // Of the middle, by the end: a half.
+    // The row is that of the middle, which moves by half of the end's motion.
     step.gap_curvature[0][0] = 0.02;
     step.gap_curvature[1][1] = 0.01;
     for (unsigned int s = 0; s < 2; ++s)

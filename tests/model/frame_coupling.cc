@@ -57,7 +57,7 @@ namespace
     return FrameCoupling(layout, rest).kinetic_energy(at);
   }
 
-  /// By a rate: the energy is linear in each.
+  /// Returns the energy's derivative by a rate, exact as the energy is at most quadratic in each.
   double momentum(Kinematic at, const unsigned int dof)
   {
     at.velocity[dof] += 0.5;

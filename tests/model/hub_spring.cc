@@ -150,7 +150,7 @@ namespace
 {
   const InterfaceLayout pair_layout{ 4, false, 0, 2 };
 
-  /// What is stored beyond k phi^2 / 2 of each hub: 2 W of the mean opening, less swinging's share but for a millionth.
+  /// Returns the energy beyond k phi^2 / 2 of each hub: 2 W of the mean opening, less swinging's share but for a millionth.
   double joined_energy(const PerLever &turns)
   {
     const double opening = 0.5 * (turns[0] + turns[1]);

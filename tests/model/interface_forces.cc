@@ -121,7 +121,7 @@ TEST(InterfaceForces, DeterminantIsThatOfTheWholeMatrix)
         for (unsigned int c = 0; c < 6; ++c)
           whole(a, b) -= compliance(f.dofs[a], f.dofs[c]) * f.tangent(c, b);
       }
-    // By elimination.
+    // The expected value comes from elimination.
     double expected = 1.;
     for (unsigned int k = 0; k < 6; ++k)
     {

@@ -298,7 +298,7 @@ TEST(Linearisation, IsNothingOutOfContact)
   }
 }
 
-// As of a lever that is held out of contact: matrices without rows, which libraries' assertions do not take everywhere.
+// A lever held out of contact has matrices without rows, which libraries' assertions do not take everywhere.
 TEST(Linearisation, WithoutDofsIsEmpty)
 {
   const LinearisedForces open;

@@ -108,7 +108,7 @@ TEST(ModalStructure, ComplianceIsTheAnswerToUnitForcesAtRest)
       for (unsigned int b = 0; b < 3; ++b)
         EXPECT_NEAR(structure.compliance()(b, a), answer[b], 1e-14) << a << b;
     }
-    // By hand: sum of shapes over stiffness, and the static one.
+    // The sum over shapes by their stiffness, and the static one, are computed by hand.
     const double by_hand = 20. * 20. / 400. + 31. * 31. / 9e4 + 12. * 12. / 4e6 + (with_statics ? 2e-3 : 0.);
     EXPECT_NEAR(structure.compliance()(0, 0), by_hand, 1e-14);
   }
@@ -231,8 +231,8 @@ TEST(ModalStructure, StaticShapesForgetTheirForceWithTheRelaxationTime)
   EXPECT_NEAR(motion.face_force[0], std::exp(-40. * dt / 2e-4), 1e-3);
 }
 
-// Of u'' + 2 zeta omega u' + omega^2 u = 0 from u = 1 at rest. Halved steps of a tenth of a radian and less: what is of third
-// order adds that share to the ratio at most.
+// The oscillator u'' + 2 zeta omega u' + omega^2 u = 0 starts from u = 1 at rest. Steps of a tenth of a radian and less are
+// halved: terms of third order add that share to the ratio at most.
 TEST(ModalStructure, OrderIsTwoOnADampedOscillator)
 {
   constexpr double omega = 50.;
@@ -260,7 +260,7 @@ TEST(ModalStructure, OrderIsTwoOnADampedOscillator)
 
 TEST(ModalStructure, LocalErrorIsOfThirdOrder)
 {
-  // Of one step from the same instant of an oscillation, against the exact motion; the estimate is of the same size.
+  // The error is that of one step from the same instant against the exact motion; the estimate is of the same size.
   constexpr double omega = 50.;
   for (const double radius : { 1., 0.8 })
   {

@@ -126,8 +126,8 @@ TEST(ModalVibration, OfADampedOscillatorIsThatOfTheFormula)
   expect_near(found[2], -50. - std::sqrt(1600.), 1e-12);
 }
 
-// Of each pair the one with Im >= 0 stands for both, and its vector for the one and not for the other: with the wrong sign the
-// equation would not be fulfilled.
+// The eigenvalue with Im >= 0 stands for its pair, and the vector belongs to it. With the wrong sign the equation would not be
+// fulfilled.
 TEST(ModalVibration, ItsVectorsBelongToItsEigenvalues)
 {
   auto data             = two_modes(10., 11.);

@@ -357,7 +357,7 @@ TEST(PointContact, DriveGivesWhatLeverTakesAndContactStoresOrDissipates)
   const double begin_energy =
       spring_energy(lever.normal, -found.penetration()) + 0.5 * lever.history.traction.norm_square() / 1000.;
 
-  // What a share of the way from one place to the other leaves open.
+  // Returns the open energy of a step over a share of the way.
   const auto open = [&](const double share)
   {
     Motion accepted;

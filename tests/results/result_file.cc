@@ -30,7 +30,7 @@ namespace
       return (folder / "result.h5").string();
     }
 
-    /// What Python prints, `f` being the file opened by h5py with the given further arguments.
+    /// Returns the output of Python; `f` is the file opened by h5py with further arguments.
     std::string h5py(const std::string &statements, const std::string &arguments = "") const
     {
       return read_output("/usr/bin/python3 -c 'import h5py\nf = h5py.File(\"" + path() + "\"" + arguments + ")\n" + statements +

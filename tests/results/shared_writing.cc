@@ -23,7 +23,7 @@ namespace
   }
 } // namespace
 
-// What several processes write is compared with this by tests/robustness/ranks.py.
+// The test robustness/ranks.py compares files of several processes with this one.
 TEST(SharedWriting, RowsOfSeveralChunksAreReadBackAsTheyWere)
 {
   const TemporaryFolder folder;

@@ -124,7 +124,7 @@ TEST(RunDesign, TheTableInTimeCorrectsTheHarmonicBalanceSlow)
   };
   const Scene best = best_scene(folder, { "Analysis/Type=isolation", "Isolation/End=steady state" });
   EXPECT_NEAR(fundamental(best), 3., 0.01);
-  // By one harmonic it would be another lever.
+  // One harmonic alone would lead to another lever.
   DesignSettings asking;
   asking.demanded = { { { DesignQuantity::transmissibility, 0 }, DemandKind::equal, 3., 0.01, {} } };
   DesignQuantities by_one_harmonic;

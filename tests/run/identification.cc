@@ -27,7 +27,7 @@ namespace
 
     void SetUp() override
     {
-      // What model A without inertia does is the measurement.
+      // The measurement is a run of model A without inertia.
       const auto device = read(
           { "Analysis/Type=quasi-static", "Analysis/Model=closed form", "Friction/Law=Coulomb", "Friction/Coefficient=0.73" });
       run(device, (folder.path / "measured").string());

@@ -59,7 +59,7 @@ namespace
   }
 } // namespace
 
-// Where a table turns its speed is 0, and a row stands there.
+// A table's speed is 0 at its turns, and a row stands there.
 TEST(Report, StickAfterTheTurnsOfATableIsNoDeviation)
 {
   const Drive unequal({ 0., 0.3, 0.6, 0.8, 1.2, 1.4, 2. }, { 0., 30., 60., 20., 50., 5., 0. });

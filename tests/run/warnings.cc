@@ -205,7 +205,7 @@ TEST(RowWarnings, LongStepsLeaveEnergyOpen)
   Scene in_time         = model_a();
   in_time.analysis.type = AnalysisType::transient;
   EXPECT_EQ(names_with(Column::friction_work, 61.1, in_time), Names{});
-  // What the springs of a soft penalty hold is no gap.
+  // The energy in the springs of a soft penalty is no open energy.
   Row soft                  = usual_row();
   soft[Column::penetration] = 0.5;
   soft[Column::spring_energy] -= 10.;

@@ -64,7 +64,7 @@ namespace
     return std::sqrt((2. - ratio) / ratio);
   }
 
-  /// Of the same damper in metres, newtons and seconds.
+  /// Returns the same damper in metres, newtons and seconds.
   Scene in_metres(Scene scene)
   {
     auto &g = scene.geometry;

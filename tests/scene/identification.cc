@@ -43,7 +43,7 @@ namespace
       return make_scene(identification(folder.write("stroke.csv", text), more));
     }
 
-    /// What is said about a table or other settings, the path of the table left out.
+    /// Returns the message about a table or other settings, without the table's path.
     std::string mistake(const std::string &text, const Messages &more = {}) const
     {
       try

@@ -64,7 +64,7 @@ namespace
   const Messages isolation    = { "Analysis/Type=isolation", "Isolation/Damper=constant friction" };
   const Messages record_scene = { "Analysis/Type=isolation", "Isolation/Damper=none", "Isolation/Base motion=record" };
 
-  /// What is said about a file of these rows, its folder left out.
+  /// Returns the message about a file of these rows, without its folder.
   std::string find_message(const Messages &scene, const std::string &parameter, const std::string &text)
   {
     const TemporaryFolder folder;

@@ -16,7 +16,7 @@ namespace sprag
 
   using Messages = std::vector<std::string>;
 
-  /// What is wrong with a scene, the folder of its file left out.
+  /// Returns the error messages about a scene, without the folder of its file.
   inline Messages mistakes(const std::string &text, const Messages &overrides = {})
   {
     try
@@ -30,7 +30,7 @@ namespace sprag
     return {};
   }
 
-  /// Of the defaults with these overrides.
+  /// Returns the error messages about the defaults with these overrides.
   inline Messages find_mistakes(const Messages &overrides)
   {
     return mistakes("", overrides);

@@ -337,6 +337,6 @@ TEST(ReadScene, ParametersThatWouldNotCountAreRefused)
                        "--set: Friction/Table = mu.csv: counts only with Friction/Law = table" }));
   EXPECT_EQ(find_mistakes({ "Friction/Law=Coulomb", "Friction/Stribeck speed=20" }),
             (Messages{ "--set: Friction/Stribeck speed = 20: counts only with Friction/Law = Stribeck" }));
-  // As printed.
+  // A printed scene names this default too, and it is accepted.
   EXPECT_TRUE(mistakes("subsection Friction\n set Law = cork on aluminium\n set Coefficient = 0.73\nend\n").empty());
 }

@@ -8,8 +8,8 @@
 
 namespace sprag
 {
-  /// What turns the axes of a cylinder as its slopes grow, in the axes of the world: with yaw psi = atan(skew) about y and
-  /// elevation phi = atan(tilt/sqrt(1 + skew^2)) about the axis across, psi' e_y - phi' (cos(psi), 0, -sin(psi)).
+  /// Returns the rates of rotation of a cylinder's axes by its slopes, in the axes of the world: psi' e_y - phi' (cos(psi), 0,
+  /// -sin(psi)). The yaw psi = atan(skew) is about y, the elevation phi = atan(tilt/sqrt(1 + skew^2)) about the axis across.
   inline std::array<dealii::Tensor<1, 3>, 2> turns_by_slopes(const double tilt, const double skew)
   {
     const double m2 = 1. + skew * skew, m = std::sqrt(m2), psi = std::atan(skew);

@@ -33,7 +33,7 @@ namespace
     return peak;
   }
 
-  /// Of the two lowest vibrations in contact without friction [Hz].
+  /// Returns the two lowest frequencies of vibration in contact without friction [Hz].
   std::array<double, 2> contact_frequencies(const Scene &scene)
   {
     const auto dynamics = DynamicsMaker(false).make(scene);

@@ -15,7 +15,7 @@ namespace
   // Nearly incompressible, as a rigid circle asks for: in plane strain pressure then moves the surface along the face by no more
   // than (1 - 2 nu) / (2 (1 - nu)) = 2 % of what traction does.
   constexpr ElasticConstants elastic = { 100., 0.49 };
-  // Of two equal bodies any will do.
+  // Two equal bodies may have any constants.
   constexpr ElasticConstants soft = { 100., 0.3 };
 
   /// Pressed in by 0.07 mm while x goes from 0 to 1, then moved along the face by -0.012 mm (x - 1).

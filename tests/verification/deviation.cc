@@ -121,8 +121,8 @@ namespace
   }
 } // namespace
 
-// What is left between finite elements and closed form is mechanics that the closed form leaves out.
-// Tolerance: fits 3 %, fixed point exact, elements of half a millimetre in a contact of two.
+// The remaining difference of finite elements and closed form is mechanics that the closed form leaves out. Tolerance: fits 3
+// %, fixed point exact, elements of half a millimetre in a contact of two.
 TEST(Deviation, IsExplainedByBendingLayerAndCentreOfPressureOnModelA)
 {
   expect_predicted(model_a(), 1);

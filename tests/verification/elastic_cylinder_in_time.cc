@@ -46,7 +46,7 @@ TEST(ElasticCylinderInTime, LedgerClosesAndCondensedAgreesWithFiniteElements)
   EXPECT_LT(largest(condensed, Column::energy_residual), 1e-7 * largest(condensed, Column::drive_work));
   EXPECT_LT(largest(finite, Column::energy_residual), 1e-6 * largest(finite, Column::drive_work));
   EXPECT_GT(finite.rows.back()[Column::friction_work], 2.);
-  // What modes beyond the 20 kept do in time, as with a rigid cylinder.
+  // The tolerance is the motion of modes beyond the 20 kept, as with a rigid cylinder.
   const double P = largest(finite, Column::P);
   EXPECT_LT(largest_difference(condensed, finite, Column::P), 5e-3 * P);
   EXPECT_LT(largest_difference(condensed, finite, Column::Q), 5e-3 * P);

@@ -87,7 +87,7 @@ namespace
       return statics.is_stable();
     }
 
-    /// Where the middle of the end has come to.
+    /// Returns the deformed position of the middle of the end.
     Point<2> tip(const LeafSpring &leaf) const
     {
       const Point<2> at(-leaf.length, 0.);

@@ -22,7 +22,7 @@ namespace sprag
     }
   };
 
-  /// Of the forces on the nodes of the face: where these are undeformed, and where they have moved to.
+  /// Returns the resultants of the forces on the nodes of the face, at their undeformed and at their deformed positions.
   inline std::array<Resultant, 2> forces_on(const SolidBody &body, const State &state)
   {
     std::array<Resultant, 2> result;

@@ -23,7 +23,7 @@ namespace
     return std::accumulate(values.begin(), values.end(), 0.);
   }
 
-  /// Where the sensors' resultant lies [mm].
+  /// Returns the position of the sensors' resultant [mm].
   double middle(const std::vector<double> &forces, const std::vector<double> &sensors)
   {
     return std::inner_product(forces.begin(), forces.end(), sensors.begin(), 0.) / sum(forces);

@@ -194,7 +194,7 @@ TEST(Growth, UnderALawThatRisesWithSpeedIsThatOfItsEigenvalue)
   }
 }
 
-// What these comparisons would say of a linearisation without friction's part: a decay.
+// A linearisation without friction's part would decay, and these comparisons would see it.
 TEST(Growth, IsFrictions)
 {
   for (const auto &scene : { backward_a(ModelType::beam, 6.), backward_b() })
@@ -276,7 +276,7 @@ TEST(Growth, OnACreepingDriveIsThatOfItsEigenvalue)
     EXPECT_LT(travel, 0.05);
     EXPECT_NEAR(fit.rate, lambda.real(), 0.03 * lambda.real());
     EXPECT_NEAR(found, lambda.imag() / (2. * M_PI), 0.005 * lambda.imag() / (2. * M_PI));
-    // By 1e-3 in amplitude altogether: it grows through all of the window.
+    // The perturbation grows through all of the window, by more than 100 in amplitude.
     const auto sizes = compute_envelope(signal);
     EXPECT_GT(sizes.back().value / sizes.front().value, 100.);
   }

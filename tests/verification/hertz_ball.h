@@ -26,8 +26,8 @@ namespace sprag
     return { a, 1.5 * P / (M_PI * a * a), modulus };
   }
 
-  /// What a block's displacement in a direction lacks of that of a half-space, as it is where its face is some distance from the
-  /// origin [mm]: the block ends.
+  /// Returns the mean deficit of a block's displacement against a half-space's at a distance from the origin [mm]: the block
+  /// ends.
   template <class Displacement>
   double missing(const RubbedBlock &rubbed, const Displacement &half_space_displacement, const RubbedBlock::Vector &direction,
                  const double distance)

@@ -27,7 +27,7 @@ namespace
              FrictionSpeed::sliding };
   }
 
-  /// What every length and every modulus is multiplied with.
+  /// The factors of every length and every modulus.
   struct Units
   {
     double length;

@@ -136,8 +136,8 @@ TEST(LeafDeviationSlow, IsThatOfItsMomentLawBesideFlexure)
   }
 }
 
-// By hand: bar and layer as rectangles from the pivot on, at their distance from it; the leaf as a beam that its clamp turns,
-// x (1 - x/L)^2, which is 7e-4 of J.
+// The sum is computed by hand: bar and layer are rectangles from the pivot on, at their distance from it. The leaf is a beam
+// that its clamp turns, x (1 - x/L)^2, which is 7e-4 of J.
 TEST(LeafDeviation, CalibratedPartsHaveTheMomentOfInertiaOfTable1)
 {
   for (const auto &[model, J] : { std::pair<std::string, double>{ "a", 6.45 }, { "b", 6.86 } })

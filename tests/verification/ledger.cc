@@ -23,8 +23,8 @@ namespace
            row[Column::contact_energy];
   }
 
-  /// What the ledger of a frictionless, undamped run in fixed steps of 50 microseconds without algorithmic dissipation leaves
-  /// open, over its peak energy. The model is made for such a scene.
+  /// Returns the ledger's open energy over the peak energy of a frictionless, undamped run in fixed steps of 50 microseconds.
+  /// There is no algorithmic dissipation. The model is made for such a scene.
   double open_share_without_dissipation(DynamicModel &model, const Scene &scene)
   {
     const auto rows = run_in_time(model, scene).rows;

@@ -15,7 +15,7 @@ namespace
   {
   }
 
-  /// What a kick of the slide comes to.
+  /// Returns the attractor to which a kick of the slide leads.
   Settled after_kick(const CheckedSlide &checked, const double kick, HeldRun &run)
   {
     run.spectral_radius = checked.scene.time.spectral_radius;

@@ -100,7 +100,7 @@ TEST(MirroredPairInTime, SwingingLacksTheSpringOfAFreeJointAlone)
   const auto free      = contact_modes(paired(scene, SpringJoint::free));
   const auto held      = contact_modes(paired(scene, SpringJoint::held));
   const double squared = free.symmetric * free.symmetric;
-  // Of the spring's share a millionth is left; frequencies come to 1e-12.
+  // A millionth of the spring's share remains; frequencies are solved to 1e-12.
   EXPECT_NEAR(squared - free.swinging * free.swinging, k / J, 2e-6 * k / J + 1e-11 * squared);
   EXPECT_NEAR(held.symmetric, free.symmetric, 1e-10 * free.symmetric);
 }
@@ -173,7 +173,7 @@ TEST(MirroredPairInTime, ModesOfAllFidelitiesAgree)
   const auto meshed    = modes(scene);
   for (unsigned int i = 0; i < 6; ++i)
   {
-    // As one lever's: what truncated modes leave to statics.
+    // The tolerance is that of one lever: truncated modes are left to statics.
     EXPECT_NEAR(condensed.at(i).mode.eigenvalue.imag(), meshed.at(i).mode.eigenvalue.imag(),
                 1e-4 * meshed[i].mode.eigenvalue.imag());
     EXPECT_NEAR(condensed[i].mode.eigenvalue.real(), meshed[i].mode.eigenvalue.real(),

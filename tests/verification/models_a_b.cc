@@ -287,7 +287,7 @@ TEST(ModelsAAndB, AugmentationRemovesTheOverlapInAFewSolutions)
 
 namespace
 {
-  /// What the run has at x = 30 on its way back.
+  /// Returns the row at x = 30 on the way back.
   Row back_at_30(const Scene &scene)
   {
     const Row row = run_scene(with_drive(with_face_size(scene, 2.), turning_at_65(30.))).back();

@@ -61,7 +61,7 @@ namespace
     return outcome;
   }
 
-  /// By 0.1 mm on a rigid plane.
+  /// Presses the element by 0.1 mm on a rigid plane.
   Outcome pressed_on_plane(const Elements &elements)
   {
     dealii::Triangulation<2> triangulation;

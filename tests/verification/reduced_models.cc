@@ -22,7 +22,7 @@ namespace
     return largest;
   }
 
-  /// By a line between the rows beside the time.
+  /// Interpolates linearly between the rows beside the time.
   double value_at(const std::vector<Row> &rows, const double time, const Column column)
   {
     const auto after  = std::lower_bound(rows.begin() + 1, rows.end() - 1, time,

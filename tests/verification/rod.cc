@@ -147,7 +147,7 @@ namespace
     return result;
   }
 
-  /// Of the end: in, at rest, out.
+  /// Returns the displacement of the end: it moves in, rests and moves out.
   double exact_end(const double time)
   {
     const double phase = std::fmod(time, 3.);

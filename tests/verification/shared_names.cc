@@ -19,7 +19,7 @@ namespace
 {
   using Values = std::map<std::string, double>;
 
-  /// How far models may be apart that say one thing by one word.
+  /// The permitted difference of models in a quantity that they share by name.
   struct Tolerance
   {
     double relative;
@@ -88,7 +88,7 @@ namespace
     { "swing_P", { 0., 0.1 } },
   };
 
-  // What a run costs, what a stroke without a reversal does not have, and a determinant of which the sign alone counts.
+  // These are costs of a run, values that a stroke without a reversal lacks, and a determinant of which the sign alone counts.
   const std::set<std::string> not_compared = { "step",       "time_step",       "rejected_steps",  "active_points",
                                                "iterations", "augmentations",   "steps",           "augmentations_worst",
                                                "uniqueness", "peak_P_backward", "peak_Q_backward", "peak_Q_support_backward" };

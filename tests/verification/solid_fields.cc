@@ -136,7 +136,7 @@ TEST(SolidFields, WithoutContractionTheyAreThoseOfPlaneStress)
   EXPECT_LT(stress, 1e-6 * stressed);
 }
 
-// What three dimensions add to the way from displacements to stress and from nodes to the file is exact.
+// The three-dimensional code adds no error between displacements and stress, nor between nodes and the file.
 TEST(SolidFields, OfThePlanesDisplacementsTheyAreItsFields)
 {
   const PlaneRun plane(model_a_forward(2));

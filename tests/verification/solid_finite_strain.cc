@@ -59,7 +59,7 @@ TEST(SolidFiniteStrain, WorkIsStoredOrRubbedAwaySlow)
   EXPECT_LT(residual, 2e-3 * largest_work);
 }
 
-// As the plate's forces are those on its undeformed places.
+// The plate's forces act at undeformed positions, so the sensors carry P exactly.
 TEST(SolidFiniteStrain, SensorsCarryTheForceOnThePlateSlow)
 {
   Scene scene                = tilted(at_finite_strain(0.2), 2e-4);

@@ -24,7 +24,7 @@ namespace
   }
 } // namespace
 
-// What is left is what the compliance of the face leaves out: its skin ends in the flange.
+// The difference comes from the compliance of the face, whose near-surface layer ends in the flange.
 TEST(SolidFrame, WithAWebOfFullWidthItIsPlaneStress)
 {
   const Scene scene = frame(40.);

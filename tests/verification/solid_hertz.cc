@@ -6,7 +6,7 @@ using namespace sprag;
 
 namespace
 {
-  /// What presses on a block, by sums over the points in contact.
+  /// The contact of a block: force, largest pressure and half axes, from sums over the points in contact.
   struct Pressed
   {
     double P;            ///< [N]

@@ -108,7 +108,7 @@ TEST_P(SolidRunInTime, IsThatOfThePlane)
     EXPECT_NEAR(solid[i], plane[i], 1e-5 * largest) << i;
 }
 
-// What is perturbed grows in time as the eigenvalue says, within what steps and a contact that is not linear leave, see Growth.
+// A perturbation grows at the rate of its eigenvalue, up to the error of steps and of a nonlinear contact, see Growth.
 TEST(SolidInTime, AVibrationGrowsAsItsEigenvalueSays)
 {
   Scene scene              = held_model_a(3);

@@ -16,7 +16,7 @@ namespace
 {
   using Vector = Resultant::Vector;
 
-  /// Of the forces by which the hub holds the lever, where it is undeformed, from the stiffness of the cells beside it.
+  /// Returns the resultant of the hub's forces on the undeformed lever, from the stiffness of the cells beside the hub.
   Resultant hub_forces(const SolidBody &body, const dealii::Vector<double> &displacement)
   {
     Resultant result;

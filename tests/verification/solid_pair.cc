@@ -32,7 +32,7 @@ namespace
     return [column](const Row &row) { return row.second_value(column); };
   }
 
-  /// Of columns_across(), of the first lever or the second.
+  /// Returns one of columns_across() of the first lever or the second.
   Value across(const std::size_t index, const unsigned int lever = 0)
   {
     return [i = index + lever * columns_across().size()](const Row &row) { return row.across.at(i); };

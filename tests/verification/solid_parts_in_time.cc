@@ -143,7 +143,7 @@ TEST(SolidPartsInTime, PartsAloneMustNotHaveMoreThanTheMomentOfInertia)
   EXPECT_THROW(BodyMass<3>(body, lever_inertia(scene)), InputError);
 }
 
-// What the solver leaves of the lowest frequency grows with the square of the ratio to those of the mesh.
+// The solver's relative error at the lowest frequency grows with the square of the ratio of the mesh's frequencies to it.
 TEST(SolidPartsInTime, ModesOfThePlaneAreThoseOfTheHalfSlow)
 {
   const Scene bare = in_space(AnalysisType::transient);

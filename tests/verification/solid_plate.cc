@@ -31,7 +31,7 @@ namespace
     return std::accumulate(values.begin(), values.end(), 0.);
   }
 
-  /// Of the right sensors over the left ones, all places together.
+  /// Returns the sum of the right sensors' forces less that of the left ones.
   double right_less_left(const Row &row)
   {
     double result = 0.;

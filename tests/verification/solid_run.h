@@ -60,7 +60,7 @@ namespace sprag
     return result;
   }
 
-  /// Of a column, over its largest value.
+  /// Returns the largest difference of a column over its largest value.
   inline double difference(const std::vector<Row> &a, const std::vector<Row> &b, const Column column)
   {
     EXPECT_EQ(a.size(), b.size());

@@ -146,7 +146,7 @@ TEST(SolidShaft, ATrueAxisBeforeALeverAlikeOnBothSidesStaysSlow)
   EXPECT_LT(largest_across(whole.rows, tilt_column), 1e-9);
 }
 
-// What the drive does is stored in springs, lever and shaft, or rubbed away. The works are sums over steps, whose error falls
+// The work of the drive is stored in springs, lever and shaft, or rubbed away. The works are sums over steps, whose error falls
 // with them; the shaft stores more than that.
 TEST(SolidShaft, StoresTheWorkThatItTakes)
 {

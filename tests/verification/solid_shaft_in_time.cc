@@ -144,8 +144,8 @@ namespace
   }
 } // namespace
 
-// What moves as in a plane does not turn the axis. A lever that twists does: before an axis that aligns itself it twists as if
-// out of contact, before a stiff one as before a fixed one.
+// Motion as in a plane does not turn the axis. A lever that twists does: before an axis that aligns itself it twists as if out
+// of contact, before a stiff one as before a fixed one.
 TEST(SolidShaftInTime, OfATrueAxisTwistingModesAloneKnowSlow)
 {
   using Shares     = Eigenmode::AcrossShares;

@@ -43,7 +43,7 @@ namespace
       return moment / (s + sign * coefficient * 45.6) * (std::sin(theta) + sign * coefficient * std::cos(theta));
     }
 
-    /// What falling friction drags less the faster the frame goes with it [N s/mm].
+    /// Returns the decrease of the drag of falling friction with the frame's speed [N s/mm].
     double negative_damping(const double speed, const double sign) const
     {
       constexpr double h = 1e-5;
@@ -85,7 +85,7 @@ namespace
   }
 } // namespace
 
-// By the place Q changes, too: that is half a per cent of the sensor's stiffness.
+// The position changes Q, too: that is half a per cent of the sensor's stiffness.
 TEST(Stribeck, FrameVibratesWhereFallingFrictionOutweighsItsDamping)
 {
   const Paper paper;

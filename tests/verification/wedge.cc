@@ -79,7 +79,7 @@ TEST(ForceControlledWedge, AugmentationEndsAtOnceAndRemovesTheOverlap)
 
 TEST(ForceControlledWedge, WouldRunAwayWithTheConeFrozenAtTheLastPressure)
 {
-  // What the test above must not do: friction mu N of the last augmentation, N sin a = F - mu N_last cos a.
+  // The test above must not do this: it takes friction mu N of the last augmentation, N sin a = F - mu N_last cos a.
   const double exact = full_force / (sine + coefficient * cosine);
   double normal      = 0.99 * exact;
   for (int augmentation = 0; augmentation < 10; ++augmentation)
