@@ -14,7 +14,7 @@ from sprag.parameters import parse
 from sprag.program import RunFailed, run_scene
 from sprag.results import NotAResult, read_result
 
-# Of a run that makes the mesh of a scene and little else.
+# Changes for a run that makes the mesh of a scene and little else.
 COARSE = {
     "Analysis/Type": "quasi-static",
     "Analysis/Model": "finite element",
@@ -33,7 +33,7 @@ CLOSED_FORM = {"Analysis/Type": "quasi-static", "Analysis/Model": "closed form"}
 
 @dataclass
 class Geometry:
-    """Where things are, the cylinder's path being y = 0: eqs. 8 and 9 of the paper."""
+    """Holds the positions of the parts, with the cylinder's path at y = 0: eqs. 8 and 9 of the paper."""
 
     radius: float
     offset: float
@@ -47,7 +47,7 @@ class Geometry:
 
     @property
     def theta_0(self):
-        """Where the spring is not tensioned."""
+        """Returns the inclination at which the spring is relaxed."""
         return self.inclination(0.0, self.height_at_rest)
 
     def inclination(self, x, height):
@@ -71,7 +71,7 @@ class Geometry:
 
     @property
     def foot(self):
-        """Of the pivot on the line of the friction face."""
+        """Returns the projection of the pivot on the line of the friction face."""
         return self.pivot + self.offset * self.across
 
     @property
@@ -99,7 +99,7 @@ class Forces:
 
 @dataclass
 class Device:
-    """What is drawn: a mesh in lever axes with its parameters, and the forces if they are known."""
+    """Holds a mesh in lever axes with its parameters, and the forces if they are known."""
 
     name: str
     parameters: dict
@@ -120,11 +120,11 @@ class Device:
 
     @property
     def cylinder_height(self):
-        """Of its path above the mirror plane of a full pair."""
+        """Returns the height of the cylinder's path above the mirror plane of a full pair."""
         return self.number("Mirrored pair/Cylinder offset") if self.is_pair else 0.0
 
     def geometry(self, x, side=1):
-        """Of the first lever, or with side = -1 of the second in mirrored axes."""
+        """Returns the geometry of the first lever, or with side = -1 of the second in mirrored axes."""
         height = self.number("Geometry/Pivot height")
         pivot = np.array((self.number("Geometry/Pivot distance"), height - side * self.cylinder_height))
         return Geometry(self.number("Geometry/Cylinder radius"), self.number("Geometry/Interface offset"), pivot, x, height)
@@ -134,7 +134,7 @@ class Device:
         return geometry.place(bent_leaf(self, geometry.theta - geometry.theta_0), geometry.theta_0)
 
 
-# Where it comes from
+# Sources of devices
 
 
 def device_of(path, sprag, x):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""What the scripts have in common on the command line: where pictures go, in which format, and how they are written."""
+"""Options that the scripts share: the place, the format and the writing of pictures."""
 
 import argparse
 import sys
@@ -69,12 +69,12 @@ def add_output(parser, metavar="FILE", default="beside the result", formats=FORM
 
 
 def names_picture(path):
-    """Whether a path ends in a format of pictures."""
+    """Tells if a path ends in a format of pictures."""
     return path is not None and path.suffix[1:] in FORMATS and not path.is_dir()
 
 
 def picture_paths(options, default):
-    """Where one picture goes: -o as it stands where it tells the format, else -o or the default, with each of the formats."""
+    """Returns the paths of one picture: -o as it stands if it names a format, else -o or the default with each of the formats."""
     output = options.output
     if names_picture(output) and options.format is None:
         return [output]

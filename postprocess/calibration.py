@@ -28,7 +28,7 @@ def calibration(result):
 
 
 def constants(result):
-    """What the calibration found, in words."""
+    """Returns the calibrated constants as a text."""
     entries = (("stiffness", "$k$"), ("moment_of_inertia", "$J$"), ("bending_stiffness", "$EI$"), ("contact_stiffness", "$k_c$"),
                ("contact_exponent", "exponent"))  # fmt: skip
     return ", ".join(

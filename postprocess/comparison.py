@@ -162,7 +162,7 @@ def draw_tangential(axes, results, several, view):
 
 
 def draw_deviations(axes, results, several, view):
-    """Of all but the finest, whose own values are interpolated linearly."""
+    """Draws the deviations from the finest result, whose values are interpolated linearly."""
     finest = max(results, key=level)
     reference = finest.table["P"]
     peak = np.nanmax(np.abs(reference)) or 1

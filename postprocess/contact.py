@@ -62,7 +62,7 @@ def chosen_states(result, count=COUNT):
 
 
 def positions(x, count):
-    """As many as are wanted from the smallest x to the largest, or those there are where they are few."""
+    """Returns `count` positions from the smallest x to the largest, or all of x if there are fewer."""
     far = x.max()
     apart = [x.min()]
     for value in np.sort(x):
@@ -73,7 +73,7 @@ def positions(x, count):
 
 
 def rows_of_states(result):
-    """Of the table."""
+    """Returns the rows of the table at which the face was recorded."""
     return result.friction_face.rows_of(result.table["time"])
 
 

@@ -27,7 +27,7 @@ def free_parameters(result):
 
 
 def aim(result, name):
-    """What the aim is at, and its column."""
+    """Returns the quantity of the aim and its column."""
     quantity = result.parameter("Design", name).split(maxsplit=1)[1]
     return quantity, slug(quantity)
 
@@ -72,7 +72,7 @@ def asked_quantities(result):
 
 
 def judgements(result):
-    """What each judge found over what was expected, lever after lever."""
+    """Draws the quantities that each judge found over the expected ones, lever after lever."""
     group = result.groups["judgements"]
     names = asked_quantities(result)
     judges = [f"{judge} {number:.0f}" for judge, number in zip(group["judge"].astype(str), group["round"])]

@@ -64,7 +64,7 @@ def draw_cylinder(axes, device, geometry):
 
 
 def draw_support(axes, device, geometry, size):
-    """What holds the pivot, and the rotational spring unless it is a leaf spring; of a pair both levers' pivots are drawn free."""
+    """Draws the support of the pivot, and the rotational spring unless it is a leaf spring; a pair's pivots are drawn free."""
     pivot = geometry.pivot
     if device.leaf is None:
         spiral(axes, pivot, 0.55 * size, color=COLOURS[3], linewidth=1.2, zorder=5, gid="spring")
@@ -119,7 +119,7 @@ def caption(device, x):
 
 
 def top_of(device, geometry):
-    """Of the lever above its contact, across it."""
+    """Returns the largest coordinate across the lever above its contact."""
     near = np.abs(device.frame.nodes[:, 0] - geometry.s) < 0.1 * geometry.pivot[0]
     solid = device.frame.shown(["lever", "web", "plate", "layer", "hub"])
     return device.frame.nodes[near & solid if (near & solid).any() else solid, 1].max()
@@ -151,7 +151,7 @@ def draw_dimensions(axes, device, geometry, points):
 
 
 def has_room(geometry):
-    """Of the cylinder for the name of its radius."""
+    """Tells if the cylinder is large enough for the name of its radius."""
     return geometry.radius > 0.2 * geometry.pivot[0]
 
 

@@ -26,7 +26,7 @@ FIRST = ("time", "x", "first", "second", "direction", "v", "theta", "s", "P", "F
          "frequency", "growth_rate", "xi")  # fmt: skip
 
 
-# What there is
+# Tables of a result
 
 
 def tables_of(result):
@@ -49,7 +49,7 @@ def columns_of(result):
 
 
 def ordered(columns, before=()):
-    """What one looks for first; the rest by its name."""
+    """Returns the columns with the most used ones first and the others by name."""
     first = [name for name in ("run", *before, *FIRST) if name in columns]
     return {name: columns[name] for name in dict.fromkeys([*first, *sorted(columns)])}
 
@@ -124,7 +124,7 @@ def entry_of(data):
 
 
 def plain(value):
-    """As JSON takes it, which knows neither NaN nor infinity."""
+    """Returns a value for JSON, which knows neither NaN nor infinity."""
     if isinstance(value, np.ndarray):
         return [plain(each) for each in value.tolist()]
     value = value.item() if isinstance(value, np.generic) else value

@@ -16,7 +16,7 @@ from solid_fields import solid_fields
 from style import COLOURS, MILLIMETRE, TWO_COLUMNS, plt, use_print_style
 from surface import is_solid
 
-# What each choice of --part shows in colour.
+# The parts that each choice of --part shows in colour.
 CHOICES = {
     "all": ("lever", "layer", "web", "plate", "cylinder", "leaf"),
     "lever": ("lever", "layer", "web"),
@@ -182,7 +182,7 @@ def set_view(axes, scenery, bodies):
 
 
 class Window:
-    """Where the contact is looked at, in lever axes; displacements across the lever are magnified, less the metal's motion there.
+    """Shows the contact in lever axes; displacements across the lever are magnified, less the metal's motion there.
 
     The cylinder's distance from the undeformed face is magnified as much: faces that touch still do.
     """
@@ -225,7 +225,7 @@ class Window:
         return self.centre[1] + np.sqrt(np.maximum(height, 0))
 
     def cylinder_points(self):
-        """As deep below the drawn surface as they are below the true one."""
+        """Returns the cylinder's nodes, as deep below the drawn surface as below the true one."""
         frame = self.scenery.frame
         rest = frame.nodes + self.centre
         xi = rest[:, 0] + frame.displacement[:, 0]

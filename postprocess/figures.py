@@ -182,7 +182,7 @@ FIGURES = {
     **{f"onset-a-{picture}": drawn("onset-a", picture) for picture in ("growth", "cycle", "continuation")},
     **{f"onset-b-{picture}": drawn("onset-b", picture) for picture in ("cycle", "continuation")},
     **{name: drawn(name, "map") for name in MAPS},
-    # What accuracy costs.
+    # These pictures show the cost of accuracy.
     **{name: drawn(name, "trade") for name in STUDIES},
     "study-transmissibility-a": drawn("study-transmissibility-a", "transmissibility"),
     "study-offset-a": drawn("study-offset-a", "study"),

@@ -9,7 +9,7 @@ import numpy as np
 
 from sprag.results import WAYS, NotAResult, read_fields
 
-# As FieldFrames writes them.
+# The numbers of parts are those that FieldFrames writes.
 PARTS = {1: "lever", 2: "layer", 3: "hub", 4: "web", 5: "plate", 6: "cylinder", 7: "leaf"}
 NUMBERS = {name: number for number, name in PARTS.items()}
 MOVED = ("displacement", "elastic_displacement", "von_mises_stress")  # of a frame
@@ -107,14 +107,14 @@ def read_frame(result, path=None, row=None):
 
 @dataclass
 class Pose:
-    """Where the apparatus stands: x along the cylinder's path towards the pivot, y up from that path."""
+    """Holds the position of the apparatus: x along the cylinder's path towards the pivot, y up from that path."""
 
     x: float  # of the cylinder's centre, which has y = 0
     pivot: np.ndarray
     theta: float  # of the lever at its hub
 
     def centre(self):
-        """Of the cylinder, in lever axes."""
+        """Returns the cylinder's centre in lever axes."""
         return self.in_axes(np.array((self.x, 0.0)))
 
     def in_axes(self, points):
@@ -134,7 +134,7 @@ class Pose:
 
 
 def pose(result, row=None):
-    """Of one row of the table, at rest without."""
+    """Returns the pose of one row of the table; without a row that at rest."""
     table = result.table
     moved = table["support_displacement"][row] if row is not None and result.has("support_displacement") else 0.0
     height = number(result, "Geometry", "Pivot height") - cylinder_height(result)
@@ -143,7 +143,7 @@ def pose(result, row=None):
 
 
 def cylinder_height(result):
-    """Of its path above the mirror plane of a full pair, where y = 0."""
+    """Returns the height of the cylinder's path above the mirror plane y = 0 of a full pair."""
     try:
         full = result.parameter("Mirrored pair", "Type") == "full"
     except KeyError:
@@ -181,7 +181,7 @@ class Written:
 
 
 def written_frames(result):
-    """Of a run in which the cylinder moves."""
+    """Returns the written frames of a run in which the cylinder moves."""
     if "modes" in result.groups:
         raise NotAResult(f"{result.folder}: its frames are modes, which plot.py draws along the face and ParaView shows (mode-01.xdmf, ...)")
     if len(result.table.get("time", ())) == 0:

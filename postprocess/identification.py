@@ -72,7 +72,7 @@ def draw_residual(axes, result, force):
 
 
 def autocorrelation(result, force):
-    """Of what is left, within strokes one way."""
+    """Returns the autocorrelation of the residual within strokes one way."""
     residual = result.table[f"{force}_residual"]
     products, squares = np.zeros(FARTHEST + 1), 0.0
     for rows in ways(result).values():

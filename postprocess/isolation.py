@@ -168,7 +168,7 @@ def spectra(result):
 
 
 def band_of(result, centres):
-    """Where the floor moves at all."""
+    """Returns the lowest and the highest frequency of the floor's motion."""
     if result.parameter("Isolation", "Base motion") == "random":
         return (float(result.parameter("Isolation", f"{end} frequency")) for end in ("Lowest", "Highest"))
     return centres[0], centres[-1]

@@ -13,7 +13,7 @@ KINDS = ("stable", "flutter", "divergence", "jammed", "inadmissible", "failed")
 JAMMED, INADMISSIBLE, FAILED = 3, 4, 5
 # Without growth rate: colour and hatching of each kind.
 AREAS = {JAMMED: ("0.75", "////"), INADMISSIBLE: ("1", "...."), FAILED: ("0.9", "xxxx")}
-# Of the line between two kinds, by the one farther from stability.
+# The style of a line between two kinds is that of the kind farther from stability.
 LINES = {"flutter": "-", "divergence": (0, (5, 1.5)), "jammed": (0, (1.2, 1.2)), "inadmissible": ":", "failed": ":"}
 
 # The cells that were judged; between them the map is interpolated.

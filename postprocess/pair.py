@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""What the two levers of a full mirrored pair do beside each other."""
+"""Draws the two levers of a full mirrored pair beside each other."""
 
 from functools import partial
 

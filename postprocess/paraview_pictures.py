@@ -29,7 +29,7 @@ def arrays_of(reader, time):
 
 
 def chosen_time(reader, name, folder):
-    """Of a run the frame whose friction faces are pressed most."""
+    """Returns the time of the frame whose friction faces are pressed most."""
     times = list(reader.TimestepValues)
     if name != "fields":
         return times[0]

@@ -93,7 +93,7 @@ def pictures_of_drive(result):
 
 
 def picture_of_fields(result):
-    """Of the frame of the largest P. One that cannot be read, as while it is written, must not keep the others from being drawn."""
+    """Draws the fields at the largest P. A frame that cannot be read, as while it is written, does not stop the other pictures."""
     try:
         return {"fields": fields(result)} if written_frames(result) else {}
     except NotAResult as error:

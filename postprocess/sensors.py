@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""What the force sensors of a friction plate feel beside the normal force at the contact."""
+"""Draws the forces on the sensors of a friction plate beside the normal force at the contact."""
 
 import re
 

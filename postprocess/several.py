@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""What tells several results apart, and how a picture shows it: labels at the ends of the curves, a scale of colours or a legend."""
+"""Names several results by their differences: labels at the ends of the curves, a scale of colours or a legend."""
 
 from dataclasses import dataclass
 from typing import Optional
@@ -15,13 +15,13 @@ MOST_RESULTS = 20
 MOST_NAMED = 3  # parameters that differ; where there are more, folders name the results
 MOST_LABELS = 5  # at the ends of curves; more are told apart by a scale or a legend
 FEW_NUMBERS = 3  # of a scale
-# Of the runs, not of the device.
+# These sections describe the method, not the device.
 NUMERICAL = ("Analysis", "Mesh", "Contact", "Time", "Condensed", "Accuracy", "Beam")
 
 
 @dataclass
 class Several:
-    """Of each result its name and look."""
+    """Holds the name and the look of each result."""
 
     parameter: Optional[str]  # Section/Name of what differs
     label: str  # of that parameter with its unit
@@ -91,8 +91,8 @@ def said(parameter):
 
 
 def chosen(listings):
-    """What has the most values, of the device rather than of the method, numbers rather than words: Section/Name, None where all is
-    the same."""
+    """Returns the parameter with the most values as Section/Name, or None without a difference. Parameters of the device come
+    before those of the method, numbers before words."""
 
     def rank(name):
         found = [parameters.get(name) for parameters in listings]
@@ -135,7 +135,7 @@ def label_ends(axes, lines, height=0.085):
 
 
 def last_point(axes, line):
-    """Of those within the panel, the last one near its right end: where a loop over x turns back."""
+    """Returns the last point near the right end of the panel, at which a loop over x turns back."""
     x, y = (np.asarray(values, dtype=float) for values in line.get_data())
     (left, right), (low, high) = sorted(axes.get_xlim()), sorted(axes.get_ylim())
     inside = np.flatnonzero((x >= left) & (x <= right) & (y >= low) & (y <= high))

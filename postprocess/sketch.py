@@ -11,7 +11,7 @@ HUB = 10.0  # depth of the hub beyond the pivot [mm]
 
 
 def device_svg(result, parameters):
-    """Of the largest x, where x is known the worst one; of a design its best lever. None where the circle and the face do not touch."""
+    """Draws the device at its worst x if known, else the largest; of a design the best lever. Returns None without contact."""
 
     def number(name):
         found = result.summary.get(slug(name))

@@ -44,7 +44,7 @@ class SolidFrame:
 
     @property
     def is_lever(self):
-        """Of the nodes."""
+        """Returns for each node if it belongs to the lever."""
         return self.lever > 0
 
     def cells_of(self, lever):

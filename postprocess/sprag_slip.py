@@ -174,8 +174,8 @@ def continuation(result):
 
 
 def draw_branch(axes, points, way, name, marker, index):
-    """Where it vibrates and where it slides, each joined along the way, with dots from one to the other; irregular vibrations
-    hollow, undecided ones crossed out."""
+    """Draws vibrations and slides, each joined along the way, with dots between the two kinds. Irregular vibrations are hollow,
+    undecided ones crossed out."""
     order = np.argsort(points["x"])
     x, kind = points["x"][order], points[f"kind_{way}"][order]
     vibrates = np.isin(kind, (CYCLE, IRREGULAR))

@@ -54,7 +54,7 @@ def abscissa_of(varied):
 
 @dataclass
 class Code:
-    """How runs of the same other settings are drawn."""
+    """Holds the look of runs with the same other settings."""
 
     mask: np.ndarray
     colour: object

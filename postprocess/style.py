@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""What all pictures share: sizes, colours and lines, symbols, axis labels."""
+"""Styles that all pictures share: sizes, colours and lines, symbols, axis labels."""
 
 import re
 
@@ -104,7 +104,7 @@ def in_maths(unit):
 
 
 def parameter_label(name, unit="1"):
-    """Of the parameter Section/Name, for an axis."""
+    """Returns the label of the parameter Section/Name for an axis."""
     section, _, own = name.partition("/")
     text = PARAMETERS.get(name, own.lower() if section in OWN_NAMES else f"{section} {own}".lower())
     return text if unit in ("", "1") else f"{text} [{in_maths(unit)}]"
@@ -144,7 +144,7 @@ def scale_of(numbers):
 
 
 def is_signal(difference, whole):
-    """Whether a difference is more than what equations are solved to, measured by what it is a difference of."""
+    """Tells if a difference exceeds the solver's error, relative to `whole`."""
     return np.nanmax(np.abs(difference), initial=0) > SOLVER_ERROR * np.nanmax(np.abs(whole), initial=0)
 
 

@@ -57,7 +57,7 @@ def whole_width(face, values):
 
 
 def draw_map(axes, face, step):
-    """Of the part of the face that is pressed, with some room."""
+    """Draws the pressure on the pressed part of the face, with some room."""
     xi, zeta, pressure = whole_width(face, face.pressure[step])
     pressed = xi[pressure > 0]
     centre = 0.5 * (pressed.min() + pressed.max())

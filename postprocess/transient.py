@@ -18,7 +18,7 @@ def is_transient(result):
 
 
 def parameter(result, section, name, otherwise):
-    """Of the type of `otherwise`, which stands for a parameter that is not there."""
+    """Returns the parameter in the type of `otherwise`, which replaces a missing one."""
     try:
         return type(otherwise)(result.parameter(section, name))
     except (KeyError, ValueError):
@@ -166,7 +166,7 @@ def spectrum_after(result):
 
 
 def dominant_frequency(result, frequencies, amplitudes):
-    """What the run says of it; the spectrum's peak where it does not, as while it goes on."""
+    """Returns the frequency in the summary, or without one, as in an unfinished run, the spectrum's peak."""
     if "reversal_1_frequency" in result.summary:
         return float(result.summary["reversal_1_frequency"])
     searched = np.flatnonzero(frequencies > 2 / WINDOW)

@@ -98,7 +98,7 @@ def deflections(modes, mode):
 
 
 def motion_across(modes, mode):
-    """How a mode in three dimensions moves; empty in a plane."""
+    """Returns the name of a mode's largest motion in three dimensions; empty in a plane."""
     if "twisting" not in modes:
         return ""
     shares = {name: modes[name][mode] for name in ("plane", "twisting", "sideways")}
@@ -116,7 +116,7 @@ def mode_name(modes, mode):
 
 
 def motion_name(mirroring):
-    """Of a pair."""
+    """Returns the name of a pair's motion."""
     return "mirroring" if mirroring > 0.9 else "swinging" if mirroring < -0.9 else "uneven"
 
 

@@ -42,12 +42,12 @@ def mutants_listed():
 
 
 def holds(test, pattern):
-    """Whether a test of ctest, whose name lists suites with commas between them, has one with a pattern."""
+    """Tells if one of the suites, which the name of a test of ctest lists with commas, matches a pattern."""
     return any(re.search(pattern, suite) for suite in test.split(","))
 
 
 def mistakes_of(name, mutant):
-    """What is wrong with an entry."""
+    """Returns the problems of an entry."""
     if set(mutant) != FIELDS:
         return [f"{name}: must have {', '.join(sorted(FIELDS))}"]
     path = ROOT / mutant["file"]
@@ -93,7 +93,7 @@ def copy_sources(to):
 
 
 def is_paused(session):
-    """Whether somebody has stopped a process of a session, as one does who measures beside it."""
+    """Tells if a process of a session is stopped, as by somebody who measures beside it."""
     for path in Path("/proc").glob("[0-9]*/stat"):
         try:
             state, _, _, of = path.read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()[:4]
@@ -199,7 +199,7 @@ def failures_in(output):
 
 
 def check_unchanged(tree, mutants):
-    """What is wrong with the unchanged program and the names of tests."""
+    """Returns the problems of the unchanged program and of the names of tests."""
     tests = sorted({mutant["tests"] for mutant in mutants.values()})
     targets = sorted(set().union(*map(targets_of, tests)))
     print(f"builds {', '.join(targets)} unchanged", flush=True)

@@ -56,7 +56,7 @@ def last_digit(printed):
 
 
 def problem_of(entry, printed, name, results):
-    """What is wrong with a printed number, or None. `against` asks by how many per cent two runs differ."""
+    """Returns the problem of a printed number, or None. `against` asks for the difference of two runs in per cent."""
     value = value_of(results[entry["command"]], name)
     if isinstance(value, list):
         value = min(value, key=lambda zero: abs(entry.get("times", 1) * zero - float(printed)), default=float("nan"))

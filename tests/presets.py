@@ -139,7 +139,7 @@ def build(preset):
 
 
 def run(preset, scene, changes, folder):
-    """What is wrong with the run; empty if nothing is."""
+    """Returns the problem of the run, empty without one."""
     command = [SOURCE / f"build-{preset}" / "sprag", SOURCE / "params" / f"{scene}.prm"]
     command += ["--output", f"{folder}/output", "--overwrite", "--quiet", "--jobs", "2"]
     for change in (*COARSE, *changes):

@@ -61,7 +61,7 @@ def parse(listing):
 
 
 def different(one, other):
-    """Whether two texts differ; 1e3 and 1000 do not."""
+    """Tells if two texts differ; 1e3 and 1000 do not."""
     try:
         return float(one) != float(other)
     except ValueError:

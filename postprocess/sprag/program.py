@@ -44,7 +44,7 @@ def settings(changes):
 
 
 def output_of(command):
-    """What the program says of a scene, the second word of the command. Throws Refused or Failed."""
+    """Returns the program's output for a scene, the second word of the command. Throws Refused or Failed."""
     sprag, scene, *_ = command
     try:
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, check=False)

@@ -129,7 +129,7 @@ class Result:
 
     @property
     def type(self):
-        """Of the analysis, as Analysis/Type has it."""
+        """Returns the type of the analysis, the value of Analysis/Type."""
         return self.parameter("Analysis", "Type")
 
     @property
@@ -143,7 +143,7 @@ class Result:
         return {name: value for name, value in self.summary.items() if isinstance(value, Number) and np.isfinite(value) and "headline" in value.more}
 
     def has(self, column):
-        """Whether a column is there and holds at least one number."""
+        """Tells if a column exists and holds at least one number."""
         return column in self.table and bool(np.isfinite(self.table[column]).any())
 
     def parameter(self, section, name):
@@ -159,7 +159,7 @@ class Result:
 
     @cached_property
     def ways(self):
-        """Of each row 1 forward, -1 backward; a turning point belongs to the stroke that led to it."""
+        """Returns the direction of each row, 1 forward or -1 backward; a turning point belongs to the stroke that led to it."""
         steps = np.sign(np.diff(self.table["x"], prepend=self.table["x"][:1]))
         moving = np.flatnonzero(steps)
         if len(moving) == 0:

@@ -68,7 +68,7 @@ KINDS = ("P", "Q", "theta", "growth", "frequency", "other")
 
 
 class Run:
-    """What one build made of a scene, and what that cost. A counter is a command before that of the run."""
+    """Holds the result and the cost of a scene run by one build. A counter is a command before that of the run."""
 
     def __init__(self, program, scene, changes, folder, counter=()):
         command = [*counter, program, ROOT / "params" / f"{scene}.prm"]
@@ -105,7 +105,7 @@ def results_of(path):
 
 
 def calm_rows(table, summary):
-    """How many rows are compared, None for all: of a run in time that loses contact those before, as two runs drift apart after."""
+    """Returns the number of rows to compare, None for all. Two runs in time drift apart after they lose contact."""
     P, time = table.get("table/P"), table.get("table/kinetic_energy")
     if P is None or time is None or not np.any(np.nan_to_num(time) > 0):
         return None

@@ -70,7 +70,7 @@ def norm(profile):
 
 
 def errors(run, reference):
-    """Of largest pressure, width and profile at every place."""
+    """Returns the errors of largest pressure, width and profile at every place."""
     result = []
     for place in PLACES:
         largest, width, profile = run.at(*place)

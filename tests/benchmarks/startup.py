@@ -53,7 +53,7 @@ def fastest(commands, rounds):
 
 
 def loaded_libraries(command):
-    """How many libraries the loader initialised, those of a program that another became counted again."""
+    """Counts the libraries that the loader initialised; after an exec they count again."""
     with tempfile.TemporaryDirectory(prefix="sprag-loader-") as folder:
         environment = {**os.environ, "LD_DEBUG": "files", "LD_DEBUG_OUTPUT": f"{folder}/of"}
         subprocess.run(command, capture_output=True, check=False, env=environment)

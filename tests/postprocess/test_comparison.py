@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""What tells results apart, and pictures of many of them; on small files of the shape sprag writes; run with /usr/bin/python3."""
+"""Tests the names of several results and pictures of many of them, on small files of the shape sprag
+writes; run with /usr/bin/python3."""
 
 import sys
 import unittest
@@ -168,7 +169,7 @@ class Pictures(SeveralTest):
             file = make_transient(self.folder / str(i), "beam", growth)
             text = file["parameters"].asstr()[()]
             del file["parameters"]
-            file["parameters"] = f"{text}subsection Lever\n  # Of the metal [mm]: a number > 0.\n  set Depth = {6 + i}\nend\n"
+            file["parameters"] = f"{text}subsection Lever\n  # Depth of the metal [mm]: a number > 0.\n  set Depth = {6 + i}\nend\n"
             for name in ("peak_P_forward", "peak_P_backward", "loop_area"):
                 put(file.require_group("summary"), name, 1.0 + i, "N")
             finish(file)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""What tells of pictures with a bad layout tells of each kind of it, and of nothing in a good one; run with /usr/bin/python3."""
+"""Tests that each kind of bad layout is found, and none in a good picture; run with /usr/bin/python3."""
 
 import sys
 import unittest

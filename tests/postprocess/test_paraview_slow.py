@@ -73,7 +73,7 @@ class Seen:
         return self.arrays[f"{number} {name}"]
 
     def now(self, number):
-        """What Warp by Vector shows."""
+        """Returns the points that Warp by Vector shows."""
         return (self.of(number, "points") + self.of(number, "displacement [mm]"))[:, :2]
 
     def rest(self, number=0):
@@ -81,7 +81,7 @@ class Seen:
 
 
 def turned(points, pivot, theta, side=1):
-    """Where a rigid lever of theta has what it had at rest."""
+    """Returns the points of a rigid lever, known at rest, at the inclination theta."""
     def axes(angle):
         return np.array(((-np.cos(angle), side * np.sin(angle)), (np.sin(angle), side * np.cos(angle))))
 
@@ -122,7 +122,7 @@ class ParaViewTest(unittest.TestCase):
         return file
 
     def rows(self, name, seen):
-        """Of the table, one a frame."""
+        """Returns a row of the table for each frame."""
         table = {column: values[:] for column, values in self.result(name)["table"].items()}
         at = [int(np.flatnonzero(table["time"] == time)[0]) for time in seen.times]
         self.assertTrue((np.diff(seen.times) > 0).all())

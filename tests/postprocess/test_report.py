@@ -24,7 +24,7 @@ LISTING = """subsection Analysis
   set Type = quasi-static
 end
 subsection Lever
-  # Of the metal [mm]: a number > 0.
+  # Depth of the metal [mm]: a number > 0.
   set Depth = 12  # default: 20
   set Width = 40.0  # default: 40
 end

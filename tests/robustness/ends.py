@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""How runs end: asked for, crashed, short of memory or disk, robbed of their folder, beside another run. Run with
+"""Tests the ends of runs: asked for, crashed, short of memory or disk, robbed of their folder, beside another run. Run with
 /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 
 import os

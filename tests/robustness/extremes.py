@@ -59,7 +59,7 @@ class Runner:
 
 
 def judged(runner, row):
-    """What stands in the table, and what falls short."""
+    """Returns the row of the table and the faults."""
     try:
         run = runner.run(row.scene, row.options, row.timeout)
     except subprocess.TimeoutExpired:

@@ -346,7 +346,7 @@ class Stroke(RunTest):
 
 
 class StiffLever(RunTest):
-    """As verdicts leave out flexure: the lever is far stiffer than the spring at its pivot."""
+    """Tests a lever far stiffer than the spring at its pivot, as verdicts leave out flexure."""
 
     def test_is_condensed(self):
         changes = ("Analysis/Model=condensed", "Mesh/Face size=2", "Lever/Young's modulus=7e8", "Stability/Critical=none", "Stability/Roles=off")

@@ -48,7 +48,7 @@ class Install(FolderTest):
         self.assertEqual((done.returncode, done.stdout.strip()), (0, "completed"), done.stderr)
 
     def completions(self, *words):
-        """What bash offers for the last of the words."""
+        """Returns the completions of bash for the last of the words."""
         code = 'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _sprag "$1"; printf "%s\\n" "${COMPREPLY[@]}"'
         script = self.prefix / "share" / "bash-completion" / "completions" / "sprag"
         return self.call("bash", "-c", code, "bash", script, self.prefix / "bin" / "sprag", *words).stdout.split("\n")[:-1]

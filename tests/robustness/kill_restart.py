@@ -87,7 +87,7 @@ ALL = {
     ),
     "elastic cylinder in time": ("cylinder-a", {**CONDENSED, "Analysis/Type": "transient", "Drive/Start": "64"}),
 }
-# What a run cost, and where it came from.
+# The cost and the origin of a run may differ.
 ALLOWED = re.compile(r"meta/((cpu|wall)_time.*|peak_memory|steps_per_cpu_second|steps_taken_over|basis_from_cache|basis_cpu_time)")
 OFTEN = {**os.environ, "SPRAG_CHECKPOINT_SECONDS": "0.02"}
 ALWAYS = {**os.environ, "SPRAG_CHECKPOINT_SECONDS": "0"}
@@ -117,7 +117,7 @@ def content(path):
 
 
 def contents(folder):
-    """Of all files but the log, which has dates and times."""
+    """Returns the contents of all files but the log, which has dates and times."""
     return {path.name: content(path) for path in sorted(folder.iterdir()) if path.name != "run.log"}
 
 

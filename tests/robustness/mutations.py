@@ -67,7 +67,7 @@ TABLES = {
 }  # fmt: skip
 
 
-# What may happen to a file
+# Changes of a file
 
 
 def change_bytes(data, chance):
@@ -126,7 +126,7 @@ BYTE_CHANGES = (change_bytes, change_bytes, cut, drop_piece, insert_noise)
 
 
 def change_objects(path, chance):
-    """Of a file in HDF5: another type, shape or place of one of its objects."""
+    """Changes type, shape or place of one object of a file in HDF5."""
     with h5py.File(path, "r+") as file:
         names = []
         file.visit(names.append)
@@ -315,7 +315,7 @@ def outcome(case):
 
 
 def objection(case, status, text, used):
-    """What is wrong with an answer; nothing where nothing is."""
+    """Returns the problem of an answer, empty without one."""
     if status not in (0, 1, 2):
         return f"ends with {status}"
     if used > ROOM:

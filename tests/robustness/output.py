@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""What a run says: the lines that answer its question, everything with --verbose, and all of it again in run.log. Run with
+"""Tests the output of a run: the lines that answer its question, everything with --verbose, and all of it again in run.log. Run with
 /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 
 import os
@@ -59,7 +59,7 @@ class Output(RunTest):
                 self.assertAlmostEqual(float(printed) / file[f"summary/peak_P_{way}"][()], 1, delta=1e-3)
 
     def on_a_terminal(self, *arguments, **environment):
-        """What a terminal gets of a run, and its exit status."""
+        """Returns the output of a run on a terminal and its exit status."""
         ours, its = pty.openpty()
         inherited = {name: value for name, value in os.environ.items() if name != "NO_COLOR"}
         with subprocess.Popen([SPRAG, *map(str, arguments)], stdout=its, stderr=its, env={**inherited, **environment}) as run:

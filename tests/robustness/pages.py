@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""What the pages say is there: commands are accepted with their options and settings, parameters and choices exist, scripts know their
+"""Tests that the pages are true: commands are accepted with their options and settings, parameters and choices exist, scripts know their
 options. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 
 import re

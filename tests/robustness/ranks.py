@@ -77,7 +77,7 @@ class RanksTest(RunTest):
             self.assertLessEqual(apart.max(initial=0), 2e-6 * size, name)
 
     def expect_same_data(self, analysis, changes, group, names, tolerance):
-        """By one process and by two."""
+        """Compares the results of one process and of two."""
         alone, shared = (self.data_of(ranks, {**HELD, "Analysis/Type": analysis, **changes}, group, names) for ranks in (1, 2))
         for name, values in alone.items():
             np.testing.assert_allclose(shared[name], values, rtol=0, atol=tolerance * np.nanmax(np.abs(values)), err_msg=name)

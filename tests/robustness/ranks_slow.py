@@ -42,7 +42,7 @@ class SlowRanks(RanksTest):
         self.expect_same_data("modal", {}, "modes", ("frequency", "across_real", "sideways_real"), 1e-8)
 
     def test_without_the_folder_end_with_a_message(self):
-        """As on machines that do not share their disks."""
+        """Runs in two folders, as on machines that do not share their disks."""
         places = [self.folder / str(rank) for rank in range(2)]
         words = ["mpirun"]
         for place in places:

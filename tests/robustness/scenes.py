@@ -97,7 +97,7 @@ PURE = re.compile(
     rf"|flutter from {NUMBER} \(|order .*|x = 0\b|of degree \d|[a-z],? \d\."
 )
 
-# How far a run is, on the standard error.
+# The progress of a run on the standard error.
 PROGRESS = re.compile(r"^(?: *\d+ % .*|(?:grid|boundaries|study|map): .*)\n", re.MULTILINE)
 
 
@@ -342,7 +342,7 @@ class ScenesTest(RunTest):
         checks.get(kind, self.check_run)(file)
 
     def check_fields(self, file, output):
-        """Of finite elements; those of modes are a frame each."""
+        """Checks the files of the fields; modes are a frame each."""
         modes = "modes" in file and model_of(file) == "condensed"
         self.assertEqual((output / "fields.xdmf").is_file(), "face" in file)
         self.assertEqual(len(list(output.glob("mode-*.xdmf"))), len(file["modes/frequency"]) if modes else 0)

@@ -21,7 +21,7 @@ from strip import MESH_22, SCRIPT  # noqa: E402
 from system_calls import CAN_FILTER, without_confinement, without_landlock  # noqa: E402
 
 CALL = "SystemCall \"touch 'MARK'\";\n"
-# What is written, around the mesh, with MARK for a file outside.
+# The scripts that surround the mesh, with MARK for a file outside.
 ACTS = {
     "starts a program": CALL + SCRIPT,
     "prints into a file": 'Printf("x") > "MARK";\n' + SCRIPT,

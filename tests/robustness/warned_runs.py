@@ -18,7 +18,7 @@ FALLING = ("Friction/Law=Stribeck", "Friction/Stribeck speed=10", "Drive/Speed=1
 COARSE = ("Drive/Cycles=0.5", "Output/Fields=none", "Analysis/Step=13")
 OTHER_DEVICE = ("Geometry/Cylinder radius=50", "Geometry/Pivot distance=180")
 
-# What is provoked: scene, options, warnings in the order of the program.
+# The provoked warnings: scene, options, warnings in the order of the program.
 PROVOKED = {
     "leaf of 5 mm": ("leaf-a", (*COARSE, "Leaf spring/Thickness=5"), ["large_strain", "pressure_beyond_strength", "long_steps"]),
     "leaf of 8 mm": ("leaf-a", ("Analysis/Model=closed form", "Leaf spring/Thickness=8"), ["leaf_beyond_yield", "pressure_beyond_strength"]),

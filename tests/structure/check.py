@@ -22,14 +22,14 @@ ROOMS = {
 CODE = {".cc", ".h", ".py", ".sh", ".geo", ".cmake", ".txt"}
 MAX_LINES = 600
 LICENCE = "SPDX-License-Identifier: GPL-3.0-only"
-# Of a page as wc counts them. The references of all parameters and results are looked into, not read.
+# The longest page, in words as wc counts them. The references of all parameters and results are looked into, not read.
 MAX_WORDS = 1500
 REFERENCES = [pathlib.Path("params/parameters.md"), pathlib.Path("params/warnings.md"), *(pathlib.Path("postprocess") / name for name in ("results.md", "summary.md", "summary-of-analyses.md"))]
 # In pieces, or this file would find itself.
 UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME)\b")
 
-# A comment is a sentence with a verb, or names the thing itself: no fragment.
-FRAGMENT = re.compile(r"\s*///?<? (Of|What|Whether|Where|How|By|As)\b")
+# A comment or docstring is a sentence with a verb, or names the thing itself: no fragment.
+FRAGMENT = re.compile(r"""\s*(?:///?<? |# |\"{3})(Of|What|Whether|Where|How|By|As)\b""")
 
 # Identifiers are the field's words: `stress`, `compute_stress`, `lever_stress`, not `stress_of` or `of_lever`.
 UNNAMED = re.compile(r"\b(of|of_\w+|\w+_of(?:_\w+)?|(?:\w+_)?(?:told|given|wanted)(?:_\w+)?)\b")
@@ -84,7 +84,7 @@ def check_comments(path, lines):
     for number, line in enumerate(lines, 1):
         if not goes_on and (found := FRAGMENT.match(line)):
             report(path, number, f"the comment begins as a fragment, with {found[1]}")
-        goes_on = line.lstrip().startswith("//")
+        goes_on = line.lstrip().startswith(("//", "#"))
 
 
 def check_identifiers(path, lines):
@@ -109,8 +109,9 @@ for path in own_files():
     if path.is_relative_to(ROOT / "src") and path.suffix in (".cc", ".h"):
         n_sources += 1
         check_includes(path, lines)
-    if path.suffix in (".cc", ".h"):
+    if path.suffix in (".cc", ".h", ".py"):
         check_comments(path, lines)
+    if path.suffix in (".cc", ".h"):
         check_identifiers(path, lines)
 
 scenes = sorted((ROOT / "params").glob("*.prm"))
@@ -133,7 +134,7 @@ def check_words(page):
 
 
 def check_links(page):
-    """Of a page: the files that its links name and the headings in them."""
+    """Reports links of a page to files or headings that do not exist."""
     for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
         for link in re.findall(r"\]\(([^)\s]+)\)", line):
             name, _, anchor = link.partition("#")

@@ -43,7 +43,7 @@ def run(script, arguments):
 
 
 def run_in_copy(script, arguments):
-    """What subprocess.run() returns of a program."""
+    """Runs a script in a fork and returns the same as subprocess.run() of a program."""
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as errors:
         child = os.fork()
         if child == 0:

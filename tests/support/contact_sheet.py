@@ -22,7 +22,7 @@ import plot  # noqa: E402
 from sprag.results import NotAResult, read_result  # noqa: E402
 from style import TWO_COLUMNS, plt, use_print_style  # noqa: E402
 
-# What makes a scene short; its pictures keep their kinds of curves.
+# Changes that shorten a scene; its pictures keep their kinds of curves.
 MAP = {"Map/First points": 17, "Map/Second points": 17, "Map/Bisections": 2}
 MESHED_MAP = {**MAP, "Map/First points": 9, "Map/Second points": 9, "Mesh/Face size": 1}
 SIZES = "Mesh/Face size = 0.5, 0.707, 1, 1.41, 2"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""What a run of the program left, for tests/robustness/extremes.py, and what is compared with it."""
+"""Reads the results of a run for tests/robustness/extremes.py and compares them."""
 
 import re
 

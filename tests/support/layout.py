@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""What is wrong with the layout of a drawn figure of matplotlib, told in words."""
+"""Finds the problems of layout in a drawn figure of matplotlib, and says them in words."""
 
 from itertools import combinations
 
@@ -51,7 +51,7 @@ def has_arrow_alone(text):
 
 
 def holds_data(axes, artist):
-    """Whether something of a line, bar, mesh or image lies within the panel; lines across the whole panel are no data."""
+    """Tells if some of a line, bar, mesh or image lies within the panel; lines across the whole panel are no data."""
     if not artist.get_visible() or artist is axes.patch:
         return False
     if hasattr(artist, "get_xydata"):
@@ -104,7 +104,7 @@ def boxes_of_texts(figure, shown, renderer):
 
 
 def box_of(text, renderer):
-    """Of the text alone, not of the arrow of an annotation."""
+    """Returns the box of the text alone, without the arrow of an annotation."""
     if isinstance(text, Annotation):
         text.update_positions(renderer)
         return super(Annotation, text).get_window_extent(renderer)
@@ -134,7 +134,7 @@ def overlaps(boxes, figure):
 
 
 def outside(figure, shown, boxes, renderer):
-    """What is cut by the edge of the page."""
+    """Returns a message for everything that the edge of the page cuts."""
     boxes = list(boxes)
     legends = [*figure.legends, *(axes.get_legend() for axes in shown if axes.get_legend() is not None)]
     boxes += [("a legend", contents_of_legend(legend, renderer)) for legend in legends]
@@ -179,7 +179,7 @@ def covered_curves(axes, renderer):
 
 
 def covered_share(axes, line, box):
-    """Of the length that is drawn of a line, or of its points where it has markers alone."""
+    """Returns the covered share of the drawn length of a line, or of the points of one with markers alone."""
     points = line.get_transform().transform(line.get_path().vertices)
     points = points[np.isfinite(points).all(axis=1)]
     panel = axes.bbox

@@ -21,7 +21,7 @@ def written(page):
 
 
 def columns():
-    """Of tables."""
+    """Returns the names of the columns of tables."""
     return written(PAGES["results.md"]) | written(PAGES["modes-maps-studies.md"])
 
 

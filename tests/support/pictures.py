@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""What tests of the scripts that draw share; puts those scripts on the path."""
+"""Shares helpers between tests of the scripts that draw, and puts those scripts on the path."""
 
 import subprocess
 import sys

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""What tests of the program from outside share. Environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+"""Shares helpers between tests of the program from outside. Environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 
 import os
 import subprocess
