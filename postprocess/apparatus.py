@@ -137,7 +137,7 @@ class Device:
 # Sources of devices
 
 
-def device_of(path, sprag, x):
+def make_device(path, sprag, x):
     """Throws NotAResult."""
     with tempfile.TemporaryDirectory(prefix="sprag-device-") as temporary:
         temporary = Path(temporary)

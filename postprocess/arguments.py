@@ -14,7 +14,7 @@ FORMATS = ("png", "pdf", "svg")
 DPI = 200
 
 
-def parser_of(documentation):
+def make_parser(documentation):
     """A parser whose --help begins with what the script says of itself."""
     return argparse.ArgumentParser(description=documentation, formatter_class=argparse.RawDescriptionHelpFormatter)
 
@@ -37,8 +37,8 @@ def script(main):
             place = traceback.extract_tb(error.__traceback__)[-1]
             what = f"{type(error).__name__}: {error}".splitlines()[0]
             where = f"{Path(place.filename).name}, line {place.lineno}"
-            given = ", ".join(word for word in map(str, arguments or sys.argv[1:]) if Path(word).exists())
-            print(f"{name}: {given}: a result is damaged or of another version of sprag: {what} ({where})", file=sys.stderr)
+            named_paths = ", ".join(word for word in map(str, arguments or sys.argv[1:]) if Path(word).exists())
+            print(f"{name}: {named_paths}: a result is damaged or of another version of sprag: {what} ({where})", file=sys.stderr)
             return 2
         return 0
 

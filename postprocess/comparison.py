@@ -14,11 +14,11 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from arguments import add_folders, add_output, parser_of, picture_paths, save, script
+from arguments import add_folders, add_output, make_parser, picture_paths, save, script
 from sprag.results import WAYS, NotAResult, read_result
 from forces import forces_over_time, forces_over_x
 from overlays import draw_number, overlays
-from several import FEW_NUMBERS, told_apart
+from several import FEW_NUMBERS, distinguish
 from style import MILLIMETRE, TWO_COLUMNS, envelope, is_signal, label, panel_letter, plt, use_print_style
 from transient import LEAD, WINDOW, has_reversal, is_transient, parameter, reversal_time, turning_points, zoom_end
 
@@ -43,7 +43,7 @@ def comparisons(results):
         return overlays(results)
     check_steps(results)
     pictures, in_time = {"comparison": comparison(results)}, any(is_transient(result) for result in results)
-    if in_time or told_apart(results).is_numerical:
+    if in_time or distinguish(results).is_numerical:
         pictures["forces-over-x"] = forces_over_x(results)
     if in_time:
         pictures["forces-over-time"] = forces_over_time(results)
@@ -54,12 +54,12 @@ def comparisons(results):
 
 def comparison(results):
     """The one picture that says most of runs along a drive."""
-    several = told_apart(results)
+    several = distinguish(results)
     if several.is_numerical:
         return over_time(results, several, draw_deviations)
     if any(is_transient(result) for result in results):
-        return over_time(results, several, draw_tangential, numbers_of(results, several))
-    return over_x(results, several, numbers_of(results, several))
+        return over_time(results, several, draw_tangential, choose_numbers(results, several))
+    return over_x(results, several, choose_numbers(results, several))
 
 
 def check_steps(results):
@@ -73,14 +73,14 @@ def check_steps(results):
 # Over x
 
 
-def numbers_of(results, several):
+def choose_numbers(results, several):
     """Entries of the summaries that are worth a panel each; none where the parameter has too few values for a curve."""
     if several.values is None or len(np.unique(several.values)) < FEW_NUMBERS:
         return ()
     return [name for name in NUMBERS if all(name in result.summary for result in results)]
 
 
-def rows_of_panels(rows, columns, numbers):
+def make_panels(rows, columns, numbers):
     """A figure with so many rows of equal panels and below them one for each of the numbers: figure, panels [rows][columns], rest."""
     height = {1: 76, 2: 115}[rows] + (52 if numbers else 0)
     figure = plt.figure(figsize=(TWO_COLUMNS, height * MILLIMETRE))
@@ -95,7 +95,7 @@ def rows_of_panels(rows, columns, numbers):
 
 def over_x(results, several, numbers):
     """P and Q of all; below, the numbers over the parameter."""
-    figure, (forces,), rest = rows_of_panels(1, 2, numbers)
+    figure, (forces,), rest = make_panels(1, 2, numbers)
     for axes, column in zip(forces, "PQ"):
         for result, name, look in zip(results, several.names, several.looks):
             axes.plot(result.table["x"], result.table[column], label=name, **{"linewidth": 0.9, **look})
@@ -114,8 +114,8 @@ def over_x(results, several, numbers):
 def over_time(results, several, draw_second, numbers=()):
     """P over time and at the first reversal; below it what is asked for, and the numbers over the parameter."""
     finest = max(results, key=level)  # of several the first
-    views = views_of(finest, results)
-    figure, panels, rest = rows_of_panels(2, len(views), numbers)
+    views = choose_views(finest, results)
+    figure, panels, rest = make_panels(2, len(views), numbers)
     for column, view in enumerate(views):
         draw_forces(panels[0][column], results, several, view, "P")
         draw_second(panels[1][column], results, several, view)
@@ -138,7 +138,7 @@ def level(result):
     return LEVELS.index(name) if name in LEVELS else -1
 
 
-def views_of(finest, results):
+def choose_views(finest, results):
     """All, and the first reversal in milliseconds."""
     everything = View(0, max(result.table["time"].max() for result in results), 0, 1, 150)
     if len(turning_points(finest)) == 0:
@@ -201,7 +201,7 @@ def pressures(results, x=None):
 
     x [mm]: 0.9 of the largest one that all reach unless it is given. Runs that have no step there are shifted by what they miss.
     """
-    several = told_apart(results)
+    several = distinguish(results)
     x = 0.9 * min(float(result.friction_face.x.max()) for result in results) if x is None else x
     x = results[0].face(x).x
     figure, panels = plt.subplots(3, 2, sharex="col", sharey="row", figsize=(TWO_COLUMNS, 130 * MILLIMETRE))
@@ -246,7 +246,7 @@ def draw_faces(panels, faces, several, x):
 
 @script
 def main(arguments=None):
-    parser = parser_of(__doc__)
+    parser = make_parser(__doc__)
     add_folders(parser)
     add_output(parser, default="comparison.png here")
     options = parser.parse_args(arguments)

@@ -43,20 +43,20 @@ def contact(result):
 
 def chosen_states(result, count=COUNT):
     """[(row of the face's steps, way, number of the position)] of states in contact, spread over x, the same x each way."""
-    face, ways = result.friction_face, ways_of_states(result)
-    pressed = np.flatnonzero(result.table["P"][rows_of_states(result)] > 0)
+    face, ways = result.friction_face, find_state_ways(result)
+    pressed = np.flatnonzero(result.table["P"][find_state_rows(result)] > 0)
     if len(pressed) == 0:
         return []
-    wanted = positions(face.x[pressed], count)
-    near = np.diff(wanted).min(initial=np.inf) / 2
+    places = positions(face.x[pressed], count)
+    near = np.diff(places).min(initial=np.inf) / 2
     found = []
     for way in WAYS:
-        rows = first_stroke_of(pressed, ways, way)
-        for number, x in enumerate(wanted):
+        rows = first_stroke(pressed, ways, way)
+        for number, x in enumerate(places):
             away = np.abs(face.x[rows] - x)
             if len(rows) and away.min() <= near:
                 # Behind the reversal at the largest x the contact sticks, and is pressed most once it slides.
-                reach = max(away.min(), TURN * x if x == wanted[-1] else 0)
+                reach = max(away.min(), TURN * x if x == places[-1] else 0)
                 found.append((int(max(rows[away <= reach], key=lambda row: face.pressure[row].max())), way, number))
     return [state for state in found if (face.pressure[state[0]] > 0).any()]
 
@@ -72,27 +72,27 @@ def positions(x, count):
     return np.array(apart) if len(apart) <= count else np.linspace(max(x.min(), far / count), far, count)
 
 
-def rows_of_states(result):
+def find_state_rows(result):
     """Returns the rows of the table at which the face was recorded."""
-    return result.friction_face.rows_of(result.table["time"])
+    return result.friction_face.find_rows(result.table["time"])
 
 
-def ways_of_states(result):
+def find_state_ways(result):
     """1 forward, -1 backward; a turning point belongs to the stroke that led to it."""
-    return result.ways[rows_of_states(result)]
+    return result.ways[find_state_rows(result)]
 
 
-def first_stroke_of(rows, ways, way):
+def first_stroke(rows, ways, way):
     """Those of the first stroke that way; later ones repeat it."""
-    of_way = rows[ways[rows] == way]
-    if len(of_way) == 0:
-        return of_way
-    changed = np.flatnonzero(ways[of_way[0] :] != way)
-    end = of_way[0] + changed[0] if len(changed) else len(ways)
-    return of_way[of_way < end]
+    stroke_rows = rows[ways[rows] == way]
+    if len(stroke_rows) == 0:
+        return stroke_rows
+    changed = np.flatnonzero(ways[stroke_rows[0] :] != way)
+    end = stroke_rows[0] + changed[0] if len(changed) else len(ways)
+    return stroke_rows[stroke_rows < end]
 
 
-def centre_of_pressure(face, step):
+def pressure_centre(face, step):
     force = face.weight * face.pressure[step]
     return np.sum(force * face.xi) / np.sum(force)
 
@@ -118,9 +118,9 @@ def draw_along_face(axes, face, chosen):
 def draw_about_centre(axes, face, chosen):
     for step, way, number in chosen:
         patch = pressed_points(face, step)
-        xi, pressure, centre = face.xi[patch], face.pressure[step][patch], centre_of_pressure(face, step)
-        look_of_it = {"color": COLOURS[number], "linestyle": WAYS[way][1], "marker": MARKERS[number], "markersize": 2}
-        axes.plot(xi - centre, pressure, linewidth=0.8, **look_of_it)
+        xi, pressure, centre = face.xi[patch], face.pressure[step][patch], pressure_centre(face, step)
+        line_look = {"color": COLOURS[number], "linestyle": WAYS[way][1], "marker": MARKERS[number], "markersize": 2}
+        axes.plot(xi - centre, pressure, linewidth=0.8, **line_look)
     axes.set_xlabel(f"$\\xi$ minus the centre of pressure [{face.xi.unit}]")
     axes.set_ylabel(f"pressure [MPa]")
 

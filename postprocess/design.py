@@ -77,7 +77,7 @@ def judgements(result):
     names = asked_quantities(result)
     judges = [f"{judge} {number:.0f}" for judge, number in zip(group["judge"].astype(str), group["round"])]
     figure, axes = plt.subplots(figsize=(max(ONE_COLUMN, 14 * MILLIMETRE * len(judges)), 75 * MILLIMETRE), squeeze=True)
-    handles, told, farthest = [], [], 1.0
+    handles, labels, farthest = [], [], 1.0
     for index, name in enumerate(names):
         found, expected = group[slug(name)], group[f"expected_{slug(name)}"]
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -86,7 +86,7 @@ def judgements(result):
             continue
         look = {"color": COLOURS[index % len(COLOURS)], "marker": MARKERS[index % len(MARKERS)]}
         handles += axes.plot(np.arange(len(judges)), ratio, linewidth=0.6, markersize=4, **look)
-        told.append(name)
+        labels.append(name)
         farthest = max(farthest, np.nanmax(np.abs(ratio)))
     axes.axhline(0, color="black", linewidth=0.6)
     axes.set_xticks(range(len(judges)), judges, rotation=45 if len(judges) > 3 else 0)
@@ -95,5 +95,5 @@ def judgements(result):
     axes.set_ylim(-2 * farthest, 2 * farthest)
     axes.set_ylabel("judge above what was expected [%]")
     axes.set_xlabel("judge and round")
-    legend_on_top(figure, handles, told)
+    legend_on_top(figure, handles, labels)
     return figure

@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.patches import Circle, Polygon
 
-from apparatus import connectors, device_of
-from arguments import add_output, add_program, parser_of, picture_paths, save, script
+from apparatus import connectors, make_device
+from arguments import add_output, add_program, make_parser, picture_paths, save, script
 from drafting import CENTRE_LINE, HIDDEN, angle, dimension, force, ground, note, outline, pointer, spiral, zigzag
 from sprag.results import NotAResult
 from style import COLOURS, MILLIMETRE, TWO_COLUMNS, plt, use_print_style
@@ -100,7 +100,7 @@ def drawing(device, x=None):
         draw_lever(axes, device, device.geometry(x, -1), mirrored=True)
     draw_support(axes, device, geometry, 0.13 * geometry.pivot[0])
     draw_dimensions(axes, device, geometry, points)
-    draw_forces(axes, device, geometry, top_of(device, geometry))
+    draw_forces(axes, device, geometry, find_top(device, geometry))
     name_parts(axes, device, geometry, points)
     axes.set_aspect("equal")
     axes.axis("off")
@@ -118,7 +118,7 @@ def caption(device, x):
     )
 
 
-def top_of(device, geometry):
+def find_top(device, geometry):
     """Returns the largest coordinate across the lever above its contact."""
     near = np.abs(device.frame.nodes[:, 0] - geometry.s) < 0.1 * geometry.pivot[0]
     solid = device.frame.shown(["lever", "web", "plate", "layer", "hub"])
@@ -239,7 +239,7 @@ def fit(figure, axes):
 
 @script
 def main(arguments=None):
-    parser = parser_of(__doc__)
+    parser = make_parser(__doc__)
     parser.add_argument("scene", type=Path, metavar="FILE.prm|DIR", help="a scene, or the folder of a result")
     parser.add_argument("--x", type=float, help="position of the cylinder [mm]; default: the end of the stroke")
     add_output(parser, default="device.png in the folder, or FILE-device.png here")
@@ -248,7 +248,7 @@ def main(arguments=None):
     use_print_style()
     if not options.scene.exists():
         raise NotAResult(f"{options.scene}: no such file")
-    figure = drawing(device_of(options.scene, options.sprag, options.x), options.x)
+    figure = drawing(make_device(options.scene, options.sprag, options.x), options.x)
     default = options.scene / "device" if options.scene.is_dir() else Path(f"{options.scene.stem}-device")
     save(figure, picture_paths(options, default))
 

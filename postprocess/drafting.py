@@ -58,14 +58,14 @@ def angle(axes, corner, radius, begin, end, text, away=(-4, 0), **style):
 def outline(axes, points, edges, **style):
     """Fills what lies to the left of directed edges, numbers of points; a hole is what its edges go round the other way."""
     vertices, codes = [], []
-    for loop in loops_of(edges, points):
+    for loop in find_loops(edges, points):
         vertices += [*points[loop], points[loop[0]]]
         codes += [Path.MOVETO, *[Path.LINETO] * (len(loop) - 1), Path.CLOSEPOLY]
     if vertices:
         axes.add_patch(PathPatch(Path(vertices, codes), **style))
 
 
-def loops_of(edges, points):
+def find_loops(edges, points):
     """Chains of the edges' first points; points at the same place are one."""
     keys = [tuple(key) for key in np.round(points, 5) + 0.0]
     following = {}

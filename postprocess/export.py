@@ -15,7 +15,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from arguments import add_folders, add_output, parser_of, script
+from arguments import add_folders, add_output, make_parser, script
 from sprag.parameters import parse
 from sprag.results import NotAResult, open_result, read_result
 
@@ -29,19 +29,19 @@ FIRST = ("time", "x", "first", "second", "direction", "v", "theta", "s", "P", "F
 # Tables of a result
 
 
-def tables_of(result):
+def read_tables(result):
     """{name: {header: values}} of all but the friction face, columns of one table equally long. Throws NotAResult."""
-    tables = {"table": columns_of(result)} if result.table else {}
+    tables = {"table": read_columns(result)} if result.table else {}
     with open_result(result.folder / "result.h5") as file:
         if "map" in file:
             axes = {name: file["map"][name].attrs["description"] for name in ("first", "second")}
             tables["table"] = {header(axes.get(name, name), result.units[name]): values for name, values in ordered(result.table).items()}
         for name in sorted(set(file) - {"table", "face", "parameters", "runs", *ENTRIES}):
-            tables.update(tables_of_group(name, file[name]))
+            tables.update(read_group_tables(name, file[name]))
     return tables
 
 
-def columns_of(result):
+def read_columns(result):
     """The table, of a study what was varied first and its words last."""
     columns, texts = result.columns(), result.groups.get("runs", {})
     first = ordered({name: values for name, values in columns.items() if name in result.table}, [name for name in texts if name in result.table])
@@ -58,21 +58,21 @@ def header(name, unit):
     return f"{name} [{unit}]" if unit else name
 
 
-def tables_of_group(name, group):
+def read_group_tables(name, group):
     """Numbers of one dimension by their length; those of two over both of their axes, a row a point."""
     if name == "map":
         return {"map": over_axes(group, "first", "second", {n: d for n, d in group.items() if d.ndim == 2})}
     by_length = {}
     for column, data in ordered(group).items():
         if data.ndim == 1:
-            by_length.setdefault(len(data), {})[header(column, data.attrs.get("unit"))] = values_of(data)
+            by_length.setdefault(len(data), {})[header(column, data.attrs.get("unit"))] = read_values(data)
     if name == "modes":
-        return tables_of_modes(group, by_length)
+        return split_mode_tables(group, by_length)
     widest_first = sorted(by_length.items(), key=lambda item: -len(item[1]))
     return {name if i == 0 else f"{name}-{next(iter(columns)).split()[0]}": columns for i, (_, columns) in enumerate(widest_first)}
 
 
-def tables_of_modes(group, by_length):
+def split_mode_tables(group, by_length):
     number = len(group["frequency"])
     numbered = {"mode [1]": np.arange(1, number + 1), **{k: v for k, v in by_length.get(number, {}).items() if k != "xi [mm]"}}
     shapes = {name: data for name, data in group.items() if data.ndim == 2}
@@ -91,7 +91,7 @@ def over_axes(group, first, second, grids):
     return {**named, **{header(name, data.attrs.get("unit")): data[:].ravel() for name, data in grids.items()}}
 
 
-def face_of(result):
+def read_face(result):
     """Pressure and traction, a row for each point under pressure at each step that was written."""
     face = result.friction_face
     if face is None:
@@ -103,22 +103,22 @@ def face_of(result):
     return {header(name, getattr(values, "unit", "MPa")): values for name, values in named.items()}
 
 
-def values_of(data):
+def read_values(data):
     return data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:]
 
 
-def entries_of(result):
+def read_entries(result):
     """{group: {name: {value, unit, description, ...}}} of single numbers and texts, and the parameters."""
     found = {}
     with open_result(result.folder / "result.h5") as file:
         for group in (name for name in ENTRIES if name in file):
-            found[group] = {name: entry_of(data) for name, data in file[group].items()}
+            found[group] = {name: read_entry(data) for name, data in file[group].items()}
     parameters = parse(result.parameters)
     found["parameters"] = {name: {"value": plain(p.number if p.number is not None else p.text), "unit": p.unit} for name, p in parameters.items()}
     return found
 
 
-def entry_of(data):
+def read_entry(data):
     value = data.asstr()[()] if h5py.check_string_dtype(data.dtype) else data[()]
     return {"value": plain(value), **{name: plain(text) for name, text in data.attrs.items()}}
 
@@ -156,20 +156,20 @@ def write_csv(path, names, rows, comma):
 
 def export(result, folder, formats, only, comma):
     """Throws NotAResult where something asked for is not there."""
-    entries = entries_of(result)
-    tables = tables_of(result)
+    entries = read_entries(result)
+    tables = read_tables(result)
     if only and "face" in only:
-        tables["face"] = face_of(result)
+        tables["face"] = read_face(result)
     names = [*tables, *(["summary"] if "summary" in entries else [])]
     unknown = [name for name in only or () if name not in names]
     if unknown:
         raise NotAResult(f"{result.folder}: no {', '.join(unknown)} in it; there are {', '.join([*names, 'face'] if result.friction_face else names)}")
     folder.mkdir(parents=True, exist_ok=True)
-    wanted = only or names
+    chosen = only or names
     if "csv" in formats:
-        for name in (name for name in wanted if name in tables):
+        for name in (name for name in chosen if name in tables):
             write_csv(folder / f"{name}.csv", list(tables[name]), zip(*tables[name].values()), comma)
-        if "summary" in wanted:
+        if "summary" in chosen:
             rows = [(name, entry["value"], entry.get("unit", ""), entry.get("description", "")) for name, entry in entries["summary"].items()]
             write_csv(folder / "summary.csv", ("name", "value", "unit", "description"), rows, comma)
     if "json" in formats:
@@ -180,7 +180,7 @@ def export(result, folder, formats, only, comma):
 
 @script
 def main(arguments=None):
-    parser = parser_of(__doc__)
+    parser = make_parser(__doc__)
     add_folders(parser)
     add_output(parser, "FOLDER", "the result's; of several results one folder each in it", FORMATS, "csv,json")
     parser.add_argument("--only", nargs="+", metavar="NAME", help="as table, summary, map, modes; face has the pressure and comes if named")

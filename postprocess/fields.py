@@ -8,10 +8,10 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection, TriMesh
 from matplotlib.tri import Triangulation
 
-from arguments import add_folders, add_output, parser_of, picture_paths, save, script
+from arguments import add_folders, add_output, make_parser, picture_paths, save, script
 from frames import PARTS, WAYS, any_of, chosen_frame, number, pose, read_frame, rest_inclination
 from sprag.results import NotAResult, read_result
-from shades import COLOUR_MAP, RIGID, is_logarithmic, mappable_of, norm_of, rounded, size_of
+from shades import COLOUR_MAP, RIGID, is_logarithmic, largest_size, make_mappable, make_norm, rounded
 from solid_fields import solid_fields
 from style import COLOURS, MILLIMETRE, TWO_COLUMNS, plt, use_print_style
 from surface import is_solid
@@ -63,7 +63,7 @@ class Scenery:
 def automatic_magnification(scenery):
     """Draws displacements of a twentieth of the lever's length, unless the layer would be turned inside out."""
     span = np.ptp(scenery.frame.nodes[~scenery.frame.shown(["cylinder"]), 0])
-    sizes = [(0.05 * span, size_of(scenery.frame.displacement)), (0.8 * scenery.layer_thickness(), scenery.column("indentation"))]
+    sizes = [(0.05 * span, largest_size(scenery.frame.displacement)), (0.8 * scenery.layer_thickness(), scenery.column("indentation"))]
     return rounded(min((drawn / size for drawn, size in sizes if drawn > 0 and size > 0), default=1.0))
 
 
@@ -77,9 +77,9 @@ def draw_apparatus(axes, scenery, magnify):
         leaf = scenery.leaf.nodes + scenery.leaf.displacement  # turns with the hub: as large as it is
         bodies.append((scenery.leaf, place(leaf, rest_inclination(scenery.result))))
     draw_cylinder(axes, scenery)
-    norm = norm_of([body.stress[body.shown(scenery.coloured)] for body, _ in bodies], each_by_itself(bodies, scenery))
+    norm = make_norm([body.stress[body.shown(scenery.coloured)] for body, _ in bodies], each_by_itself(bodies, scenery))
     for body, where in bodies:
-        mappable = draw_stress(axes, body, where, scenery.coloured, norm) or mappable_of(norm)
+        mappable = draw_stress(axes, body, where, scenery.coloured, norm) or make_mappable(norm)
         add(axes, PolyCollection(where[large_cells(body, np.ptp(points, axis=0).max())], facecolor="none", **GRID))
         add(axes, LineCollection(where[body.borders()], colors="black", linewidths=0.4, zorder=4))
     if magnify > 1:
@@ -246,8 +246,8 @@ def draw_contact(axes, window):
     inside = (np.abs(points[:, 0] - window.middle) < window.half) & (points[:, 1] > low) & (points[:, 1] < high)
     # Whichever part is asked for: here it is the contact.
     coloured = CHOICES["all"]
-    norm = norm_of([frame.stress[inside & frame.shown(coloured)]])
-    mappable = draw_stress(axes, frame, points, coloured, norm) or mappable_of(norm)
+    norm = make_norm([frame.stress[inside & frame.shown(coloured)]])
+    mappable = draw_stress(axes, frame, points, coloured, norm) or make_mappable(norm)
     cells = points[frame.outlines[inside[frame.outlines].any(axis=1)]]
     add(axes, PolyCollection(cells, facecolor="none", edgecolor="white", linewidth=0.3, zorder=3))
     add(axes, LineCollection(points[frame.borders()], colors="black", linewidths=0.8, zorder=4))
@@ -310,7 +310,7 @@ def fields(result, x=None, way=None, magnify=None, part="all", magnify_contact=N
         figure.colorbar(mappable, cax=bar, label="von Mises [MPa]", extend="both" if is_logarithmic(mappable) else "max")
     draw_tractions(below, window)
     zoom.tick_params(bottom=False, labelbottom=False)
-    fit(figure, grid, (shape_of(whole), shape_of(zoom)))
+    fit(figure, grid, (axes_shape(whole), axes_shape(zoom)))
     title, *panels = caption(scenery, magnify, window)
     figure.suptitle(title, fontsize=8)
     for axes, letter, text in zip((whole, zoom, below), "abc", (*panels, "pressure and friction traction on the lever")):
@@ -318,7 +318,7 @@ def fields(result, x=None, way=None, magnify=None, part="all", magnify_contact=N
     return figure
 
 
-def shape_of(axes):
+def axes_shape(axes):
     """Height over width of what is seen."""
     return float(abs(np.ptp(axes.get_ylim()) / np.ptp(axes.get_xlim())))
 
@@ -348,7 +348,7 @@ def magnification(text):
 
 
 def read_arguments(arguments):
-    parser = parser_of(__doc__)
+    parser = make_parser(__doc__)
     add_folders(parser, 1, "result folder with fields (Output/Fields)")
     parser.add_argument("--x", type=float, help="position of the cylinder [mm]; default: the frame of the largest P")
     parser.add_argument("--way", choices=WAYS, help="of motion; default: either")

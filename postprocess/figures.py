@@ -10,8 +10,8 @@ import numpy as np
 from PIL import Image
 
 import plot
-from apparatus import device_of
-from arguments import add_output, add_program, parser_of
+from apparatus import make_device
+from arguments import add_output, add_program, make_parser
 from comparison import comparison
 from contact import contact
 from device import drawing
@@ -56,13 +56,13 @@ def friction_over_speed(run):
     return figure
 
 
-def sweeps_of_models(run):
+def sweep_models(run):
     return [run("fig10"), run("closed-form-b", "fig10-b", changes={"Analysis/Type": "slope"})]
 
 
-def slopes_of_models(run):
+def draw_model_slopes(run):
     """Fig. 10: both models, marked where the experiment stands."""
-    sweeps = sweeps_of_models(run)
+    sweeps = sweep_models(run)
     coefficient = experiment_coefficient(run)
     names = ("model A", "model B")
     figure = slopes_over_coefficient(sweeps, names)
@@ -73,9 +73,9 @@ def slopes_of_models(run):
     return figure
 
 
-def slopes_of_geometries(run):
+def draw_geometry_slopes(run):
     """Fig. 11: a curve for every e/R, models A and B marked."""
-    sweeps = sweeps_of_models(run)
+    sweeps = sweep_models(run)
     coefficient = experiment_coefficient(run)
     inclinations = [run(scene).table["theta"][0] for scene in ("closed-form-a", "closed-form-b")]
     figure = slopes_over_inclination(run("fig11"))
@@ -109,7 +109,7 @@ def depths(run):
 
 
 def device(scene, run):
-    return drawing(device_of(ROOT / "params" / f"{scene}.prm", run.sprag, None))
+    return drawing(make_device(ROOT / "params" / f"{scene}.prm", run.sprag, None))
 
 
 def drawn(scene, picture):
@@ -134,8 +134,8 @@ FIGURES = {
     "fig-07": lambda run: forces_over_time([run("model-a")]),
     "fig-08": lambda run: forces_over_x([run("model-a")]),
     "fig-09": lambda run: forces_over_x([run("model-b")]),
-    "fig-10": slopes_of_models,
-    "fig-11": slopes_of_geometries,
+    "fig-10": draw_model_slopes,
+    "fig-11": draw_geometry_slopes,
     "contact": lambda run: contact(run("model-a")),
     "fields-a": lambda run: fields(run("model-a")),
     # The device and the apparatus.
@@ -201,7 +201,7 @@ def shrink(path):
 
 
 def read_arguments(arguments):
-    parser = parser_of(__doc__)
+    parser = make_parser(__doc__)
     add_program(parser)
     add_output(parser, "PICTURE_DIR", "postprocess/pictures")
     parser.add_argument("--only", nargs="+", metavar="NAME", default=list(FIGURES), help="these pictures and the runs they need")

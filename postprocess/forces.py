@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from several import told_apart
+from several import distinguish
 from sprag.results import WAYS
 from style import MILLIMETRE, ONE_COLUMN, TWO_COLUMNS, label, legend_on_top, panel_letter, plt, set_labels, with_unit
 
@@ -44,7 +44,7 @@ def explain(figure, panels, beside, results, several):
 
 def forces_over_time(results):
     """x, P and Q over time (Fig. 7 of the paper)."""
-    several = told_apart(results)
+    several = distinguish(results)
     width = ONE_COLUMN if len(results) == 1 else 1.3 * ONE_COLUMN
     figure, panels = plt.subplots(3, 1, sharex=True, figsize=(width, 125 * MILLIMETRE))
     for axes, column, letter in zip(panels, ("x", "P", "Q"), "abc"):
@@ -59,7 +59,7 @@ def forces_over_time(results):
 
 def forces_over_x(results):
     """P and Q over x with the direction of motion and the line C_Q x (Figs. 8 and 9 of the paper)."""
-    several = told_apart(results)
+    several = distinguish(results)
     figure, panels = plt.subplots(1, 2, figsize=(TWO_COLUMNS, 76 * MILLIMETRE))
     for axes, column, letter in zip(panels, ("P", "Q"), "ab"):
         draw_column(axes, results, several, "x", column)

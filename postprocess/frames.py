@@ -79,8 +79,8 @@ def read_frame(result, path=None, row=None):
     moved = [np.broadcast_to(mesh[name], (len(mesh["nodes"]), 3))[:, :2] if path else np.zeros((len(mesh["nodes"]), 2)) for name in MOVED[:2]]
     stress = mesh["von_mises_stress"] if path else np.zeros(len(mesh["nodes"]))
     part = mesh["part"].round().astype(int)
-    of_first = mesh["lever"] == 1
-    quads_of_all = mesh["cells"].astype(int)
+    is_first = mesh["lever"] == 1
+    all_quads = mesh["cells"].astype(int)
 
     rest = pose(result)
     stands = rest if row is None else pose(result, row)
@@ -94,7 +94,7 @@ def read_frame(result, path=None, row=None):
         kept = np.flatnonzero(which)
         if len(kept) == 0:
             return None
-        quads = quads_of_all[which[quads_of_all[:, 0]]]
+        quads = all_quads[which[all_quads[:, 0]]]
         frame = Frame(in_lever[kept], np.searchsorted(kept, quads), displacement[kept], stress[kept], names[kept], 0)
         # m = p^2 cells and n = (p + 1)^2 cells.
         frame.degree = round(1 / (np.sqrt(len(frame.nodes) / len(frame.quads)) - 1))
@@ -102,7 +102,7 @@ def read_frame(result, path=None, row=None):
 
     leaf = part == NUMBERS["leaf"]
     bent = rest.along_axes(nodes + moved[0] - stands.pivot) - in_lever
-    return only(of_first & ~leaf, stands.along_axes(moved[1])), only(of_first & leaf, bent)
+    return only(is_first & ~leaf, stands.along_axes(moved[1])), only(is_first & leaf, bent)
 
 
 @dataclass
@@ -202,8 +202,8 @@ def chosen_frame(result, x=None, way=None):
         return max(candidates, key=lambda frame: result.table["P"][frame.row])
     nearest = min(candidates, key=lambda frame: abs(frame.x - x), default=None)
     if nearest is None or abs(nearest.x - x) > near:
-        wanted = " ".join(filter(None, (f"at x = {x:g} mm" if x is not None else "", way)))
-        raise NotAResult(f"{result.folder}: no frame {wanted}: there are {listed(frames)}; {how_to_get_more(result)}")
+        request = " ".join(filter(None, (f"at x = {x:g} mm" if x is not None else "", way)))
+        raise NotAResult(f"{result.folder}: no frame {request}: there are {listed(frames)}; {how_to_get_more(result)}")
     return nearest
 
 

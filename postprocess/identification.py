@@ -10,13 +10,13 @@ FARTHEST = 40  # rows of the autocorrelation
 NAMES = {"mu": r"$\mu$", "k": "$k$", "e": "$e$", "th0": r"$\theta_0$", "lag": "lag", "friction_factor": "factor"}
 
 
-def forces_of(result):
+def measured_forces(result):
     return [name.removesuffix("_fitted") for name in ("P_fitted", "Q_fitted", "sensors_fitted") if name in result.table]
 
 
 def identification(result):
     """A row of panels for each force, below them the autocorrelation of what is left and the correlation of the unknowns."""
-    forces = forces_of(result)
+    forces = measured_forces(result)
     rows = len(forces) + 1
     figure = plt.figure(figsize=(TWO_COLUMNS, (52 * rows + 4) * MILLIMETRE))
     panels = figure.subplots(rows, 2)
@@ -50,10 +50,10 @@ def draw_force(axes, result, force):
         style = {"color": COLOURS[0 if way > 0 else 1], "linestyle": LINES[0 if way > 0 else 1]}
         axes.plot(table["x"][order], table[f"{force}_fitted"][order], label=label, **style)
     axes.set_xlabel("$x$ [mm]")
-    axes.set_ylabel(label_of(force))
+    axes.set_ylabel(force_label(force))
 
 
-def label_of(force, what=""):
+def force_label(force, what=""):
     return f"{what}sensors [N]" if force == "sensors" else f"{what}${force}$ [N]"
 
 
@@ -68,7 +68,7 @@ def draw_residual(axes, result, force):
     left = np.abs(table[f"{force}_residual"][table["used"] > 0])
     axes.set_ylim(*(1.7 * max(left.max(), 2 * noise) * np.array((-1, 1))))
     axes.set_xlabel("$x$ [mm]")
-    axes.set_ylabel(label_of(force, "measured less fitted "))
+    axes.set_ylabel(force_label(force, "measured less fitted "))
 
 
 def autocorrelation(result, force):

@@ -79,12 +79,12 @@ def transmissibility(result):
     others = [parameter for parameter in varied if parameter is not frequency]
     settings = np.array([", ".join(p.said(p.texts[row]) for p in others) for row in range(len(frequency.numbers))])
     figure, panels = plt.subplots(1, 3, figsize=(TWO_COLUMNS, 82 * MILLIMETRE))
-    wanted = (
+    contents = (
         ("transmissibility_peak", "largest acceleration over the base's"),
         ("transmissibility_fundamental", "first harmonic over the base's"),
         ("relative_amplitude", "largest $|z|$ [mm]"),
     )
-    for axes, (name, said), letter in zip(panels, wanted, "abc"):
+    for axes, (name, said), letter in zip(panels, contents, "abc"):
         for index, setting in enumerate(dict.fromkeys(settings)):
             rows = np.flatnonzero(settings == setting)
             rows = rows[np.argsort(frequency.numbers[rows], kind="stable")]
@@ -151,7 +151,7 @@ def spectra(result):
         centres, velocity = third_octaves(time, result.table[name])
         drawn.append(velocity)
         axes.loglog(centres, 1000 * velocity, label=said, drawstyle="steps-mid", **look(index))
-    begin, end = band_of(result, centres)
+    begin, end = frequency_band(result, centres)
     for name, limit in CRITERIA.items():
         frequency = np.array([begin, min(max(8, begin), end), end])
         level = 1000 * limit * (np.maximum(1, 8 / frequency) if name in BENT else np.ones(3))
@@ -167,7 +167,7 @@ def spectra(result):
     return figure
 
 
-def band_of(result, centres):
+def frequency_band(result, centres):
     """Returns the lowest and the highest frequency of the floor's motion."""
     if result.parameter("Isolation", "Base motion") == "random":
         return (float(result.parameter("Isolation", f"{end} frequency")) for end in ("Lowest", "Highest"))

@@ -53,14 +53,14 @@ def segments(points, n_kinds=len(KINDS)):
     lines = {kind: [] for kind in range(n_kinds)}
     for crossing in quads.values():
         for kinds in {kinds for *_, kinds in crossing}:
-            same = [(first, second) for first, second, of in crossing if of == kinds]
+            same = [(first, second) for first, second, between in crossing if between == kinds]
             if len(same) == 2:
                 lines[int(max(kinds))].append(same)
         if len({kinds for *_, kinds in crossing}) > 1:
             # Three kinds meet: each line ends in the middle.
             middle = tuple(np.mean([point[:2] for point in crossing], axis=0))
             for first, second, kinds in crossing:
-                if sum(of == kinds for *_, of in crossing) == 1:
+                if sum(between == kinds for *_, between in crossing) == 1:
                     lines[int(max(kinds))].append([(first, second), middle])
     return lines
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from arguments import parser_of, script
+from arguments import make_parser, script
 from sprag.results import NotAResult, read_result
 
 COLUMNS = {"time": "s", "x": "mm", "P": "N", "Q": "N"}
@@ -41,7 +41,7 @@ def write(table, path):
 
 @script
 def main(arguments=None):
-    parser = parser_of(__doc__)
+    parser = make_parser(__doc__)
     parser.add_argument("folder", type=Path, help="result folder of a run along a drive")
     parser.add_argument("-o", "--output", required=True, help="CSV file to write")
     parser.add_argument("--rate", type=float, default=500.0, help="rows a second (default 500)")

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
-from arguments import add_output, parser_of, picture_paths, save, script
+from arguments import add_output, make_parser, picture_paths, save, script
 from frames import number, pose, read_frame
 from sprag.results import NotAResult, read_result
 from style import MILLIMETRE, TWO_COLUMNS, legend_on_top, plt, use_print_style
@@ -50,7 +50,7 @@ class Mesh:
         return np.concatenate([cells.reshape(-1, 2) for cells in self.parts.values()])
 
 
-def of_folder(folder):
+def read_folder(folder):
     """The mesh of a run, undeformed, with the cylinder at its turning point and the leaf spring as it was made."""
     result = read_result(folder)
     if not (folder / "fields-mesh.h5").is_file():
@@ -92,7 +92,7 @@ def sections(path):
     return found
 
 
-def elements_of_version_2(text):
+def read_elements_2(text):
     nodes = {int(line.split()[0]): [float(word) for word in line.split()[1:3]] for line in text["Nodes"][1:]}
     elements = []
     for line in text["Elements"][1:]:
@@ -101,7 +101,7 @@ def elements_of_version_2(text):
     return nodes, elements
 
 
-def elements_of_version_4(text):
+def read_elements_4(text):
     groups = {}  # (dimension, tag of the entity) -> physical group
     lines = iter(text.get("Entities", ["0 0 0 0"]))
     counts = [int(word) for word in next(lines).split()]
@@ -126,14 +126,14 @@ def elements_of_version_4(text):
     return nodes, elements
 
 
-def of_msh(path):
+def read_msh(path):
     """The mesh of a file, coloured by its physical groups."""
     try:
         text = sections(path)
         version, binary = text["MeshFormat"][0].split()[:2]
         if binary != "0" or version not in ("2.2", "4.1"):
             raise NotAResult(f"{path}: must be ASCII of version 2.2 or 4.1")
-        nodes, elements = (elements_of_version_2 if version == "2.2" else elements_of_version_4)(text)
+        nodes, elements = (read_elements_2 if version == "2.2" else read_elements_4)(text)
         names = {}
         for line in text.get("PhysicalNames", [])[1:]:
             dimension, tag, name = line.split(maxsplit=2)
@@ -152,11 +152,11 @@ def of_msh(path):
         raise NotAResult(f"{path}: no quadrilaterals in it")
     mesh.parts = {name: np.array(cells) for name, cells in parts.items()}
     mesh.curves = {name: np.array(segments) for name, segments in curves.items()}
-    mesh.look = look_of(mesh)
+    mesh.look = choose_look(mesh)
     return mesh
 
 
-def look_of(mesh):
+def choose_look(mesh):
     """The contact where there is one to be; a leaf spring's joint."""
     for name, up in (("friction face", 1.5), ("cylinder face", -1.5), ("joint", 0)):
         if name in mesh.curves:
@@ -169,19 +169,19 @@ def draw_parts(axes, mesh, width):
     for name, cells in mesh.parts.items():
         axes.add_collection(PolyCollection(cells, facecolor=FILLS[name], edgecolor="0.25", linewidth=width, label=name or None))
     for name, segments in mesh.curves.items():
-        axes.add_collection(LineCollection(segments, colors=CURVES[name], linewidths=1.4, label=label_of(mesh, name), zorder=3))
+        axes.add_collection(LineCollection(segments, colors=CURVES[name], linewidths=1.4, label=curve_label(mesh, name), zorder=3))
     axes.set_aspect("equal")
     axes.grid(False)
     axes.set_xlabel("along the lever [mm]")
     axes.set_ylabel("across [mm]")
 
 
-def label_of(mesh, curve):
+def curve_label(mesh, curve):
     """A curve may bear the name of a part."""
     return f"{curve} (curve)" if curve in mesh.parts else curve
 
 
-def figure_of(mesh):
+def draw_mesh(mesh):
     (left, low), (right, high) = mesh.every_point().min(axis=0), mesh.every_point().max(axis=0)
     low = min(low, 0)
     height = np.clip((high - low + 11) / (right - left + 8), 0.25, 0.8) * 152
@@ -209,7 +209,7 @@ def figure_of(mesh):
 
 @script
 def main(arguments=None):
-    parser = parser_of(__doc__)
+    parser = make_parser(__doc__)
     parser.add_argument("meshes", nargs="+", type=Path, metavar="DIR|FILE.msh")
     add_output(parser, default="mesh.png in the folder, or FILE.png beside the file")
     options = parser.parse_args(arguments)
@@ -217,8 +217,8 @@ def main(arguments=None):
         parser.error("-o goes with one mesh only")
     use_print_style()
     for path in options.meshes:
-        mesh = of_folder(path) if path.is_dir() else of_msh(path)
-        figure = figure_of(mesh)
+        mesh = read_folder(path) if path.is_dir() else read_msh(path)
+        figure = draw_mesh(mesh)
         save(figure, picture_paths(options, path / "mesh" if path.is_dir() else path.with_suffix("")), DPI)
         plt.close(figure)
 

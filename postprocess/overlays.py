@@ -5,11 +5,11 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from map import boundary_lines, read_map
-from several import headlines_in_common, told_apart
+from several import distinguish, headlines_in_common
 from sprag.results import NotAResult
 from style import MILLIMETRE, TWO_COLUMNS, WIDE, in_maths, is_signal, label, panel_letter, parameter_label, plt
 from vibration import scale_eigenvalues
-from study import MOST_PANELS, abscissa_of, panels_for, quantities_of, varied_parameters
+from study import MOST_PANELS, choose_abscissa, find_quantities, panels_for, varied_parameters
 
 # Columns over columns, of results of one type.
 CURVES = {
@@ -44,7 +44,7 @@ def overlays(results):
 
 def curves(results, pairs):
     """A column over another in each panel, a line a result; it is broken where the abscissa begins anew."""
-    several = told_apart(results)
+    several = distinguish(results)
     shown = [pair for pair in pairs if all(result.has(column) for result in results for column in pair)]
     if not shown:
         return None
@@ -68,7 +68,7 @@ def broken(x, y):
 
 def eigenvalues(results):
     """Growth rate and frequency of the lowest modes; of undamped ones the frequency alone."""
-    several, modes = told_apart(results), [result.groups["modes"] for result in results]
+    several, modes = distinguish(results), [result.groups["modes"] for result in results]
     rates, frequencies = (np.concatenate([group[name] for group in modes]) for name in ("growth_rate", "frequency"))
     grow = is_signal(rates, frequencies)
     figure, axes = plt.subplots(figsize=(TWO_COLUMNS, 75 * MILLIMETRE))
@@ -88,10 +88,10 @@ def eigenvalues(results):
 
 def studies(results):
     """The quantities of studies over the parameter that they share; None where there is none."""
-    several = told_apart(results)
+    several = distinguish(results)
     varied = [varied_parameters(result) for result in results]
-    abscissae = [abscissa_of(parameters) for parameters in varied]
-    names = [name for name in quantities_of(results[0]) if all(result.has(name) for result in results)]
+    abscissae = [choose_abscissa(parameters) for parameters in varied]
+    names = [name for name in find_quantities(results[0]) if all(result.has(name) for result in results)]
     if len({abscissa.name for abscissa in abscissae}) > 1 or not all(abscissa.is_number for abscissa in abscissae) or not names:
         return None
     figure, panels = panels_for(len(names))
@@ -113,7 +113,7 @@ def studies(results):
 
 def boundaries(results):
     """The boundaries of maps over the same two parameters, forward and backward; None over others."""
-    several, charts = told_apart(results), [read_map(result) for result in results]
+    several, charts = distinguish(results), [read_map(result) for result in results]
     if len({chart.names for chart in charts}) > 1:
         return None
     figure, panels = plt.subplots(1, 2, sharex=True, sharey=True, figsize=(TWO_COLUMNS, 82 * MILLIMETRE))
@@ -144,7 +144,7 @@ def numbers_in_common(results):
 
 def numbers(results, names):
     """A panel for each, over the parameter that differs where it is a number, else over the names of the results."""
-    several = told_apart(results)
+    several = distinguish(results)
     figure, panels = panels_for(len(names))
     for axes, name, letter in zip(panels, names, "abcdef"):
         draw_number(axes, results, several, name)

@@ -16,7 +16,7 @@ def has_pair(result):
     return all(result.has(column) for column in ("P", "P_2", "swing", "lateral_force"))
 
 
-def pair_of_levers(result):
+def draw_pair(result):
     """P and F of both levers, their swing and their force on the cylinder across its path, where that is not mere round-off.
 
     Over x, forward and backward; with inertia over time, with a look at the first reversal.

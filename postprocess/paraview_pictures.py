@@ -17,7 +17,7 @@ WIDTH = 1100  # of a picture [pixels]
 SHOWN = {"fields": "von_mises_stress [MPa]", "mode": "displacement [mm]"}
 
 
-def arrays_of(reader, time):
+def read_arrays(reader, time):
     """Numbers of every array at the nodes, and positions."""
     simple.UpdatePipeline(time, reader)
     data = servermanager.Fetch(reader)
@@ -36,7 +36,7 @@ def chosen_time(reader, name, folder):
     face = simple.XDMFReader(FileNames=[str(folder / "face.xdmf")])
     forces = []
     for time in times:
-        points, found = arrays_of(face, time)
+        points, found = read_arrays(face, time)
         length = abs(points[1:, 0] - points[:-1, 0])
         forces.append(float((found["pressure [MPa]"][1:] * length * (length < 1)).sum()))
     simple.Delete(face)
@@ -48,7 +48,7 @@ def picture(index, path, magnify):
     name = "mode" if index.stem.startswith("mode") else "fields"
     reader = simple.XDMFReader(FileNames=[str(index)])
     time = chosen_time(reader, name, index.parent)
-    points, found = arrays_of(reader, time)
+    points, found = read_arrays(reader, time)
     moved = points + magnify * found["displacement [mm]"]
     warp = simple.WarpByVector(Input=reader, Vectors=["POINTS", "displacement [mm]"], ScaleFactor=magnify)
 

@@ -9,7 +9,7 @@ from pathlib import Path
 if __name__ == "__main__":
     gc.disable()  # it would take 6 % of the time, for next to no memory
 
-from arguments import DPI, add_folders, add_output, names_picture, parser_of, save, script
+from arguments import DPI, add_folders, add_output, make_parser, names_picture, save, script
 from calibration import calibration
 from comparison import check_steps, comparisons
 from contact import contact
@@ -20,7 +20,7 @@ from frames import written_frames
 from identification import identification
 from isolation import is_transmissibility_study, isolation_pictures, transmissibility
 from map import stability_map
-from pair import has_pair, pair_of_levers
+from pair import draw_pair, has_pair
 from sprag.results import NotAResult, read_result
 from report import write_report
 from sensors import has_sensors, sensor_forces
@@ -70,10 +70,10 @@ def draw(results):
             return sprag_slip_pictures(result)
         case "isolation":
             return isolation_pictures(result)
-    return pictures_of_drive(result)
+    return draw_drive(result)
 
 
-def pictures_of_drive(result):
+def draw_drive(result):
     pictures = {"forces-over-x": forces_over_x([result])}
     if is_transient(result):
         pictures["forces-over-time"] = forces_over_time([result])
@@ -88,11 +88,11 @@ def pictures_of_drive(result):
     if has_sensors(result):
         pictures["sensors"] = sensor_forces(result)
     if has_pair(result):
-        pictures["pair"] = pair_of_levers(result)
-    return {**pictures, **picture_of_fields(result)}
+        pictures["pair"] = draw_pair(result)
+    return {**pictures, **draw_fields(result)}
 
 
-def picture_of_fields(result):
+def draw_fields(result):
     """Draws the fields at the largest P. A frame that cannot be read, as while it is written, does not stop the other pictures."""
     try:
         return {"fields": fields(result)} if written_frames(result) else {}
@@ -116,7 +116,7 @@ def remove_earlier(pictures, folder, endings):
 
 
 def read_arguments(arguments):
-    parser = parser_of(__doc__)
+    parser = make_parser(__doc__)
     add_folders(parser)
     add_output(parser, "PICTURE_DIR", "the only result folder, or the current one")
     parser.add_argument("--report", action="store_true", help="write report.html too, with all pictures in it")

@@ -5,9 +5,9 @@ import base64
 import re
 from pathlib import Path
 
-from several import headlines_in_common, said, told_apart
+from several import distinguish, headlines_in_common, said
 from sketch import device_svg
-from sprag.parameters import differing, parse, scene_of, set_apart
+from sprag.parameters import differing, parse, scene_text, set_apart
 from sprag.results import NotAResult
 
 # The sketch of the device leaves these out, where a parameter is not as usual.
@@ -30,7 +30,7 @@ def write_report(results, pictures, path):
     environment = Environment(autoescape=select_autoescape(default=True), trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
     parameters = [parse(result.parameters) for result in results]
-    names = told_apart(results).names if len(results) > 1 else [result.name for result in results]
+    names = distinguish(results).names if len(results) > 1 else [result.name for result in results]
     devices = [device_svg(result, each) for result, each in zip(results, parameters)]
     text = template.render(
         title=results[0].name if len(results) == 1 else f"Comparison of {len(results)} results",
@@ -55,7 +55,7 @@ def about(result, name, parameters, device):
         "left_out": [words for (name, usual), words in NOT_SKETCHED.items() if name in parameters and parameters[name].text != usual],
         "warnings": [(text, text.more.get("effect", ""), text.more.get("remedy", "")) for text in warnings(result)],
         "apart": [(key, said(parameter), parameter.default) for key, parameter in apart.items()],
-        "scene": scene_of(apart),
+        "scene": scene_text(apart),
         "meta": {key: rounded(value) for key, value in result.meta.items() if not key.startswith(("cpu_time_", "wall_time_"))},
         "cost": f"{result.meta['cpu_time']:.3g} s of CPU time" if "cpu_time" in result.meta else "",
     }
@@ -70,18 +70,18 @@ def numbers(results):
 
     def entry(name):
         first = results[0].summary[name]
-        return name, first.description, first.unit, [told(result, name) for result in results]
+        return name, first.description, first.unit, [entry_text(result, name) for result in results]
 
     return [entry(name) for name in headlines_in_common(results)]
 
 
-def told(result, name):
-    number, error = result.summary[name], error_of(result, name)
+def entry_text(result, name):
+    number, error = result.summary[name], entry_error(result, name)
     joules = f"{number / 1000:.4g} J" if number.unit == "N mm" else ""
     return f"{number:.4g}", joules, "" if error is None else f"\N{PLUS-MINUS SIGN} {100 * error:.2g} %"
 
 
-def error_of(result, name):
+def entry_error(result, name):
     """The estimated relative error of an entry; None where there is none. Peaks of a force share that of the force."""
     accuracy = result.groups.get("accuracy", {})
     force = re.fullmatch(r"peak_([PQ])_\w+", name)

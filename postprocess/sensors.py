@@ -15,12 +15,12 @@ def has_sensors(result):
     return result.has("sensor_sum") and result.has("P")
 
 
-def sensors_of(result):
+def sensor_columns(result):
     """Columns of the single sensors, counted from the pivot."""
     return sorted((name for name in result.table if re.fullmatch(r"sensor_\d+", name)), key=lambda name: int(name[7:]))
 
 
-def sides_of(result, sensor):
+def sensor_sides(result, sensor):
     """[(column, its line)] of a sensor: in three dimensions left and right of the plate."""
     lines = (("left", {"linestyle": "-"}), ("right", {"linestyle": (0, (5, 1.5))}))
     sides = [(f"{sensor}_{side}", line) for side, line in lines if f"{sensor}_{side}" in result.table]
@@ -83,9 +83,9 @@ def draw_column(panels, result, over, rows):
     table = result.table
     for column, name, colour, line in PAIR:
         panels[0].plot(over[rows], table[column][rows], color=colour, linestyle=line, label=name, linewidth=0.9)
-    for index, column in enumerate(sensors_of(result)):
+    for index, column in enumerate(sensor_columns(result)):
         own = {**look(index + 2), "linewidth": 0.9}
-        for part, line in sides_of(result, column):
+        for part, line in sensor_sides(result, column):
             panels[1].plot(over[rows], table[part][rows], label=part.replace("_", " "), **{**own, **line})
     if len(panels) > 2:
         panels[2].plot(over[rows], (table["sensor_sum"] - table["P"])[rows], color="black", linewidth=0.9)

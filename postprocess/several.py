@@ -9,7 +9,7 @@ from matplotlib import colormaps
 
 from sprag.parameters import differing, parse
 from sprag.results import NotAResult
-from style import LINES, legend_on_top, look, parameter_label, scale_of, with_unit
+from style import LINES, legend_on_top, look, make_scale, parameter_label, with_unit
 
 MOST_RESULTS = 20
 MOST_NAMED = 3  # parameters that differ; where there are more, folders name the results
@@ -52,12 +52,12 @@ class Several:
         legend_on_top(figure, handles, names)
 
 
-def told_apart(results):
+def distinguish(results):
     """Throws NotAResult where there are too many."""
     if len(results) > MOST_RESULTS:
         raise NotAResult(f"{len(results)} results: one picture tells up to {MOST_RESULTS} apart; a study compares more")
     listings = [parse(result.parameters) for result in results]
-    different, looks = differing(listings), looks_of(len(results))
+    different, looks = differing(listings), choose_looks(len(results))
     numerical = all(name.split("/")[0] in NUMERICAL for name in different)
     if not different or len(different) > MOST_NAMED:
         return Several(None, "", 0, None, unique([result.name for result in results], results), looks, numerical)
@@ -74,7 +74,7 @@ def told_apart(results):
     values, names = np.array([parameter.number for parameter in found]), unique(texts, results)
     if len(results) <= MOST_LABELS or len(np.unique(values)) < FEW_NUMBERS:
         return Several(name, label, others, values, names, looks, numerical)
-    scale = scale_of(values)
+    scale = make_scale(values)
     return Several(name, label, others, values, names, [{"color": scale.to_rgba(value)} for value in values], numerical, scale)
 
 
@@ -105,11 +105,11 @@ def chosen(listings):
 
 def unique(texts, results):
     """With the folder where the text does not tell results apart."""
-    told = [text if texts.count(text) == 1 else f"{text} ({result.name})" if text != result.name else text for text, result in zip(texts, results)]
-    return [text if told.count(text) == 1 else f"{text} ({result.folder})" for text, result in zip(told, results)]
+    named = [text if texts.count(text) == 1 else f"{text} ({result.name})" if text != result.name else text for text, result in zip(texts, results)]
+    return [text if named.count(text) == 1 else f"{text} ({result.folder})" for text, result in zip(named, results)]
 
 
-def looks_of(count):
+def choose_looks(count):
     """Curves that words tell apart: seven looks by heart, beyond them as many colours as there are. The first ones are drawn below the
     others and are wider, so that they show where they are hidden."""
     if count <= len(LINES):
@@ -127,8 +127,8 @@ def label_ends(axes, lines, height=0.085):
     `height`: of a line of text, over the panel's.
     """
     ends = [(line, end) for line in lines if (end := last_point(axes, line)) is not None]
-    wanted = [axes.transAxes.inverted().transform(axes.transData.transform(end))[1] for _, end in ends]
-    for (line, end), place in zip(ends, spread(wanted, height)):
+    heights = [axes.transAxes.inverted().transform(axes.transData.transform(end))[1] for _, end in ends]
+    for (line, end), place in zip(ends, spread(heights, height)):
         arrow = {"arrowstyle": "-", "color": line.get_color(), "linewidth": 0.5, "shrinkA": 0, "shrinkB": 1}
         style = {"color": line.get_color(), "fontsize": 7, "va": "center", "annotation_clip": False}
         axes.annotate(line.get_label(), end, xytext=(1.03, place), textcoords="axes fraction", arrowprops=arrow, **style)
@@ -145,10 +145,10 @@ def last_point(axes, line):
     return x[last], y[last]
 
 
-def spread(wanted, apart):
+def spread(heights, apart):
     """Places between 0 and 1 near the wanted ones, at least that far from one another, in their order."""
-    order = np.argsort(wanted, kind="stable")
-    places = np.clip(np.asarray(wanted, dtype=float)[order], 0, 1)
+    order = np.argsort(heights, kind="stable")
+    places = np.clip(np.asarray(heights, dtype=float)[order], 0, 1)
     for _ in range(200):
         for i in range(1, len(places)):
             overlap = apart - (places[i] - places[i - 1])

@@ -18,11 +18,11 @@ def rounded(value):
     return power * max(step for step in (1, 2, 5) if step <= value / power * (1 + 1e-9))
 
 
-def size_of(points):
+def largest_size(points):
     return np.linalg.norm(points, axis=-1).max() if len(points) else 0.0
 
 
-def norm_of(shown, parts=()):
+def make_norm(shown, parts=()):
     """Up to the stress that a thousandth of the nodes exceeds; logarithmic where the parts' own peaks lie far apart."""
     values = np.concatenate(shown) if shown else np.empty(0)
     top = np.quantile(values, 0.999) if len(values) else 0.0
@@ -34,7 +34,7 @@ def norm_of(shown, parts=()):
     return Normalize(0, top, clip=True)
 
 
-def mappable_of(norm):
+def make_mappable(norm):
     return plt.cm.ScalarMappable(norm, COLOUR_MAP)
 
 

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from style import COLOURS, MILLIMETRE, ONE_COLUMN, TWO_COLUMNS, look, plt, scale_of, set_labels, show_legend
+from style import COLOURS, MILLIMETRE, ONE_COLUMN, TWO_COLUMNS, look, make_scale, plt, set_labels, show_legend
 
 
 def slope_sweep(result):
@@ -35,12 +35,12 @@ def slopes_over_inclination(result):
     """A curve for every e/R: up to five of them named in a legend, more by a scale of colours."""
     figure, panels = slope_panels({**result.units, "theta0": "deg"}, "theta0")
     ratios = result.table["offset_ratio"]
-    looks, scale = looks_of(np.unique(ratios))
+    looks, scale = choose_looks(np.unique(ratios))
     for axes, direction in zip(panels, ("forward", "backward")):
-        for ratio, look_of_it in looks.items():
+        for ratio, line_look in looks.items():
             rows = ratios == ratio
             theta0 = np.degrees(result.table["theta0"][rows])
-            axes.plot(theta0, result.table[f"dimensionless_{direction}"][rows], label=f"{ratio:g}", **look_of_it)
+            axes.plot(theta0, result.table[f"dimensionless_{direction}"][rows], label=f"{ratio:g}", **line_look)
         axes.set_xlim(left=0)
         if scale is None:
             axes.legend(title="$e/R$", title_fontsize=7)
@@ -49,10 +49,10 @@ def slopes_over_inclination(result):
     return figure
 
 
-def looks_of(ratios):
+def choose_looks(ratios):
     if len(ratios) <= len(COLOURS):
         return {ratio: look(index) for index, ratio in enumerate(ratios)}, None
-    scale = scale_of(ratios)
+    scale = make_scale(ratios)
     return {ratio: {"color": scale.to_rgba(ratio), "linewidth": 0.9} for ratio in ratios}, scale
 
 

@@ -8,7 +8,7 @@ from matplotlib.collections import PolyCollection
 
 from frames import NUMBERS, chosen_frame, number, pose
 from sprag.results import WAYS, NotAResult, read_fields
-from shades import COLOUR_MAP, RIGID, mappable_of, norm_of, rounded, size_of
+from shades import COLOUR_MAP, RIGID, largest_size, make_mappable, make_norm, rounded
 from style import MILLIMETRE, TWO_COLUMNS, plt
 
 # Corners of a hexahedron's sides, seen from outside against the clock.
@@ -47,17 +47,17 @@ class SolidFrame:
         """Returns for each node if it belongs to the lever."""
         return self.lever > 0
 
-    def cells_of(self, lever):
+    def lever_cells(self, lever):
         return self.lever[self.cells[:, 0]] == lever
 
 
 def read_solid_frame(result, path):
     now, on_face = (read_fields(result.folder, path, group) for group in ("fields", "face"))
     try:
-        elastic, of_face = now["elastic_displacement"], on_face["elastic_displacement"]
+        elastic, elastic_on_face = now["elastic_displacement"], on_face["elastic_displacement"]
         return SolidFrame(now["nodes"], now["displacement"] - elastic, elastic, now["von_mises_stress"],
                           now["part"].round().astype(int), now["cells"].astype(int), now["lever"].round(), on_face["nodes"],
-                          on_face["displacement"] - of_face, of_face, on_face["cells"].astype(int), on_face["lever"].round(),
+                          on_face["displacement"] - elastic_on_face, elastic_on_face, on_face["cells"].astype(int), on_face["lever"].round(),
                           on_face["pressure"])  # fmt: skip
     except (KeyError, ValueError) as error:
         raise NotAResult(f"{path}: cannot be read as fields of this version of sprag ({error})") from error
@@ -117,7 +117,7 @@ def draw_lever(axes, frame, view, magnify, norm):
     """From the lowest on: of a pair the second lever, the cylinder, the first."""
     points = frame.at(magnify)
     for order, lever in enumerate((2, 0, 1)):
-        sides = outer_sides(frame.nodes, frame.cells[frame.cells_of(lever)])
+        sides = outer_sides(frame.nodes, frame.cells[frame.lever_cells(lever)])
         colours = grey(sides) if lever == 0 else stress_colours(frame, sides, norm)
         draw_sides(axes, view, points, sides, colours, zorder=order)
 
@@ -155,7 +155,7 @@ def automatic_magnification(result, frame, row):
     """Draws displacements of a twentieth of the lever's length, unless the layer would be turned inside out."""
     span = np.ptp(frame.nodes[frame.is_lever, 0])
     dent = result.table["indentation"][row]
-    sizes = [(0.05 * span, size_of(frame.elastic)), (0.8 * number(result, "Friction layer", "Thickness", 0.0), dent)]
+    sizes = [(0.05 * span, largest_size(frame.elastic)), (0.8 * number(result, "Friction layer", "Thickness", 0.0), dent)]
     return rounded(min((drawn / size for drawn, size in sizes if drawn > 0 and size > 0), default=1.0))
 
 
@@ -164,7 +164,7 @@ def near_contact(result, frame, row, lever):
     half = 0.25 * number(result, "Lever", "Width")
     xi = pose(result).in_axes(frame.nodes[:, :2] * ((1, 1) if lever == 1 else (1, -1)))[:, 0]
     away = np.abs(xi - result.table["s" if lever == 1 else "s_2"][row])
-    return frame.cells_of(lever) & (away[frame.cells].max(axis=1) < half)
+    return frame.lever_cells(lever) & (away[frame.cells].max(axis=1) < half)
 
 
 def solid_fields(result, x=None, way=None, magnify=None):
@@ -176,7 +176,7 @@ def solid_fields(result, x=None, way=None, magnify=None):
     chosen = [near_contact(result, frame, written.row, lever) for lever in levers]
     elastic = frame.is_lever & (frame.part != NUMBERS["hub"])
     near = np.unique(frame.cells[np.any(chosen, axis=0)])
-    norms = [norm_of([frame.stress[elastic]]), norm_of([frame.stress[near]])]
+    norms = [make_norm([frame.stress[elastic]]), make_norm([frame.stress[near]])]
     pressure_norm = plt.Normalize(0, frame.pressure.max(initial=0) or 1)
     figure = plt.figure(figsize=(TWO_COLUMNS, 92 * MILLIMETRE), constrained_layout=False)
     whole, above = figure.add_axes((0.01, 0.19, 0.56, 0.7)), View(FROM_ABOVE)
@@ -189,7 +189,7 @@ def solid_fields(result, x=None, way=None, magnify=None):
         draw_contact(figure.add_axes((0.6, top - 0.02 - height, 0.39, height)), frame, lever, magnify, norms[1], pressure_norm, cells)
         figure.text(0.6, top, f"({letter}) {title}; arrows: {0.2 * ARROW:g} mm", fontsize=8)
     pressure = plt.cm.ScalarMappable(pressure_norm, PRESSURE_MAP)
-    bars = ((0.09, "von Mises", mappable_of(norms[0]), "max"), (0.6, "von Mises", mappable_of(norms[1]), "max"), (0.82, "pressure", pressure, "neither"))
+    bars = ((0.09, "von Mises", make_mappable(norms[0]), "max"), (0.6, "von Mises", make_mappable(norms[1]), "max"), (0.82, "pressure", pressure, "neither"))
     for left, name, mappable, extend in bars:
         bar = figure.add_axes((left, 0.13, 0.4 if left < 0.5 else 0.16, 0.025))
         figure.colorbar(mappable, cax=bar, orientation="horizontal", label=f"{name} [MPa]", extend=extend)

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 from sprag.parameters import slug
-from style import COLOURS, LINES, MARKERS, MILLIMETRE, TWO_COLUMNS, WIDE, legend_on_top, panel_letter, parameter_label, plt, scale_of
+from style import COLOURS, LINES, MARKERS, MILLIMETRE, TWO_COLUMNS, WIDE, legend_on_top, make_scale, panel_letter, parameter_label, plt
 
 MOST_PANELS = 6
 # Beyond them a bar tells colours apart.
@@ -47,7 +47,7 @@ def varied_parameters(result):
     ]
 
 
-def abscissa_of(varied):
+def choose_abscissa(varied):
     """The parameter that curves go over: of those with numbers the one with the most values."""
     return max(varied, key=lambda parameter: (parameter.is_number, len(np.unique(parameter.numbers))))
 
@@ -70,12 +70,12 @@ def codes(result, others):
         return [Code(np.ones(rows, dtype=bool), COLOURS[0], LINES[0], MARKERS[0])], ([], []), None
     coloured = max(others, key=lambda parameter: len(np.unique(parameter.texts)))
     rest = [parameter for parameter in others if parameter is not coloured]
-    shades, scale = shades_of(coloured)
-    styles = list(dict.fromkeys(settings_of(rest, row) for row in range(rows)))
+    shades, scale = make_shades(coloured)
+    styles = list(dict.fromkeys(row_settings(rest, row) for row in range(rows)))
     found = []
     for text in dict.fromkeys(coloured.texts):
         for index, style in enumerate(styles):
-            mask = np.array([coloured.texts[row] == text and settings_of(rest, row) == style for row in range(rows)])
+            mask = np.array([coloured.texts[row] == text and row_settings(rest, row) == style for row in range(rows)])
             if mask.any():
                 shape = {"line": LINES[index % len(LINES)], "marker": MARKERS[index % len(MARKERS)]}
                 found.append(Code(mask, shades[text], **shape))
@@ -90,17 +90,17 @@ def codes(result, others):
     return found, (handles, names), scale and (scale, coloured.label)
 
 
-def settings_of(parameters, row):
+def row_settings(parameters, row):
     return ", ".join(parameter.said(parameter.texts[row]) for parameter in parameters)
 
 
-def shades_of(parameter):
+def make_shades(parameter):
     """Colour of each text; of many from a scale."""
     texts = list(dict.fromkeys(parameter.texts))
     if len(texts) <= MOST_LINES or not parameter.is_number:
         return {text: COLOURS[index % len(COLOURS)] for index, text in enumerate(texts)}, None
     numbers = {text: number for text, number in zip(parameter.texts, parameter.numbers)}
-    scale = scale_of(numbers.values())
+    scale = make_scale(numbers.values())
     return {text: scale.to_rgba(numbers[text]) for text in texts}, scale
 
 
@@ -113,7 +113,7 @@ def panels_for(count):
     return figure, list(axes.flat[:count])
 
 
-def quantities_of(result):
+def find_quantities(result):
     names = result.groups.get("headlines", {}).get("name", ())
     return [name for name in names if result.has(name)][:MOST_PANELS]
 
@@ -121,9 +121,9 @@ def quantities_of(result):
 def curves(result):
     """The numbers of the runs over a parameter, a line for each setting of the others."""
     varied = varied_parameters(result)
-    abscissa = abscissa_of(varied)
+    abscissa = choose_abscissa(varied)
     found, legend, bar = codes(result, [parameter for parameter in varied if parameter is not abscissa])
-    names = quantities_of(result) or ["cpu_time"]
+    names = find_quantities(result) or ["cpu_time"]
     figure, panels = panels_for(len(names))
     for axes, name, letter in zip(panels, names, "abcdef"):
         for code in found:
@@ -163,20 +163,20 @@ def plain_logarithms(axis):
 # Errors
 
 
-def measures_of(result):
+def error_measures(result):
     return [name[len("error_") :] for name in result.table if name.startswith("error_")]
 
 
 def has_trade(result):
-    return any((result.table[f"error_{name}"] > 0).any() for name in measures_of(result))
+    return any((result.table[f"error_{name}"] > 0).any() for name in error_measures(result))
 
 
 def trade(result):
     """Error against the work that ranks runs, or CPU time, with the front on which nobody cheaper is as exact; its runs are labelled."""
     varied = varied_parameters(result)
-    sizes = abscissa_of(varied)
+    sizes = choose_abscissa(varied)
     found, (handles, labels), bar = codes(result, [parameter for parameter in varied if parameter is not sizes])
-    names = sorted(measures_of(result), key=lambda name: name == "all")
+    names = sorted(error_measures(result), key=lambda name: name == "all")
     figure, panels = panels_for(len(names))
     work = result.table.get("work", np.array([np.nan]))
     is_counted = np.isfinite(work).any()

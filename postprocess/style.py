@@ -136,7 +136,7 @@ def legend_on_top(figure, handles, names):
     figure.legend(handles, names, loc="upper center", ncol=columns)
 
 
-def scale_of(numbers):
+def make_scale(numbers):
     """Colours of numbers, from dark to light; logarithmic where they are far apart."""
     low, high = min(numbers), max(numbers)
     norm = LogNorm(low, high) if low > 0 and high / low > WIDE else Normalize(low, high)

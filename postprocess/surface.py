@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from contact import WAYS, draw_widths, ways_of_states
+from contact import WAYS, draw_widths, find_state_ways
 from style import COLOURS, MILLIMETRE, TWO_COLUMNS, look, panel_letter, plt, set_labels, show_legend
 
 
@@ -40,7 +40,7 @@ def surface(result):
 def largest_states(result):
     """[(row of the face's steps, way)] where the face carries most, each way."""
     force = np.asarray(result.friction_face.pressure) @ result.friction_face.weight
-    ways = ways_of_states(result)
+    ways = find_state_ways(result)
     found = []
     for way in WAYS:
         rows = np.flatnonzero((ways == way) & (force > 0))

@@ -150,9 +150,9 @@ def stability(result):
 
 def draw_eigenvalues(axes, modes):
     for kind, (name, marker) in enumerate(zip(KINDS, "osD")):
-        of_kind = modes["kind"] == kind
-        if of_kind.any():
-            axes.plot(modes["growth_rate"][of_kind], modes["frequency"][of_kind], marker, color=COLOURS[kind], markersize=4, label=name)
+        selected = modes["kind"] == kind
+        if selected.any():
+            axes.plot(modes["growth_rate"][selected], modes["frequency"][selected], marker, color=COLOURS[kind], markersize=4, label=name)
     scale_eigenvalues(axes, modes["growth_rate"], modes["frequency"])
     axes.legend(loc="upper right", handlelength=1)  # fast modes are damped
 

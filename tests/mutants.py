@@ -46,7 +46,7 @@ def holds(test, pattern):
     return any(re.search(pattern, suite) for suite in test.split(","))
 
 
-def mistakes_of(name, mutant):
+def find_mistakes(name, mutant):
     """Returns the problems of an entry."""
     if set(mutant) != FIELDS:
         return [f"{name}: must have {', '.join(sorted(FIELDS))}"]
@@ -61,12 +61,12 @@ def mistakes_of(name, mutant):
         problems.append(f"{name}: must change one line")
     if mutant["text"] == mutant["becomes"]:
         problems.append(f"{name}: changes nothing")
-    if not targets_of(mutant["tests"]):
+    if not find_targets(mutant["tests"]):
         problems.append(f"{name}: names no folder of tests")
     return problems
 
 
-def targets_of(tests):
+def find_targets(tests):
     """Programs that tests of these names need."""
     targets = {f"test_{folder}" for folder in FOLDERS if re.search(rf"\b{folder}\b", tests)}
     if any(re.search(rf"\b{folder}\b", tests) for folder in OUTSIDE):
@@ -96,15 +96,15 @@ def is_paused(session):
     """Tells if a process of a session is stopped, as by somebody who measures beside it."""
     for path in Path("/proc").glob("[0-9]*/stat"):
         try:
-            state, _, _, of = path.read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()[:4]
+            state, _, _, its_session = path.read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()[:4]
         except (OSError, ValueError):
             continue  # has just ended
-        if state == "T" and int(of) == session:
+        if state == "T" and int(its_session) == session:
             return True
     return False
 
 
-def output_of(process, limit):
+def read_output(process, limit):
     """Returns what a process that leads a session writes and its exit status. None, and the session is killed, where it takes more
     than `limit` seconds, pauses not counted."""
     taken = 0
@@ -145,7 +145,7 @@ class Tree:
             start_new_session=True,
         ) as process:
             try:
-                output, status = output_of(process, limit)
+                output, status = read_output(process, limit)
             except KeyboardInterrupt:
                 os.killpg(process.pid, signal.SIGKILL)
                 raise
@@ -201,7 +201,7 @@ def failures_in(output):
 def check_unchanged(tree, mutants):
     """Returns the problems of the unchanged program and of the names of tests."""
     tests = sorted({mutant["tests"] for mutant in mutants.values()})
-    targets = sorted(set().union(*map(targets_of, tests)))
+    targets = sorted(set().union(*map(find_targets, tests)))
     print(f"builds {', '.join(targets)} unchanged", flush=True)
     if not tree.configure() or not tree.compile(targets, "build"):
         return [f"the unchanged program does not build: see {tree.logs / 'build.txt'}"]
@@ -212,14 +212,14 @@ def check_unchanged(tree, mutants):
     return [f"the unchanged program fails {failure}" for failure in tree.test(tree.selection("|".join(tests)), "build")]
 
 
-def verdict_of(tree, name, mutant, all_quick):
+def find_verdict(tree, name, mutant, all_quick):
     """Applies a mutant and returns how it ended and what saw it. The source is whole again afterwards."""
     path = tree.source / mutant["file"]
     whole = path.read_text(encoding="utf-8")
     (tree.logs / f"{name}.txt").unlink(missing_ok=True)
     path.write_text(whole.replace(mutant["text"], mutant["becomes"]), encoding="utf-8")
     try:
-        if not tree.compile(targets_of(mutant["tests"]), name):
+        if not tree.compile(find_targets(mutant["tests"]), name):
             return "did not compile", []
         usual = sum(seconds for test, seconds in tree.seconds.items() if holds(test, mutant["tests"]))
         seen = tree.test(tree.selection(mutant["tests"]), name, 60 + 20 * usual)
@@ -259,7 +259,7 @@ def try_all(mutants, options):
     results = {}
     for name, mutant in mutants.items():
         begin = time.monotonic()
-        verdict, seen = verdict_of(tree, name, mutant, options.all_quick)
+        verdict, seen = find_verdict(tree, name, mutant, options.all_quick)
         results[name] = (verdict, seen, time.monotonic() - begin)
         print(f"{name}: {verdict}{' by ' if seen else ''}{short(seen)}", flush=True)
         if options.write:
@@ -283,7 +283,7 @@ def main():
     if unknown := [name for name in options.names if name not in mutants]:
         parser.error(f"no mutant {', '.join(unknown)}; --list tells all")
     chosen = {name: mutant for name, mutant in mutants.items() if not options.names or name in options.names}
-    if problems := [text for name, mutant in chosen.items() for text in mistakes_of(name, mutant)]:
+    if problems := [text for name, mutant in chosen.items() for text in find_mistakes(name, mutant)]:
         print("\n".join(problems), file=sys.stderr)
         return 2
     if options.check:

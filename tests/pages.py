@@ -26,23 +26,23 @@ LIST = SOURCE / "tests" / "pages.toml"
 LONGEST = 3600  # seconds of a run
 
 
-def text_of(page):
+def page_text(page):
     """The page in one line, so that breaks of lines do not matter."""
     return " ".join((SOURCE / page).read_text(encoding="utf-8").split())
 
 
-def zeros_of(values, places):
+def find_zeros(values, places):
     """Places at which values change their sign, by lines between them."""
     pairs = zip(values, values[1:], places, places[1:])
     return [float(x + (y - x) * a / (a - b)) for a, b, x, y in pairs if a * b < 0]
 
 
-def value_of(result, name):
+def read_value(result, name):
     """The entry of /summary, or of the group that the name begins with; NAME[ROW] is a value of /table, `zero of A over B` where A
     changes its sign over the parameter B of a study."""
     with h5py.File(result) as file:
         if zero := re.fullmatch(r"zero of (\w+) over (\w+)", name):
-            return zeros_of(*(file["table/" + column][:] for column in zero.groups()))
+            return find_zeros(*(file["table/" + column][:] for column in zero.groups()))
         if row := re.fullmatch(r"(.+)\[(\d+)\]", name):
             return float(file["table/" + row[1]][int(row[2])])
         value = file[name if "/" in name else "summary/" + name][()]
@@ -55,23 +55,23 @@ def last_digit(printed):
     return 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
 
 
-def problem_of(entry, printed, name, results):
+def find_problem(entry, printed, name, results):
     """Returns the problem of a printed number, or None. `against` asks for the difference of two runs in per cent."""
-    value = value_of(results[entry["command"]], name)
+    value = read_value(results[entry["command"]], name)
     if isinstance(value, list):
         value = min(value, key=lambda zero: abs(entry.get("times", 1) * zero - float(printed)), default=float("nan"))
     if isinstance(value, str):
         return None if value == printed else f"the run says {value}"
     if "against" in entry:
-        value = 100 * abs(value / value_of(results[entry["against"]], name) - 1)
+        value = 100 * abs(value / read_value(results[entry["against"]], name) - 1)
     value *= entry.get("times", 1)
     printed = printed.replace(" ", "")
     within = entry.get("within", last_digit(printed))
     return None if abs(float(printed) - value) <= within * (1 + 1e-9) else f"the run says {value:.5g}"
 
 
-def problems_of(entry, results):
-    found = list(re.finditer(entry["sentence"], text_of(entry["page"])))
+def find_problems(entry, results):
+    found = list(re.finditer(entry["sentence"], page_text(entry["page"])))
     if len(found) != 1:
         yield f"{entry['page']}: {len(found)} places read {entry['sentence']!r}, not one"
         return
@@ -81,7 +81,7 @@ def problems_of(entry, results):
         return
     for printed, name in zip(found[0].groups(), values):
         try:
-            problem = problem_of(entry, printed, name, results)
+            problem = find_problem(entry, printed, name, results)
         except KeyError as error:
             problem = f"the run has no such value: {error}"
         if problem:
@@ -97,22 +97,22 @@ def run(command, folder):
     return folder / "result.h5"
 
 
-def entries_of(thorough, page):
+def read_entries(thorough, page):
     """The numbers to compare, each with the command of its run."""
-    for of_run in tomllib.loads(LIST.read_text(encoding="utf-8"))["run"]:
-        if thorough or of_run.get("quick", False):
-            for number in of_run["numbers"]:
+    for listed_run in tomllib.loads(LIST.read_text(encoding="utf-8"))["run"]:
+        if thorough or listed_run.get("quick", False):
+            for number in listed_run["numbers"]:
                 if page in number["page"]:
-                    yield {"command": of_run["command"], **number}
+                    yield {"command": listed_run["command"], **number}
 
 
 def compare(thorough, page):
-    entries = list(entries_of(thorough, page))
+    entries = list(read_entries(thorough, page))
     commands = sorted({entry[key] for entry in entries for key in ("command", "against") if key in entry})
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor() as pool:
         files = pool.map(lambda job: run(job[1], Path(folder) / str(job[0])), enumerate(commands))
         results = dict(zip(commands, files))
-        problems = [problem for entry in entries for problem in problems_of(entry, results)]
+        problems = [problem for entry in entries for problem in find_problems(entry, results)]
     count = sum(len(entry["value"]) if isinstance(entry["value"], list) else 1 for entry in entries)
     print("\n".join([*problems, f"{count} numbers of {len(commands)} runs, {len(problems)} stale"]))
     return not problems and bool(entries)

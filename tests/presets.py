@@ -144,7 +144,7 @@ def run(preset, scene, changes, folder):
     command += ["--output", f"{folder}/output", "--overwrite", "--quiet", "--jobs", "2"]
     for change in (*COARSE, *changes):
         command += ["--set", change]
-    settings = {**environment.of_build(SOURCE / f"build-{preset}"), "XDG_CACHE_HOME": folder}
+    settings = {**environment.make_environment(SOURCE / f"build-{preset}"), "XDG_CACHE_HOME": folder}
     try:
         done = subprocess.run(
             list(map(str, command)), env=settings, capture_output=True, text=True, errors="replace", check=False, timeout=LONGEST_RUN
@@ -157,7 +157,7 @@ def run(preset, scene, changes, folder):
     return f"exit status {done.returncode}\n{done.stdout}{done.stderr}"
 
 
-def cpu_time_of_runs():
+def runs_cpu_time():
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
 
@@ -191,10 +191,10 @@ def main(arguments):
         if not options.run:
             build(preset)
         for name, (scene, changes) in runs.items():
-            began, cpu = time.monotonic(), cpu_time_of_runs()
+            began, cpu = time.monotonic(), runs_cpu_time()
             with tempfile.TemporaryDirectory(prefix="sprag-test-") as folder:
                 wrong = run(preset, scene, changes, folder)
-            took = f"{time.monotonic() - began:.1f} s, {cpu_time_of_runs() - cpu:.1f} s of CPU"
+            took = f"{time.monotonic() - began:.1f} s, {runs_cpu_time() - cpu:.1f} s of CPU"
             print(f"{preset}: {name}: {'FAILED' if wrong else 'passed'} in {took}", flush=True)
             if wrong:
                 failed += 1

@@ -32,7 +32,7 @@ def listed(build):
             yield test["name"], test["command"], properties.get("LABELS", []), properties.get("WORKING_DIRECTORY", str(build))
 
 
-def cases_of(report):
+def read_cases(report):
     """Cases of GoogleTest with their wall time [s]."""
     if not report.exists():
         return []
@@ -44,11 +44,11 @@ def timed(test, build):
     name, command, _, folder = test
     with tempfile.TemporaryDirectory(prefix="sprag-times-") as temporary:
         report = Path(temporary) / "report.xml"
-        settings = {**environment.of_build(build), "GTEST_OUTPUT": f"xml:{report}"}
+        settings = {**environment.make_environment(build), "GTEST_OUTPUT": f"xml:{report}"}
         process = subprocess.Popen(command, cwd=folder, env=settings, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
-        return name, usage.ru_utime + usage.ru_stime, process.returncode, cases_of(report)
+        return name, usage.ru_utime + usage.ru_stime, process.returncode, read_cases(report)
 
 
 def seen_alone(path):

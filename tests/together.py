@@ -12,7 +12,7 @@ from pathlib import Path
 INCLUDE = re.compile(r'^#include ([<"])([^>"]+)[>"]', re.MULTILINE)
 
 
-def includes_of(source, root):
+def read_includes(source, root):
     """Lines that include what a source includes; a header beside it is named from the root."""
     for bracket, name in INCLUDE.findall(source.read_text(encoding="utf-8")):
         if bracket == "<":
@@ -24,7 +24,7 @@ def includes_of(source, root):
 
 def main(root, output, *sources):
     sources = [Path(source) for source in sources]
-    lines = [*dict.fromkeys(line for source in sources for line in includes_of(source, root)), ""]
+    lines = [*dict.fromkeys(line for source in sources for line in read_includes(source, root)), ""]
     for source in sources:
         lines += [f"namespace {source.stem}_tests", "{", f'#include "{source.relative_to(root)}"', "}", ""]
     Path(output).write_text("\n".join(lines), encoding="utf-8")

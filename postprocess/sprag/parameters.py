@@ -33,7 +33,7 @@ def slug(name):
     return "".join(c.lower() if c.isalnum() else "_" for c in name)
 
 
-def value_of_text(text):
+def parse_value(text):
     """The value that a line gives: without comment and blanks around it, with \\xHH as the byte it stands for."""
     return re.sub(r"\\x([0-9a-fA-F]{2})", lambda escape: chr(int(escape[1], 16)), text.split("#")[0].strip())
 
@@ -50,11 +50,11 @@ def parse(listing):
         elif line.startswith("set "):
             name, _, value = line[len("set ") :].partition("=")
             units = re.findall(r"\[([^\[\]]+)\](?=[:;])", comment)
-            text, default = value_of_text(value), re.search(r"#\s*default:(.*)$", value)
+            text, default = parse_value(value), re.search(r"#\s*default:(.*)$", value)
             apart = default and different(text, default[1].strip())
             unit = units[-1] if units and units[-1] != "-" else "1"
-            told = COMMENT.fullmatch(comment)
-            meaning, rule = (told[1], told[2]) if told else (comment, "")
+            parts = COMMENT.fullmatch(comment)
+            meaning, rule = (parts[1], parts[2]) if parts else (comment, "")
             found["/".join((*section, name.strip()))] = Parameter(text, unit, default[1].strip() if default and apart else None, meaning, rule)
         comment = f"{comment} {line[1:].strip()}".strip() if line.startswith("#") else ""
     return found
@@ -73,7 +73,7 @@ def set_apart(parameters):
     return {name: parameter for name, parameter in parameters.items() if parameter.default is not None and not name.startswith("Output/")}
 
 
-def scene_of(parameters):
+def scene_text(parameters):
     """A scene that holds those parameters alone, as the program reads it."""
     sections: dict[str, list] = {}
     for name, parameter in parameters.items():
@@ -85,10 +85,10 @@ def scene_of(parameters):
 def differing(listings):
     """Names of what is not the same in all of the parsed lists, in their order. Where output goes makes no difference."""
     names = dict.fromkeys(name for parameters in listings for name in parameters if not name.startswith("Output/"))
-    return [name for name in names if len({value_of(parameters.get(name)) for parameters in listings}) > 1]
+    return [name for name in names if len({compared_value(parameters.get(name)) for parameters in listings}) > 1]
 
 
-def value_of(parameter):
+def compared_value(parameter):
     """1e3 and 1000 are the same."""
     return parameter and (parameter.number if parameter.number is not None else parameter.text)
 
@@ -99,12 +99,12 @@ def schema(parameters):
     for full, parameter in parameters.items():
         section, _, name = full.partition("/")
         unit = f" [{parameter.unit}]" if parameter.unit != "1" else ""
-        sections.setdefault(section, {})[name] = {"description": parameter.meaning + unit, **rule_of(parameter.range)}
+        sections.setdefault(section, {})[name] = {"description": parameter.meaning + unit, **range_rule(parameter.range)}
     closed = {name: {"type": "object", "properties": each, "additionalProperties": False} for name, each in sections.items()}
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", "type": "object", "properties": closed, "additionalProperties": False}
 
 
-def rule_of(text):
+def range_rule(text):
     """That of a range of values."""
     if text.startswith("one of "):
         return {"enum": [int(word) if word.isdigit() else word for word in text[len("one of ") :].split(" | ")]}

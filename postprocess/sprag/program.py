@@ -8,7 +8,7 @@ import tempfile
 import weakref
 from pathlib import Path
 
-from .parameters import parse, schema, scene_of, set_apart, slug
+from .parameters import parse, scene_text, schema, set_apart, slug
 from .results import read_result
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -36,14 +36,14 @@ def program():
 def run_scene(sprag, scene, output, changes, jobs=None):
     """Runs a scene with changes {"Section/Name": value} into a folder, replacing what is there. Throws Refused or Failed."""
     count = [] if jobs is None else ["--jobs", str(jobs)]
-    output_of([sprag, scene, "--output", output, "--quiet", "--overwrite", *settings(changes), *count])
+    read_output([sprag, scene, "--output", output, "--quiet", "--overwrite", *settings(changes), *count])
 
 
 def settings(changes):
     return [word for parameter, value in changes.items() for word in ("--set", f"{parameter}={value}")]
 
 
-def output_of(command):
+def read_output(command):
     """Returns the program's output for a scene, the second word of the command. Throws Refused or Failed."""
     sprag, scene, *_ = command
     try:
@@ -91,7 +91,7 @@ class Scene:
     def parameters(self):
         """{"Section/Name": Parameter} of all, as used."""
         if self._read is None or self._read[0] != self.changes:
-            self._read = dict(self.changes), parse(output_of([program(), self.path, *settings(self.changes), "--print-parameters"]))
+            self._read = dict(self.changes), parse(read_output([program(), self.path, *settings(self.changes), "--print-parameters"]))
         return self._read[1]
 
     def schema(self):
@@ -100,7 +100,7 @@ class Scene:
 
     def __str__(self):
         """The scene as a parameter file: what is set apart from defaults."""
-        return scene_of(set_apart(self.parameters))
+        return scene_text(set_apart(self.parameters))
 
 
 def run(scene, changes=None, output=None, jobs=None):

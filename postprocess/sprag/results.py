@@ -11,7 +11,7 @@ from typing import NamedTuple, Optional
 import h5py
 import numpy as np
 
-from .parameters import value_of_text
+from .parameters import parse_value
 
 KNOWN = ("table", "face", "summary", "meta")
 WAYS = {"forward": 1, "backward": -1}
@@ -105,7 +105,7 @@ class Face:
     traction: Rows  # of friction [MPa]
     zeta: Optional[Column] = None  # across the width, in three dimensions
 
-    def rows_of(self, times):
+    def find_rows(self, times):
         """The rows of a table at these times in which the steps stand."""
         return np.searchsorted(times, self.time - 1e-9 * np.abs(self.time)).clip(max=len(times) - 1)
 
@@ -155,7 +155,7 @@ class Result:
         )
         if not found:
             raise KeyError(f"{section}/{name}")
-        return value_of_text(found.group(1))
+        return parse_value(found.group(1))
 
     @cached_property
     def ways(self):
@@ -174,7 +174,7 @@ class Result:
             raise NotAResult(f"{self.folder}: no friction face in it: its model has none")
         steps = np.arange(len(face.time))
         if way is not None:
-            steps = steps[self.ways[face.rows_of(self.table["time"])] == WAYS[way]]
+            steps = steps[self.ways[face.find_rows(self.table["time"])] == WAYS[way]]
         if len(steps) == 0:
             raise NotAResult(f"{self.folder}: no {way} motion in it")
         step = int(steps[np.abs(face.x[steps] - x).argmin()])

@@ -87,7 +87,7 @@ class Run:
         self.file = folder / "output" / "result.h5"
 
 
-def results_of(path):
+def read_results(path):
     """{group/name: numbers or text}, without what a run cost."""
     found = {}
     with h5py.File(path, "r") as file:
@@ -138,7 +138,7 @@ def at_same_places(new, old_x, new_x):
     return new - slope * (new_x - old_x)
 
 
-def kind_of(name, tables_count):
+def find_kind(name, tables_count):
     group, _, column = name.partition("/")
     if found := COUNTED.fullmatch(column):
         return found[1]
@@ -162,7 +162,7 @@ def compare(old, new):
         else:
             chosen = slice(rows) if name.startswith("table/") else slice(None)
             pair = [value[chosen] if value.ndim else value for value in (old[name], new[name])]
-            kind = kind_of(name, tables_count)
+            kind = find_kind(name, tables_count)
             if kind in ("P", "Q", "theta") and name.startswith("table/") and "table/x" in old:
                 pair[1] = at_same_places(pair[1], old["table/x"][chosen], new["table/x"][chosen])
             if rows is None or name.startswith("table/") or kind in ("growth", "frequency"):
@@ -188,7 +188,7 @@ def compare_scene(arguments, scene, folder):
     if not (old.file.exists() and new.file.exists()):
         print(line(scene, [old.status, new.status]), f"FAILED: no result: {old.message or new.message}", flush=True)
         return False
-    worst, texts, rows = compare(results_of(old.file), results_of(new.file))
+    worst, texts, rows = compare(read_results(old.file), read_results(new.file))
     if (old.status, old.message) != (new.status, new.message):
         texts.append(f"exit status {old.status} / {new.status}: {new.message or old.message}")
     failed = bool(texts) or any(not worst[kind] <= arguments.limit for kind in ("P", "Q", "theta"))
@@ -215,12 +215,12 @@ def compare_speed(arguments, name, folder):
 
 def compare_instructions(arguments, name, folder):
     scene, changes = SPEED[name]
-    counter_of = counter_class()
+    make_counter = counter_class()
     counts = []
     for build in ("old", "new"):
         (folder / build).mkdir(parents=True)
         program = getattr(arguments, build)
-        counter = counter_of(folder / build / "counted")
+        counter = make_counter(folder / build / "counted")
         Run(program, scene, changes, folder / build)  # fills the caches that timed runs find filled
         run = Run(program, scene, changes, folder / build, counter.command)
         if run.status != 0:

@@ -34,19 +34,19 @@ RUNS = (
 )
 
 
-def cpu_of_children():
+def children_cpu():
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
 
 
 def run(sprag, changes, output):
     """{column: number} of one run; its message where it failed."""
-    before = cpu_of_children()
+    before = children_cpu()
     try:
         run_scene(sprag, "model-a.prm", {"Output/Fields": "turning points", "Mesh/Face size": 0.5, **changes}, output)
     except RuntimeError as failure:
         return str(failure)
-    process = cpu_of_children() - before
+    process = children_cpu() - before
     with h5py.File(output / "result.h5", "r") as file:
         meta, summary = file["meta"], file["summary"]
         cost = {phase: meta[f"cpu_time_{phase}"][()] for phase in PHASES}

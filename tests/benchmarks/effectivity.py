@@ -71,7 +71,7 @@ class Run:
         run_scene(sprag, scene + ".prm", {"Output/Fields": "none", **changes}, folder, "--overwrite")
         with h5py.File(Path(folder) / "result.h5") as file:
             self.table = {name: file["table/" + name][:] for name in COLUMNS}
-            self.told = {name: float(file["accuracy/" + name][()]) for name in QUANTITIES}
+            self.estimates = {name: float(file["accuracy/" + name][()]) for name in QUANTITIES}
             self.peaks = {
                 (name, way): float(file[f"summary/peak_{name}_{way}"][()])
                 for name in ("P", "Q")
@@ -132,8 +132,8 @@ def slide(sprag, scene, changes, folder):
     run_scene(sprag, scene + ".prm", {**ALONE, **changes}, folder, "--overwrite")
     with h5py.File(Path(folder) / "result.h5") as file:
         found = {name: float(file["summary/" + name][()]) for name in OF_SLIDES}
-        told = {name: float(file["accuracy/" + name][()]) for name in OF_SLIDES}
-        return found, told, float(file["meta/cpu_time_accuracy"][()]) / float(file["meta/cpu_time"][()])
+        estimates = {name: float(file["accuracy/" + name][()]) for name in OF_SLIDES}
+        return found, estimates, float(file["meta/cpu_time_accuracy"][()]) / float(file["meta/cpu_time"][()])
 
 
 def slide_errors(sprag, scene, changes, folder, found):
@@ -149,9 +149,9 @@ def in_time(sprag, scene, changes, folder):
     run_scene(sprag, scene + ".prm", {"Output/Fields": "none", **changes}, folder, "--overwrite")
     with h5py.File(Path(folder) / "result.h5") as file:
         found = {name: float(file["summary/" + entry][()]) for name, entry in OF_RINGING.items()}
-        told = {name: float(file["accuracy/" + name][()]) for name in ("P", *OF_RINGING)}
+        estimates = {name: float(file["accuracy/" + name][()]) for name in ("P", *OF_RINGING)}
         share = float(file["meta/cpu_time_accuracy"][()]) / float(file["meta/cpu_time"][()])
-        return (file["table/time"][:], file["table/P"][:], found), told, share
+        return (file["table/time"][:], file["table/P"][:], found), estimates, share
 
 
 def errors_in_time(run, reference):
@@ -161,14 +161,14 @@ def errors_in_time(run, reference):
     return {**errors, **{name: abs(found[name] / exact[name] - 1) for name in OF_RINGING}}
 
 
-def print_case(scene, changes, cost, told, errors):
+def print_case(scene, changes, cost, estimates, errors):
     """Returns how many of the ratios are outside."""
     print(f"{scene} {changes or ''}: telling took {100 * cost:.0f} % of the run")
     outside = 0
     for name, error in errors.items():
-        ratio = told[name] / error  # NaN where words are told
+        ratio = estimates[name] / error  # NaN where words are told
         outside += ratio < 0.5 or ratio > 3
-        print_row(("  " + name, f"{told[name]:.1e}", f"{error:.1e}", f"{ratio:.2f}"), WIDTHS)
+        print_row(("  " + name, f"{estimates[name]:.1e}", f"{error:.1e}", f"{ratio:.2f}"), WIDTHS)
     return outside
 
 
@@ -230,17 +230,17 @@ def print_drawn(sprag, number, seed, folder):
     for kind, changes in drawn_cases(number, seed):
         try:
             if kind == "slide":
-                found, told, cost = slide(sprag, "stability-a", changes, folder)
+                found, estimates, cost = slide(sprag, "stability-a", changes, folder)
                 errors = slide_errors(sprag, "stability-a", changes, folder, found)
             elif kind == "time":
-                found, told, cost = in_time(sprag, "reversal-a", changes, folder)
+                found, estimates, cost = in_time(sprag, "reversal-a", changes, folder)
                 errors = errors_in_time(found, in_time(sprag, "reversal-a", {**changes, **FINE_IN_TIME}, folder)[0])
             else:
                 run = Run(sprag, "model-a", changes, folder)
-                told, cost = run.told, run.cost
+                estimates, cost = run.estimates, run.cost
                 space = lambda: true_errors(run, Run(sprag, "model-a", {**changes, **FINE_IN_SPACE}, folder))
                 errors = space() if kind == "space" else run_errors(sprag, "model-a", changes, folder, run)
-            outside += print_case(kind, changes, cost, told, errors)
+            outside += print_case(kind, changes, cost, estimates, errors)
         except RuntimeError as error:
             print(f"{kind} {changes}: {error}", flush=True)
     print(f"{outside} of the ratios are outside of 0.5 ... 3")
@@ -261,15 +261,15 @@ def main():
         for scene, changes in CASES[: arguments.cases]:
             run = Run(arguments.sprag, scene, changes, folder)
             errors = run_errors(arguments.sprag, scene, changes, folder, run)
-            outside += print_case(scene, changes, run.cost, run.told, errors)
+            outside += print_case(scene, changes, run.cost, run.estimates, errors)
         for scene, changes in SLIDES[: arguments.cases]:
-            found, told, cost = slide(arguments.sprag, scene, changes, folder)
+            found, estimates, cost = slide(arguments.sprag, scene, changes, folder)
             errors = slide_errors(arguments.sprag, scene, changes, folder, found)
-            outside += print_case(scene, changes, cost, told, errors)
+            outside += print_case(scene, changes, cost, estimates, errors)
         for scene, changes, finer in IN_TIME[: arguments.cases]:
-            run, told, cost = in_time(arguments.sprag, scene, changes, folder)
+            run, estimates, cost = in_time(arguments.sprag, scene, changes, folder)
             reference, _, _ = in_time(arguments.sprag, scene, {**changes, **finer}, folder)
-            outside += print_case(scene, changes, cost, told, errors_in_time(run, reference))
+            outside += print_case(scene, changes, cost, estimates, errors_in_time(run, reference))
     print(f"{outside} of the ratios are outside of 0.5 ... 3")
 
 

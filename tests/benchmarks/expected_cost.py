@@ -45,7 +45,7 @@ CASES = [
 WIDTHS = (56, 10, 10, 8, 10, 10, 8)
 
 
-def cpu_of(command):
+def measure_cpu(command):
     before = os.times()
     text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     after = os.times()
@@ -61,11 +61,11 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for scene, changes in CASES:
             command = [arguments.sprag, str(ROOT / "params" / (scene + ".prm")), *(f"--set={name}={value}" for name, value in changes.items())]
-            _, text = cpu_of([*command, "--validate"])
+            _, text = measure_cpu([*command, "--validate"])
             expected = re.search(r"about (\S+) s of CPU time, (\S+) GB", text)
             seconds, gigabytes = (float(number) for number in expected.groups())
             # A stored basis would be used.
-            cpu, _ = cpu_of([*command, "--overwrite", "--output", folder + "/out", "--set=Condensed/Cache=" + tempfile.mkdtemp(dir=folder)])
+            cpu, _ = measure_cpu([*command, "--overwrite", "--output", folder + "/out", "--set=Condensed/Cache=" + tempfile.mkdtemp(dir=folder)])
             with h5py.File(Path(folder) / "out/result.h5") as file:
                 memory = float(file["meta/peak_memory"][()]) * 2**20 / 1e9
             outside += not 0.5 <= seconds / cpu <= 2

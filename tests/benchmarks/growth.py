@@ -28,7 +28,7 @@ SERIES = [
 ]
 
 
-def size_of(file, measure, value):
+def measure_size(file, measure, value):
     if measure == "modes":
         return float(value)
     return float(file["summary/steps"][()] if measure == "steps" else file["meta/degrees_of_freedom"][()])
@@ -46,7 +46,7 @@ def main():
                 cache = {"Condensed/Cache": tempfile.mkdtemp(dir=folder)}
                 run_scene(arguments.sprag, scene + ".prm", {**common, **cache, name: value}, folder + "/out", "--overwrite")
                 with h5py.File(Path(folder) / "out/result.h5") as file:
-                    sizes.append(size_of(file, measure, value))
+                    sizes.append(measure_size(file, measure, value))
                     for part in expected:
                         seconds[part].append(float(file["meta/cpu_time_" + part][()]))
             for part, power in expected.items():

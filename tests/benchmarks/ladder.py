@@ -36,7 +36,7 @@ def run(sprag, scene, model, changes, output):
         }
 
 
-def error_of(result, hard):
+def result_error(result, hard):
     """Largest difference of P from hard contact over its peak."""
     difference = np.interp(result["time"], hard["time"], hard["P"]) - result["P"]
     return np.nanmax(np.abs(difference)) / hard["P"].max()
@@ -54,7 +54,7 @@ def print_table(title, results, hard):
             f"{result['cpu']:.2f}",
             f"{finest['rate'] / result['rate']:.4f}" if result["rate"] > 0 else "-",
             f"{result['frequency']:.1f}",
-            f"{error_of(result, hard):.3g}",
+            f"{result_error(result, hard):.3g}",
             result["verdict"],
         )
         print("".join(cell.rjust(width) for cell, width in zip(cells, WIDTHS)), flush=True)

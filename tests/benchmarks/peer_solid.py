@@ -132,11 +132,11 @@ class Deck:
             angle, radius, zeta = self.cylinder.places[place]
             lines.append(f"{number}, {self.start + radius * math.sin(angle):.12g}, {radius * math.cos(angle):.12g}, {zeta:.12g}")
         lines += [f"{self.pivot}, {PIVOT}, 0, 0", f"{self.turn}, {PIVOT}, 0, 0"]
-        of_set = {"layer": [], "metal": []}
+        element_sets = {"layer": [], "metal": []}
         for (_, _, k), element in self.lever.elements():
-            of_set["layer" if k < self.rows else "metal"].append(element)
-        of_set["cylinder"] = [element for _, element in self.cylinder.elements()]
-        for name, elements in of_set.items():
+            element_sets["layer" if k < self.rows else "metal"].append(element)
+        element_sets["cylinder"] = [element for _, element in self.cylinder.elements()]
+        for name, elements in element_sets.items():
             lines.append(f"*ELEMENT, TYPE=C3D20, ELSET={name}")
             for element in elements:
                 lines += numbers(element)

@@ -74,8 +74,8 @@ def errors(run, reference):
     result = []
     for place in PLACES:
         largest, width, profile = run.at(*place)
-        of_largest, of_width, of_profile = reference[place]
-        result.append((largest / of_largest - 1, width / of_width - 1, norm(profile - of_profile) / norm(of_profile)))
+        reference_largest, reference_width, reference_profile = reference[place]
+        result.append((largest / reference_largest - 1, width / reference_width - 1, norm(profile - reference_profile) / norm(reference_profile)))
     return np.array(result)
 
 

@@ -31,12 +31,12 @@ RUNS = (
 )
 
 
-def command_of(program, scene, options, output):
+def make_command(program, scene, options, output):
     named = [] if scene is None else [ROOT / "params" / f"{scene}.prm", "--output", output, "--overwrite", "--quiet"]
     return [str(word) for word in [Path(program).resolve(), *named, *options]]
 
 
-def cpu_of(command):
+def measure_cpu(command):
     """User and system seconds of a command with all that it starts; RuntimeError if it fails."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(command, capture_output=True, text=True, check=False, env={**os.environ, "OMP_NUM_THREADS": "1"})
@@ -48,7 +48,7 @@ def cpu_of(command):
 
 def fastest(commands, rounds):
     """The least of each, taken in turn."""
-    times = [[cpu_of(command) for command in commands] for _ in range(rounds)]
+    times = [[measure_cpu(command) for command in commands] for _ in range(rounds)]
     return [min(column, key=sum) for column in zip(*times)]
 
 
@@ -61,7 +61,7 @@ def loaded_libraries(command):
     return sum(log.count("calling init: ") for log in logs)
 
 
-def seconds_of_phases(output):
+def phase_seconds(output):
     try:
         with h5py.File(output / "result.h5", "r") as file:
             return sum(file["meta"][name][()] for name in map("cpu_time_{}".format, OUTER_PHASES) if name in file["meta"])
@@ -82,9 +82,9 @@ def main():
             output = Path(folder) / name.replace(" ", "-")
             programs = [options.sprag] + ([options.before] if options.before else [])
             # The program itself comes last, so that its result is the one that is left.
-            commands = [command_of(program, scene, arguments, output) for program in reversed(programs)]
+            commands = [make_command(program, scene, arguments, output) for program in reversed(programs)]
             *before, (user, system) = fastest(commands, options.rounds)
-            phases = seconds_of_phases(output)
+            phases = phase_seconds(output)
             milliseconds = [1000 * time for time in (user + system, user, system)]
             rest = milliseconds[0] - 1000 * phases
             cells = [*milliseconds, loaded_libraries(commands[-1]), 1000 * phases, rest]

@@ -26,7 +26,7 @@ FINE = {"Mesh/Face size": 0.0625, "Analysis/Step": 0.25, "Contact/Enforcement": 
 WIDTHS = (34, 10, 10, 10, 10, 8, 12, 8, 0)
 
 
-def cpu_of(work):
+def measure_cpu(work):
     before = os.times()
     result = work()
     after = os.times()
@@ -35,9 +35,9 @@ def cpu_of(work):
 
 def measured(sprag, scene, changes, quantities, reference, folder):
     """CPU time, largest true and told error of a run."""
-    run, cpu = cpu_of(lambda: Run(sprag, scene, changes, folder))
+    run, cpu = measure_cpu(lambda: Run(sprag, scene, changes, folder))
     errors = true_errors(run, reference)
-    return cpu, max(errors[name] for name in quantities), max(run.told[name] for name in quantities)
+    return cpu, max(errors[name] for name in quantities), max(run.estimates[name] for name in quantities)
 
 
 def grid(sprag, scene, device, quantities, reference, folder):
@@ -67,11 +67,11 @@ def main():
             settings = [] if arguments.without_grid else grid(arguments.sprag, scene, device, quantities, reference, folder)
             for target in TARGETS:
                 asked = {**device, "Accuracy/Target": target, "Accuracy/Quantity": ", ".join(quantities)}
-                cpu, error, told = measured(arguments.sprag, scene, asked, quantities, reference, folder)
+                cpu, error, estimate = measured(arguments.sprag, scene, asked, quantities, reference, folder)
                 cheap = min((each for each in settings if each[1] <= target), default=(float("nan"), 0, "none"))
-                outcome = "met" if error <= target else "told" if not told <= target else "missed"
+                outcome = "met" if error <= target else "told" if not estimate <= target else "missed"
                 name = (f"device {number}" if device else scene) + " " + ", ".join(quantities)
-                print_row((name, f"{target:.2g}", f"{cpu:.2f}", f"{error:.1e}", f"{told:.1e}", outcome,
+                print_row((name, f"{target:.2g}", f"{cpu:.2f}", f"{error:.1e}", f"{estimate:.1e}", outcome,
                            f"{cheap[0]:.2f}", f"{cpu / cheap[0]:.2f}", cheap[2]), WIDTHS)
 
 

@@ -105,7 +105,7 @@ class ApparatusTest(PictureTest):
     def test_ten_sensors_in_their_order(self):
         result = make_static(self.folder / "a")
         result.table["sensor_10"] = result.table["sensor_1"]
-        self.assertEqual(sensors.sensors_of(result), ["sensor_1", "sensor_2", "sensor_3", "sensor_4", "sensor_10"])
+        self.assertEqual(sensors.sensor_columns(result), ["sensor_1", "sensor_2", "sensor_3", "sensor_4", "sensor_10"])
 
     def test_calibration(self):
         result = make_calibration(self.folder / "a")

@@ -54,7 +54,7 @@ class SeveralTest(PictureTest):
         use_print_style()
         self.addCleanup(plt.close, "all")
 
-    def run_of(self, name, factor=1.0, **changes):
+    def write_run(self, name, factor=1.0, **changes):
         """Without inertia; forces grow with the factor."""
         file = new_file(self.folder / name)
         del file["parameters"]
@@ -67,7 +67,7 @@ class SeveralTest(PictureTest):
         return read_result(self.folder / name)
 
     def depths(self, number):
-        return [self.run_of(f"run{i}", 1 + i, depth=str(5 + 2 * i)) for i in range(number)]
+        return [self.write_run(f"run{i}", 1 + i, depth=str(5 + 2 * i)) for i in range(number)]
 
 
 class ParametersTest(unittest.TestCase):
@@ -87,38 +87,38 @@ class ParametersTest(unittest.TestCase):
 
 class TellingApart(SeveralTest):
     def test_few_by_names_with_units(self):
-        told = several.told_apart(self.depths(3))
-        self.assertEqual((told.parameter, told.names, told.scale), ("Lever/Depth", ["5 mm", "7 mm", "9 mm"], None))
-        self.assertFalse(told.is_numerical)
+        naming = several.distinguish(self.depths(3))
+        self.assertEqual((naming.parameter, naming.names, naming.scale), ("Lever/Depth", ["5 mm", "7 mm", "9 mm"], None))
+        self.assertFalse(naming.is_numerical)
 
     def test_many_by_a_scale(self):
-        told = several.told_apart(self.depths(20))
-        self.assertEqual(told.label, "lever depth [mm]")
-        self.assertEqual((told.scale.norm.vmin, told.scale.norm.vmax), (5, 43))
-        self.assertEqual(told.looks[3]["color"], told.scale.to_rgba(11))
+        naming = several.distinguish(self.depths(20))
+        self.assertEqual(naming.label, "lever depth [mm]")
+        self.assertEqual((naming.scale.norm.vmin, naming.scale.norm.vmax), (5, 43))
+        self.assertEqual(naming.looks[3]["color"], naming.scale.to_rgba(11))
 
     def test_too_many(self):
         with self.assertRaisesRegex(NotAResult, "21 results"):
-            several.told_apart(self.depths(21))
+            several.distinguish(self.depths(21))
 
     def test_words_and_folders_where_the_same_word_comes_twice(self):
-        results = [self.run_of(name, model=model) for name, model in (("a", "rigid"), ("b", "beam"), ("c", "beam"))]
-        told = several.told_apart(results)
-        self.assertEqual(told.names, ["rigid", "beam (b)", "beam (c)"])
-        self.assertTrue(told.is_numerical)
+        results = [self.write_run(name, model=model) for name, model in (("a", "rigid"), ("b", "beam"), ("c", "beam"))]
+        naming = several.distinguish(results)
+        self.assertEqual(naming.names, ["rigid", "beam (b)", "beam (c)"])
+        self.assertTrue(naming.is_numerical)
 
     def test_nothing_differs(self):
-        told = several.told_apart([self.run_of("a"), self.run_of("b")])
-        self.assertEqual((told.parameter, told.names), (None, ["a", "b"]))
+        naming = several.distinguish([self.write_run("a"), self.write_run("b")])
+        self.assertEqual((naming.parameter, naming.names), (None, ["a", "b"]))
 
     def test_the_parameter_with_most_values_and_how_many_others(self):
-        results = [self.run_of(str(i), depth=str(5 + i), mu="0.5" if i else "0.7") for i in range(3)]
-        told = several.told_apart(results)
-        self.assertEqual((told.parameter, told.others), ("Lever/Depth", 1))
+        results = [self.write_run(str(i), depth=str(5 + i), mu="0.5" if i else "0.7") for i in range(3)]
+        naming = several.distinguish(results)
+        self.assertEqual((naming.parameter, naming.others), ("Lever/Depth", 1))
 
     def test_the_device_rather_than_the_method(self):
-        results = [self.run_of(str(i), depth=str(5 + i), model=model) for i, model in enumerate(("rigid", "beam"))]
-        self.assertEqual(several.told_apart(results).parameter, "Lever/Depth")
+        results = [self.write_run(str(i), depth=str(5 + i), model=model) for i, model in enumerate(("rigid", "beam"))]
+        self.assertEqual(several.distinguish(results).parameter, "Lever/Depth")
 
     def test_labels_keep_their_distance_and_order(self):
         places = several.spread([0.5, 0.51, 0.52, 0.9, 0.0], 0.1)
@@ -152,7 +152,7 @@ class Pictures(SeveralTest):
         self.expect_layout(figure)
 
     def test_many_words_have_a_legend(self):
-        results = [self.run_of(f"a run {i}", 1 + i, model=f"model {i}") for i in range(12)]
+        results = [self.write_run(f"a run {i}", 1 + i, model=f"model {i}") for i in range(12)]
         figure = comparison.comparison(results)
         self.assertEqual(len(figure.legends[0].get_texts()), 12)
         self.expect_layout(figure)
@@ -189,7 +189,7 @@ class Pictures(SeveralTest):
 
     def test_pressure_at_equal_x(self):
         """The second face is as the first but for its size; steps that miss x are shifted by what they miss."""
-        results = [self.run_of("a", depth="6"), self.run_of("b", depth="8")]
+        results = [self.write_run("a", depth="6"), self.write_run("b", depth="8")]
         with h5py.File(results[1].folder / "result.h5", "r+") as file:
             file["face/pressure"][:] *= 1.5
         pictures = comparison.comparisons(results)
@@ -202,8 +202,8 @@ class Pictures(SeveralTest):
         self.expect_layout(pictures["pressure"])
 
     def test_what_differs_names_the_runs(self):
-        two = [self.run_of(name, mu=mu, depth=depth) for name, mu, depth in (("a", "0.5", "6"), ("b", "0.7", "6"), ("c", "0.7", "8"))]
-        self.assertEqual(several.told_apart(two).names, ["0.5, 6 mm", "0.7, 6 mm", "0.7, 8 mm"])
+        two = [self.write_run(name, mu=mu, depth=depth) for name, mu, depth in (("a", "0.5", "6"), ("b", "0.7", "6"), ("c", "0.7", "8"))]
+        self.assertEqual(several.distinguish(two).names, ["0.5, 6 mm", "0.7, 6 mm", "0.7, 8 mm"])
 
     def test_script(self):
         make_run(self.folder / "a")

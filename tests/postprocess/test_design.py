@@ -65,12 +65,12 @@ class DesignTest(PictureTest):
         use_print_style()
         self.addCleanup(plt.close, "all")
 
-    def pictures_of(self, *arguments):
+    def draw_pictures(self, *arguments):
         result = results.read_result(make_design(self.folder / "design", *arguments))
         return plot.draw([result])
 
     def test_a_front_shows_aims_and_levers(self):
-        pictures = self.pictures_of()
+        pictures = self.draw_pictures()
         self.assertEqual(set(pictures), {"front"})
         aims, levers = pictures["front"].axes
         np.testing.assert_allclose(aims.lines[0].get_xdata(), np.linspace(30, 50, 6))
@@ -84,7 +84,7 @@ class DesignTest(PictureTest):
             with self.subTest(judges=judges):
                 self.folder = self.folder / str(judges)
                 self.folder.mkdir()
-                pictures = self.pictures_of(0, judges)
+                pictures = self.draw_pictures(0, judges)
                 self.assertEqual(set(pictures), {"judgements"})
                 (axes,) = pictures["judgements"].axes
                 for line in axes.lines[:2]:
@@ -94,7 +94,7 @@ class DesignTest(PictureTest):
                 self.expect_layout(pictures["judgements"])
 
     def test_a_lever_without_front_and_judges_has_no_picture(self):
-        self.assertEqual(self.pictures_of(0, 0), {})
+        self.assertEqual(self.draw_pictures(0, 0), {})
 
 
 if __name__ == "__main__":

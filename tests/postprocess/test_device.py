@@ -38,9 +38,9 @@ end
 
 
 @lru_cache
-def drawing_of(scene):
+def draw_scene(scene):
     """A device, its drawing and what is wrong with the layout."""
-    found = apparatus.device_of(scene, SPRAG, None)
+    found = apparatus.make_device(scene, SPRAG, None)
     use_print_style()
     figure = device.drawing(found)
     return found, figure, problems(figure)
@@ -48,7 +48,7 @@ def drawing_of(scene):
 
 class DeviceTest(PictureTest):
     def drawn(self, scene):
-        self.device, figure, wrong = drawing_of(scene)
+        self.device, figure, wrong = draw_scene(scene)
         (self.axes,) = figure.axes
         self.assertEqual(wrong, [])
 
@@ -157,7 +157,7 @@ class DeviceTest(PictureTest):
             self.assertGreater(side * vertices[:, 1].mean(), 0)
 
     def test_no_contact_there(self):
-        found = apparatus.device_of(SCENES / "closed-form-a.prm", SPRAG, 250)
+        found = apparatus.make_device(SCENES / "closed-form-a.prm", SPRAG, 250)
         self.assertIsNone(found.forces)
         with self.assertRaisesRegex(NotAResult, "no contact"):
             device.drawing(found, 250)
@@ -186,7 +186,7 @@ class OutlineTest(unittest.TestCase):
         inner = np.array([(1, 1), (1, 2), (2, 2), (2, 1)], dtype=float)
         points = np.concatenate((outer, inner))
         edges = [(2, 3), (0, 1), (6, 7), (1, 2), (4, 5), (3, 0), (5, 6), (7, 4)]
-        loops = sorted(sorted(loop) for loop in drafting.loops_of(edges, points))
+        loops = sorted(sorted(loop) for loop in drafting.find_loops(edges, points))
         self.assertEqual(loops, [[0, 1, 2, 3], [4, 5, 6, 7]])
 
 

@@ -19,7 +19,7 @@ import test_study  # noqa: E402
 import test_vibration  # noqa: E402
 
 
-def rows_of(path, delimiter=","):
+def read_rows(path, delimiter=","):
     with path.open(newline="", encoding="utf-8") as file:
         return list(csv.reader(file, delimiter=delimiter))
 
@@ -42,15 +42,15 @@ class ExportTest(PictureTest):
     def test_table_holds_every_number_to_the_last_digit(self):
         folder = self.make_run()
         self.assertEqual([path.name for path in self.export(folder)], ["table.csv", "summary.csv", "summary.json"])
-        names, *rows = rows_of(folder / "table.csv")
+        names, *rows = read_rows(folder / "table.csv")
         self.assertEqual(names[:5], ["time [s]", "x [mm]", "theta [rad]", "P [N]", "Q [N]"])
         with h5py.File(folder / "result.h5") as file:
             self.assertEqual(sorted(name.split(" [")[0] for name in names), sorted(file["table"]))
             for column, name in enumerate(names):
                 cells = [row[column] for row in rows]
-                given = file["table"][name.split(" [")[0]]
-                self.assertEqual(name, f"{name.split(' [')[0]} [{given.attrs['unit']}]")
-                np.testing.assert_array_equal([float(cell or "nan") for cell in cells], given[:])
+                data = file["table"][name.split(" [")[0]]
+                self.assertEqual(name, f"{name.split(' [')[0]} [{data.attrs['unit']}]")
+                np.testing.assert_array_equal([float(cell or "nan") for cell in cells], data[:])
                 self.assertFalse(any("-0" == cell for cell in cells))
 
     def test_table_read_by_numpy(self):
@@ -63,14 +63,14 @@ class ExportTest(PictureTest):
     def test_decimal_comma(self):
         folder = self.make_run()
         self.export(folder, "--decimal-comma", "--format", "csv", "-o", self.pictures)
-        names, _, second, *_ = rows_of(self.pictures / "table.csv", ";")
+        names, _, second, *_ = read_rows(self.pictures / "table.csv", ";")
         self.assertEqual(second[names.index("x [mm]")], repr(1 / 3).replace(".", ","))
         self.assertFalse((self.pictures / "summary.json").exists())
 
     def test_summary(self):
         folder = self.make_run()
         self.export(folder)
-        rows = {row[0]: row[1:] for row in rows_of(folder / "summary.csv")}
+        rows = {row[0]: row[1:] for row in read_rows(folder / "summary.csv")}
         self.assertEqual(rows["name"], ["value", "unit", "description"])
         self.assertEqual(rows["slope_forward"], [repr(0.1 / 3), "N/mm", "slope_forward of a test"])
         self.assertEqual(rows["slope_backward"][0], "")
@@ -88,7 +88,7 @@ class ExportTest(PictureTest):
     def test_face(self):
         folder = self.make_run()
         self.export(folder, "--only", "face", "--format", "csv")
-        names, *rows = rows_of(folder / "face.csv")
+        names, *rows = read_rows(folder / "face.csv")
         self.assertEqual(names, ["time [s]", "x [mm]", "xi [mm]", "pressure [MPa]", "traction [MPa]"])
         self.assertTrue(rows)
         for row in rows:
@@ -103,7 +103,7 @@ class ExportTest(PictureTest):
             test_study.put(file["runs"], "contact_enforcement", ["penalty"] * number, "")
             test_study.put(file["runs"], "reason", [""] * (number - 1) + ["too large, it said"], "")
         self.export(folder)
-        names, *rows = rows_of(folder / "table.csv")
+        names, *rows = read_rows(folder / "table.csv")
         last = dict(zip(names, rows[-1]))
         self.assertEqual(names[0], "run [1]")
         self.assertEqual(last["contact_enforcement"], "penalty")
@@ -113,7 +113,7 @@ class ExportTest(PictureTest):
     def test_map_has_a_row_for_each_point(self):
         folder = test_map.make_map(self.folder / "map")
         self.export(folder)
-        names, *rows = rows_of(folder / "map.csv")
+        names, *rows = read_rows(folder / "map.csv")
         self.assertEqual(names[:2], ["Friction/Factor [1]", "Lever/Depth [mm]"])
         self.assertEqual(len(rows), test_map.N_FIRST * test_map.N_SECOND)
         column = names.index("growth_rate_forward [1/s]")
@@ -121,16 +121,16 @@ class ExportTest(PictureTest):
             i = (float(row[0]) - 0.5) / 0.25
             self.assertAlmostEqual(float(row[column]), 40 * (i - 2.25), 12)
         self.assertEqual(rows[-1][column], "")
-        self.assertEqual(rows_of(folder / "table.csv")[0][:2], ["Friction/Factor [1]", "Lever/Depth [1]"])
+        self.assertEqual(read_rows(folder / "table.csv")[0][:2], ["Friction/Factor [1]", "Lever/Depth [1]"])
 
     def test_modes_and_their_shapes(self):
         folder = test_vibration.make_stability(self.folder / "a", **test_vibration.FLUTTER)
         written = self.export(folder)
         self.assertEqual([path.name for path in written], ["modes.csv", "mode-shapes.csv", "summary.csv", "summary.json"])
-        names, *rows = rows_of(folder / "modes.csv")
+        names, *rows = read_rows(folder / "modes.csv")
         self.assertEqual(names[:3], ["mode [1]", "frequency [1]", "growth_rate [1]"])
         self.assertEqual([float(row[2]) for row in rows], [value.real for value in test_vibration.GROWING])
-        names, *rows = rows_of(folder / "mode-shapes.csv")
+        names, *rows = read_rows(folder / "mode-shapes.csv")
         shape = {float(row[1]): float(row[names.index("across_real [1]")]) for row in rows if row[0] == "1"}
         self.assertAlmostEqual(shape[50.0], np.sin(np.pi / 4), 12)
 
@@ -144,7 +144,7 @@ class ExportTest(PictureTest):
             file["table/P"].resize((10,))
             file.swmr_mode = True
             self.assertEqual(self.export(self.folder / "a", "--format", "csv"), [self.folder / "a" / "table.csv"])
-        self.assertEqual(len(rows_of(self.folder / "a" / "table.csv")), 11)
+        self.assertEqual(len(read_rows(self.folder / "a" / "table.csv")), 11)
 
     def test_refusals(self):
         folder = self.make_run()

@@ -66,7 +66,7 @@ def leaf_blocks():
     return [block("leaf", np.linspace(-60, 0, 21), (-0.7, 0.7))]
 
 
-def displacement_of(nodes, part):
+def displace(nodes, part):
     """Bending of what is not rigid, and a dent of the layer."""
     if part in ("hub", "cylinder"):
         return np.zeros_like(nodes)
@@ -93,7 +93,7 @@ def in_space(vectors):
 def write_frames(folder, rows, blocks):
     """In the axes of the world, as sprag does: a lever's mesh where it is at rest, its displacement from there."""
     nodes = np.concatenate([cells.reshape(-1, 2) for cells, _ in blocks])
-    elastic = np.concatenate([displacement_of(cells, part).reshape(-1, 2) for cells, part in blocks])
+    elastic = np.concatenate([displace(cells, part).reshape(-1, 2) for cells, part in blocks])
     part = np.concatenate([np.full(len(cells) * 9, NUMBERS[name]) for cells, name in blocks])
     first = np.arange(0, len(nodes), 9)[:, None, None]
     quads = (first + np.array([(0, 1, 4, 3), (1, 2, 5, 4), (3, 4, 7, 6), (4, 5, 8, 7)])).reshape(-1, 4)
@@ -165,10 +165,10 @@ TIMES = np.arange(len(X)) / 100
 WRITTEN = (10, 20, 30, 40, 50, 60)  # rows: x = 10 .. 40 forward, 30 and 20 backward
 
 
-def make_run(folder, blocks, written=WRITTEN, wanted="interval"):
+def make_run(folder, blocks, written=WRITTEN, field_frames="interval"):
     file = new_file(folder)
     del file["parameters"]
-    file["parameters"] = PARAMETERS.replace("FIELDS", wanted)
+    file["parameters"] = PARAMETERS.replace("FIELDS", field_frames)
     theta = touching(X)
     away = DISTANCE + SPRUNG - X
     s = away * np.cos(theta) - HEIGHT * np.sin(theta)
@@ -266,7 +266,7 @@ class PlaceTest(FrameTest):
         scenery = fields.Scenery(result, frames.chosen_frame(result, 20, "forward"), "all")
         turn = touching(20.0) - touching(SPRUNG)
         nodes = scenery.leaf.nodes
-        elastic = displacement_of(nodes, "leaf")
+        elastic = displace(nodes, "leaf")
         c, s = np.cos(turn), np.sin(turn)
         expected = (nodes + elastic) @ np.array(((c, s), (-s, c))) - nodes
         np.testing.assert_allclose(scenery.leaf.displacement, expected, atol=1e-6)

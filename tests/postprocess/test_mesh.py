@@ -90,7 +90,7 @@ class MeshTest(PictureTest):
         for text in (VERSION_2, VERSION_4):
             path = self.folder / "own.msh"
             path.write_text(text)
-            found = mesh.of_msh(path)
+            found = mesh.read_msh(path)
             self.assertEqual(found.parts["plate"].tolist(), [[[0, 0], [1, 0], [1, 1], [0, 1]]])
             self.assertEqual(found.parts["lever"].tolist(), [[[1, 0], [2, 0], [2, 1], [1, 1]]])
             self.assertEqual(found.curves["sensor plate"].tolist(), [[[0, 0], [1, 0]]])
@@ -99,7 +99,7 @@ class MeshTest(PictureTest):
 
     def test_parts_of_a_run_with_the_cylinder_at_its_turning_point(self):
         test_fields.make_run(self.folder / "a", test_fields.apparatus_blocks() + test_fields.leaf_blocks())
-        found = mesh.of_folder(self.folder / "a")
+        found = mesh.read_folder(self.folder / "a")
         self.assertEqual(sorted(found.parts), ["cylinder", "hub", "layer", "leaf", "lever", "plate", "web"])
         self.assertEqual([len(found.parts[name]) for name in ("web", "layer", "leaf")], [42 * 3, 59, 20])
         face = found.curves["friction face"]
@@ -124,11 +124,11 @@ class MeshTest(PictureTest):
     def test_refusals(self):
         test_fields.make_run(self.folder / "a", test_fields.lever_blocks(), ())
         with self.assertRaisesRegex(NotAResult, "Output/Fields"):
-            mesh.of_folder(self.folder / "a")
+            mesh.read_folder(self.folder / "a")
         path = self.folder / "own.msh"
         path.write_text(VERSION_2.replace("2.2 0 8", "2.2 1 8"))
         with self.assertRaisesRegex(NotAResult, "ASCII"):
-            mesh.of_msh(path)
+            mesh.read_msh(path)
 
 
 if __name__ == "__main__":

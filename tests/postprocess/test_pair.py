@@ -53,7 +53,7 @@ class PairTest(PictureTest):
 
     def test_over_x_each_way(self):
         result = make_static(self.folder / "a")
-        panels = pair.pair_of_levers(result).axes
+        panels = pair.draw_pair(result).axes
         self.assertEqual(len(panels), 8)
         for column, rows in enumerate((slice(0, 11), slice(12, 22))):
             P, F, swing, lateral = panels[column::2]
@@ -67,7 +67,7 @@ class PairTest(PictureTest):
 
     def test_over_time_with_inertia_and_near_the_reversal(self):
         result = make_dynamic(self.folder / "a")
-        panels = pair.pair_of_levers(result).axes
+        panels = pair.draw_pair(result).axes
         self.assertEqual(len(panels), 8)
         np.testing.assert_array_equal(curve(panels[0], "second lever").get_xdata(), result.table["time"])
         near = curve(panels[1], "second lever").get_xdata()
@@ -79,7 +79,7 @@ class PairTest(PictureTest):
     def test_a_symmetric_pair_swings_by_round_off_alone(self):
         result = make_static(self.folder / "a")
         result.table["swing"] = 1e-16 * np.sin(result.table["x"])
-        figure = pair.pair_of_levers(result)
+        figure = pair.draw_pair(result)
         self.assertEqual([axes.get_ylabel() for axes in figure.axes[::2]], ["$P$ [N]", "$F$ [N]", "lateral force [N]"])
         self.assertIn("swing: none but round-off", [text.get_text() for text in figure.legends[0].get_texts()])
         self.expect_layout(figure)

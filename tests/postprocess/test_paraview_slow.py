@@ -69,15 +69,15 @@ class Seen:
         self.arrays = np.load(folder / f"{index}-{reader}.npz")
         self.times = self.arrays["times"]
 
-    def of(self, number, name):
+    def values_at(self, number, name):
         return self.arrays[f"{number} {name}"]
 
     def now(self, number):
         """Returns the points that Warp by Vector shows."""
-        return (self.of(number, "points") + self.of(number, "displacement [mm]"))[:, :2]
+        return (self.values_at(number, "points") + self.values_at(number, "displacement [mm]"))[:, :2]
 
     def rest(self, number=0):
-        return self.of(number, "points")[:, :2]
+        return self.values_at(number, "points")[:, :2]
 
 
 def turned(points, pivot, theta, side=1):
@@ -138,11 +138,11 @@ class ParaViewTest(unittest.TestCase):
     def test_lever_turns_on_its_pivot_and_the_cylinder_is_at_x(self):
         seen = Seen(self.folder / "lever", "fields")
         for number, row in enumerate(self.rows("lever", seen)):
-            part, lever, now = seen.of(number, "part"), seen.of(number, "lever"), seen.now(number)
+            part, lever, now = seen.values_at(number, "part"), seen.values_at(number, "lever"), seen.now(number)
             rim = now[lever == 0][1:]
             np.testing.assert_allclose(now[lever == 0][0], (row["x"], 0), atol=1e-5)
             np.testing.assert_allclose(np.hypot(*(rim - (row["x"], 0)).T), RADIUS, atol=1e-4)
-            elastic = seen.of(number, "elastic_displacement [mm]")[:, :2]
+            elastic = seen.values_at(number, "elastic_displacement [mm]")[:, :2]
             body = lever == 1
             rigid = turned(seen.rest()[body], (DISTANCE, 0), row["theta"])
             np.testing.assert_allclose(now[body] - elastic[body], rigid, atol=1e-4)
@@ -153,7 +153,7 @@ class ParaViewTest(unittest.TestCase):
         seen = Seen(self.folder / "lever", "face")
         file = self.result("lever")
         for number, row in enumerate(self.rows("lever", seen)):
-            pressure = seen.of(number, "pressure [MPa]")
+            pressure = seen.values_at(number, "pressure [MPa]")
             written = file["face/pressure"][int(np.flatnonzero(file["face/time"][:] == row["time"])[0])]
             np.testing.assert_allclose(pressure, written, rtol=1e-6)
             if not row["P"] > 1:
@@ -161,7 +161,7 @@ class ParaViewTest(unittest.TestCase):
             away = np.hypot(*(seen.now(number) - (row["x"], 0)).T) - RADIUS
             self.assertAlmostEqual(away.min(), -row["penetration"], delta=1e-4)
             self.assertLess(np.abs(away[pressure > 0]).max(), 2 * row["penetration"] + 1e-4)
-            traction = seen.of(number, "traction [MPa]")[:, :2]
+            traction = seen.values_at(number, "traction [MPa]")[:, :2]
             force = (0.5 * (traction[1:] + traction[:-1]) * np.hypot(*np.diff(seen.rest(number), axis=0).T)[:, None]).sum(axis=0)
             self.assertAlmostEqual(40 * force[0], row["Q"], delta=0.02 * abs(row["Q"]))
 
@@ -171,26 +171,26 @@ class ParaViewTest(unittest.TestCase):
         table = self.result("lever")["table"]
         self.assertIn(table["time"][int(np.argmax(table["P"][:]))], seen.times)
         self.assertIn(table["time"][int(np.argmax(table["x"][:]))], seen.times)
-        layer = max(seen.of(i, "von_mises_stress [MPa]")[seen.of(i, "part") == LAYER].max() for i in range(len(seen.times)))
+        layer = max(seen.values_at(i, "von_mises_stress [MPa]")[seen.values_at(i, "part") == LAYER].max() for i in range(len(seen.times)))
         self.assertAlmostEqual(layer, summary["largest_layer_stress"], delta=1e-2 * layer)
         for number in range(len(seen.times)):
-            s = seen.of(number, "stress [MPa]").reshape(-1, 3, 3)
+            s = seen.values_at(number, "stress [MPa]").reshape(-1, 3, 3)
             np.testing.assert_allclose(s, s.transpose(0, 2, 1))
             deviator = s - np.trace(s, axis1=1, axis2=2)[:, None, None] * np.eye(3) / 3
             mises = np.sqrt(1.5 * (deviator**2).sum(axis=(1, 2)))
-            np.testing.assert_allclose(mises, seen.of(number, "von_mises_stress [MPa]"), rtol=1e-4, atol=1e-5)
+            np.testing.assert_allclose(mises, seen.values_at(number, "von_mises_stress [MPa]"), rtol=1e-4, atol=1e-5)
 
     def test_elastic_cylinder_is_around_its_centre_and_touches_the_face(self):
         seen, face = Seen(self.folder / "cylinder", "fields"), Seen(self.folder / "cylinder", "face")
         for number, row in enumerate(self.rows("cylinder", seen)):
-            disc = seen.of(number, "part") == CYLINDER
+            disc = seen.values_at(number, "part") == CYLINDER
             now = seen.now(number)[disc]
             core = now[np.hypot(*seen.rest()[disc].T) < 28.001]
             np.testing.assert_allclose(0.5 * (core.min(axis=0) + core.max(axis=0)), (row["x"], 0), atol=0.05)
             distance = np.hypot(*(now - (row["x"], 0)).T)
             self.assertAlmostEqual(distance.max(), RADIUS, delta=1e-3)
             self.assertAlmostEqual(distance.min(), 28, delta=1e-3)
-            pressed = face.of(number, "pressure [MPa]") > 0
+            pressed = face.values_at(number, "pressure [MPa]") > 0
             if not row["P"] > 1:
                 continue
             # Distance of points under pressure from the polygon of the rim.
@@ -213,11 +213,11 @@ class ParaViewTest(unittest.TestCase):
     def test_second_lever_is_the_mirror_image_and_leaf_springs_hang_on_the_hubs(self):
         seen = Seen(self.folder / "pair", "fields")
         for number, row in enumerate(self.rows("pair", seen)):
-            lever, part, now = seen.of(number, "lever"), seen.of(number, "part"), seen.now(number)
+            lever, part, now = seen.values_at(number, "lever"), seen.values_at(number, "part"), seen.now(number)
             mirrored = now[lever == 1] * (1, -1)
             np.testing.assert_allclose(now[lever == 2], mirrored, atol=2e-4)
             self.assertGreater(now[(lever == 1) & (part == LAYER)][:, 1].min(), 0)
-            stress = seen.of(number, "von_mises_stress [MPa]")
+            stress = seen.values_at(number, "von_mises_stress [MPa]")
             np.testing.assert_allclose(stress[lever == 1], stress[lever == 2], rtol=1e-2, atol=1e-2)
             leaf = (part == LEAF) & (lever == 1)
             from_pivot = np.hypot(*(seen.rest()[leaf] - (DISTANCE, 0)).T)
@@ -230,9 +230,9 @@ class ParaViewTest(unittest.TestCase):
         seen = Seen(self.folder / "solid", "fields")
         axis = np.array((2e-3, 1e-3, 1)) / np.linalg.norm((2e-3, 1e-3, 1))
         for number, row in enumerate(self.rows("solid", seen)):
-            part, lever = seen.of(number, "part"), seen.of(number, "lever")
-            points, elastic = seen.of(number, "points"), seen.of(number, "elastic_displacement [mm]")
-            now = points + seen.of(number, "displacement [mm]")
+            part, lever = seen.values_at(number, "part"), seen.values_at(number, "lever")
+            points, elastic = seen.values_at(number, "points"), seen.values_at(number, "elastic_displacement [mm]")
+            now = points + seen.values_at(number, "displacement [mm]")
             body = lever == 1
             self.assertEqual(set(part[body]), {LEVER, LAYER, HUB})
             self.assertAlmostEqual(np.ptp(points[body, 2]), WIDTH)
@@ -250,13 +250,13 @@ class ParaViewTest(unittest.TestCase):
             file = self.result(name)
             axis = np.array(slopes) / np.linalg.norm(slopes)
             for number, row in enumerate(self.rows(name, seen)):
-                pressure = seen.of(number, "pressure [MPa]")
+                pressure = seen.values_at(number, "pressure [MPa]")
                 for step in np.flatnonzero(file["face/time"][:] == row["time"]):
                     np.testing.assert_allclose(pressure, file["face/pressure"][step], rtol=1e-6)
-                np.testing.assert_allclose(seen.of(number, "zeta [mm]"), file["face/zeta"][:], atol=1e-5)
+                np.testing.assert_allclose(seen.values_at(number, "zeta [mm]"), file["face/zeta"][:], atol=1e-5)
                 if not row["P"] > 1:
                     continue
-                now = seen.of(number, "points") + seen.of(number, "displacement [mm]")
+                now = seen.values_at(number, "points") + seen.values_at(number, "displacement [mm]")
                 along, away = from_axis(now, (row["x"], 0, position), axis)
                 over = np.abs(along) < half_length
                 # A point is the mean over half a millimetre, over which the circle falls by 1/2 (1/4)^2/56.
@@ -265,7 +265,7 @@ class ParaViewTest(unittest.TestCase):
                 outside = 0.5 * row["contact_width"] + 0.5
                 self.assertLess((away - RADIUS)[pressure > 0].max(), 0.5 * 0.5 * outside / RADIUS)
                 self.assertLess(np.abs(along[pressure > 0]).max(), half_length + 0.01)
-                force = file["face/weight"][:] @ seen.of(number, "traction [MPa]")
+                force = file["face/weight"][:] @ seen.values_at(number, "traction [MPa]")
                 # Pressure is shown along the lever's normal; the cylinder's is off by the centre's offset over R.
                 self.assertAlmostEqual(force[0], row["Q"], delta=2 * (1e-3 + abs(row["centre_offset"]) / RADIUS) * abs(row["Q"]))
                 self.assertAlmostEqual(force[2], row["F_across"], delta=1e-4 * row["P"])
@@ -273,27 +273,27 @@ class ParaViewTest(unittest.TestCase):
     def test_half_that_is_solved_is_there_with_its_mirror_image(self):
         for index, names in (("fields", ("displacement [mm]", "stress [MPa]", "von_mises_stress [MPa]")), ("face", ("displacement [mm]", "traction [MPa]"))):
             seen = Seen(self.folder / "half", index)
-            first, second = np.array_split(np.flatnonzero(seen.of(0, "lever") == 1), 2)
+            first, second = np.array_split(np.flatnonzero(seen.values_at(0, "lever") == 1), 2)
             mirror = np.array((1, 1, -1))
-            points = seen.of(0, "points")
+            points = seen.values_at(0, "points")
             np.testing.assert_allclose(points[second], points[first] * mirror, atol=1e-12)
             self.assertGreater(points[first, 2].max(), 0.4 * WIDTH)
             self.assertGreater(points[first, 2].min(), -1e-9)
             for name in names:
-                values = seen.of(0, name)
+                values = seen.values_at(0, name)
                 signs = {1: 1, 3: mirror, 9: np.outer(mirror, mirror).ravel()}[1 if values.ndim == 1 else values.shape[1]]
                 self.assertGreater(np.abs(values[first]).max(), 1e-3, name)
                 np.testing.assert_allclose(values[second], values[first] * signs, atol=1e-6 * np.abs(values).max(), err_msg=name)
-            self.assertAlmostEqual(np.abs(seen.of(0, names[0])[first][:, 2]).max(), 0, delta=0.1)
+            self.assertAlmostEqual(np.abs(seen.values_at(0, names[0])[first][:, 2]).max(), 0, delta=0.1)
 
     def test_solid_stress_of_frames_is_the_peak_told(self):
         summary = {name: value[()] for name, value in self.result("half")["summary"].items()}
         seen = Seen(self.folder / "half", "fields")
-        stress = seen.of(len(seen.times) - 1, "von_mises_stress [MPa]")
-        part = seen.of(0, "part")
-        layer = max(seen.of(i, "von_mises_stress [MPa]")[part == LAYER].max() for i in range(len(seen.times)))
+        stress = seen.values_at(len(seen.times) - 1, "von_mises_stress [MPa]")
+        part = seen.values_at(0, "part")
+        layer = max(seen.values_at(i, "von_mises_stress [MPa]")[part == LAYER].max() for i in range(len(seen.times)))
         self.assertAlmostEqual(layer, summary["largest_layer_stress"], delta=1e-2 * layer)
-        s = seen.of(len(seen.times) - 1, "stress [MPa]").reshape(-1, 3, 3)
+        s = seen.values_at(len(seen.times) - 1, "stress [MPa]").reshape(-1, 3, 3)
         deviator = s - np.trace(s, axis1=1, axis2=2)[:, None, None] * np.eye(3) / 3
         np.testing.assert_allclose(np.sqrt(1.5 * (deviator**2).sum(axis=(1, 2))), stress, rtol=1e-4, atol=1e-5)
 
@@ -303,15 +303,15 @@ class ParaViewTest(unittest.TestCase):
         self.assertGreater(modes["twisting"][number], 0.8)
         seen = Seen(self.folder / "twist", f"mode-{number + 1:02}")
         np.testing.assert_allclose(seen.times, np.arange(1, 25) / (24 * modes["frequency"][number]), rtol=1e-9)
-        points, moved = seen.of(23, "points"), seen.of(23, "displacement [mm]")
-        body = seen.of(0, "lever") == 1
+        points, moved = seen.values_at(23, "points"), seen.values_at(23, "displacement [mm]")
+        body = seen.values_at(0, "lever") == 1
         end = body & (points[:, 0] < points[body, 0].min() + 1)
         arm = points[end] - points[end].mean(axis=0)
         angle = np.polyfit(arm[:, 2], moved[end, 1], 1)[0]
         np.testing.assert_allclose(moved[end, 1], angle * arm[:, 2], atol=0.05 * np.abs(moved[end]).max())
         np.testing.assert_allclose(moved[end, 2], -angle * arm[:, 1] + moved[end, 2].mean(), atol=0.1 * np.abs(moved[end]).max())
         self.assertGreater(abs(angle), 0.1)
-        np.testing.assert_allclose(seen.of(11, "displacement [mm]"), -moved, atol=1e-4)  # half a period later
+        np.testing.assert_allclose(seen.values_at(11, "displacement [mm]"), -moved, atol=1e-4)  # half a period later
 
     def test_mode_swings_for_one_period(self):
         modes = {name: values[:] for name, values in self.result("mode")["modes"].items()}
@@ -319,22 +319,22 @@ class ParaViewTest(unittest.TestCase):
             seen = Seen(self.folder / "mode", f"mode-{number + 1:02}")
             frequency = modes["frequency"][number]
             np.testing.assert_allclose(seen.times, np.arange(1, 25) / (24 * frequency), rtol=1e-9)
-            real, imaginary = (seen.of(0, f"displacement_{name} [mm]") for name in ("real", "imaginary"))
+            real, imaginary = (seen.values_at(0, f"displacement_{name} [mm]") for name in ("real", "imaginary"))
             largest = np.hypot(np.linalg.norm(real, axis=1), np.linalg.norm(imaginary, axis=1)).max()
             self.assertAlmostEqual(largest, 0.05 * 210, delta=1e-4)
             for k in range(24):
                 expected = np.cos(np.pi * (k + 1) / 12) * real - np.sin(np.pi * (k + 1) / 12) * imaginary
-                np.testing.assert_allclose(seen.of(k, "displacement [mm]"), expected, atol=1e-5)
-                self.assertAlmostEqual(seen.of(k, "frequency [Hz]")[0], frequency, delta=1e-6 * frequency)
-                self.assertAlmostEqual(seen.of(k, "growth_rate [1/s]")[0], modes["growth_rate"][number], delta=1e-6 * frequency)
+                np.testing.assert_allclose(seen.values_at(k, "displacement [mm]"), expected, atol=1e-5)
+                self.assertAlmostEqual(seen.values_at(k, "frequency [Hz]")[0], frequency, delta=1e-6 * frequency)
+                self.assertAlmostEqual(seen.values_at(k, "growth_rate [1/s]")[0], modes["growth_rate"][number], delta=1e-6 * frequency)
             # A hub turns about its pivot: (x, y) moves by its rotation times (y, -x).
-            rotation = seen.of(0, "hub_rotation_real [rad]")[0]
-            body = seen.of(0, "lever") == 1
+            rotation = seen.values_at(0, "hub_rotation_real [rad]")[0]
+            body = seen.values_at(0, "lever") == 1
             away = seen.rest()[body] - (DISTANCE, 0)
-            rigid = (real - seen.of(0, "elastic_real [mm]"))[body][:, :2]
+            rigid = (real - seen.values_at(0, "elastic_real [mm]"))[body][:, :2]
             np.testing.assert_allclose(rigid, rotation * np.column_stack((away[:, 1], -away[:, 0])), atol=1e-4)
-            told = modes["rotation_imaginary"][number] / modes["rotation_real"][number]
-            self.assertAlmostEqual(seen.of(0, "hub_rotation_imaginary [rad]")[0] / rotation, told, delta=1e-4)
+            expected_ratio = modes["rotation_imaginary"][number] / modes["rotation_real"][number]
+            self.assertAlmostEqual(seen.values_at(0, "hub_rotation_imaginary [rad]")[0] / rotation, expected_ratio, delta=1e-4)
 
 
 if __name__ == "__main__":

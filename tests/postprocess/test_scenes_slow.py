@@ -60,14 +60,14 @@ class ScenesTest(PictureTest):
         use_print_style()
         self.addCleanup(plt.close, "all")
 
-    def result_of(self, scene, changes, name=None):
+    def run_result(self, scene, changes, name=None):
         folder = self.folder / (name or scene)
         program.run_scene(program.program(), SCENES / f"{scene}.prm", folder, changes)
         return read_result(folder)
 
     def test_pictures_and_names(self):
         for scene, (changes, names) in PICTURES.items():
-            result = self.result_of(scene, changes)
+            result = self.run_result(scene, changes)
             with self.subTest(scene=scene):
                 self.assertEqual(pages.unknown_entries(result), [])
                 if scene not in OWN_COLUMNS:
@@ -87,7 +87,7 @@ class ScenesTest(PictureTest):
             plt.close("all")
 
     def test_comparison_of_slides(self):
-        results = [self.result_of("stability-b", {"Lever/Depth": depth, "Stability/Critical": "none"}, f"d{depth}") for depth in (8, 16)]
+        results = [self.run_result("stability-b", {"Lever/Depth": depth, "Stability/Critical": "none"}, f"d{depth}") for depth in (8, 16)]
         pictures = plot.draw(results)
         self.assertEqual(set(pictures), {"modes", "numbers"})
         lines = {line.get_label(): line.get_xdata() for line in pictures["modes"].axes[0].lines}
@@ -97,13 +97,13 @@ class ScenesTest(PictureTest):
     def test_comparison_of_many_devices(self):
         results = []
         for offset in range(2, 54, 4):
-            results.append(self.result_of("closed-form-a", {"Geometry/Interface offset": offset}, f"e{offset}"))
+            results.append(self.run_result("closed-form-a", {"Geometry/Interface offset": offset}, f"e{offset}"))
         figure = comparison.comparison(results)
         self.assertEqual(figure.axes[-1].get_ylabel(), "offset $e$ [mm]")
         self.expect_layout(figure)
 
     def test_comparison_of_lever_depths_in_time(self):
-        results = [self.result_of("reversal-a", {"Lever/Depth": depth}, f"d{depth}") for depth in (6, 12, 20)]
+        results = [self.run_result("reversal-a", {"Lever/Depth": depth}, f"d{depth}") for depth in (6, 12, 20)]
         figure = comparison.comparison(results)
         self.assertIn("12 mm", [text.get_text() for text in figure.axes[1].texts])
         self.expect_layout(figure)

@@ -83,7 +83,7 @@ def write(path, groups):
                 file[f"{group}/{name}"] = values
 
 
-def of_levers(values, number, image=lambda values: values):
+def on_levers(values, number, image=lambda values: values):
     """Values of a lever and, of a pair, of its mirror image."""
     return values if number == 1 else np.concatenate((values, image(values)))
 
@@ -115,13 +115,13 @@ def make_run(folder, x=(20.0, 30.0), number=1):
     rest, on_face = place(lever.nodes, touching(0)), np.column_stack((xi, 0 * xi + OFFSET, zeta))
     point = np.arange(len(xi)).reshape(9, -1)
     quads = np.stack((point[:-1, :-1], point[:-1, 1:], point[1:, 1:], point[1:, :-1]), axis=-1).reshape(-1, 4)
-    of_number = lambda nodes: np.repeat(np.arange(1.0, number + 1), len(nodes))  # noqa: E731
+    lever_numbers = lambda nodes: np.repeat(np.arange(1.0, number + 1), len(nodes))  # noqa: E731
     write(folder / "fields-mesh.h5", {
-        "fields": {"nodes": of_levers(rest, number, mirrored),
-                   "cells": of_levers(lever.cells, number, lambda cells: len(rest) + cells[:, (0, 3, 2, 1, 4, 7, 6, 5)]),
-                   "part": of_levers(lever.part.astype("f4"), number), "lever": of_number(rest)},
-        "face": {"nodes": of_levers(place(on_face, touching(0)), number, mirrored),
-                 "cells": of_levers(quads, number, lambda cells: len(xi) + cells), "lever": of_number(xi)},
+        "fields": {"nodes": on_levers(rest, number, mirrored),
+                   "cells": on_levers(lever.cells, number, lambda cells: len(rest) + cells[:, (0, 3, 2, 1, 4, 7, 6, 5)]),
+                   "part": on_levers(lever.part.astype("f4"), number), "lever": lever_numbers(rest)},
+        "face": {"nodes": on_levers(place(on_face, touching(0)), number, mirrored),
+                 "cells": on_levers(quads, number, lambda cells: len(xi) + cells), "lever": lever_numbers(xi)},
     })  # fmt: skip
     index = ""
     for row, theta in enumerate(touching(x)):
@@ -129,9 +129,9 @@ def make_run(folder, x=(20.0, 30.0), number=1):
         for name, nodes in (("fields", lever.nodes), ("face", on_face)):
             elastic = place(bent(nodes), theta) - (DISTANCE, 0, 0)
             whole = place(nodes, theta) + elastic - place(nodes, touching(0))
-            groups[name] = {"displacement": of_levers(whole, number, mirrored), "elastic_displacement": of_levers(elastic, number, mirrored)}
-        groups["fields"]["von_mises_stress"] = of_levers(90 - lever.nodes[:, 0], number)
-        groups["face"]["pressure"] = of_levers(pressure[row], number)
+            groups[name] = {"displacement": on_levers(whole, number, mirrored), "elastic_displacement": on_levers(elastic, number, mirrored)}
+        groups["fields"]["von_mises_stress"] = on_levers(90 - lever.nodes[:, 0], number)
+        groups["face"]["pressure"] = on_levers(pressure[row], number)
         write(folder / f"fields-{row:04}.h5", groups)
         index += f'<Time Value="{x[row] / 10:.17g}"/> <DataItem>fields-{row:04}.h5:/fields/displacement</DataItem>\n'
     (folder / "fields.xdmf").write_text(index)

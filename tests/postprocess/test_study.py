@@ -66,8 +66,8 @@ class StudyTest(PictureTest):
         result = results.read_result(make_study(self.folder / "run"))
         varied = study.varied_parameters(result)
         self.assertEqual([parameter.name for parameter in varied], ["Mesh/Degree", "Mesh/Face size"])
-        self.assertEqual(study.abscissa_of(varied).name, "Mesh/Face size")
-        self.assertEqual(study.abscissa_of(varied).label, "face size [mm]")
+        self.assertEqual(study.choose_abscissa(varied).name, "Mesh/Face size")
+        self.assertEqual(study.choose_abscissa(varied).label, "face size [mm]")
 
     def test_a_curve_for_each_of_the_other_settings(self):
         result = results.read_result(make_study(self.folder / "run"))

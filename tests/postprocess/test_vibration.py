@@ -206,14 +206,14 @@ class Vibration(ModePictureTest):
 
 
 class SpragSlip(ModePictureTest):
-    given = SpragSlipRun()
+    example = SpragSlipRun()
 
     def test_all_pictures(self):
         x = np.arange(58.0, 66)
         with make_sprag_slip(self.folder / "a") as file:
-            self.given.fill_growth(file)
-            self.given.fill_continuation(file, x, np.where(x > 60, 1.0, 0.0), np.where(x > 62, 2.0, 0.0))
-            finish(file, coexistence_from=61.0, coexistence_to=62.0, **self.given.summary, **self.given.cycle)
+            self.example.fill_growth(file)
+            self.example.fill_continuation(file, x, np.where(x > 60, 1.0, 0.0), np.where(x > 62, 2.0, 0.0))
+            finish(file, coexistence_from=61.0, coexistence_to=62.0, **self.example.summary, **self.example.cycle)
         self.expect_png(self.plot(self.folder / "a"), ["growth", "cycle", "continuation"])
 
     def test_branches_jump(self):
@@ -229,7 +229,7 @@ class SpragSlip(ModePictureTest):
 
     def test_force_until_the_vibration_is_told_apart(self):
         with make_sprag_slip(self.folder / "a") as file:
-            finish(file, **self.given.summary, **self.given.cycle)
+            finish(file, **self.example.summary, **self.example.cycle)
         result = results.read_result(self.folder / "a")
         _, axes = plt.subplots()
         sprag_slip.draw_force(axes, result, 0.06)
@@ -239,14 +239,14 @@ class SpragSlip(ModePictureTest):
 
     def test_a_slide_that_does_not_oscillate(self):
         with make_sprag_slip(self.folder / "a") as file:
-            self.given.fill_growth(file)
-            finish(file, **{**self.given.summary, "linear_frequency": 0.0, "measured_frequency": np.nan})
+            self.example.fill_growth(file)
+            finish(file, **{**self.example.summary, "linear_frequency": 0.0, "measured_frequency": np.nan})
         self.expect_png(self.plot(self.folder / "a"), ["growth"])
 
     def test_stopped_before_the_vibration_is_told(self):
         with make_sprag_slip(self.folder / "a") as file:
-            self.given.fill_growth(file)
-            finish(file, **{**self.given.summary, "cycle_begin": np.nan, "status": "interrupted"})
+            self.example.fill_growth(file)
+            finish(file, **{**self.example.summary, "cycle_begin": np.nan, "status": "interrupted"})
         self.expect_png(self.plot(self.folder / "a"), ["growth"])
 
     def test_nothing_measured(self):
@@ -254,7 +254,7 @@ class SpragSlip(ModePictureTest):
         with make_sprag_slip(self.folder / "a", 0.01) as file:
             for name in ("time", "amplitude", "predicted"):
                 put(file.require_group("growth"), name, np.empty(0))
-            finish(file, **self.given.summary)
+            finish(file, **self.example.summary)
         self.expect_png(self.plot(self.folder / "a"), ["growth"])
 
     def test_going_on_or_killed(self):

@@ -39,8 +39,8 @@ class Accuracy(RunTest):
                 self.assertEqual(done.returncode, 0, done.stderr)
                 with self.read(str(number)) as file:
                     self.assertIn(chosen, file["meta/chosen_settings"].asstr()[()])
-                given = (output / "run.log").read_text().partition("with\n")[2].partition("\n\n")[0]
-                self.assertLess(len(given.splitlines()), 30, given)
+                listing = (output / "run.log").read_text().partition("with\n")[2].partition("\n\n")[0]
+                self.assertLess(len(listing.splitlines()), 30, listing)
 
     def expect_rows_alone(self, scene, changes, name, values, count):
         study = ("Analysis/Type=study", f"Study/Vary={name} = {', '.join(values)}")

@@ -55,7 +55,7 @@ class Runner:
         command = [SPRAG, SOURCE / "params" / f"{scene}.prm", "--output", output]
         command += [word for option in ("Output/Fields=none", *options) for word in ("--set", option)]
         done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=timeout, stdin=subprocess.DEVNULL)
-        return Run(done.returncode, done.stdout, done.stderr, output / "result.h5")
+        return Run(done.returncode, done.stderr, output / "result.h5")
 
 
 def judged(runner, row):
@@ -76,7 +76,7 @@ def judged(runner, row):
     faults += [f"warning {name}" for name in row.forbids if name in run.warnings]
     error = admitted = None
     if row.check and run.status == 0:
-        error, admitted = row.check(run, lambda *other: runner.run(row.scene_of(*other), row.options_of(*other), row.timeout))
+        error, admitted = row.check(run, lambda *other: runner.run(row.find_scene(*other), row.find_options(*other), row.timeout))
         if row.limit is not None:
             admitted = row.limit
         if not error <= admitted:
@@ -94,10 +94,10 @@ def cells(row, run, error, admitted):
 
     steps, iterations = run.count("steps"), run.count("iterations")
     each = iterations / steps if steps and iterations is not None else None
-    told = number(admitted) + ("" if admitted is None or row.limit is not None else " told")
+    estimate = number(admitted) + ("" if admitted is None or row.limit is not None else " told")
     rejected = number(run.count("rejected_steps"), "{:.0f}")
     warnings = ", ".join(f"`{name}`" for name in run.warnings)
-    return (row.name, outcome, number(steps, "{:.0f}"), number(each, "{:.1f}"), rejected, number(error), told, row.against, warnings)
+    return (row.name, outcome, number(steps, "{:.0f}"), number(each, "{:.1f}"), rejected, number(error), estimate, row.against, warnings)
 
 
 def write(lines):

@@ -38,8 +38,8 @@ class Install(FolderTest):
         self.assertTrue((self.folder / "here" / "forces-over-x.png").is_file(), list((self.folder / "here").iterdir()))
         script = self.data / "meshes" / "lever.geo"
         script.write_text("Physical Surface(")
-        told = self.call(program, scene, *CHEAP, "--output", "there", status=2).stderr
-        self.assertIn(str(script), told)
+        message = self.call(program, scene, *CHEAP, "--output", "there", status=2).stderr
+        self.assertIn(str(script), message)
 
     def test_python_finds_its_package(self):
         code = f"import sprag; print(sprag.run({str(self.data / 'params' / 'closed-form-a.prm')!r}).summary['status'])"

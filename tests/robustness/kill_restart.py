@@ -142,7 +142,7 @@ def taken_over(folder):
         return int(file["meta/steps_taken_over"][()])
 
 
-def worker_of(process):
+def find_worker(process):
     try:
         children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
     except OSError:
@@ -192,7 +192,7 @@ class Victim:
         try:
             process.wait(moment)
         except subprocess.TimeoutExpired:
-            victim = worker_of(process) if kind == "worker" else process.pid
+            victim = find_worker(process) if kind == "worker" else process.pid
             try:
                 os.kill(victim or process.pid, signal.SIGTERM if kind == "interrupt" else signal.SIGKILL)
             except ProcessLookupError:

@@ -51,9 +51,9 @@ class Output(RunTest):
                 self.assertEqual(any("largest stress" in line for line in lines), scene == "model-a")
                 self.expect_log(scene, done)
                 if scene == "model-a":
-                    self.expect_peaks_of_the_file(next(line for line in lines if "largest P" in line))
+                    self.expect_file_peaks(next(line for line in lines if "largest P" in line))
 
-    def expect_peaks_of_the_file(self, line):
+    def expect_file_peaks(self, line):
         with h5py.File(self.output / "result.h5") as file:
             for way, printed in re.findall(r"(forward|backward) (\S+) N", line):
                 self.assertAlmostEqual(float(printed) / file[f"summary/peak_P_{way}"][()], 1, delta=1e-3)

@@ -110,14 +110,14 @@ class Pages(FolderTest):
         options = {}
         for page, words in commands():
             if re.match(r"postprocess/(?!test_)\w+\.py$", words[0]):
-                given = {word.split("=")[0].strip("[") for word in words[1:] if word.strip("[").startswith("-")}
-                options.setdefault(words[0], {}).setdefault(page, set()).update(given)
+                named = {word.split("=")[0].strip("[") for word in words[1:] if word.strip("[").startswith("-")}
+                options.setdefault(words[0], {}).setdefault(page, set()).update(named)
         self.assertGreater(len(options), 5)
         for script, pages in options.items():
             shown = draw(Path(script).name, "--help")
             self.assertEqual(shown.returncode, 0, script)
-            for page, given in pages.items():
-                for option in given:
+            for page, named in pages.items():
+                for option in named:
                     with self.subTest(page=page, script=script):
                         self.assertRegex(shown.stdout, rf"(?m)(^|[\s\[,]){re.escape(option)}\b")
 

@@ -38,7 +38,7 @@ def finished(words, **options):
     return subprocess.run(words, capture_output=True, text=True, check=False, timeout=TIMEOUT, env=ALONE, **options)
 
 
-def fields_of(folder):
+def read_fields(folder):
     """All datasets of all files with fields, attributes with numbers, and the text that each has beside numbers."""
     found = {}
     for path in sorted(folder.glob("*.xdmf")):
@@ -78,11 +78,11 @@ class RanksTest(RunTest):
 
     def expect_same_data(self, analysis, changes, group, names, tolerance):
         """Compares the results of one process and of two."""
-        alone, shared = (self.data_of(ranks, {**HELD, "Analysis/Type": analysis, **changes}, group, names) for ranks in (1, 2))
+        alone, shared = (self.read_data(ranks, {**HELD, "Analysis/Type": analysis, **changes}, group, names) for ranks in (1, 2))
         for name, values in alone.items():
             np.testing.assert_allclose(shared[name], values, rtol=0, atol=tolerance * np.nanmax(np.abs(values)), err_msg=name)
 
-    def data_of(self, ranks, changes, group, names):
+    def read_data(self, ranks, changes, group, names):
         folder = self.folder / f"{changes['Analysis/Type']}-{ranks}"
         done = run(ranks, folder, changes)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -116,7 +116,7 @@ class Ranks(RanksTest):
             self.assertEqual(done.stdout.count("Processes:    2, which share"), ranks - 1, done.stdout)
             with h5py.File(folder / "result.h5") as file:
                 tables[ranks] = {name: file["table"][name][:] for name in ("P", "Q", "theta", "P_2", "centre_across", "centre_across_2")}
-            fields[ranks] = fields_of(folder)
+            fields[ranks] = read_fields(folder)
         # More rows than one process writes together, see hdf5::rows_together.
         self.assertGreater(len(fields[1]["fields-0000.h5 fields/stress"]), 8192)
         self.assertGreater(len(fields[1]["fields.xdmf numbers"]), 2)

@@ -9,18 +9,18 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from ranks import ALONE, HELD, SETTINGS, SOURCE, SPRAG, TIMEOUT, RanksTest, command, fields_of, finished, run
+from ranks import ALONE, HELD, SETTINGS, SOURCE, SPRAG, TIMEOUT, RanksTest, command, finished, read_fields, run
 
 OFTEN = {**ALONE, "SPRAG_CHECKPOINT_SECONDS": "0.02"}
 
 
-def ranks_of(mpirun):
+def find_ranks(mpirun):
     """Identifiers of the processes of one that has begun."""
     words = [path.read_text().split() for path in Path(f"/proc/{mpirun.pid}/task").glob("*/children")]
     return sorted(int(word) for word in sum(words, []))
 
 
-def mpirun_of_one(words, scene):
+def mpirun_alone(words, scene):
     return ["mpirun", "-n", "1", words[0], scene, *words[2:]]
 
 
@@ -32,7 +32,7 @@ class SlowRanks(RanksTest):
         words = command(self.output, SETTINGS)
         for own, other in ((0, 1), (1, 0)):
             scenes = [words[1], str(self.folder / "missing.prm")]
-            done = finished([*mpirun_of_one(words, scenes[own]), ":", *mpirun_of_one(words, scenes[other])[1:]])
+            done = finished([*mpirun_alone(words, scenes[own]), ":", *mpirun_alone(words, scenes[other])[1:]])
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertEqual(done.stderr.count("missing.prm: cannot be read"), 1, done.stderr)
 
@@ -80,7 +80,7 @@ class SlowRanks(RanksTest):
             folder = self.folder / str(ranks)
             done = run(ranks, folder, changes)
             self.assertEqual(done.returncode, 0, done.stderr)
-            fields.update(fields_of(folder))
+            fields.update(read_fields(folder))
         self.assertGreater(np.abs(alone["mode-02.h5 frame-0023/mode-02/displacement"]).max(), 1)
         self.expect_alike(shared, alone)
 
@@ -93,13 +93,13 @@ class SlowRanks(RanksTest):
         checkpoint, frame = self.output / "run.checkpoint", self.output / "fields-0001.h5"
         is_behind = lambda: checkpoint.exists() and frame.exists() and checkpoint.stat().st_mtime_ns > frame.stat().st_mtime_ns  # noqa: E731
         self.wait_until(process, lambda: is_behind() or None)
-        os.kill(ranks_of(process)[1], signal.SIGKILL)
+        os.kill(find_ranks(process)[1], signal.SIGKILL)
         process.communicate(timeout=TIMEOUT)
         self.assertNotEqual(process.returncode, 0)
         done = run(2, self.output, SETTINGS)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, "Goes on: .* of an interrupted run")
-        self.expect_alike(fields_of(self.output), fields_of(whole))
+        self.expect_alike(read_fields(self.output), read_fields(whole))
 
 
 if __name__ == "__main__":

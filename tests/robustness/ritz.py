@@ -147,7 +147,7 @@ class RitzBeam:
         d = self.d
         return d["mu_k"] + (d["mu_s"] - d["mu_k"]) * np.exp(-abs(v) / d["v_s"])
 
-    def slope_of_mu(self, v):
+    def mu_slope(self, v):
         d = self.d
         return -(d["mu_s"] - d["mu_k"]) / d["v_s"] * np.exp(-abs(v) / d["v_s"])
 
@@ -172,9 +172,9 @@ class RitzBeam:
         def residual(q):
             delta, gradient, along, _, _ = self.contact(q, x)
             P = d["k_c"] * max(delta, 0.0) ** d["n"]
-            return self.K @ q + P * (np.sign(slip) * self.mu(slip) * along - gradient_of_pressure(gradient))
+            return self.K @ q + P * (np.sign(slip) * self.mu(slip) * along - pressure_gradient(gradient))
 
-        def gradient_of_pressure(gradient):
+        def pressure_gradient(gradient):
             return -gradient
 
         a = d["l"] - x
@@ -229,7 +229,7 @@ class RitzBeam:
         f_q = jacobian(lambda p: np.array([friction(p, at_rest)]), q, sizes)[0]
         f_v = jacobian(lambda r: np.array([friction(q, r)]), at_rest, 1e5 * sizes)[0]
         g, n = along(q), len(q)
-        slope = self.slope_of_mu(slip) * pressure(q, at_rest)
+        slope = self.mu_slope(slip) * pressure(q, at_rest)
         # The spring of stick in series takes a part of the slip, and a mu that falls follows the speed of the faces over a length:
         # L/|v| w' + F'/k_t = g rate - w, F = mu P + mu' P w. The eigenvalues of A over B are one over those of B over A.
         A, B = np.zeros((2 * n + 2,) * 2), np.zeros((2 * n + 2,) * 2)

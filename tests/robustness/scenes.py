@@ -130,7 +130,7 @@ SWEEPS = {
 }
 
 
-def columns_of_the_program():
+def program_columns():
     """Names of the columns that every table has, in the order of src/results/columns.cc."""
     text = (SOURCE / "src/results/columns.cc").read_text(encoding="utf-8").partition("add_sensors")[0]
     return " ".join(re.findall(r'"([\w ]+)"', text)).split()
@@ -141,7 +141,7 @@ def parameter(text, section, name):
     return found.group(1).strip()
 
 
-def model_of(file):
+def read_model(file):
     """Analysis/Model as given or as it follows from the accuracy asked for."""
     if "chosen_settings" in file["meta"]:
         return re.search("Analysis/Model = ([^;]*)", file["meta/chosen_settings"].asstr()[()])[1]
@@ -237,7 +237,7 @@ class ScenesTest(RunTest):
         mass, stiffness = (float(parameter(text, "Isolation", name)) for name in ("Mass", "Stiffness"))
         balance = mass * table["table_acceleration"] + stiffness * table["z"] + table["damper_force"]
         self.assertLess(np.abs(balance).max(), 1e-10 * stiffness * np.abs(table["z"]).max())
-        in_time = model_of(file) != "closed form"
+        in_time = read_model(file) != "closed form"
         self.assertTrue(in_time or (np.diff(table["dissipated_energy"]) >= -1e-9).all())
         self.assertLess(file["summary/energy_residual"][()], 1e-6 if in_time else 1e-9)
 
@@ -273,7 +273,7 @@ class ScenesTest(RunTest):
         places = range(1, 1 + len(parameter(text, "Friction plate", "Sensors").split(",")))
         sensors = {"sensor_sum"} | {f"sensor_{place}" for place in places}
         has_plate = parameter(text, "Friction plate", "Type") != "none"
-        expected = set(columns_of_the_program()) | (sensors if has_plate else set())
+        expected = set(program_columns()) | (sensors if has_plate else set())
         if parameter(text, "Mirrored pair", "Type") == "full":
             self.check_pair(table)
             expected |= {name for name in table if name.endswith("_2")} | {"swing", "Q_pair", "lateral_force"}
@@ -288,7 +288,7 @@ class ScenesTest(RunTest):
         self.assertEqual(set(table), expected)
         if has_plate:
             self.assertTrue(np.isfinite(table["sensor_sum"][:]).all())
-        meshed = model_of(file) == "finite element"
+        meshed = read_model(file) == "finite element"
         for name in NEVER_NAN_MESHED if meshed else NEVER_NAN:
             self.assertTrue(np.isfinite(table[name][:]).all(), name)
         if meshed:
@@ -304,7 +304,7 @@ class ScenesTest(RunTest):
         self.assertLess(np.abs(table["Q"][:] - resultant).max(), limit * np.abs(resultant).max())
         self.assertGreater(table["Q"][:].max(), 0)
         self.assertLess(table["Q"][:].min(), 0)
-        self.assertEqual("face" in file, meshed or model_of(file) == "condensed")
+        self.assertEqual("face" in file, meshed or read_model(file) == "condensed")
 
     def check_calibration(self, file):
         summary = {name: data[()] for name, data in file["summary"].items()}
@@ -343,7 +343,7 @@ class ScenesTest(RunTest):
 
     def check_fields(self, file, output):
         """Checks the files of the fields; modes are a frame each."""
-        modes = "modes" in file and model_of(file) == "condensed"
+        modes = "modes" in file and read_model(file) == "condensed"
         self.assertEqual((output / "fields.xdmf").is_file(), "face" in file)
         self.assertEqual(len(list(output.glob("mode-*.xdmf"))), len(file["modes/frequency"]) if modes else 0)
 

@@ -129,7 +129,7 @@ class Users(FolderTest):
     def answer(self, text):
         print(f"    {text}")
 
-    def end_of_way(self, user):
+    def expect_way_end(self, user):
         print(f"{user}: {self.commands} commands, {self.cpu_seconds:.0f} CPU s", flush=True)
         self.assertLessEqual(self.commands, MOST_COMMANDS)
         self.assertLess(self.cpu_seconds, MOST_SECONDS)
@@ -169,7 +169,7 @@ class Users(FolderTest):
         self.user(f"sprag lever.prm {stability} --set Analysis/Model=condensed --set Stability/Critical=none --set Lever/Depth={depth} --output chosen")
         self.assertEqual(self.summary("chosen", "verdict"), "stable")
         self.answer(f"{depth} mm, condensed: stable, growth {float(self.summary('chosen', 'growth_rate')):.3g} 1/s")
-        self.end_of_way("Engineer")
+        self.expect_way_end("Engineer")
 
         # The slide is held at each mm both ways at all corners of the ranges.
         dense = "Stability/Direction = forward, backward; Contact/Damping = 0.01, 0.1; Friction/Factor = 0.8, 1.2"
@@ -204,7 +204,7 @@ class Users(FolderTest):
             difference = np.abs(curves[0] - curves[1]).max() / curves[1].max()
             self.answer(f"p(x) {way} at x = 30 mm: {difference:.2g} of the peak apart in the inner 80 % of the contact")
             self.assertLess(difference, 0.03)
-        self.end_of_way("Student")
+        self.expect_way_end("Student")
 
     def test_engineer_who_isolates_a_machine(self):
         time, acceleration = floor_record()
@@ -229,7 +229,7 @@ class Users(FolderTest):
             self.user(f"sprag {floor} --set Analysis/Type=isolation --set 'Isolation/Damper={damper}' --set 'Isolation/Friction force={force}' --output {damper.split()[0]}")
         self.user("postprocess/plot.py lever constant -o compared")
         self.assertTrue((self.folder / "compared/curves.png").is_file())
-        self.end_of_way("Isolation")
+        self.expect_way_end("Isolation")
 
         self.assertEqual((best.group(1), float(best.group(2))), ("constant friction", force))
         self.assertLess(ratios[dampers == "lever"].min(), ratios[dampers == "none"].min())

@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import sys
+import tokenize
 
 ROOT = pathlib.Path(os.environ.get("SPRAG_SOURCE", pathlib.Path(__file__).parents[2]))
 
@@ -51,7 +52,7 @@ def own_files():
     yield from (path for path in sorted(ROOT.iterdir()) if path.is_file() and path.name != "LICENSE")
 
 
-def reach_of(place, order):
+def allowed_places(place, order):
     """The names of an order that may be included from one of them."""
     return order[: order.index(place) + 1]
 
@@ -66,14 +67,14 @@ def check_includes(path, lines):
     if rooms and (len(place) != 3 or place[1] not in rooms):
         report(path, 1, f"src/{folder} has the rooms {', '.join(rooms)}")
         return
-    reach = ORDER if folder in PROGRAMS else [name for name in reach_of(folder, ORDER) if name not in UNSEEN.get(folder, [])]
+    reach = ORDER if folder in PROGRAMS else [name for name in allowed_places(folder, ORDER) if name not in UNSEEN.get(folder, [])]
     for number, line in enumerate(lines, 1):
         if found := re.match(r'\s*#\s*include\s*"([^"]*)"', line):
             to = found[1].split("/")
             if to[0] not in reach:
                 report(path, number, f'includes "{found[1]}", but {folder} may include only {", ".join(reach)}')
-            elif rooms and to[0] == folder and to[1] not in reach_of(place[1], rooms):
-                report(path, number, f'includes "{found[1]}", but {folder}/{place[1]} only {", ".join(reach_of(place[1], rooms))}')
+            elif rooms and to[0] == folder and to[1] not in allowed_places(place[1], rooms):
+                report(path, number, f'includes "{found[1]}", but {folder}/{place[1]} only {", ".join(allowed_places(place[1], rooms))}')
         if folder != "fe" and re.search(r"\bint\s+dim\b", line):
             report(path, number, "`int dim` belongs in src/fe")
 
@@ -87,9 +88,19 @@ def check_comments(path, lines):
         goes_on = line.lstrip().startswith(("//", "#"))
 
 
+def read_code(path, lines):
+    """Yields the numbers of lines and their code without texts and comments. The name of a test in Python is a sentence."""
+    if path.suffix != ".py":
+        yield from ((number, TEXT.sub("", line)) for number, line in enumerate(lines, 1))
+        return
+    for token in tokenize.generate_tokens(iter([line + "\n" for line in lines]).__next__):
+        if token.type == tokenize.NAME and not token.string.startswith("test_"):
+            yield token.start[0], token.string
+
+
 def check_identifiers(path, lines):
-    for number, line in enumerate(lines, 1):
-        for name in set(UNNAMED.findall(TEXT.sub("", line))) - NAMED:
+    for number, code in read_code(path, lines):
+        for name in set(UNNAMED.findall(code)) - NAMED:
             report(path, number, f"the identifier {name} says no quantity or action of the field")
 
 
@@ -111,7 +122,6 @@ for path in own_files():
         check_includes(path, lines)
     if path.suffix in (".cc", ".h", ".py"):
         check_comments(path, lines)
-    if path.suffix in (".cc", ".h"):
         check_identifiers(path, lines)
 
 scenes = sorted((ROOT / "params").glob("*.prm"))
@@ -123,7 +133,7 @@ for scene in scenes:
         report(scene, 1, "not in params/README.md")
 
 
-def anchor_of(heading):
+def heading_anchor(heading):
     return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
 
 
@@ -143,7 +153,7 @@ def check_links(page):
                 continue
             if not to.exists():
                 report(page, number, f"links to {name}, which is not there")
-            elif anchor and anchor not in map(anchor_of, re.findall(r"^#+ (.*)$", to.read_text(encoding="utf-8"), re.MULTILINE)):
+            elif anchor and anchor not in map(heading_anchor, re.findall(r"^#+ (.*)$", to.read_text(encoding="utf-8"), re.MULTILINE)):
                 report(page, number, f"links to {link}, where there is no such heading")
 
 

@@ -10,7 +10,7 @@ ROOT = pathlib.Path(os.environ.get("SPRAG_SOURCE", pathlib.Path(__file__).parent
 MANY_WORDS = 30
 
 
-def paragraphs_of(page):
+def read_paragraphs(page):
     """Prose; each item of a list is a paragraph."""
     text = re.sub(r"```.*?```", "\n\n", page.read_text(encoding="utf-8"), flags=re.S)
     text = re.sub(r"^(?: {4,}(?![-*] ).*|\t.*|#.*| *\|.*|!\[.*|> .*)$", "", text, flags=re.M)
@@ -18,8 +18,8 @@ def paragraphs_of(page):
     return [" ".join(part.split()) for part in re.split(r"\n\s*\n", text) if part.strip()]
 
 
-def sentences_of(page):
-    for paragraph in paragraphs_of(page):
+def read_sentences(page):
+    for paragraph in read_paragraphs(page):
         plain = re.sub(r"\]\([^)]*\)", "]", paragraph)
         plain = re.sub(r"`[^`]*`|\$[^$]*\$", "NAME", plain)
         plain = re.sub(r"\b(e\.g|Figs?|eqs?|Proc|Inst|Mech|Eng|Res|Commun|J|Vib)\.", r"\1", plain)
@@ -27,7 +27,7 @@ def sentences_of(page):
 
 
 pages = [path for path in sorted(ROOT.glob("**/*.md")) if "build" not in str(path.relative_to(ROOT))]
-sentences = [(page.relative_to(ROOT), sentence) for page in pages for sentence in sentences_of(page)]
+sentences = [(page.relative_to(ROOT), sentence) for page in pages for sentence in read_sentences(page)]
 long = [(page, sentence) for page, sentence in sentences if len(sentence.split()) > MANY_WORDS]
 for page, sentence in long:
     print(f"{page}: {len(sentence.split())} words: {sentence}")

@@ -78,7 +78,7 @@ def draw(folder):
     return drawn
 
 
-def sheet_of(pictures):
+def make_sheet(pictures):
     """One image of all in columns, all in one scale; captions of those with a wrong layout are red."""
     font = ImageFont.truetype(str(Path(plt.matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf"), 14)
     filled = [0] * COLUMNS
@@ -135,7 +135,7 @@ def main(arguments=None):
         print("no pictures", file=sys.stderr)
         return 1
     sheet = options.output or options.results / "sheet.png"
-    sheet_of(pictures).save(sheet)
+    make_sheet(pictures).save(sheet)
     print(f"{sheet}: {len(pictures)} pictures, {sum(bool(wrong) for _, wrong in pictures)} with something wrong")
     return int(failed or any(wrong for _, wrong in pictures))
 

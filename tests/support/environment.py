@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 
-def of_build(build):
+def make_environment(build):
     """This process' environment with what `environment.cmake` of a build sets."""
     text = (Path(build) / "tests" / "environment.cmake").read_text(encoding="utf-8")
     return {**os.environ, **dict(re.findall(r'^set\(ENV\{(\w+)\} "?([^")]*)"?\)', text, re.MULTILINE))}

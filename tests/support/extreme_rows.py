@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from extreme_runs import (
     closes,
     deviation,
-    deviation_of_peaks,
+    peak_deviation,
     equal_rows,
     forces,
     free_flight,
@@ -44,10 +44,10 @@ class Row:
             self.base = (*COARSE, *self.base)
         self.options = (*self.base, *self.options)
 
-    def scene_of(self, options, scene=None):
+    def find_scene(self, options, scene=None):
         return scene or self.scene
 
-    def options_of(self, options, scene=None):
+    def find_options(self, options, scene=None):
         return (*self.base, *options)
 
 
@@ -98,7 +98,7 @@ def friction_rows():
     fine = "half the face size"
     for value in (0.0, 1e-6, 1.2, 2.0):
         yield Row(f"mu {value:g}", "model-a", (), forces(FINE), fine, base=mu(value), slow=value == 2)
-    yield Row("mu 0, peaks", "model-a", (), deviation_of_peaks, "closed form", 0.02, forbids=("long_steps",), base=mu(0.0))
+    yield Row("mu 0, peaks", "model-a", (), peak_deviation, "closed form", 0.02, forbids=("long_steps",), base=mu(0.0))
     yield Row("mu 2.5, locking at 2.61", "model-a", (), forces(FINE), fine, warns=("near_locking",), base=mu(2.5))
     says = ("the lever locks", "s = ", "<= mu e = ", "Try a smaller friction coefficient")
     yield refused("mu 2.63", "model-a", mu(2.63), *says, status=1, warns=("near_locking",))

@@ -14,10 +14,9 @@ ALWAYS = ("time", "x", "v", "P", "Q", "F", "theta", "friction_work", "drive_work
 
 
 class Run:
-    def __init__(self, status, output, message, path):
+    def __init__(self, status, message, path):
         self.status = status
         self.message = " ".join(re.sub(r"(?m)^ *\d+ %.*$", "", message).split())
-        self.told = output
         self.summary, self.accuracy, self.table, self.face, self.warnings = {}, {}, {}, {}, []
         if path.exists():
             with h5py.File(path, "r") as file:
@@ -50,7 +49,7 @@ class Run:
                 faults.append(f"table/{name} is NaN in {np.isnan(looked_at).sum()} rows in contact")
         return faults
 
-    def told_error(self, names):
+    def estimated_error(self, names):
         return max((self.accuracy.get(name, np.nan) for name in names), default=np.nan)
 
 
@@ -75,8 +74,8 @@ def peaks(*other, names=PEAKS, scale=1.0):
 
     def check(run, make):
         reference = make(*other)
-        wanted = [name for name in names if reference.summary.get(name)]
-        return max(off(run.summary[name], scale * reference.summary[name]) for name in wanted), np.nan
+        compared = [name for name in names if reference.summary.get(name)]
+        return max(off(run.summary[name], scale * reference.summary[name]) for name in compared), np.nan
 
     return check
 
@@ -87,7 +86,7 @@ def forces(*other, scale=1.0, length=1.0):
 
     def check(run, make):
         reference = make(*other)
-        told = 2 * (run.told_error("PQ") + np.nan_to_num(reference.told_error("PQ")))
+        estimate = 2 * (run.estimated_error("PQ") + np.nan_to_num(reference.estimated_error("PQ")))
         worst = 0.0
         for name in "PQ":
             peak = np.abs(reference.table[name]).max()
@@ -97,7 +96,7 @@ def forces(*other, scale=1.0, length=1.0):
                 if len(x) and len(its_x) > 1:
                     inside = (x >= its_x.min()) & (x <= its_x.max())
                     worst = max(worst, np.abs(mine - scale * joined(its_x, its, x))[inside].max() / (scale * peak))
-        return worst, told
+        return worst, estimate
 
     return check
 
@@ -132,7 +131,7 @@ def deviation(run, _):
     return max(abs(value) for name, value in run.summary.items() if re.fullmatch(r"deviation_[PQ]_\w+", name)), np.nan
 
 
-def deviation_of_peaks(run, _):
+def peak_deviation(run, _):
     """From the closed form beside it, of the summary's peaks of P."""
     P, v = run.table["P_closed_form"], run.table["v"]
     ways = {"forward": P[v > 0].max(), "backward": P[v < 0].max()}
@@ -141,7 +140,7 @@ def deviation_of_peaks(run, _):
 
 def loop_area(*other):
     def check(run, make):
-        return off(run.summary["loop_area"], make(*other).summary["loop_area"]), 2 * run.told_error(["loop_area"])
+        return off(run.summary["loop_area"], make(*other).summary["loop_area"]), 2 * run.estimated_error(["loop_area"])
 
     return check
 

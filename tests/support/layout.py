@@ -22,7 +22,7 @@ def problems(figure):
     for number, axes in enumerate(shown, 1):
         name = f"panel {number} ({said(axes)})"
         found += [f"{name}: {text}" for text in (*emptiness(axes), *round_off(axes), *covered_curves(axes, renderer))]
-    boxes = boxes_of_texts(figure, shown, renderer)
+    boxes = text_boxes(figure, shown, renderer)
     return found + overlaps(boxes, figure) + outside(figure, shown, boxes, renderer) + covered_panels(figure, shown, renderer)
 
 
@@ -84,26 +84,26 @@ def round_off(axes):
 # Texts
 
 
-def boxes_of_texts(figure, shown, renderer):
+def text_boxes(figure, shown, renderer):
     """[(text, box)] of all texts that are drawn."""
     texts = [text for text in figure.texts if text.get_text().strip()]
     if figure._suptitle is not None and figure._suptitle.get_text().strip():
         texts.append(figure._suptitle)
     for legend in figure.legends:
-        texts += texts_of_legend(legend)
+        texts += legend_texts(legend)
     for axes in shown:
         texts += [text for text in (axes.title, axes._left_title, axes._right_title, *axes.texts)]
         if axes.get_legend() is not None:
-            texts += texts_of_legend(axes.get_legend())
+            texts += legend_texts(axes.get_legend())
         if axes.axison:
             for axis in (axes.xaxis, axes.yaxis):
                 texts += [axis.label, axis.get_offset_text(), *drawn_tick_labels(axis)]
     drawn = {id(text): text for text in texts if text.get_visible() and text.get_text().strip()}
-    boxes = [(" ".join(text.get_text().split()), box_of(text, renderer)) for text in drawn.values()]
+    boxes = [(" ".join(text.get_text().split()), text_box(text, renderer)) for text in drawn.values()]
     return [(text, box) for text, box in boxes if box.width > 0 and box.height > 0]
 
 
-def box_of(text, renderer):
+def text_box(text, renderer):
     """Returns the box of the text alone, without the arrow of an annotation."""
     if isinstance(text, Annotation):
         text.update_positions(renderer)
@@ -111,7 +111,7 @@ def box_of(text, renderer):
     return text.get_window_extent(renderer)
 
 
-def texts_of_legend(legend):
+def legend_texts(legend):
     return [legend.get_title(), *legend.get_texts()] if legend.get_visible() else []
 
 
@@ -137,7 +137,7 @@ def outside(figure, shown, boxes, renderer):
     """Returns a message for everything that the edge of the page cuts."""
     boxes = list(boxes)
     legends = [*figure.legends, *(axes.get_legend() for axes in shown if axes.get_legend() is not None)]
-    boxes += [("a legend", contents_of_legend(legend, renderer)) for legend in legends]
+    boxes += [("a legend", legend_contents(legend, renderer)) for legend in legends]
     boxes += [(f"the panel {said(axes)}", axes.get_window_extent(renderer)) for axes in shown]
     page, half = figure.bbox, 0.5 * figure.dpi / 72
     return [
@@ -150,9 +150,9 @@ def outside(figure, shown, boxes, renderer):
 # Legends
 
 
-def contents_of_legend(legend, renderer):
+def legend_contents(legend, renderer):
     """Without the margin around."""
-    boxes = [text.get_window_extent(renderer) for text in texts_of_legend(legend) if text.get_text()]
+    boxes = [text.get_window_extent(renderer) for text in legend_texts(legend) if text.get_text()]
     handles = legend.legend_handles if hasattr(legend, "legend_handles") else legend.legendHandles  # before matplotlib 3.7
     boxes += [handle.get_window_extent(renderer) for handle in handles if handle is not None]
     boxes = [box for box in boxes if np.isfinite(box.extents).all() and box.width + box.height > 0]
@@ -164,7 +164,7 @@ def covered_curves(axes, renderer):
     legend = axes.get_legend()
     if legend is None or not legend.get_visible():
         return []
-    box = contents_of_legend(legend, renderer)
+    box = legend_contents(legend, renderer)
     found = []
     for line in (line for line in axes.lines if line.get_transform() == axes.transData):
         inside = covered_share(axes, line, box)
@@ -192,18 +192,18 @@ def covered_share(axes, line, box):
         path = np.concatenate(([0], np.cumsum(lengths)))
         even = np.linspace(0, path[-1], 2000)
         points = np.column_stack([np.interp(even, path, values) for values in points.T])
-    drawn = inside_of(panel, points)
-    return float((drawn & inside_of(box, points)).sum() / max(drawn.sum(), 1))
+    drawn = is_inside(panel, points)
+    return float((drawn & is_inside(box, points)).sum() / max(drawn.sum(), 1))
 
 
-def inside_of(box, points):
+def is_inside(box, points):
     return (points[:, 0] > box.x0) & (points[:, 0] < box.x1) & (points[:, 1] > box.y0) & (points[:, 1] < box.y1)
 
 
 def covered_panels(figure, shown, renderer):
     """Panels that lie under one another or under a legend of the whole figure."""
     panels = [(f"the panel {said(axes)}", axes.get_window_extent(renderer)) for axes in shown]
-    legends = [("the legend of the figure", contents_of_legend(legend, renderer)) for legend in figure.legends]
+    legends = [("the legend of the figure", legend_contents(legend, renderer)) for legend in figure.legends]
     found = []
     for (one, first), (other, second) in [*combinations(panels, 2), *((legend, panel) for legend in legends for panel in panels)]:
         overlap = Bbox.intersection(first, second)
