@@ -78,7 +78,7 @@ namespace sprag
     Plain<N> mu{};
     Mask<N> slipping{};
     Several<Plain<N>, slips> slip_speed; ///< mean of the step, of plastic slip or of the faces; 0 in stick [mm/s]
-    Plain<N> speed{};                    ///< see SlipMemory [mm/s]
+    Plain<N> speed{};                    ///< see SlipHistory [mm/s]
     Plain<N> energy{};                   ///< of the tangential spring at the end
     Plain<N> dissipated{};               ///< in the step
     Plain<N> creep{};                    ///< slip below the regularisation speed [mm]

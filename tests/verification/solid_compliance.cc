@@ -26,9 +26,10 @@ TEST(SolidCompliance, BetweenDofsItIsThatOfTheWholeBody)
   Mesh plane;
   make_mesh(scene, plane);
   const SolidBody body(scene, plane);
-  ASSERT_TRUE(body.has_skin());
+  ASSERT_TRUE(body.has_near_layer());
   const auto &nodes  = body.friction_face().nodes;
-  const double begin = nodes.front().position[0] + 4. * body.skin(), end = nodes.back().position[0] - 4. * body.skin();
+  const double begin = nodes.front().position[0] + 4. * body.near_layer_depth(),
+               end   = nodes.back().position[0] - 4. * body.near_layer_depth();
   DofSelection inner;
   for (unsigned int dof = 0; dof < 3 * nodes.size(); ++dof)
     if (const double xi = nodes[dof / 3].position[0]; xi > begin && xi < end)

@@ -17,7 +17,7 @@ namespace sprag
     release,         ///< it
     factorise,       ///< it
     solve_whole,     ///< with the factors of the whole body
-    solve_near,      ///< with those of its skin
+    solve_near,      ///< with those of its near-surface layer
     release_factors, ///< of a body that is still looked at
     recover_stress,  ///< of a body for its fields
     write_rows       ///< of a file with fields

@@ -11,7 +11,7 @@ namespace sprag
 {
   /// Points of a friction face in a step, eight at once: their forces, whose derivatives come from dual numbers. In time points
   /// that touch neither where the step begins nor where it ends take no part, else those that do not where it ends. Blocks of
-  /// eight that cannot have come to the cylinder are passed over, see PatchTravel.
+  /// eight that cannot have come to the cylinder are passed over, see ElementTravel.
   class BatchedStep
   {
   public:

@@ -48,16 +48,16 @@ namespace sprag
 
     /// A side on the boundary and the cell it belongs to.
     template <int dim>
-    struct Skin
+    struct BoundarySide
     {
       Side<dim> side;
       Cell<dim> cell;
     };
 
     template <int dim>
-    std::vector<Skin<dim>> find_skin(const Triangulation<dim> &triangulation)
+    std::vector<BoundarySide<dim>> find_boundary(const Triangulation<dim> &triangulation)
     {
-      std::vector<Skin<dim>> result;
+      std::vector<BoundarySide<dim>> result;
       for (const auto &cell : triangulation.active_cell_iterators())
         for (const auto &side : cell->face_iterators())
           if (side->at_boundary())
@@ -65,7 +65,7 @@ namespace sprag
       return result;
     }
 
-    /// A corner of the skin, by its place along the lever.
+    /// A corner of the boundary, by its place along the lever.
     template <int dim>
     struct Corner
     {
@@ -80,10 +80,10 @@ namespace sprag
     };
 
     template <int dim>
-    std::vector<Corner<dim>> skin_corners(const std::vector<Skin<dim>> &skin)
+    std::vector<Corner<dim>> boundary_corners(const std::vector<BoundarySide<dim>> &boundary)
     {
       std::map<unsigned int, Corner<dim>> all;
-      for (const auto &[side, cell] : skin)
+      for (const auto &[side, cell] : boundary)
         for (const unsigned int v : side->vertex_indices())
           all.insert({ side->vertex_index(v), { side->vertex(v), side->vertex_index(v), cell->material_id() } });
       std::vector<Corner<dim>> result;
@@ -111,11 +111,11 @@ namespace sprag
       for (const auto &cell : triangulation.active_cell_iterators())
         for (unsigned int line = 0; line < GeometryInfo<dim>::lines_per_cell; ++line)
           shortest = std::min(shortest, cell->line(line)->diameter());
-      const double near  = nearness * shortest;
-      const auto skin    = find_skin(triangulation);
-      const auto corners = skin_corners(skin);
+      const double near   = nearness * shortest;
+      const auto boundary = find_boundary(triangulation);
+      const auto corners  = boundary_corners(boundary);
       std::map<unsigned int, std::string> loose; // by node
-      for (const auto &[side, cell] : skin)
+      for (const auto &[side, cell] : boundary)
       {
         auto box = side->bounding_box();
         box.extend(near);
@@ -200,7 +200,7 @@ namespace sprag
     template <int dim>
     void look_for_reversed_face(const Triangulation<dim> &triangulation, std::vector<std::string> &mistakes)
     {
-      for (const auto &[side, cell] : find_skin(triangulation))
+      for (const auto &[side, cell] : find_boundary(triangulation))
         if (side->boundary_id() == boundary_id::friction_face && !(cell->center()[1] > side->center()[1]))
         {
           mistakes.push_back("at " + to_text(side->center()) +
@@ -225,7 +225,7 @@ namespace sprag
   double longest_face_side(const Triangulation<dim> &triangulation, const double first, const double last)
   {
     double longest = 0.;
-    for (const auto &[side, cell] : find_skin(triangulation))
+    for (const auto &[side, cell] : find_boundary(triangulation))
       if (side->boundary_id() == boundary_id::friction_face)
         if (const auto [lower, upper] = side->bounding_box().get_boundary_points(); upper[0] > first && lower[0] < last)
           longest = std::max(longest, upper[0] - lower[0]);

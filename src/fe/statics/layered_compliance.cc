@@ -71,15 +71,15 @@ namespace sprag
 
     bool is_bond(const SolidBody &body, const DoFHandler<3>::active_cell_iterator &cell, const unsigned int f)
     {
-      return body.is_skin(cell) && !cell->at_boundary(f) && !body.is_skin(cell->neighbor(f));
+      return body.is_near_layer(cell) && !cell->at_boundary(f) && !body.is_near_layer(cell->neighbor(f));
     }
 
-    /// Returns smooth loads on the bond between the skin and what is behind it: hats over a grid of xi and zeta, in each of three
-    /// directions, which together can carry any force and moment. They are consistent nodal forces by the body's degrees of
-    /// freedom, a column each; those that only the hub carries are left out. Beyond `begin` ... `end` along xi hats go on as they
-    /// are; spacings are aimed at [mm]. Empty for a body without skin.
-    SparseColumns bond_loads(const SolidBody &body, const double begin, const double end, const double spacing_xi,
-                             const double spacing_zeta)
+    /// Returns smooth loads on the bond between the near-surface layer and what is behind it: hats over a grid of xi and zeta, in
+    /// each of three directions, which together can carry any force and moment. They are consistent nodal forces by the body's
+    /// degrees of freedom, a column each; those that only the hub carries are left out. Beyond `begin` ... `end` along xi hats go
+    /// on as they are; spacings are aimed at [mm]. Empty for a body without near-surface layer.
+    SparseColumns attachment_loads(const SolidBody &body, const double begin, const double end, const double spacing_xi,
+                                   const double spacing_zeta)
     {
       constexpr double whole = std::numeric_limits<double>::max();
       const auto along       = hats_between_cells(body.friction_face(), 0, begin, end, spacing_xi);
@@ -123,8 +123,8 @@ namespace sprag
       return result;
     }
 
-    /// Surroundings of a column that must be alike for it to answer alike, over the depth of the skin. What lies further away
-    /// differs in the length of its cells, if at all.
+    /// Surroundings of a column that must be alike for it to answer alike, over the depth of the near-surface layer. What lies
+    /// further away differs in the length of its cells, if at all.
     constexpr double surroundings_over_depth = 0.3;
 
     /// Displacements of the near part that count, over its largest.
@@ -138,20 +138,20 @@ namespace sprag
       return std::lround(1e6 * place);
     }
 
-    struct SkinCell
+    struct NearCell
     {
       double begin, end; ///< along xi
       std::vector<Point<3>> corners;
     };
 
-    std::vector<SkinCell> skin_cells(const SolidBody &body)
+    std::vector<NearCell> near_cells(const SolidBody &body)
     {
-      std::vector<SkinCell> result;
+      std::vector<NearCell> result;
       for (const auto &cell : body.dofs().active_cell_iterators())
-        if (body.is_skin(cell))
+        if (body.is_near_layer(cell))
         {
           const double middle = cell->center()[0], half = 0.5 * cell->extent_in_direction(0);
-          auto &found = result.emplace_back(SkinCell{ middle - half, middle + half, {} });
+          auto &found = result.emplace_back(NearCell{ middle - half, middle + half, {} });
           for (const unsigned int v : cell->vertex_indices())
             found.corners.push_back(cell->vertex(v));
         }
@@ -159,7 +159,7 @@ namespace sprag
     }
 
     /// The corners of the cells near a place, seen from there.
-    std::set<std::vector<long>> find_surroundings(const double xi, const double distance, const std::vector<SkinCell> &cells)
+    std::set<std::vector<long>> find_surroundings(const double xi, const double distance, const std::vector<NearCell> &cells)
     {
       std::set<std::vector<long>> result;
       for (const auto &cell : cells)
@@ -180,9 +180,9 @@ namespace sprag
       : body(body_)
       , dofs(surface_dofs(body))
   {
-    find_blocks(surroundings_over_depth * body.skin());
-    if (body.has_skin())
-      find_basis(begin, end, spacing_over_depth * body.skin());
+    find_blocks(surroundings_over_depth * body.near_layer_depth());
+    if (body.has_near_layer())
+      find_basis(begin, end, spacing_over_depth * body.near_layer_depth());
   }
 
   void LayeredCompliance::find_blocks(const double surroundings)
@@ -196,9 +196,9 @@ namespace sprag
       blocks.back().end = 3 * (i + 1);
     }
 
-    if (!body.has_skin())
+    if (!body.has_near_layer())
       return;
-    const auto cells = skin_cells(body);
+    const auto cells = near_cells(body);
     std::map<std::set<std::vector<long>>, std::vector<unsigned int>> alike;
     for (unsigned int t = 0; t < blocks.size(); ++t)
       alike[find_surroundings(blocks[t].xi, surroundings, cells)].push_back(t);
@@ -212,9 +212,9 @@ namespace sprag
 
   void LayeredCompliance::find_basis(const double begin, const double end, const double spacing)
   {
-    constexpr double beyond = 4.; // how far what the skin hands on spreads, over its depth
-    const double depth      = body.skin();
-    const auto loads        = bond_loads(body, begin - beyond * depth, end + beyond * depth, spacing, depth);
+    constexpr double beyond = 4.; // how far what the near-surface layer hands on spreads, over its depth
+    const double depth      = body.near_layer_depth();
+    const auto loads        = attachment_loads(body, begin - beyond * depth, end + beyond * depth, spacing, depth);
     const int n             = loads.size();
     const auto n_surface    = static_cast<unsigned int>(dofs.size());
     LAPACKFullMatrix<double> products(n), lower(n), transposed(n, n_surface);
@@ -292,13 +292,13 @@ namespace sprag
       return result;
     };
     NearColumns result{ 0, { near_matrix(blocks[block_index]) } };
-    const double least  = body.has_skin() ? negligible * result.block_matrices.front().linfty_norm() : 0.;
+    const double least  = body.has_near_layer() ? negligible * result.block_matrices.front().linfty_norm() : 0.;
     const auto add_side = [&](const int step, const auto &add)
     {
       for (int other = static_cast<int>(block_index) + step; other >= 0 && other < static_cast<int>(blocks.size()); other += step)
       {
         auto matrix = near_matrix(blocks[other]);
-        if (body.has_skin() && matrix.linfty_norm() < least)
+        if (body.has_near_layer() && matrix.linfty_norm() < least)
           break;
         add(std::move(matrix));
       }
@@ -318,7 +318,7 @@ namespace sprag
     return found != known.end() ? found->second : known.emplace(block_index, find_near_columns(block_index)).first->second;
   }
 
-  /// Returns true if the columns of the like tile serve for a column's tile: the row then lies in the same place about both.
+  /// Returns true if the columns of the like block serve for a column's block: the row then lies in the same place about both.
   bool LayeredCompliance::is_like(const unsigned int row_block, const unsigned int column_block) const
   {
     const unsigned int like = blocks[column_block].like;
@@ -327,13 +327,13 @@ namespace sprag
            rounded(blocks[other].xi - blocks[like].xi) == rounded(blocks[row_block].xi - blocks[column_block].xi);
   }
 
-  /// The tile whose columns stand for those of another at a row.
+  /// The block whose columns stand for those of another at a row.
   unsigned int LayeredCompliance::stand_in(const unsigned int row_block, const unsigned int column_block) const
   {
     return is_like(row_block, column_block) ? blocks[column_block].like : column_block;
   }
 
-  /// Displacements of a tile by forces on another; none where they are negligible.
+  /// Displacements of a block by forces on another; none where they are negligible.
   const FullMatrix<double> *LayeredCompliance::near_block(const unsigned int row_block, const unsigned int column_block)
   {
     const auto &columns    = near_columns(stand_in(row_block, column_block));
@@ -342,7 +342,7 @@ namespace sprag
     return is_far_away ? nullptr : &columns.block_matrices[number];
   }
 
-  /// Returns the displacement of a dof by a unit force on each, of the skin alone.
+  /// Returns the displacement of a dof by a unit force on each, of the near-surface layer alone.
   const std::vector<double> &LayeredCompliance::near_row(const unsigned int surface_dof)
   {
     const auto [found, is_new] = known_rows.try_emplace(surface_dof, dofs.size());
@@ -372,7 +372,7 @@ namespace sprag
       gemm("T", "N", &n_columns, &n_rows, &n, &once, &basis(columns.begin, 0), &n, &basis(rows.begin, 0), &n, &none,
            &result(0, 0), &n_columns);
     }
-    // It is symmetric: where columns of another tile do not serve, those for the row may. Of two that must be solved for, the
+    // It is symmetric: where columns of another block do not serve, those for the row may. Of two that must be solved for, the
     // kind that is rarer is met again.
     const bool by_column =
         is_like(row_block, column_block) || (!is_like(column_block, row_block) && columns.n_alike <= rows.n_alike);
@@ -442,7 +442,7 @@ namespace sprag
     return result;
   }
 
-  /// Returns the displacement of a dof by the loads near it. If the columns of other tiles do not serve, a row costs less than
+  /// Returns the displacement of a dof by the loads near it. If the columns of other blocks do not serve, a row costs less than
   /// all columns.
   double LayeredCompliance::near_displacement(const unsigned int surface_dof, const DofLoads &forces)
   {

@@ -21,7 +21,7 @@ namespace sprag
   {
     auto &body = properties.body;
     archive(body.degree, body.plane, body.material, body.width, body.curved, body.point_spacing, body.constants,
-            properties.interface_offset, properties.layer, properties.skin, properties.folder);
+            properties.interface_offset, properties.layer, properties.near_layer_depth, properties.folder);
   }
 
   namespace
@@ -90,9 +90,9 @@ namespace sprag
       return result;
     }
 
-    /// Returns how far the skin of a lever reaches from its friction face where nothing forbids it [mm]: beyond the layer as far
-    /// as the pressure of a contact is more than its resultant.
-    double skin_depth(const Device &device)
+    /// Returns how far the near-surface layer of a lever reaches from its friction face where nothing forbids it [mm]: beyond the
+    /// layer as far as the pressure of a contact is more than its resultant.
+    double largest_near_layer_depth(const Device &device)
     {
       constexpr double over_radius = 0.08;
       return device.layer.thickness + over_radius * device.geometry.cylinder_radius;
@@ -112,7 +112,8 @@ namespace sprag
 
     SolidProperties make_properties(const Device &device, const std::string &folder)
     {
-      return { solid_properties(device), device.geometry.interface_offset, device.layer.thickness, skin_depth(device), folder };
+      return { solid_properties(device), device.geometry.interface_offset, device.layer.thickness,
+               largest_near_layer_depth(device), folder };
     }
 
     /// Returns those that the first rank has, which calls the others to build the body.
@@ -155,10 +156,10 @@ namespace sprag
   SolidBody::SolidBody(const BodyCalls &calls, SolidProperties first_data, const Device *const device, const Mesh *const plane)
       : SharedSolid(calls, std::move(first_data), device, plane)
       , ElasticBody<3>(mesh, to_whole(solid.body, half))
-      , skin_thickness(solid.skin)
+      , near_depth(solid.near_layer_depth)
   {
     find_ends();
-    find_skin();
+    find_near_layer();
   }
 
   /// Returns factors of the stiffness of a part, see assemble_stiffness(), with connectors of the whole body, which the first
@@ -178,8 +179,8 @@ namespace sprag
   void SolidBody::factorise()
   {
     factors = factorised_part({}, connectors(), solid.folder);
-    if (has_skin())
-      skin_factors = factorised_part(number_in_skin, {}, {});
+    if (has_near_layer())
+      near_factors = factorised_part(near_number, {}, {});
   }
 
   /// Mesh and factors are given back by all ranks together.
@@ -200,23 +201,23 @@ namespace sprag
       }
   }
 
-  /// Makes the skin shallower until it is bonded everywhere; where it never is, there is none.
-  void SolidBody::find_skin()
+  /// Makes the near-surface layer shallower until it is bonded everywhere; where it never is, there is none.
+  void SolidBody::find_near_layer()
   {
     constexpr double least = 1e-3;
-    while (!number_skin())
+    while (!number_near_layer())
     {
-      if (skin_thickness < solid.layer + least)
-        return number_in_skin.clear();
-      skin_thickness = solid.layer + 0.5 * (skin_thickness - solid.layer);
+      if (near_depth < solid.layer + least)
+        return near_number.clear();
+      near_depth = solid.layer + 0.5 * (near_depth - solid.layer);
     }
   }
 
-  /// Numbers what belongs to the skin alone, all three displacements of its nodes. A lever that is no deeper has none. Returns
-  /// false where a part of it has nothing behind it, as a flange beside a web or a plate.
-  bool SolidBody::number_skin()
+  /// Numbers what belongs to the near-surface layer alone, all three displacements of its nodes. A lever that is no deeper has
+  /// none. Returns false where a part of it has nothing behind it, as a flange beside a web or a plate.
+  bool SolidBody::number_near_layer()
   {
-    std::vector<char> in_skin(n_dofs(), 0), elsewhere(n_dofs(), 0);
+    std::vector<char> in_near_layer(n_dofs(), 0), elsewhere(n_dofs(), 0);
     std::vector<types::global_dof_index> indices(dofs().get_fe().n_dofs_per_cell());
     bool is_bonded = true;
     for (const auto &cell : dofs().active_cell_iterators())
@@ -224,32 +225,32 @@ namespace sprag
       {
         cell->get_dof_indices(indices);
         for (const auto index : indices)
-          (is_skin(cell) ? in_skin : elsewhere)[index] = 1;
-        is_bonded = is_bonded && !(is_skin(cell) && has_free_back(cell));
+          (is_near_layer(cell) ? in_near_layer : elsewhere)[index] = 1;
+        is_bonded = is_bonded && !(is_near_layer(cell) && has_free_back(cell));
       }
-    n_skin = 0;
-    number_in_skin.assign(n_dofs(), -1);
+    n_near_dofs = 0;
+    near_number.assign(n_dofs(), -1);
     for (unsigned int dof = 0; dof < n_dofs(); ++dof)
-      if (in_skin[dof] && !elsewhere[dof])
-        number_in_skin[dof] = static_cast<int>(n_skin++);
+      if (in_near_layer[dof] && !elsewhere[dof])
+        near_number[dof] = static_cast<int>(n_near_dofs++);
     const bool is_all = std::find(elsewhere.begin(), elsewhere.end(), 1) == elsewhere.end();
-    if (n_skin == 0 || is_all)
-      number_in_skin.clear();
-    return is_bonded || number_in_skin.empty();
+    if (n_near_dofs == 0 || is_all)
+      near_number.clear();
+    return is_bonded || near_number.empty();
   }
 
-  bool SolidBody::is_skin(const DoFHandler<3>::active_cell_iterator &cell) const
+  bool SolidBody::is_near_layer(const DoFHandler<3>::active_cell_iterator &cell) const
   {
     const auto centre = cell->center();
     return cell->material_id() != material_id::hub && centre[1] > solid.interface_offset &&
-           centre[1] < solid.interface_offset + skin_thickness && centre[0] > face_begin && centre[0] < face_end;
+           centre[1] < solid.interface_offset + near_depth && centre[0] > face_begin && centre[0] < face_end;
   }
 
   int SolidBody::number_near(const unsigned int dof) const
   {
     if (is_held(dof))
       return -1;
-    return has_skin() ? number_in_skin[dof] : static_cast<int>(dof);
+    return has_near_layer() ? near_number[dof] : static_cast<int>(dof);
   }
 
   void SolidBody::respond(std::vector<double> &loads) const
@@ -266,10 +267,10 @@ namespace sprag
 
   std::vector<double> SolidBody::respond_near(const SparseColumns &loads) const
   {
-    if (!has_skin())
+    if (!has_near_layer())
       return respond(loads);
     call_others(SharedTask::solve_near);
-    return skin_factors->solve(loads);
+    return near_factors->solve(loads);
   }
 
   void SolidBody::release_factors()
@@ -281,7 +282,7 @@ namespace sprag
   void SolidBody::release()
   {
     factors.reset();
-    skin_factors.reset();
+    near_factors.reset();
   }
 
   void SolidBody::take_part(const SharedTask task)
@@ -291,7 +292,7 @@ namespace sprag
     case SharedTask::solve_whole:
       return factors->take_part();
     case SharedTask::solve_near:
-      return skin_factors->take_part();
+      return near_factors->take_part();
     case SharedTask::factorise:
       return factorise();
     default:

@@ -35,7 +35,7 @@ namespace sprag
     BodyProperties body;
     double interface_offset = 0.; ///< e [mm]
     double layer            = 0.; ///< thickness [mm]
-    double skin             = 0.; ///< how far it reaches from the friction face where nothing forbids it [mm]
+    double near_layer_depth = 0.; ///< how far it reaches from the friction face where nothing forbids it [mm]
     std::string folder;           ///< for files with factors of the whole body; empty: they stay in memory
   };
 
@@ -73,24 +73,24 @@ namespace sprag
       return half;
     }
 
-    /// Depth of the skin from the friction face [mm]: beyond the layer as far as the pressure of a contact is more than its
-    /// resultant, or less where there is too little behind it.
-    double skin() const
+    /// Depth of the near-surface layer from the friction face [mm]: beyond the layer as far as the pressure of a contact is more
+    /// than its resultant, or less where there is too little behind it.
+    double near_layer_depth() const
     {
-      return skin_thickness;
+      return near_depth;
     }
 
-    /// Returns whether a cell is of the skin: the friction layer and a strip of what is behind it.
-    bool is_skin(const dealii::DoFHandler<3>::active_cell_iterator &cell) const;
+    /// Returns whether a cell is of the near-surface layer: the friction layer and a strip of what is behind it.
+    bool is_near_layer(const dealii::DoFHandler<3>::active_cell_iterator &cell) const;
 
-    /// Returns true if there is a skin and something behind it.
-    bool has_skin() const
+    /// Returns true if there is a near-surface layer and something behind it.
+    bool has_near_layer() const
     {
-      return !number_in_skin.empty();
+      return !near_number.empty();
     }
 
-    /// Returns the number of a degree of freedom for loads of respond_near(), -1 where it has none: with a skin of those of the
-    /// skin off its bond, else the degree of freedom itself where it is free.
+    /// Returns the number of a degree of freedom for loads of respond_near(), -1 where it has none: with a near-surface layer of
+    /// those of the near-surface layer off its bond, else the degree of freedom itself where it is free.
     int number_near(unsigned int dof) const;
 
     /// Turns forces on the degrees of freedom [N] into displacements [mm].
@@ -99,13 +99,14 @@ namespace sprag
     /// Returns the displacements under sparse loads, one column after another.
     std::vector<double> respond(const SparseColumns &loads) const;
 
-    /// Returns those of the skin on a rigid bond alone, by number_near(); without a skin those of the body.
+    /// Returns those of the near-surface layer on a rigid bond alone, by number_near(); without a near-surface layer those of the
+    /// body.
     std::vector<double> respond_near(const SparseColumns &loads) const;
 
     /// Number of displacements in a column of respond_near().
     unsigned int n_near() const
     {
-      return has_skin() ? n_skin : n_dofs();
+      return has_near_layer() ? n_near_dofs : n_dofs();
     }
 
     /// Gives the factors back, after which nothing responds.
@@ -127,16 +128,16 @@ namespace sprag
     void factorise();
     void release();
     void find_ends();
-    void find_skin();
-    bool number_skin();
+    void find_near_layer();
+    bool number_near_layer();
 
-    double skin_thickness;  ///< [mm]
+    double near_depth;      ///< [mm]
     double face_begin = 0.; ///< along xi [mm]
     double face_end   = 0.;
-    std::vector<int> number_in_skin;
-    unsigned int n_skin = 0; ///< such numbers
+    std::vector<int> near_number;
+    unsigned int n_near_dofs = 0; ///< such numbers
     std::unique_ptr<Mumps> factors;
-    std::unique_ptr<Mumps> skin_factors;
+    std::unique_ptr<Mumps> near_factors;
   };
 
   /// Returns the answer by the factors of a body, which must outlive it.

@@ -40,7 +40,7 @@ namespace sprag
 
   /// Interface of linear levers on linear springs in statics, z = G f(z). The compliance G is dense on the faces of a lever and
   /// diagonal on hubs and support, which do not move a body in its own axes, and on the cylinder's slopes. It is known in a
-  /// window of whole tiles, which moves where other dofs are looked at. Only dofs with forces carry tangents, so that a Newton
+  /// window of whole blocks, which moves where other dofs are looked at. Only dofs with forces carry tangents, so that a Newton
   /// correction is a dense solve of those, and the iterates are those of the full system. Coordinates: displacements of all dofs.
   /// `near` are the dofs that are looked at, which increase and hold those of the forces, of hubs and of the support.
   class StaticInterface

@@ -51,7 +51,7 @@ namespace sprag
 
   FullMatrix<double> SurfaceCompliance::among(const DofSelection &whole_blocks)
   {
-    std::vector<unsigned int> begins; // of the tiles among the dofs
+    std::vector<unsigned int> begins; // of the blocks among the dofs
     for (unsigned int i = 0; i < whole_blocks.size(); i += n_block_dofs(whole_blocks[i] / block_size))
       begins.push_back(i);
     const auto block_at = [&](const unsigned int begin) { return whole_blocks[begin] / block_size; };
@@ -97,7 +97,7 @@ namespace sprag
   {
     searches.push_back(needed);
     // A row costs much, an entry little: the rows are those of dofs that are new.
-    std::map<unsigned int, DofSelection> columns; // by the tile of the rows, in the order of the degrees of freedom
+    std::map<unsigned int, DofSelection> columns; // by the block of the rows, in the order of the degrees of freedom
     for (const auto &[first, second] : needed)
     {
       const bool first_is_new = blocks.count({ first, first }) == 0;

@@ -17,7 +17,7 @@
 namespace sprag
 {
   /// Compliance between the displacements of a face's nodes, the body held at its hub [mm/N]. A contact meets few of them at a
-  /// time: the compliance is found in tiles, where it is asked for, as entries of the inverse of the stiffness, and kept.
+  /// time: the compliance is found in blocks, where it is asked for, as entries of the inverse of the stiffness, and kept.
   class SurfaceCompliance
   {
   public:
@@ -25,13 +25,13 @@ namespace sprag
     /// by their places on the face.
     SurfaceCompliance(const Mumps &stiffness, std::vector<unsigned int> dofs);
 
-    /// Returns the dofs of the tiles that hold some of the face's, increasing.
+    /// Returns the dofs of the blocks that hold some of the face's, increasing.
     DofSelection whole_blocks(const DofSelection &surface_dofs) const;
 
-    /// Returns the compliance between some dofs, which make up whole tiles.
+    /// Returns the compliance between some dofs, which make up whole blocks.
     dealii::FullMatrix<double> among(const DofSelection &whole_blocks);
 
-    /// Serialises which tiles are known. Those found together are found together again: the solver's round-off depends on that.
+    /// Serialises which blocks are known. Those found together are found together again: the solver's round-off depends on that.
     void serialise_history(Archive &archive);
 
   private:
@@ -46,7 +46,7 @@ namespace sprag
     const std::vector<unsigned int> body_dofs;
     std::map<unsigned int, unsigned int> surface_dof_map;
     std::map<Block, dealii::FullMatrix<double>> blocks;
-    std::vector<std::vector<Block>> searches; ///< the tiles found together
+    std::vector<std::vector<Block>> searches; ///< the blocks found together
   };
 
   /// Linear levers on linear springs in statics, one or both of a pair, which are alike: factorised once and seen through a
