@@ -94,11 +94,11 @@ namespace sprag
       Group group{ "judgements", {}, {} };
       const auto add = [&](const ColumnInfo &info, const auto &value)
       { group.datasets.push_back(make_dataset(checks, info, value)); };
-      const auto judged = [](const std::string &name) { return page_column("judgements", name); };
-      add(judged("round"), [](const ModelCheck &check) { return static_cast<double>(check.round); });
-      add(judged("passes"), [&](const ModelCheck &check) { return check.passes(design.demanded) ? 1. : 0.; });
-      add(judged("in_time"), [](const ModelCheck &check) { return check.in_time ? 1. : 0.; });
-      add(judged("cpu_time"), [](const ModelCheck &check) { return check.cpu_seconds; });
+      const auto check_column = [](const std::string &name) { return page_column("judgements", name); };
+      add(check_column("round"), [](const ModelCheck &check) { return static_cast<double>(check.round); });
+      add(check_column("passes"), [&](const ModelCheck &check) { return check.passes(design.demanded) ? 1. : 0.; });
+      add(check_column("in_time"), [](const ModelCheck &check) { return check.in_time ? 1. : 0.; });
+      add(check_column("cpu_time"), [](const ModelCheck &check) { return check.cpu_seconds; });
       for (std::size_t i = 0; i < design.free_parameters.size(); ++i)
         add({ to_identifier(design.free_parameters[i].name), design.free_parameters[i].unit, design.free_parameters[i].name },
             [i](const ModelCheck &check) { return check.lever.parameters[i]; });

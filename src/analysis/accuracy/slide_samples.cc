@@ -41,8 +41,8 @@ namespace sprag
              friction >= all_slide * row[Column::mu] * row[Column::normal_resultant];
     }
 
-    /// The sliding rows of the stroke that begins at a row, and the row behind the stroke. Near its beginning they still remember
-    /// what was before, until the contact has moved by its own width.
+    /// The sliding rows of the stroke that begins at a row, and the row behind the stroke. Near its beginning
+    /// they depend on the contact's history, until the contact has moved by its own width.
     std::pair<std::vector<Index>, Index> stroke_from(const std::vector<Row> &rows, const Index begin, const double largest_force)
     {
       const double turned_at = rows[begin > 0 ? begin - 1 : 0][Column::x];

@@ -23,8 +23,8 @@ namespace sprag
   std::vector<Row> passage_rows(const std::vector<Row> &rows);
 
   /// Repeats a run's samples in another model, which slides from each to the next in a single step, or in parts of it where no
-  /// equilibrium is found: sliding contact remembers little. Returns a row for each, and hands the states to `look`. `start` is
-  /// where the run's drive began [mm]. Throws AnalysisError where the model cannot follow.
+  /// equilibrium is found: sliding contact depends little on its history. Returns a row for each, and hands the states to `look`.
+  /// `start` is where the run's drive began [mm]. Throws AnalysisError where the model cannot follow.
   std::vector<Row> repeated(
       Model &model, const std::vector<Row> &samples, double start, const QuasiStaticSettings &settings,
       const StepSink &look = [](const State &, const Row &, const Evaluation &) {});

@@ -29,7 +29,7 @@ namespace sprag
     constexpr double passages      = 3.; ///< after so many the contact slides fully, whichever way it slid more
 
     constexpr unsigned int stick_solutions = 4;    ///< linear ones that balance a state in stick
-    constexpr double probe_share           = 1e-2; ///< of the penetration, by which the stiffness in stick is probed
+    constexpr double displacement_share    = 1e-2; ///< of the penetration, by which x moves to find the stiffness in stick
 
     /// Returns whether a state that no step led to is an equilibrium, up to round-off.
     bool is_balanced(Model &model, const State &state)
@@ -323,9 +323,9 @@ namespace sprag
       model.observe(step.trial, found, row);
       return row.friction_force();
     };
-    const double at_first = friction(before), probe = probe_share * before.penetration;
-    step.trial.drive.x += probe;
-    return (friction(balance_in_stick(model, step)) - at_first) / probe;
+    const double at_first = friction(before), dx = displacement_share * before.penetration;
+    step.trial.drive.x += dx;
+    return (friction(balance_in_stick(model, step)) - at_first) / dx;
   }
 
   double run_quasi_static(Model &model, const Drive &drive, const QuasiStaticSettings &settings, const StepSink &sink,

@@ -63,7 +63,7 @@ namespace sprag
   };
 
   /// A slide held at one x: the cylinder's centre stays there and the cylinder turns, so that its surface passes the lever at the
-  /// speed of the steady slide. An equilibrium, about which vibrations can be linearised.
+  /// speed of the steady slide. An equilibrium, also called frozen steady sliding, about which vibrations can be linearised.
   struct HeldSlide
   {
     Motion motion;    ///< at rest; its drive stands still
