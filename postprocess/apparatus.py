@@ -51,7 +51,7 @@ class Geometry:
         return self.inclination(0.0, self.height_at_rest)
 
     def inclination(self, x, height):
-        """At which the friction face touches the cylinder: (l - x) sin theta + h cos theta = R - e."""
+        """Returns the inclination at which the friction face touches the cylinder: (l - x) sin theta + h cos theta = R - e."""
         away = self.pivot[0] - x
         return np.arcsin((self.radius - self.offset) / np.hypot(away, height)) - np.arctan2(height, away)
 

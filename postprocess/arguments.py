@@ -30,7 +30,7 @@ def script(main):
         try:
             main(arguments)
         except Exception as error:
-            # Those of HDF5 name neither a file nor a number of the system's.
+            # Errors of HDF5 name neither a file nor a number of the system's.
             if isinstance(error, NotAResult) or isinstance(error, OSError) and error.errno is not None:
                 print(f"{name}: {error}", file=sys.stderr)
                 return 2

@@ -226,7 +226,7 @@ def pressures(results, x=None):
 
 
 def draw_faces(panels, faces, several, x):
-    """Over xi, moved by what the steps are from x, along which the contact moves."""
+    """Draws the pressure over xi, moved by the difference of each step's x from `x`, along which the contact moves."""
     places = [face.xi + (face.x - x) for face in faces]
     pressed = np.concatenate([place[face.pressure > 0] for place, face in zip(places, faces)])
     if len(pressed) == 0:

@@ -83,7 +83,7 @@ def find_state_ways(result):
 
 
 def first_stroke(rows, ways, way):
-    """Those of the first stroke that way; later ones repeat it."""
+    """Returns the rows of the first stroke that way; later ones repeat it."""
     stroke_rows = rows[ways[rows] == way]
     if len(stroke_rows) == 0:
         return stroke_rows

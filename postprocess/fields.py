@@ -338,7 +338,7 @@ def check_part(scenery):
 
 
 def magnification(text):
-    """None for auto."""
+    """Returns the magnification, None for auto."""
     if text == "auto":
         return None
     value = float(text)

@@ -153,7 +153,7 @@ def numbers(results, names):
 
 
 def draw_number(axes, results, several, name):
-    """Over the parameter; where that is no number, or is not another one for each result, beside their names."""
+    """Draws a number over the parameter, or beside the names of the results if the parameter is no number or repeats."""
     found, places = np.array([float(result.summary[name]) for result in results]), several.values
     text, colours = with_brackets(name.replace("_", " "), results[0].summary[name].unit), [look["color"] for look in several.looks]
     if places is None or len(np.unique(places)) < len(places):

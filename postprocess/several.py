@@ -104,7 +104,7 @@ def chosen(listings):
 
 
 def unique(texts, results):
-    """With the folder where the text does not tell results apart."""
+    """Adds names or folders to texts that results share."""
     named = [text if texts.count(text) == 1 else f"{text} ({result.name})" if text != result.name else text for text, result in zip(texts, results)]
     return [text if named.count(text) == 1 else f"{text} ({result.folder})" for text, result in zip(named, results)]
 

@@ -21,7 +21,7 @@ class Parameter(NamedTuple):
 
     @property
     def number(self):
-        """None where the text is no number."""
+        """Returns the number, or None for another text."""
         try:
             return float(self.text)
         except ValueError:
@@ -89,7 +89,7 @@ def differing(listings):
 
 
 def compared_value(parameter):
-    """1e3 and 1000 are the same."""
+    """Returns a value for comparisons, in which 1e3 and 1000 are the same."""
     return parameter and (parameter.number if parameter.number is not None else parameter.text)
 
 
@@ -105,7 +105,7 @@ def schema(parameters):
 
 
 def range_rule(text):
-    """That of a range of values."""
+    """Returns the rule of a range of values."""
     if text.startswith("one of "):
         return {"enum": [int(word) if word.isdigit() else word for word in text[len("one of ") :].split(" | ")]}
     kind = re.match(r"(auto or )?an? (number|integer)", text)

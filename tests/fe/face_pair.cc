@@ -168,7 +168,7 @@ namespace
   }
 } // namespace
 
-// At a finite gap, where friction on both faces would be a couple if the cylinder's face did not turn with it.
+// At a finite gap friction on both faces would be a couple if the cylinder's face did not turn with it.
 TEST(FacePair, ForcesAreEqualAndOppositeWithTheirMoments)
 {
   const Faces faces;
@@ -317,7 +317,7 @@ TEST(FacePair, AnUndeformedCylinderIsTheRigidCircle)
         first_slip = mean.slip;
         is_first   = false;
       }
-      // Over the whole face, to what the length of its edges is off the circle's.
+      // The arc is compared over the whole face, within the difference of its edges' length from the circle's.
       EXPECT_NEAR(element_facets.facets[f].arc - first_arc, mean.slip - first_slip, R * a * std::pow(a, 3));
     }
   }

@@ -17,7 +17,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from runs import SOURCE, RunTest, counted, sprag  # noqa: E402
 
 SCENES = sorted((SOURCE / "params").glob("*.prm"))
-# Those of model B whose like is there for model A, maps over other parameters, and parts and studies that another scene has as well.
+# Scenes of model B whose like is there for model A, maps over other parameters, and parts and studies that another scene has as well.
 ALIKE = {
     "accuracy-a", "coulomb-a", "design-front-machine", "isolation-ground-a", "solid-isolation-a", "neo-hookean-a", "onset-a", "pair-modal-a", "plate-a", "plate-reversal-a", "solid-frame-a", "solid-neo-hookean-a",
     "solid-plate-a", "solid-plate-reversal-a", "solid-rib-a", "solid-shaft-a", "solid-stability-a", "solid-tilted-a", "stiff-a", "study-growth-a", "study-offset-a",

@@ -38,7 +38,7 @@ namespace sprag
       return choose_step(mode(), scene.sprag_slip);
     }
 
-    /// At another x, by the same model.
+    /// Checks the slide at another x with the same model.
     SlideStability checked_at(const double x) const
     {
       DrivePoint there = held_drive(scene);

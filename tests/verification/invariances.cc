@@ -260,7 +260,7 @@ TEST(FrictionCoefficient, MovesTheForcesAsTheClosedFormSays)
     const Scene less = with_coulomb(more, 0.9 * mu);
     for (const double v : { 112., -112. })
     {
-      // At 65 mm forward, and at the end of a loop that comes back to 40 mm.
+      // The drive ends at 65 mm forward, or at the end of a loop that comes back to 40 mm.
       const Drive drive(DriveProfile::triangle, 40., 65., 112., v > 0. ? 0.5 : 1.);
       const Row high        = run_scene(with_drive(more, drive)).back();
       const Row low         = run_scene(with_drive(less, drive)).back();

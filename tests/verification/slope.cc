@@ -105,7 +105,7 @@ TEST(BlockOnASlope, WorkOfTheActuatorIsLostToFriction)
   const auto residual   = [&](const double step)
   {
     const auto rows = run_block<2>(properties, Drive(DriveProfile::triangle, 0., 10., speed, 3.), step);
-    // Over the two later cycles, which begin and end alike.
+    // The work is that of the two later cycles, which begin and end alike.
     const auto begin  = std::find_if(rows.begin() + 1, rows.end(), [](const Row &row) { return row[Column::x] == 0.; });
     const double lost = rows.back()[Column::friction_work] - (*begin)[Column::friction_work];
     return std::abs((rows.back()[Column::drive_work] - (*begin)[Column::drive_work]) / lost - 1.);

@@ -114,7 +114,7 @@ namespace sprag
       return repeats ? Settling::cycle : Settling::undecided;
     }
 
-    /// At the end of the time: a large vibration stays unless its second half is clearly smaller than its first.
+    /// Decides at the end of the time: a large vibration stays unless its second half is clearly smaller than its first.
     Settling checked_at_last(const std::vector<CycleWindow> &windows, const double P)
     {
       const std::size_t n = windows.size();
