@@ -95,11 +95,11 @@ namespace
     }
   };
 
-  const FrictionLaw coulomb     = { CoulombFriction{ 0.73 }, FrictionSpeed::sliding };
-  const FrictionLaw cork        = { CorkOnAluminium{}, FrictionSpeed::sliding };
-  const FrictionLaw by_drive    = { CorkOnAluminium{}, FrictionSpeed::drive };
-  const FrictionLaw regularised = { CorkOnAluminium{}, FrictionSpeed::sliding, 1. };
-  const FrictionLaw none        = { CoulombFriction{ 0. }, FrictionSpeed::sliding };
+  const FrictionLaw coulomb          = { CoulombFriction{ 0.73 }, FrictionSpeed::sliding };
+  const FrictionLaw cork             = { CorkOnAluminium{}, FrictionSpeed::sliding };
+  const FrictionLaw by_drive         = { CorkOnAluminium{}, FrictionSpeed::drive };
+  const FrictionLaw regularised_cork = { CorkOnAluminium{}, FrictionSpeed::sliding, 1. };
+  const FrictionLaw none             = { CoulombFriction{ 0. }, FrictionSpeed::sliding };
 
   /// One step of a contact.
   class Stepped
@@ -281,7 +281,7 @@ TEST(PointContact, TangentInSlidingIsTheDerivativeOfTheForce)
 
 TEST(PointContact, TangentOfAStepInSlipIsTheDerivativeOfTheForce)
 {
-  for (const auto &friction : { coulomb, cork, by_drive, regularised })
+  for (const auto &friction : { coulomb, cork, by_drive, regularised_cork })
     for (const auto &lever : levers(friction))
     {
       Stepped stepped(lever);
