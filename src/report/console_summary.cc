@@ -37,12 +37,12 @@ namespace sprag
       for (auto &entry : entries)
       {
         const auto row = page_row(kind, type, entry.name);
-        if (kind == "entry" && (!row || !entry.description.empty() || row->printed.rfind('!', 0) == 0))
+        if (kind == "entry" && (!row || !entry.description.empty() || row->cells.at("printed").rfind('!', 0) == 0))
           entry.attributes.emplace_back("headline", "yes");
         if (row)
         {
-          entry.unit        = entry.unit.empty() ? row->unit : entry.unit;
-          entry.description = row->meaning + (entry.description.empty() ? "" : "; " + entry.description);
+          entry.unit        = entry.unit.empty() ? row->cells.at("unit") : entry.unit;
+          entry.description = row->cells.at("meaning") + (entry.description.empty() ? "" : "; " + entry.description);
         }
       }
     }
@@ -190,8 +190,8 @@ namespace sprag
     const auto found = page_row("entry", to_word(type), entry);
     if (!found)
       return {};
-    SummaryRow row{ found->unit, std::atoi(found->word.c_str()), {}, {} };
-    auto printed = found->printed;
+    SummaryRow row{ found->cells.at("unit"), std::atoi(found->word.c_str()), {}, {} };
+    auto printed = found->cells.at("printed");
     for (; !printed.empty() && (printed.front() == '!' || printed.front() == '?'); printed.erase(0, 1))
       (printed.front() == '!' ? row.is_main : row.is_hidden_if_idle) = true;
     if (const auto colon = printed.find(": "); colon != std::string::npos)

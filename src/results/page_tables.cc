@@ -7,6 +7,7 @@
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/replace.hpp>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -20,7 +21,8 @@ namespace sprag
   {
     struct PageTable
     {
-      std::string heading, kind;
+      std::string heading;
+      std::vector<std::string> columns;                      ///< their heads from the names on
       std::map<std::string, PageRow> rows;                   ///< by name
       std::vector<std::pair<std::string, PageRow>> patterns; ///< rows with `*` in their names
     };
@@ -39,16 +41,19 @@ namespace sprag
           continue;
         if (!boost::starts_with(cells[1], "`"))
         {
-          tables.push_back({ heading, cells[1], {}, {} });
+          tables.push_back({ heading, { cells.begin() + 1, cells.end() }, {}, {} });
           continue;
         }
         for (auto &cell : cells)
           boost::erase_all(cell, "`");
-        const PageRow row{ cells[2], cells.size() > 4 ? cells[3] : "", cells.back(), {} };
+        auto &table = tables.back();
+        PageRow row;
+        for (std::size_t i = 1; i < std::min(cells.size() - 1, table.columns.size()); ++i)
+          row.cells[table.columns[i]] = cells[i + 1];
         if (boost::contains(cells[1], "*"))
-          tables.back().patterns.emplace_back(cells[1], row);
+          table.patterns.emplace_back(cells[1], row);
         else
-          tables.back().rows.emplace(cells[1], row);
+          table.rows.emplace(cells[1], row);
       }
       return tables;
     }
@@ -88,8 +93,8 @@ namespace sprag
           }
       }
       if (result)
-        for (auto *const cell : { &result->printed, &result->meaning })
-          boost::replace_all(*cell, "*", result->word);
+        for (auto &[column, cell] : result->cells)
+          boost::replace_all(cell, "*", result->word);
       return result;
     }
   } // namespace
@@ -97,9 +102,10 @@ namespace sprag
   std::optional<PageRow> page_row(const std::string &kind, const std::string &type, const std::string &name)
   {
     const auto code = '`' + type + '`';
-    if (auto row = find_row(name, [&](const PageTable &one) { return one.kind == kind && boost::contains(one.heading, code); }))
+    if (auto row =
+            find_row(name, [&](const PageTable &one) { return one.columns[0] == kind && boost::contains(one.heading, code); }))
       return row;
-    return find_row(name, [&](const PageTable &one) { return one.kind == kind && !boost::contains(one.heading, "`"); });
+    return find_row(name, [&](const PageTable &one) { return one.columns[0] == kind && !boost::contains(one.heading, "`"); });
   }
 
   ColumnInfo page_column(const std::string &type, const std::string &name)
@@ -107,7 +113,7 @@ namespace sprag
     const auto row = page_row("column", type, name);
     if (!row)
       throw std::out_of_range("no column '" + name + "' on the pages");
-    return { name, row->unit, row->meaning };
+    return { name, row->cells.at("unit"), row->cells.at("meaning") };
   }
 
   std::vector<ColumnInfo> page_columns(const std::string &type, const std::string &names)

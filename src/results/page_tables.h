@@ -3,6 +3,7 @@
 
 #include "results/columns.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,10 +14,8 @@ namespace sprag
   /// params/warnings.md and, of postprocess/, results.md, summary.md, summary-of-analyses.md and modes-maps-studies.md.
   struct PageRow
   {
-    std::string unit;
-    std::string printed; ///< line that a run prints, empty without one; effect of a warning
-    std::string meaning; ///< remedy of a warning
-    std::string word;    ///< what `*` in the name of the row stands for, and in its other cells; empty without one
+    std::map<std::string, std::string> cells; ///< by the heads of their columns: "unit", "printed", "meaning", "effect" ...
+    std::string word;                         ///< that `*` in the row's name stands for, and in its cells; empty without one
   };
 
   /// Finds the row for a name among tables of one `kind`, "entry", "column", "fact" or "warning", as the heading of their first

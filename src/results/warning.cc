@@ -40,8 +40,7 @@ namespace sprag
     const auto row = page_row("warning", "", name);
     if (!row)
       throw std::logic_error("no warning '" + name + "' in params/warnings.md");
-    // The page has the columns warning, when, effect and remedy.
-    std::string text = row->printed + '\n' + row->meaning;
+    std::string text = row->cells.at("effect") + '\n' + row->cells.at("remedy");
     if (std::count(text.begin(), text.end(), '*') != static_cast<std::ptrdiff_t>(values.size()))
       throw std::logic_error("warning '" + name + "' has another number of values in params/warnings.md");
     for (const auto &value : values)
