@@ -117,19 +117,14 @@ namespace sprag
 
     Group demand_group(const DesignSettings &design, const DesignFindings &findings)
     {
-      const auto &lever     = findings.found->lever;
-      const auto attainable = [&](const Demand &demand)
-      {
-        for (const auto &demand_that_stops : findings.stopping)
-          if (&design.demanded[demand_that_stops.demand] == &demand)
-            return demand_that_stops.attainable;
-        return unknown;
-      };
+      const auto &lever = findings.found->lever;
+      std::vector<double> attainable(design.demanded.size(), unknown);
+      for (const auto &stopping : findings.stopping)
+        attainable[stopping.demand] = stopping.attainable;
       return { "demands",
                { make_dataset(design.demanded, { "value", "", "by the last judge that tells it, or the closed form" },
                               [&](const Demand &demand) { return best_known(demand.term, lever, findings); }),
-                 make_dataset(design.demanded, { "attainable", "", "nearest value with all others met; NaN: not stopping" },
-                              attainable) },
+                 { { "attainable", "", "nearest value with all others met; NaN: not stopping" }, attainable, {} } },
                { make_texts(design.demanded, "demand", "as it was given", [](const Demand &demand) { return demand.text; }) } };
     }
 
