@@ -192,5 +192,12 @@ namespace sprag
     {
       return tilt_stiffness || skew_stiffness;
     }
+
+    /// Returns the compliances of the shaft against tilt and skew, 0 where they are fixed [rad/(N mm)].
+    std::array<double, 2> slope_compliances() const
+    {
+      const auto compliance = [](const std::optional<double> &stiffness) { return stiffness ? 1. / *stiffness : 0.; };
+      return { { compliance(tilt_stiffness), compliance(skew_stiffness) } };
+    }
   };
 } // namespace sprag

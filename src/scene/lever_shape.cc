@@ -36,12 +36,6 @@ namespace sprag
            device.cylinder.position == 0.;
   }
 
-  std::array<double, 2> slope_compliances(const Cylinder &cylinder)
-  {
-    const auto compliance = [](const std::optional<double> &stiffness) { return stiffness ? 1. / *stiffness : 0.; };
-    return { { compliance(cylinder.tilt_stiffness), compliance(cylinder.skew_stiffness) } };
-  }
-
   std::vector<double> planes_across(const Device &device)
   {
     const unsigned int n = device.mesh.elements_across;

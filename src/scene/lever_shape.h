@@ -33,9 +33,6 @@ namespace sprag
   /// enough: an axis that its shaft lets yield then stays as it is. Modes need not be the same.
   bool is_symmetric_across(const Device &device);
 
-  /// Returns the compliances of the cylinder's shaft against tilt and skew, 0 where they are fixed [rad/(N mm)].
-  std::array<double, 2> slope_compliances(const Cylinder &cylinder);
-
   /// Returns the planes between the elements across the width of three dimensions, from its middle, growing from both edges to
   /// the middle [mm]; where it is symmetric those of one half.
   std::vector<double> planes_across(const Device &device);

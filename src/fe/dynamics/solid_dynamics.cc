@@ -215,9 +215,9 @@ namespace sprag
     const auto structures = structure_modes(lever, levers);
     const auto structure  = [&](const unsigned int part)
     {
-      const auto basis = basis_on(make_layout(*window, lever, device), *structures[part], face_dofs(face),
-                                  *lever.compliance->among(window_dofs(*window)), *lever.sensors, 3 * window->first_node,
-                                  slope_compliances(device.cylinder), device.spring.stiffness);
+      const auto basis = basis_on(make_layout(*face_part, lever, device), *structures[part], face_dofs(face),
+                                  *lever.compliance->among(part_dofs(*face_part)), *lever.sensors, 3 * face_part->first_node,
+                                  device.cylinder.slope_compliances(), device.spring.stiffness);
       return std::make_unique<ModalStructure>(
           modal_data(truncated(basis, n_modes), make_lever_dynamics(device, relaxation, basis.total_mass)));
     };

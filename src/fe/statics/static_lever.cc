@@ -138,7 +138,7 @@ namespace sprag
     JointSprings make_springs(const LeverProperties &properties)
     {
       return { properties.spring.law.linear_stiffness(), properties.support_stiffness.value_or(0.), properties.spring.arm,
-               slope_compliances(properties.cylinder), 0.5 * properties.body.width };
+               properties.cylinder.slope_compliances(), 0.5 * properties.body.width };
     }
 
     InterfaceStep with_history(const InterfaceStep &step, const std::vector<ContactHistory> &history)
