@@ -97,8 +97,13 @@ namespace sprag
 
   void SurfaceContact::observe(const FaceEvaluation<3> &found, Row &row, unsigned int) const
   {
-    observe_face(found, row);
+    observe_contact(found, row);
     row[Column::indentation] = indentation(found, row);
+  }
+
+  void SurfaceContact::observe_contact(const FaceEvaluation<3> &found, Row &row) const
+  {
+    observe_face(found, row);
     if (!properties.cylinder.has_free_axis)
       return;
     const auto slopes = slopes_in(found);

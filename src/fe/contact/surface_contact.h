@@ -76,7 +76,10 @@ namespace sprag
     /// The slopes of the cylinder's axis in an evaluation.
     AxisSlopes slopes_in(const FaceEvaluation<3> &found) const;
 
-    /// Fills the columns of a row that follow from the contact.
+    /// Fills the columns of a row that follow from the contact, but for the indentation.
+    void observe_contact(const FaceEvaluation<3> &found, Row &row) const;
+
+    /// Fills these columns, and the indentation from the displacements of the whole face.
     void observe(const FaceEvaluation<3> &found, Row &row, unsigned int lever = 0) const;
 
     /// Returns the displacements of the nodes at the middle of the width.

@@ -418,7 +418,14 @@ namespace sprag
     const double support       = properties.support_stiffness.value_or(0.);
     row[Column::theta]         = theta;
     row[Column::spring_energy] = properties.spring.law.energy(turn);
-    contact.observe(found, row);
+    if constexpr (dim == 2)
+      contact.observe(found, row);
+    else
+    {
+      contact.observe_contact(found, row);
+      row[Column::indentation] = std::get<SolidStructure>(own_structure)
+                                     .indentation(lever, properties.layer_thickness, state.coordinates, state.forces, row);
+    }
     row[Column::centre_offset]        = row[Column::s] - properties.centre(state.drive.x - u, theta).xi;
     row[Column::Q]                    = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
     row[Column::support_displacement] = u;
@@ -429,9 +436,6 @@ namespace sprag
       row[Column::elastic_energy] = own_body.energy(body_displacements(state.coordinates, state.forces)[lever]);
     if (is_linear || dim == 3) // a body in a plane has its elastic cylinder
       row[Column::elastic_energy] += cylinder_energy(lever, state);
-    if constexpr (dim == 3)
-      row[Column::indentation] = std::get<SolidStructure>(own_structure)
-                                     .indentation(lever, properties.layer_thickness, state.coordinates, state.forces, row);
     std::visit([&](const auto &s) { s.tell_sensors(lever, state.coordinates, state.forces, row); }, own_structure);
   }
 
