@@ -32,7 +32,7 @@ namespace sprag
     FaceContactProperties result;
     const auto geometry     = cylinder_below_bar();
     result.counterface      = cylinder(geometry);
-    result.centre           = [geometry](const double x, const double theta) { return cylinder_centre(geometry, x, theta); };
+    result.centre           = cylinder_centre(geometry);
     result.radius           = geometry.cylinder_radius;
     result.layout           = { static_cast<unsigned int>(surface_dofs(body).size()), sprung };
     result.rest_inclination = rest_inclination;

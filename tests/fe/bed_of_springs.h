@@ -45,10 +45,10 @@ namespace sprag
       layout.has_inertia      = false;
       layout.slopes           = cylinder.has_free_axis() ? 2 : 0;
       const Geometry geometry = model_a().geometry;
-      const auto centre       = [geometry](const double at, const double theta) { return cylinder_centre(geometry, at, theta); };
       contact                 = std::make_unique<SurfaceContact>(
-          face, SurfaceContactProperties{ { centre, geometry.cylinder_radius, layout, 0., { stiffness, stiffness }, friction },
-                                          RigidCylinder(geometry, cylinder) });
+          face, SurfaceContactProperties{
+                    { cylinder_centre(geometry), geometry.cylinder_radius, layout, 0., { stiffness, stiffness }, friction },
+                    RigidCylinder(geometry, cylinder) });
     }
 
     /// Returns displacements at rest and an inclination at which the cylinder penetrates by so much in the middle [mm].

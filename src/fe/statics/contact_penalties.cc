@@ -77,13 +77,10 @@ namespace sprag
                                     const unsigned int lever)
   {
     const Device own = lever_device(device, lever);
-    return { [geometry = own.geometry](const double x, const double theta) { return cylinder_centre(geometry, x, theta); },
-             own.geometry.cylinder_radius,
-             layout,
-             rest_inclination(device),
-             penalties,
-             own.friction,
-             device.layer.thickness };
+    return {
+      cylinder_centre(own.geometry), own.geometry.cylinder_radius, layout, rest_inclination(device), penalties, own.friction,
+      device.layer.thickness
+    };
   }
 
   template ContactPenalties penalties_in_time(const Device &, const ElasticBody<2> &);

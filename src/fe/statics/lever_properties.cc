@@ -49,7 +49,7 @@ namespace sprag
 
     const Geometry geometry = device.geometry;
     result.counterface      = cylinder(geometry);
-    result.centre           = [geometry](double x, double theta) { return cylinder_centre(geometry, x, theta); };
+    result.centre           = cylinder_centre(geometry);
     result.radius           = geometry.cylinder_radius;
     result.ideal_theta      = [geometry](double x) { return kinematics(geometry, x).theta; };
     result.spring           = { moment_law(device.spring), kinematics(geometry, 0.).theta, geometry.pivot_distance };

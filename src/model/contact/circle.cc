@@ -11,6 +11,11 @@ namespace sprag
     return { circle.xi, circle.eta };
   }
 
+  std::function<LeverPoint(double x, double theta)> cylinder_centre(const Geometry &geometry)
+  {
+    return [geometry](const double x, const double theta) { return cylinder_centre(geometry, x, theta); };
+  }
+
   CircleOfPoints placed_for_points(const Geometry &geometry, const double x, const double theta)
   {
     return placed_circle(geometry, variable<N>(x, 3), variable<N>(theta, 2));

@@ -5,6 +5,8 @@
 #include "model/step/contact_point.h"
 #include "scene/lever.h"
 
+#include <functional>
+
 namespace sprag
 {
   // Lever axes: xi along d = (-cos th, sin th) away from the pivot, eta along n = (sin th, cos th) from cylinder to lever.
@@ -34,6 +36,9 @@ namespace sprag
 
   /// Centre (x, 0) of the cylinder in lever axes [mm].
   LeverPoint cylinder_centre(const Geometry &geometry, double x, double theta);
+
+  /// Returns that centre as a function of x [mm] and theta [rad].
+  std::function<LeverPoint(double x, double theta)> cylinder_centre(const Geometry &geometry);
 
   /// A point of the lever against the rigid circle, which does not rotate. Rows are derivatives by the displacement of the point
   /// along xi and eta, rotation theta, position x of the circle: minus the force on x is the x-force of the circle on the lever.
