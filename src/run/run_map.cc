@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/map/map_farm.h"
+#include "analysis/map/map.h"
 #include "base/append.h"
 #include "program/result_writer.h"
 #include "report/summary_lines.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/task_farm/task_farm.h"
 
-#include "analysis/map/map_farm.h"
+#include "analysis/map/map.h"
 
 #include "base/errors.h"
 #include "scene/scene.h"

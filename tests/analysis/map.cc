@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/map/map_farm.h"
+#include "analysis/map/map.h"
 
 #include <cmath>
 #include <functional>
