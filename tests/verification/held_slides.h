@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "analysis/limit_cycle/continuation.h"
+#include "analysis/limit_cycle/limit_cycle.h"
 #include "mpi_environment.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"

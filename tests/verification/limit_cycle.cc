@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/limit_cycle/continuation.h"
+#include "analysis/limit_cycle/limit_cycle.h"
 #include "scene/scene.h"
 #include "verification/held_slides.h"
 
