@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/study/study_trade.h"
+#include "analysis/study/study_results.h"
 #include "analysis/task_farm/task_farm.h"
 #include "base/append.h"
 #include "base/text.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/study/study_points.h"
-#include "analysis/study/study_trade.h"
+#include "analysis/study/study_results.h"
 #include "run/in_memory.h"
 #include "scene/scene.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/study/study_points.h"
-#include "analysis/study/study_trade.h"
+#include "analysis/study/study_results.h"
 #include "analysis/task_farm/task_farm.h"
 
 #include "scene/messages.h"
