@@ -9,7 +9,7 @@
 #include "estimate/expected_cost.h"
 #include "fe/mesh/mesh.h"
 #include "fe/statics/static_lever.h"
-#include "program/cost.h"
+#include "program/resources.h"
 #include "report/report.h"
 #include "report/summary_lines.h"
 #include "results/row_statistics.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "program/cost.h"
+#include "program/resources.h"
 #include "results/result_file.h"
 
 #include <vector>

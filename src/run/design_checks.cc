@@ -7,7 +7,7 @@
 #include "base/errors.h"
 #include "input/read.h"
 #include "levers/prepared_scene.h"
-#include "program/cost.h"
+#include "program/resources.h"
 #include "report/report.h"
 #include "run/run.h"
 #include "scene/closed_form.h"

@@ -9,7 +9,7 @@
 #include "estimate/choice.h"
 #include "estimate/expected_cost.h"
 #include "input/scene_key.h"
-#include "program/cost.h"
+#include "program/resources.h"
 #include "report/warnings.h"
 #include "run/run.h"
 #include "scene/analysis_use.h"

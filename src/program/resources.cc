@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "program/cost.h"
+#include "program/resources.h"
 
 #include "analytic/isolation.h"
 #include "analytic/step_clock.h"
@@ -169,7 +169,7 @@ namespace sprag
              scene.analysis.solution != Solution::general;
     }
 
-    /// Measured, see tests/run/memory.cc: within 1.3 times what those runs have.
+    /// Measured, see tests/run/resources.cc: within 1.3 times what those runs have.
     Cost compute_cost(const Scene &scene)
     {
       if (scene.analysis.type != AnalysisType::quasi_static)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "program/cost.h"
+#include "program/resources.h"
 
 #include "base/errors.h"
 #include "scene/scene.h"
