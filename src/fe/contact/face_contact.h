@@ -3,8 +3,8 @@
 
 #include "base/archive.h"
 #include "fe/body/elastic_body.h"
+#include "fe/contact/contact_face.h"
 #include "fe/contact/elastic_counterface.h"
-#include "fe/contact/face_observation.h"
 #include "fe/contact/rigid_counterface.h"
 #include "model/step/interface_step.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "fe/contact/face_observation.h"
+#include "fe/contact/contact_face.h"
 
 #include "base/errors.h"
 #include "base/text.h"
