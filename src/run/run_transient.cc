@@ -2,7 +2,7 @@
 #include "analysis/transient/transient.h"
 #include "base/append.h"
 #include "base/text.h"
-#include "estimate/vibration_accuracy.h"
+#include "estimate/dynamic_accuracy.h"
 #include "levers/dynamics.h"
 #include "program/recorder.h"
 #include "results/stress_entries.h"

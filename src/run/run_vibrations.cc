@@ -3,7 +3,7 @@
 #include "base/errors.h"
 #include "base/progress.h"
 #include "base/text.h"
-#include "estimate/vibration_accuracy.h"
+#include "estimate/dynamic_accuracy.h"
 #include "fe/fields/mode_frames.h"
 #include "input/read.h"
 #include "laws/friction.h"

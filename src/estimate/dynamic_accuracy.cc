@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "estimate/vibration_accuracy.h"
+#include "estimate/dynamic_accuracy.h"
 
 #include "analysis/accuracy/dilation.h"
 #include "analysis/transient/transient.h"
