@@ -8,7 +8,7 @@
 #include "input/read.h"
 #include "laws/friction.h"
 #include "levers/prepared_scene.h"
-#include "model/structure/growth.h"
+#include "model/structure/eigenmodes.h"
 #include "program/result_writer.h"
 #include "report/warnings.h"
 #include "run/field_recorder.h"

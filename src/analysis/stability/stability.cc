@@ -2,7 +2,7 @@
 #include "analysis/stability/stability.h"
 
 #include "base/errors.h"
-#include "model/structure/growth.h"
+#include "model/structure/eigenmodes.h"
 #include "scene/contact_reference.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"

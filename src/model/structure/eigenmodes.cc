@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "model/structure/growth.h"
+#include "model/structure/eigenmodes.h"
 
 #include <algorithm>
 #include <cmath>
