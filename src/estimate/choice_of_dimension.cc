@@ -4,7 +4,7 @@
 #include "analysis/accuracy/slide_samples.h"
 #include "analysis/stability/stability.h"
 #include "base/errors.h"
-#include "fe/mesh/mesh.h"
+#include "fe/mesh/lever_mesh.h"
 #include "fe/statics/static_lever.h"
 #include "report/summary_lines.h"
 #include "scene/analysis_use.h"

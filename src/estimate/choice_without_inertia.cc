@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "estimate/coarser_scene.h"
 #include "estimate/expected_cost.h"
-#include "fe/mesh/mesh.h"
+#include "fe/mesh/lever_mesh.h"
 #include "fe/statics/static_lever.h"
 #include "program/resources.h"
 #include "report/report.h"

@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "estimate/coarser_scene.h"
 #include "fe/fields/stress_peaks.h"
-#include "fe/mesh/mesh.h"
+#include "fe/mesh/lever_mesh.h"
 #include "report/peak_report.h"
 #include "results/row_statistics.h"
 #include "scene/closed_form.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "levers/dynamics.h"
 
-#include "fe/mesh/mesh.h"
+#include "fe/mesh/lever_mesh.h"
 #include "fe/statics/lever_properties.h"
 #include "input/scene_key.h"
 #include "model/lever/reduced_lever.h"

@@ -3,7 +3,7 @@
 
 #include "fe/dynamics/dynamic_face_lever.h"
 #include "fe/leaf/leaf_spring.h"
-#include "fe/mesh/mesh.h"
+#include "fe/mesh/lever_mesh.h"
 #include "fe/statics/contact_penalties.h"
 #include "fe/statics/lever_properties.h"
 #include "fe/statics/static_lever.h"

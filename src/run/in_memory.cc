@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "run/in_memory.h"
 
-#include "fe/mesh/mesh.h"
+#include "fe/mesh/lever_mesh.h"
 #include "input/scene_key.h"
 #include "scene/scene.h"
 

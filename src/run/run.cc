@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "estimate/choice.h"
 #include "estimate/expected_cost.h"
-#include "fe/mesh/mesh.h"
+#include "fe/mesh/lever_mesh.h"
 #include "fe/mesh/solid_file.h"
 #include "levers/prepared_scene.h"
 #include "program/output_folder.h"

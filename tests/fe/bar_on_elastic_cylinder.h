@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bar_on_cylinder.h"
-#include "fe/mesh/mesh.h"
+#include "fe/mesh/lever_mesh.h"
 #include "scene/scene.h"
 
 namespace sprag

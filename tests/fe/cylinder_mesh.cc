@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "fe/mesh/mesh.h"
+#include "fe/mesh/lever_mesh.h"
 
 #include "bar_on_elastic_cylinder.h"
 #include "base/errors.h"

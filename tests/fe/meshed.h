@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/mesh/mesh.h"
+#include "fe/mesh/lever_mesh.h"
 #include "scene/scene.h"
 
 namespace sprag

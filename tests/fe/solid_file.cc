@@ -3,7 +3,7 @@
 
 #include "base/errors.h"
 #include "fe/body/body_properties.h"
-#include "fe/mesh/mesh.h"
+#include "fe/mesh/lever_mesh.h"
 #include "scene/scene.h"
 #include "scenes.h"
 #include "support/written.h"

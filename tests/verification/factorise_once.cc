@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/statics/quasi_static.h"
-#include "fe/mesh/mesh.h"
+#include "fe/mesh/lever_mesh.h"
 #include "fe/statics/static_lever.h"
 #include "mpi_environment.h"
 #include "scene/scene.h"

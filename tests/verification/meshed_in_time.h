@@ -3,7 +3,7 @@
 
 #include "analytic/oscillation.h"
 #include "fe/dynamics/dynamic_face_lever.h"
-#include "fe/mesh/mesh.h"
+#include "fe/mesh/lever_mesh.h"
 #include "fe/statics/lever_properties.h"
 #include "input/scene_key.h"
 #include "mpi_environment.h"

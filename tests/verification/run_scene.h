@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/statics/quasi_static.h"
-#include "fe/mesh/mesh.h"
+#include "fe/mesh/lever_mesh.h"
 #include "fe/statics/static_lever.h"
 #include "mpi_environment.h"
 #include "report/report.h"

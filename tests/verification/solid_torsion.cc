@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/fields/body_fields.h"
-#include "fe/mesh/mesh.h"
+#include "fe/mesh/lever_mesh.h"
 #include "fe/statics/solid_body.h"
 #include "mpi_environment.h"
 #include "scene/scene.h"

@@ -5,7 +5,7 @@
 #include "base/text.h"
 #include "fe/body/body_properties.h"
 #include "fe/mesh/geometry_script.h"
-#include "fe/mesh/mesh.h"
+#include "fe/mesh/lever_mesh.h"
 #include "fe/mesh/mesh_look.h"
 #include "scene/device.h"
 #include "scene/lever_shape.h"
