@@ -17,7 +17,7 @@ namespace
 } // namespace
 
 // The tangent neglects the kink between the cylinder's edges times the gap: 1e-9 of it.
-TEST(ElasticObstacle, PartsAddUpToTheTangentAndPressureIsSymmetric)
+TEST(ElasticCounterface, PartsAddUpToTheTangentAndPressureIsSymmetric)
 {
   const MeshedPair bodies;
   const auto properties = make_properties(*bodies, true, 0.);
@@ -25,7 +25,7 @@ TEST(ElasticObstacle, PartsAddUpToTheTangentAndPressureIsSymmetric)
   expect_tangent_parts(contact, pressed(*bodies, properties.layout, 2e-4, 0., 0.3), 1e-8);
 }
 
-TEST(ElasticObstacle, ForcesOnLeverAndCylinderAreEqualAndOpposite)
+TEST(ElasticCounterface, ForcesOnLeverAndCylinderAreEqualAndOpposite)
 {
   const MeshedPair bodies;
   const auto properties = make_properties(*bodies, false, 0.);
@@ -46,7 +46,7 @@ TEST(ElasticObstacle, ForcesOnLeverAndCylinderAreEqualAndOpposite)
 
 // Facets of 0.025 mm average where the circle's points sample: the force differs where the contact ends, by a facet's share of a
 // half width of some 0.35 mm, squared.
-TEST(ElasticObstacle, AnUndeformedCylinderIsARigidOne)
+TEST(ElasticCounterface, AnUndeformedCylinderIsARigidOne)
 {
   const MeshedPair bodies;
   const auto properties = make_properties(*bodies, false, 0.);
@@ -81,7 +81,7 @@ TEST(ElasticObstacle, AnUndeformedCylinderIsARigidOne)
   }
 }
 
-TEST(ElasticObstacle, RefusesAContactBeyondTheCylindersFace)
+TEST(ElasticCounterface, RefusesAContactBeyondTheCylindersFace)
 {
   const MeshedPair bodies;
   const auto properties = make_properties(*bodies, false, 0.);

@@ -12,7 +12,7 @@ using namespace sprag;
 
 // Wherever nodes, lever, cylinder and axis go, no point comes nearer than the travel tells: neither below the rounded ends, where
 // the profile is steep, nor anywhere else. Without slopes and ends it is little more than the points move.
-TEST(PatchTravel, BoundsHowMuchNearerAnyPointComes)
+TEST(ElementTravel, BoundsHowMuchNearerAnyPointComes)
 {
   using Elements         = FaceElements<3>;
   const Cylinder rounded = barrel(true, 49., 1., 4000.);
@@ -59,7 +59,7 @@ TEST(PatchTravel, BoundsHowMuchNearerAnyPointComes)
 }
 
 // An iteration that diverged once must not hide what comes after it.
-TEST(PatchTravel, IsEndlessFromFarAwayOn)
+TEST(ElementTravel, IsEndlessFromFarAwayOn)
 {
   const RigidCylinder cylinder(model_a().geometry, Cylinder());
   const double nowhere = std::nan("");

@@ -34,7 +34,7 @@ namespace
   }
 } // namespace
 
-TEST(FacePatches, AreFoundByBoxInThreeDimensions)
+TEST(FaceElements, AreFoundByBoxInThreeDimensions)
 {
   const FaceElements<3> face(square_face(6, 6, 0.));
   const auto found = face.elements_in({ { { 1.5, -1., 3.2 }, { 2.5, 1., 3.8 } } });
@@ -46,7 +46,7 @@ TEST(FacePatches, AreFoundByBoxInThreeDimensions)
 }
 
 // If displacements move the face, a sphere touches what a search of all elements finds, also across a slit.
-TEST(FacePatches, NearASphereAreThoseOfASearchOfAll)
+TEST(FaceElements, NearASphereAreThoseOfASearchOfAll)
 {
   for (const double slit : { 0., 0.7 })
   {

@@ -121,23 +121,23 @@ namespace
   }
 } // namespace
 
-TEST(LeverModel, CorrectionIsNewtonsFactorisedOnce)
+TEST(StaticLever, CorrectionIsNewtonsFactorisedOnce)
 {
   expect_consistent_tangent(coarse_scene(Solution::automatic));
 }
 
-TEST(LeverModel, CorrectionIsNewtonsInGeneral)
+TEST(StaticLever, CorrectionIsNewtonsInGeneral)
 {
   expect_consistent_tangent(coarse_scene(Solution::general));
 }
 
-TEST(LeverModel, CorrectionIsNewtonsOnASprungSupportAndAHardeningSpring)
+TEST(StaticLever, CorrectionIsNewtonsOnASprungSupportAndAHardeningSpring)
 {
   for (const auto solution : { Solution::automatic, Solution::general })
     expect_consistent_tangent(coarse_scene_with_springs(solution));
 }
 
-TEST(LeverModel, CorrectionIsNewtonsOnAnElasticCylinder)
+TEST(StaticLever, CorrectionIsNewtonsOnAnElasticCylinder)
 {
   for (const auto solution : { Solution::automatic, Solution::general })
   {
@@ -149,7 +149,7 @@ TEST(LeverModel, CorrectionIsNewtonsOnAnElasticCylinder)
   }
 }
 
-TEST(LeverModel, ApartTheSpringReturnsTheLeverInOneCorrection)
+TEST(StaticLever, ApartTheSpringReturnsTheLeverInOneCorrection)
 {
   for (const auto solution : { Solution::automatic, Solution::general })
   {
@@ -168,7 +168,7 @@ TEST(LeverModel, ApartTheSpringReturnsTheLeverInOneCorrection)
   }
 }
 
-TEST(LeverModel, ATriedStepLeavesTheNextStepAsItWas)
+TEST(StaticLever, ATriedStepLeavesTheNextStepAsItWas)
 {
   MeshedLever meshed(coarse_scene(Solution::automatic));
   auto &model         = meshed.model;
@@ -202,7 +202,7 @@ TEST(LeverModel, ATriedStepLeavesTheNextStepAsItWas)
 
 // P sin th + F cos th is Q by definition of the columns; equilibrium of the hub: the moment of the contact about the pivot is
 // the spring's, with P at the centre of the normal forces but for tractions' arms of the same size as the deflection.
-TEST(LeverModel, MomentOfTheContactIsTheSprings)
+TEST(StaticLever, MomentOfTheContactIsTheSprings)
 {
   const auto scene = coarse_scene(Solution::automatic);
   MeshedLever meshed(scene);
@@ -218,7 +218,7 @@ TEST(LeverModel, MomentOfTheContactIsTheSprings)
 }
 
 // A spring of the secant's stiffness holds the lever in the same place: the two states are equal but for round-off.
-TEST(LeverModel, HardeningSpringIsItsSecantAtEachTurn)
+TEST(StaticLever, HardeningSpringIsItsSecantAtEachTurn)
 {
   for (const auto solution : { Solution::automatic, Solution::general })
   {
@@ -245,7 +245,7 @@ TEST(LeverModel, HardeningSpringIsItsSecantAtEachTurn)
 }
 
 // To round-off: the x-force of the contact on the lever is that of its spring on the frame.
-TEST(LeverModel, SupportsSpringCarriesTheForceAlongX)
+TEST(StaticLever, SupportsSpringCarriesTheForceAlongX)
 {
   for (const auto solution : { Solution::automatic, Solution::general })
   {

@@ -126,7 +126,7 @@ namespace
 } // namespace
 
 // The remaining residual moves no point by more than 1e-8 of the penetration; a few times as much is allowed.
-TEST(KeptIteration, FindsWhatNewtonsMethodFinds)
+TEST(ModifiedNewton, FindsWhatNewtonsMethodFinds)
 {
   JacobianFactors factors;
   std::shared_ptr<const StoredJacobian> kept;
@@ -157,7 +157,7 @@ TEST(KeptIteration, FindsWhatNewtonsMethodFinds)
   EXPECT_LT(tangents, 36u); // else nothing is kept
 }
 
-TEST(KeptIteration, GoesOnFromARestoredTangentToTheLastBit)
+TEST(ModifiedNewton, GoesOnFromARestoredTangentToTheLastBit)
 {
   JacobianFactors factors;
   std::shared_ptr<const StoredJacobian> kept;
@@ -176,7 +176,7 @@ TEST(KeptIteration, GoesOnFromARestoredTangentToTheLastBit)
   EXPECT_EQ(next.solution.newton.iterations, again.solution.newton.iterations);
 }
 
-TEST(KeptIteration, LetsGoOfWhatItHeld)
+TEST(ModifiedNewton, LetsGoOfWhatItHeld)
 {
   JacobianFactors factors;
   std::shared_ptr<const StoredJacobian> kept;
@@ -191,7 +191,7 @@ TEST(KeptIteration, LetsGoOfWhatItHeld)
   EXPECT_TRUE(again.solution.newton.converged);
 }
 
-TEST(KeptIteration, SaysWhereItDoesNotConverge)
+TEST(ModifiedNewton, SaysWhereItDoesNotConverge)
 {
   JacobianFactors factors;
   const auto wrong = std::make_shared<const StoredJacobian>(StoredJacobian{ { 3 }, dealii::FullMatrix<double>(1) });
