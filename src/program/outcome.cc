@@ -5,7 +5,7 @@
 #include "base/system/coloured.h"
 #include "base/text.h"
 #include "input/read.h"
-#include "program/run_options.h"
+#include "report/warnings.h"
 #include "results/earlier_result.h"
 #include "scene/scene.h"
 

@@ -7,6 +7,7 @@
 #include "program/output_folder.h"
 #include "program/run_options.h"
 #include "results/result_file.h"
+#include "results/warning.h"
 
 #include <optional>
 #include <utility>

@@ -119,13 +119,6 @@ namespace sprag
     }
   } // namespace
 
-  void check_warnings(const Scene &scene, const Warnings &warnings)
-  {
-    if (scene.analysis.warnings == WarningTreatment::error && !warnings.empty())
-      throw AnalysisError("Analysis/Warnings = error: " + count_text(warnings) + ". The first says: " + warnings.front().found +
-                          ' ' + warnings.front().remedy);
-  }
-
   void run_from_margin_to_warnings(const Scene &scene, const RunOptions &options, const FindMargin &margin, const Run &analysis)
   {
     announce_margin(scene, options, margin);

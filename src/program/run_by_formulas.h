@@ -3,6 +3,7 @@
 
 #include "analytic/jamming.h"
 #include "program/run_options.h"
+#include "results/warning.h"
 
 #include <functional>
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "analytic/measures.h"
-#include "results/warning.h"
 
 #include <memory>
 #include <string>
@@ -12,7 +11,6 @@ namespace sprag
   class DynamicsMaker;
   class RunLog;
   class StaticMeshes;
-  struct Scene;
 
   /// Holds what the runs of one process share that write no files: their meshes, and the results of the last run.
   /// run_in_memory() makes one.
@@ -34,7 +32,4 @@ namespace sprag
     RunLog *log            = nullptr; ///< begins in the folder once that is made; null: none
     std::string chosen     = {};      ///< settings that follow from the scene's Accuracy, "Section/Name = VALUE; ..."
   };
-
-  /// Throws AnalysisError where there are warnings and Analysis/Warnings = error; the message quotes the first of them.
-  void check_warnings(const Scene &scene, const Warnings &warnings);
 } // namespace sprag

@@ -491,4 +491,11 @@ namespace sprag
       add(scene, warnings);
     return warnings;
   }
+
+  void check_warnings(const Scene &scene, const Warnings &warnings)
+  {
+    if (scene.analysis.warnings == WarningTreatment::error && !warnings.empty())
+      throw AnalysisError("Analysis/Warnings = error: " + count_text(warnings) + ". The first says: " + warnings.front().found +
+                          ' ' + warnings.front().remedy);
+  }
 } // namespace sprag

@@ -20,6 +20,9 @@ namespace sprag
   /// layer_pressure() of the largest P stands for the largest pressure. Only the first lever of a full pair is looked at.
   Warnings row_warnings(const Scene &scene, const std::vector<Row> &rows);
 
+  /// Throws AnalysisError where there are warnings and Analysis/Warnings = error; the message quotes the first of them.
+  void check_warnings(const Scene &scene, const Warnings &warnings);
+
   /// Returns the warnings for a steady slide under P [N] with this compression of the layer [mm].
   Warnings slide_warnings(const Scene &scene, const DrivePoint &drive, double P, double indentation);
 
