@@ -8,7 +8,7 @@
 #include "fe/statics/static_lever.h"
 #include "report/summary_lines.h"
 #include "scene/analysis_use.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/held_slide.h"
 #include "scene/lever_shape.h"
 #include "scene/scene.h"

@@ -12,7 +12,7 @@
 #include "report/summary_lines.h"
 #include "results/row_statistics.h"
 #include "scene/analysis_use.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 

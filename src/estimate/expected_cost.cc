@@ -9,7 +9,7 @@
 #include "program/recorder.h"
 #include "program/resources.h"
 #include "scene/analysis_use.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/held_slide.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"

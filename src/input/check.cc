@@ -6,7 +6,8 @@
 #include "base/text.h"
 #include "scene/analysis_use.h"
 #include "scene/closed_form.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
+#include "scene/lever_inertia.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"
 

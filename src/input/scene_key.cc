@@ -5,7 +5,7 @@
 #include "base/fingerprint.h"
 #include "base/text.h"
 #include "input/sections.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/lever_shape.h"
 #include "scene/scene.h"
 

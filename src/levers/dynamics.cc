@@ -5,7 +5,7 @@
 #include "fe/statics/lever_properties.h"
 #include "input/scene_key.h"
 #include "model/lever/reduced_lever.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 

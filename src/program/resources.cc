@@ -10,7 +10,7 @@
 #include "base/text.h"
 #include "program/recorder.h"
 #include "scene/analysis_use.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/held_slide.h"
 #include "scene/lever_shape.h"
 #include "scene/scene.h"

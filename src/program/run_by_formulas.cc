@@ -14,7 +14,7 @@
 #include "report/report.h"
 #include "report/warnings.h"
 #include "scene/closed_form.h"
-#include "scene/contact_reference.h"
+#include "scene/lever_inertia.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"
 

@@ -9,7 +9,7 @@
 #include "report/peak_report.h"
 #include "report/summary_lines.h"
 #include "results/row_statistics.h"
-#include "scene/contact_reference.h"
+#include "scene/lever_inertia.h"
 #include "scene/mirrored_pair.h"
 #include "scene/pair_closed_form.h"
 #include "scene/scene.h"

@@ -6,7 +6,8 @@
 #include "report/peak_report.h"
 #include "results/row_statistics.h"
 #include "scene/closed_form.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
+#include "scene/lever_inertia.h"
 #include "scene/scene.h"
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 #include "report/report.h"
 #include "run/run.h"
 #include "scene/closed_form.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 

@@ -15,7 +15,7 @@
 #include "run/in_memory.h"
 #include "run/run.h"
 #include "run/vibration_report.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/held_slide.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"

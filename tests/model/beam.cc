@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "model/structure/beam.h"
 
-#include "scene/contact_reference.h"
+#include "scene/lever_inertia.h"
 #include "scene/scene.h"
 #include "scenes.h"
 

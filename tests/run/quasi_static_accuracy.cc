@@ -4,7 +4,7 @@
 #include "fe/mesh/geometry_script.h"
 #include "run/field_recorder.h"
 #include "scene/closed_form.h"
-#include "scene/contact_reference.h"
+#include "scene/lever_inertia.h"
 
 #include "results/row_statistics.h"
 #include "scene/scene.h"

@@ -2,7 +2,7 @@
 #include "report/warnings.h"
 #include "report/console_summary.h"
 #include "scene/closed_form.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/scene.h"
 #include "scenes.h"
 #include "support/make_row.h"

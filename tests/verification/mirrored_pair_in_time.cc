@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/leaf/leaf_spring.h"
 #include "results/row_statistics.h"
+#include "scene/lever_inertia.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"
 #include "support/scene_parts.h"

@@ -2,7 +2,7 @@
 #include "analysis/stability/stability.h"
 #include "fe/dynamics/dynamic_face_lever.h"
 #include "scene/closed_form.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/scene.h"
 #include "support/scene_parts.h"
 #include "verification/run_scene.h"

@@ -3,7 +3,7 @@
 
 #include "analysis/transient/transient.h"
 #include "model/lever/reduced_lever.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/scene.h"
 #include "scenes.h"
 #include "support/scene_parts.h"

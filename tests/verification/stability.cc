@@ -5,8 +5,8 @@
 #include "model/lever/reduced_lever.h"
 #include "model/structure/modal_vibration.h"
 #include "mpi_environment.h"
-#include "scene/contact_reference.h"
 #include "scene/held_slide.h"
+#include "scene/lever_inertia.h"
 #include "scene/scene.h"
 #include "scenes.h"
 

@@ -8,7 +8,7 @@
 #include "input/read.h"
 #include "results/row_statistics.h"
 #include "scene/closed_form.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/damper.h"
 #include "scene/scene.h"
 

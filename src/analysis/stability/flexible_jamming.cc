@@ -2,7 +2,7 @@
 #include "analytic/jamming.h"
 #include "base/errors.h"
 #include "model/lever/reduced_lever.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/device.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 
 #include "base/errors.h"
 #include "model/structure/eigenmodes.h"
-#include "scene/contact_reference.h"
 #include "scene/held_slide.h"
+#include "scene/lever_inertia.h"
 #include "scene/scene.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "base/errors.h"
 #include "input/read.h"
 #include "levers/prepared_scene.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 

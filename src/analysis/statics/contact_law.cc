@@ -6,7 +6,7 @@
 #include "levers/meshed_constants.h"
 #include "model/contact/circle.h"
 #include "scene/closed_form.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/scene.h"
 
 #include <algorithm>

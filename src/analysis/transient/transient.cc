@@ -9,7 +9,7 @@
 #include "model/step/force_history.h"
 #include "model/step/generalised_alpha.h"
 #include "model/step/state_archive.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/scene.h"
 
 #include <algorithm>

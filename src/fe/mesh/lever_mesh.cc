@@ -8,7 +8,7 @@
 #include "fe/body/elastic_body.h"
 #include "fe/mesh/mesh_look.h"
 #include "fe/mesh/solid_file.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/device.h"
 #include "scene/lever_shape.h"
 

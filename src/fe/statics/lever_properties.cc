@@ -3,7 +3,7 @@
 
 #include "base/text.h"
 #include "scene/closed_form.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/device.h"
 #include "scene/mirrored_pair.h"
 #include "scene/pair_closed_form.h"

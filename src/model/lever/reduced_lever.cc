@@ -3,8 +3,9 @@
 
 #include "model/contact/point_contact.h"
 #include "model/lever/assemble_lever.h"
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 #include "scene/device.h"
+#include "scene/lever_inertia.h"
 #include "scene/mirrored_pair.h"
 
 namespace sprag

@@ -2,8 +2,8 @@
 #include "model/structure/beam.h"
 
 #include "model/structure/lever_frame.h"
-#include "scene/contact_reference.h"
 #include "scene/device.h"
+#include "scene/lever_inertia.h"
 
 #include <cmath>
 

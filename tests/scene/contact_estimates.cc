@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "scene/contact_reference.h"
+#include "scene/contact_estimates.h"
 
 #include "input/read.h"
 #include "scene/scene.h"
