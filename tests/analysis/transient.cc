@@ -200,7 +200,7 @@ namespace
     return open / largest;
   }
 
-  /// What a step of q'' = -q takes off the logarithm of the amplitude in a radian, from the energy over many steps.
+  /// Returns the decay of the log amplitude per radian of q'' = -q in time, from the energy over many steps.
   double damping_in_time(const double spectral_radius, const double angle)
   {
     const auto w = generalised_alpha(spectral_radius, angle);
