@@ -50,7 +50,7 @@ def parse(listing):
         elif line.startswith("set "):
             name, _, value = line[len("set ") :].partition("=")
             units = re.findall(r"\[([^\[\]]+)\](?=[:;])", comment)
-            text, default = parse_value(value), re.search(r"#\s*default:(.*)$", value)
+            text, default = parse_value(value), re.search(r"#(?:\s*given as .*;)?\s*default:(.*)$", value)
             apart = default and different(text, default[1].strip())
             unit = units[-1] if units and units[-1] != "-" else "1"
             parts = COMMENT.fullmatch(comment)
