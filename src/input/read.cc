@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "input/analysis_texts.h"
 #include "input/check.h"
+#include "input/materials.h"
 #include "input/own_units.h"
 #include "input/sections.h"
 #include "input/variation.h"
@@ -99,6 +100,9 @@ namespace sprag
       Scene scene()
       {
         convert_own_units();
+        for (const auto &parameter : parameters)
+          if (parameter.name == material_parameter)
+            use_material(parameter.section, full_name(parameter));
         store();
         make_drive();
         make_friction();
@@ -169,6 +173,29 @@ namespace sprag
         }
       }
 
+      /// Takes the values of a section's material where the section sets none. A material that --set or a study names replaces
+      /// those of the file as well.
+      void use_material(const std::string &section, const std::string &names_it)
+      {
+        const auto named = settings.specified.find(names_it);
+        if (named == settings.specified.end())
+          return;
+        const auto [place, material, written] = named->second;
+        bool is_idle                          = material != "none";
+        for (const auto &[name, text] : value_for(materials(), material))
+          if (const auto *parameter = find_parameter(parameters, section + '/' + name))
+          {
+            const auto value = kept_value(parameter->rule, text);
+            const auto own   = settings.specified.find(full_name(*parameter));
+            const bool fills = own == settings.specified.end() || (place == "--set" && own->second.place != "--set");
+            is_idle          = is_idle && !fills && leading_number(own->second.value)->value != leading_number(value)->value;
+            if (fills)
+              settings.specified[full_name(*parameter)] = { names_it, value, "that of " + material };
+          }
+        if (is_idle)
+          report(names_it, "has no effect, as this section sets other constants");
+      }
+
       void store()
       {
         for (const auto &parameter : parameters)
@@ -177,7 +204,8 @@ namespace sprag
             if (parameter.rule.kind == Rule::Kind::file || found->first == "Condensed/Cache")
               resolve(found->second.value);
             parameter.store(found->second.value);
-            if (input.scene.chosen.count(found->first) == 0)
+            const bool is_filled_in = boost::ends_with(found->second.place, material_parameter);
+            if (input.scene.chosen.count(found->first) == 0 && !is_filled_in)
               input.scene.specified.insert(found->first);
             if (!found->second.written.empty())
               input.scene.written.emplace(found->first, found->second.written);
@@ -480,7 +508,7 @@ namespace sprag
       { return override_settings(scene.name + ".prm", set_values(scene), overrides, declared); };
       Scene result = SceneReader(read, scene.folder, chosen).scene();
       for (const auto &[name, text] : scene.written)
-        if (result.parameters->at(name) == scene.parameters->at(name))
+        if (result.specified.count(name) > 0 && result.parameters->at(name) == scene.parameters->at(name))
           result.written.emplace(name, text);
       return result;
     }

@@ -4,6 +4,7 @@
 #include "base/choices.h"
 #include "base/parameters.h"
 #include "base/text.h"
+#include "input/materials.h"
 #include "scene/plane_state.h"
 
 #include <optional>
@@ -85,10 +86,13 @@ namespace sprag
     }
   };
 
-  /// Adds the constants of an elastic part; `suffix` names it, as " of the layer".
+  /// Adds material and constants of an elastic part; `suffix` names it, as " of the layer".
   template <class Part>
   void add_material(Section &section, Part &part, const std::string &suffix)
   {
+    section.add(material_parameter, "none", { Rule::Kind::choice, {}, "", words_in(materials()) },
+                "Material of params/materials.md, whose E, nu and rho hold where this section does not set them",
+                [](const std::string &) {}); // it is the reader that fills them in
     section.number("Young's modulus", part.young_modulus, above(0.), "MPa", "E" + suffix);
     section.number("Poisson's ratio", part.poisson_ratio, between(-1., 0.5), "", "nu" + suffix);
     section.number("Density", part.density, above(0.), "t/mm3", "rho" + suffix);

@@ -132,9 +132,10 @@ namespace sprag
       section.length("Depth", settings.depth, "Depth of the metal, without the friction layer");
       section.length("Width", settings.width, "Width out of plane");
       add_material(section, settings, " of the metal");
-      section.choice(
-          "Material", settings.material, { { "linear", MaterialModel::linear }, { "neo-Hookean", MaterialModel::neo_hookean } },
-          "linear: small strain of lever and friction layer; neo-Hookean: finite strain, in plane strain or three dimensions");
+      section.choice("Material", settings.material,
+                     { { "linear", MaterialModel::linear }, { "neo-Hookean", MaterialModel::neo_hookean } },
+                     "Law of lever and friction layer; linear: small strain; neo-Hookean: finite strain, in plane strain or "
+                     "three dimensions");
       section.number("Moment of inertia", settings.moment_of_inertia, above(0.), "t mm2",
                      "J, moment of inertia about the pivot of all that turns with the hub; densities are scaled to it");
       section.choice("Inertia", settings.inertia,

@@ -47,8 +47,12 @@ namespace sprag
       std::string text;
       if (scene.parameters)
         for (const auto &[name, value] : *scene.parameters)
+        {
           if (scene.specified.count(name) > 0)
             text += "  " + name + " = " + value + '\n';
+          else if (const auto material = scene.written.find(name); material != scene.written.end())
+            text += "  " + name + " = " + value + ", " + material->second + '\n';
+        }
       return "Scene:   " + scene.name + ", with\n" + text + '\n';
     }
 

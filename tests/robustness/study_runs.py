@@ -56,6 +56,17 @@ class StudyTest(RunTest):
         for name in set(one) - COSTS:
             np.testing.assert_array_equal(one[name], other[name], err_msg=name)
 
+    def test_materials_are_their_constants(self):
+        table, texts, _, _ = self.study(STATIC, {**COARSE, "Study/Vary": "Friction layer/Made of = cork, PTFE"})
+        self.assertEqual(list(texts["friction_layer_made_of"]), ["cork", "PTFE"])
+        constants = {"Young's modulus": "20, 500", "Poisson's ratio": "0, 0.46", "Density": "2e-10, 2.17e-9"}
+        vary = "; ".join(f"Friction layer/{name} = {values}" for name, values in constants.items())
+        shutil.rmtree(self.output)
+        own = self.study(STATIC, {**COARSE, "Study/Vary": vary, "Study/Combine": "list"})[0]
+        for name in set(table) - COSTS - {"friction_layer_made_of"}:
+            np.testing.assert_allclose(table[name], own[name], rtol=1e-12, err_msg=name)
+        self.assertGreater(table["largest_pressure"][1], 2 * table["largest_pressure"][0])
+
     def test_rows_are_the_runs_by_themselves(self):
         vary = "Mesh/Degree = 1, 2; Friction/Law = Coulomb, cork on aluminium"
         table, texts, summary, _ = self.study(STATIC, {**COARSE, "Study/Vary": vary})
