@@ -548,6 +548,16 @@ namespace sprag
     return parameters_text(scene_parameters(defaults), values, scene.written);
   }
 
+  std::string specified_parameters_text(const Scene &scene)
+  {
+    SceneSettings defaults;
+    std::vector<Parameter> specified;
+    for (const auto &parameter : scene_parameters(defaults))
+      if (scene.specified.count(full_name(parameter)) > 0)
+        specified.push_back(parameter);
+    return parameters_text(specified, *scene.parameters, scene.written);
+  }
+
   std::string override_text(const std::string &parameter, const double value)
   {
     return parameter + "=" + number_text(value);

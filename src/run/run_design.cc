@@ -256,6 +256,7 @@ namespace sprag
     {
       if (!findings.found)
         return;
+      print_checks(stream, design, findings.checks);
       const auto &lever = findings.found->lever;
       stream << (findings.unmet.empty() ? "\nThe lever found" : "\nThe nearest lever") << ", " << findings.evaluations
              << " levers of the closed form, " << formatted("%.3g", findings.search_seconds) << " CPU s:\n";
@@ -273,7 +274,6 @@ namespace sprag
       }
       if (!findings.front.empty())
         stream << "  front of both aims: " << findings.front.size() << " levers\n";
-      print_checks(stream, design, findings.checks);
     }
 
     constexpr double correction_margin = 1e-3; ///< as they are known to first order, and of a mesh with its ripple
@@ -431,7 +431,7 @@ namespace sprag
       auto changes = design_overrides(scene, lever);
       changes.insert(changes.end(), { "Analysis/Type=quasi-static", "Analysis/Model=closed form" });
       std::ofstream file(options.folder + '/' + name + ".prm");
-      file << parameters_text(variant(scene, changes));
+      file << specified_parameters_text(variant(scene, changes));
       if (!file)
         throw AnalysisError("cannot write " + name + ".prm");
     }

@@ -62,6 +62,9 @@ TEST(RunDesign, WritesTheLeverAsASceneThatRuns)
                                   "Design/Demands=damping slope >= 0.12" }));
   const Scene best = best_scene(folder);
   EXPECT_EQ(best.analysis.type, AnalysisType::quasi_static);
+  // It holds what the design was given and found, not all parameters.
+  EXPECT_EQ(best.specified, (std::set<std::string>{ "Analysis/Model", "Analysis/Type", "Design/Aim", "Design/Demands",
+                                                    "Design/Free", "Rotational spring/Stiffness" }));
   // Model A has 0.0898 N/mm with k = 7.4e4 N mm/rad.
   const double c = lever_quantities(best)[DesignQuantity::damping_slope];
   EXPECT_NEAR(c, 0.12, 1e-6);
