@@ -2,11 +2,14 @@
 #include "program/arguments.h"
 
 #include "base/errors.h"
+#include "base/shipped_file.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "input/read.h"
 #include "program/outcome.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 
 namespace sprag
@@ -18,6 +21,8 @@ namespace sprag
       app.add_option("FILE.prm", arguments.file, "The scene: a parameter file; see params/README.md");
       app.add_option("--set", arguments.overrides, "\"Section/Name=value\": overrides a parameter of the file; may be repeated")
           ->allow_extra_args(false);
+      auto *const new_file = app.add_option("--new", arguments.new_file, "Write a scene of a device to begin with, and stop");
+      app.add_option("--from", arguments.shipped_scene, "Scene of sprag that --new copies, as model-a")->needs(new_file);
       app.add_option("--output", arguments.folder, "Folder for results; default output/NAME_OF_THE_FILE");
       app.add_flag("--overwrite", arguments.overwrite, "Replace whatever result is in that folder, and begin anew");
       app.add_flag("--validate", arguments.validate, "Check the file and stop");
@@ -49,6 +54,25 @@ namespace sprag
         return tell(error);
       }
     }
+
+    /// Copies a scene of the program to a new file. Returns the exit status.
+    int write_new_scene(const Arguments &arguments)
+    {
+      namespace fs           = std::filesystem;
+      const auto &name       = arguments.shipped_scene;
+      const fs::path shipped = shipped_file("params/" + name + ".prm");
+      std::error_code error;
+      std::vector<std::string> names;
+      for (const auto &entry : fs::directory_iterator(shipped.parent_path(), error))
+        if (entry.path().extension() == ".prm")
+          names.push_back(entry.path().stem());
+      if (!fs::exists(shipped, error))
+        return tell(InputError("--from " + name + ": there is no such scene" + did_you_mean(nearest(name, names))));
+      if (!fs::copy_file(shipped, arguments.new_file, error))
+        return tell(InputError("--new " + arguments.new_file + ": " + error.message()));
+      std::cout << arguments.new_file << ": a copy of " << shipped.filename().string() << ", to be edited and run\n";
+      return success;
+    }
   } // namespace
 
   std::optional<int> read_arguments(int argc, char **argv, Arguments &arguments)
@@ -68,7 +92,7 @@ namespace sprag
     {
       return app.exit(error) == 0 ? success : bad_input;
     }
-    return {};
+    return arguments.new_file.empty() ? std::nullopt : std::make_optional(write_new_scene(arguments));
   }
 
   bool is_run(const Arguments &arguments)

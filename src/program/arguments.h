@@ -19,6 +19,8 @@ namespace sprag
   struct Arguments
   {
     std::string file;
+    std::string new_file;                     ///< where to write a scene to begin with
+    std::string shipped_scene = "own-device"; ///< scene that it is a copy of
     std::vector<std::string> overrides;
     std::string folder;
     bool validate         = false;
@@ -30,8 +32,8 @@ namespace sprag
     unsigned int jobs     = 0;     ///< 0: as many as cores
   };
 
-  /// Reads the command line. Returns the exit status where nothing else is to be done: help and version, which are printed, and
-  /// mistakes, which are told.
+  /// Reads the command line. Returns the exit status where nothing else is to be done: help and version, which are printed, a
+  /// new scene, which is written, and mistakes, which are told.
   std::optional<int> read_arguments(int argc, char **argv, Arguments &arguments);
 
   /// Returns whether an analysis is asked for, and not only a look at the scene.

@@ -81,6 +81,20 @@ class ProgramTest(RunTest):
 class BadScene(ProgramTest):
     """Mistakes that reading the scene finds."""
 
+    def test_a_new_scene_runs_and_replaces_nothing(self):
+        new, copy = self.folder / "press.prm", self.folder / "copy.prm"
+        self.assertEqual(sprag("--new", new).returncode, 0)
+        checked = sprag(new, "--validate")
+        self.assertTrue(checked.stdout.endswith("valid, no warnings\n"), checked.stdout + checked.stderr)
+        self.assertEqual(sprag("--new", copy, "--from", "model-a").returncode, 0)
+        self.assertIn("Model A", copy.read_text().splitlines()[0])
+        before = tree(self.folder)
+        for words, says in ((("--new", new), "exists"), (("--new", self.folder / "b.prm", "--from", "modl-a"), "did you mean 'model-a'?")):
+            done = sprag(*words)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(says, done.stderr)
+        self.assertEqual(tree(self.folder), before)
+
     def test_all_mistakes_at_once(self):
         offset = ("45.6 N", ["Geometry/Interface offset = 45.6 N", "'N' has the dimension m.kg.s-2, mm has the dimension m"])
         self.refused_lines(

@@ -3,6 +3,7 @@
 
 #include "base/archive.h"
 #include "base/errors.h"
+#include "base/shipped_file.h"
 #include "base/system/child_process.h"
 #include "base/system/confinement.h"
 #include "base/system/file_content.h"
@@ -525,10 +526,7 @@ namespace sprag
 
   std::string mesh_script(const std::string &name)
   {
-    std::error_code error;
-    const auto program   = std::filesystem::read_symlink("/proc/self/exe", error);
-    const auto installed = program.parent_path() / SPRAG_INSTALLED_MESHES / name;
-    return std::filesystem::is_regular_file(installed, error) ? installed.lexically_normal().string() : SPRAG_MESHES "/" + name;
+    return shipped_file("meshes/" + name);
   }
 
   template <int dim>
