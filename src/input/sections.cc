@@ -284,8 +284,8 @@ namespace sprag
       section.text(
           "Ranges", settings.ranges,
           "Ranges of uncertain parameters, as Contact/Damping 0.01 0.1: list of SECTION/NAME FROM TO as for Critical. Verdicts, "
-          "maps and critical values are then the worst of the scene and all combinations of the ranges' ends, the verdict also "
-          "of values inside each range; none");
+          "maps and critical values are then the worst of the scene, all combinations of the ranges' ends, and values inside "
+          "each range; none");
       section.choice("Roles", settings.roles, { { "on", true }, { "off", false } },
                      "on: the slide is judged again without flexure, inertia, mu'(v), support and damping, one by one");
     }

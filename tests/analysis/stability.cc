@@ -156,6 +156,54 @@ TEST(CriticalValues, IslandBetweenTheValuesTriedIsFoundWhereGrowthPeaks)
   EXPECT_EQ(found.changes[1].above, SlideKind::stable);
 }
 
+// A random device: a depth of 5.667 mm grows by -14 and -4/s at the ends of the range, and by 24/s at a damping of 0.08. The ends
+// alone are stable from 5.662 mm on.
+TEST(CriticalValues, LookInsideRanges)
+{
+  const Scene scene = from_params("stability-a.prm", { "Geometry/Cylinder radius=31.76",
+                                                       "Geometry/Interface offset=21.62",
+                                                       "Geometry/Pivot distance=114.3",
+                                                       "Geometry/Pivot height=0.04184",
+                                                       "Rotational spring/Stiffness=4.971e4",
+                                                       "Lever/Length=124.6",
+                                                       "Lever/Width=44.95",
+                                                       "Lever/Young's modulus=2.1e5",
+                                                       "Lever/Density=7.85e-9",
+                                                       "Lever/Mass damping=9.904",
+                                                       "Lever/Stiffness damping=1.083e-5",
+                                                       "Lever/Modal damping=0",
+                                                       "Lever/Inertia=as built",
+                                                       "Friction layer/Thickness=0",
+                                                       "Contact/Stiffness=14550",
+                                                       "Contact/Exponent=1.315",
+                                                       "Drive/Stroke=51.42",
+                                                       "Drive/Speed=97.78",
+                                                       "Friction/Law=Stribeck",
+                                                       "Friction/Static coefficient=0.4937",
+                                                       "Friction/Kinetic coefficient=0.6042",
+                                                       "Friction/Stribeck speed=22.45",
+                                                       "Stability/Position=30.85",
+                                                       "Stability/Direction=forward",
+                                                       "Stability/Ranges=Contact/Damping 0.01 0.2" });
+  DynamicsMaker maker;
+  const auto found = critical_values(scene, { "Lever/Depth", 5.6, 5.9, 2 }, 1e-3, maker);
+  ASSERT_EQ(found.changes.size(), 1u);
+  EXPECT_EQ(found.changes.front().above, SlideKind::stable);
+  // Between two of the seven values growth is at most 1/s larger, which is some 5 um of depth.
+  const auto largest_growth = [&](const double depth)
+  {
+    double result = -1e9;
+    for (double damping = 0.03; damping < 0.12; damping += 0.01)
+      result = std::max(
+          result,
+          check_slide(variant(scene, { override_text("Lever/Depth", depth), override_text("Contact/Damping", damping) }), maker)
+              .growth_rate());
+    return result;
+  };
+  EXPECT_GT(largest_growth(found.changes.front().value - 0.02), 0.);
+  EXPECT_LT(largest_growth(found.changes.front().value + 0.02), 0.);
+}
+
 TEST(CriticalValues, TellTheMotionOfAPair)
 {
   // A held joint leaves the levers nothing in common.

@@ -58,28 +58,44 @@ namespace sprag
       return is_cheap ? 33 : 9;
     }
 
-    /// Values that a verdict looks at inside each of Stability/Ranges.
-    unsigned int values_inside(const Scene &scene)
+    using Constants = std::vector<std::string>; ///< see CheckedSlide::constants
+
+    std::vector<ParameterRange> constant_ranges(const Scene &scene)
     {
-      return is_reduced(scene.analysis.model) ? 7 : 1;
+      return uncertain_ranges(scene).value_or(std::vector<ParameterRange>());
     }
 
-    /// Overrides of the scene's own constants, none, of all combinations of the ends of Stability/Ranges and, with `inside`, of
-    /// so many values inside each range alone.
-    std::vector<std::vector<std::string>> constant_sets(const Scene &scene, const unsigned int inside)
+    /// Returns overrides of the scene's own constants: none, and all combinations of the ends of Stability/Ranges.
+    std::vector<Constants> combined_ends(const Scene &scene)
     {
-      std::vector<std::vector<std::string>> result = { {} };
-      const auto ranges                            = uncertain_ranges(scene).value_or(std::vector<ParameterRange>());
-      for (unsigned int corner = 0; corner < 1u << ranges.size() && !ranges.empty(); ++corner)
+      std::vector<Constants> result = { {} };
+      const auto all                = constant_ranges(scene);
+      for (unsigned int corner = 0; corner < 1u << all.size() && !all.empty(); ++corner)
       {
         result.emplace_back();
-        for (std::size_t i = 0; i < ranges.size(); ++i)
-          result.back().push_back(override_text(ranges[i].name, (corner >> i & 1u) == 0 ? ranges[i].from : ranges[i].to));
+        for (std::size_t i = 0; i < all.size(); ++i)
+          result.back().push_back(override_text(all[i].name, (corner >> i & 1u) == 0 ? all[i].from : all[i].to));
       }
-      for (const auto &[name, from, to, points] : ranges)
-        for (unsigned int i = 1; i <= inside; ++i)
-          result.push_back({ override_text(name, from + (to - from) * i / (inside + 1.)) });
       return result;
+    }
+
+    /// Returns the values that a verdict looks at inside one of Stability/Ranges.
+    std::vector<double> values_inside(const Scene &scene, const ParameterRange &range)
+    {
+      const unsigned int n = is_reduced(scene.analysis.model) ? 7 : 1;
+      std::vector<double> result;
+      for (unsigned int i = 1; i <= n; ++i)
+        result.push_back(range.from + (range.to - range.from) * i / (n + 1.));
+      return result;
+    }
+
+    /// Returns the constants with another value of one parameter.
+    Constants replaced(Constants constants, const std::string &name, const double value)
+    {
+      const auto is_same = [&](const std::string &constant) { return constant.rfind(name + '=', 0) == 0; };
+      constants.erase(std::remove_if(constants.begin(), constants.end(), is_same), constants.end());
+      constants.push_back(override_text(name, value));
+      return constants;
     }
 
     CriticalSearch slides_along(const Scene &scene, DynamicModel &model, const SearchEffort &effort)
@@ -346,11 +362,11 @@ namespace sprag
     constexpr unsigned int island_steps = 4;
     constexpr double tolerance          = 2e-3;
     SweptSlides result;
-    for (const auto &constants : constant_sets(scene, in_full ? values_inside(scene) : 0))
+    const auto add = [&](const Constants &constants, const std::vector<Direction> &directions)
     {
       Scene here          = constants.empty() ? scene : prepared(variant(scene, constants));
       const auto dynamics = maker.make(held_scene(here));
-      for (const auto direction : held_directions(scene))
+      for (const auto direction : directions)
       {
         here.stability.direction = direction;
         SweptWay way{ direction, constants, slides_along(here, dynamics.model(), { in_full ? tolerance : 0., island_steps }) };
@@ -358,37 +374,54 @@ namespace sprag
           way.along.worst->constants = constants;
         result.ways.push_back(std::move(way));
       }
-    }
+    };
+    for (const auto &constants : combined_ends(scene))
+      add(constants, held_directions(scene));
+    for (const auto &range : constant_ranges(scene))
+      for (const auto direction : held_directions(scene))
+      {
+        const auto fails = [&](const SweptWay &way) { return way.direction == direction && !way.along.not_checked.empty(); };
+        if (std::any_of(result.ways.begin(), result.ways.end(), fails))
+          continue;
+        const CheckedSlide worst = result.worst(direction);
+        if (!in_full && worst.kind != SlideKind::stable)
+          continue;
+        for (const double value : values_inside(scene, range))
+          add(replaced(worst.constants, range.name, value), { direction });
+      }
     return result;
   }
 
   std::vector<std::string> ranges_without_effect(const Scene &scene, const SweptSlides &swept)
   {
-    const auto ranges = uncertain_ranges(scene).value_or(std::vector<ParameterRange>());
+    const auto all    = constant_ranges(scene);
     const auto n_ways = held_directions(scene).size();
     // The scene's own constants stand before those of the corners.
     const auto worst = [&](const std::size_t corner, const std::size_t way) -> const std::optional<CheckedSlide> &
     { return swept.ways[(1 + corner) * n_ways + way].along.worst; };
     std::vector<std::string> result;
-    for (std::size_t i = 0; i < ranges.size(); ++i)
+    for (std::size_t i = 0; i < all.size(); ++i)
     {
       bool all_alike = true;
-      for (std::size_t corner = 0; corner < std::size_t(1) << ranges.size(); ++corner)
+      for (std::size_t corner = 0; corner < std::size_t(1) << all.size(); ++corner)
         for (std::size_t way = 0; way < n_ways; ++way)
         {
           const auto &here = worst(corner, way), &other_end = worst(corner ^ std::size_t(1) << i, way);
           all_alike = all_alike && here && other_end && is_alike(*here, *other_end);
         }
       if (all_alike)
-        result.push_back(ranges[i].name);
+        result.push_back(all[i].name);
     }
     return result;
   }
 
   unsigned int least_slides(const Scene &scene, const bool in_full)
   {
-    const auto sets = constant_sets(scene, in_full ? values_inside(scene) : 0).size();
-    const auto n    = static_cast<unsigned int>(sets * held_directions(scene).size());
+    auto sets = combined_ends(scene).size();
+    if (in_full)
+      for (const auto &range : constant_ranges(scene))
+        sets += values_inside(scene, range).size();
+    const auto n = static_cast<unsigned int>(sets * held_directions(scene).size());
     return n * (looks_over_stroke(scene) ? points_along(scene) : 1);
   }
 

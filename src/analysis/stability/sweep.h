@@ -79,7 +79,7 @@ namespace sprag
   };
 
   /// The slides that a verdict looks at: of Stability/Position or the whole stroke, of Stability/Direction or both, with the
-  /// constants of the scene and each combination of the ends of Stability/Ranges.
+  /// constants of the scene, each combination of the ends of Stability/Ranges, and values inside each range.
   struct SweptSlides
   {
     std::vector<SweptWay> ways;
@@ -90,14 +90,15 @@ namespace sprag
     unsigned int slides() const; ///< checked
   };
 
-  /// Checks them. `in_full`: also finds the x where the kind changes, and checks values inside each range, the other constants
-  /// being the scene's own: seven of a reduced lever, else the middle.
+  /// Checks them. Inside each range a reduced lever is checked at seven values, any other in the middle, with the other constants
+  /// of the worst slide found so far. `in_full`: also finds the x where the kind changes. Else a direction is checked inside the
+  /// ranges only if it is stable at their ends: its kind is known otherwise.
   SweptSlides sweep(const Scene &scene, DynamicsMaker &maker, bool in_full = false);
 
   /// Returns the names of those of Stability/Ranges whose ends give the same slides, to the last digit.
   std::vector<std::string> ranges_without_effect(const Scene &scene, const SweptSlides &swept);
 
-  /// Returns the slides that a sweep checks without those where a growth rate peaks.
+  /// Returns the slides that a sweep checks without those where a growth rate peaks; those inside ranges count `in_full` alone.
   unsigned int least_slides(const Scene &scene, bool in_full = false);
 
   /// Returns whether values inside the range need meshes of their own.
