@@ -169,7 +169,7 @@ namespace sprag
       const double turn  = scene.drive.reversals().front();
       const double omega = 2. * M_PI * slide_frequency(found);
       const auto by_step = [&](const double dt) { return std::abs(algorithmic_slowing(scene.time.spectral_radius, omega * dt)); };
-      const auto slowing = estimate_slowing(rows, turn, turned.window_end, 1. / slide_frequency(found), by_step);
+      const auto slowing = estimate_slowing(rows, turn, turned.window_end, by_step);
       const double lag   = change_by_frequency(rows, turn, turned.window_end) / largest(rows, Column::P);
       const std::string step =
           scene.time.tolerance > 0. ? "Try a third of the Time/Tolerance." : "Try a Time/Step 0.7 times as large.";
@@ -184,13 +184,13 @@ namespace sprag
         if (!(part.value < too_far))
           throw NoEstimate{ "with another " + part.name + (part.name == "mesh" ? ", or elsewhere between its nodes," : "") +
                             " the slide behind the first reversal has no vibration of this frequency." };
-      const double between_rows = 1. - std::cos(0.5 * omega * slowing.first_step); // of a peak
-      const double first_swing  = 2. * by_step(slowing.first_step) + between_rows;
+      const double between_rows = 1. - std::cos(0.5 * omega * slowing.peak_step); // of a peak
+      const double first_swing  = 2. * by_step(slowing.peak_step) + between_rows;
       const double faces        = largest(rows, Column::contact_width) / scene.mesh.face_size;
       ErrorEstimate decay{ "decay", "", {}, "No estimate: P does not decay in the window behind the first reversal." };
       if (const double fitted = -turned.growth_rate; fitted > 0.)
       {
-        const double scheme = algorithmic_damping(scene.time.spectral_radius, omega * slowing.first_step);
+        const double scheme = algorithmic_damping(scene.time.spectral_radius, omega * slowing.peak_step);
         decay               = { "decay", "it", with_step(decay_parts, scheme * omega / fitted, step), {} };
         // Steps and passing elements keep the envelope up, to which the decay is fitted; the slide's own decay knows neither.
         decay.parts.push_back({ "fit", std::abs(decay_rate(found) / fitted - 1.), step });

@@ -122,3 +122,19 @@ TEST(ChangeByFrequency, IsTheLagOfADecayingVibration)
   }
   EXPECT_NEAR(share * change_by_frequency(rows, 1., 2.), largest_lag, 0.02 * largest_lag);
 }
+
+TEST(EstimateSlowing, TakesTheLongestStepUpToTheOvershoot)
+{
+  // Friction turns at 1 s in steps of 1e-5 s; P first meets its value without inertia at 1.002 s and is largest at 1.0105 s, in
+  // steps of 4e-5 s, many periods of 500 Hz later: a slow reversal swells the ringing.
+  std::vector<Row> rows;
+  const double omega = 2. * M_PI * 500.;
+  for (double t = 0., dt = 1e-5; t < 0.03; dt = t < 0.008 ? 1e-5 : 4e-5, t += dt)
+  {
+    rows.push_back(row(1. + t, 0., -1., 10. + std::exp(-std::pow((t - 0.0105) / 0.004, 2)) * std::sin(omega * t)));
+    rows.back()[Column::P_quasi_static] = 10.;
+    rows.back()[Column::time_step]      = dt;
+  }
+  const auto by_step = [](const double dt) { return dt; };
+  EXPECT_DOUBLE_EQ(estimate_slowing(rows, 1., 2., by_step).peak_step, 4e-5);
+}

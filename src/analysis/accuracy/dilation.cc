@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sprag
 {
@@ -30,11 +31,11 @@ namespace sprag
     }
   } // namespace
 
-  Slowing estimate_slowing(const std::vector<Row> &rows, const double begin, const double end, const double period,
+  Slowing estimate_slowing(const std::vector<Row> &rows, const double begin, const double end,
                            const std::function<double(double)> &by_step)
   {
     Slowing result;
-    double delay = 0., weights = 0.;
+    double delay = 0., weights = 0., longest = 0., peak = -std::numeric_limits<double>::infinity();
     bool has_turned = false; // until then friction changes its direction, and nothing rings
     for (std::size_t i = 1; i < rows.size(); ++i)
     {
@@ -44,12 +45,16 @@ namespace sprag
         continue;
       const double slowing = by_step(rows[i][Column::time_step]);
       delay += slowing * dt;
-      result.P = std::max(result.P, std::abs(now - before) / dt * delay);
-      if (time < begin + period)
-        result.first_step = std::max(result.first_step, rows[i][Column::time_step]);
+      longest    = std::max(longest, rows[i][Column::time_step]);
+      result.P   = std::max(result.P, std::abs(now - before) / dt * delay);
       has_turned = has_turned || now * before <= 0.;
       if (has_turned)
       {
+        if (const double excess = std::copysign(1., rows[i][Column::P_quasi_static]) * now; excess > peak)
+        {
+          peak             = excess;
+          result.peak_step = longest;
+        }
         result.frequency += slowing * now * now * dt;
         weights += now * now * dt;
       }
@@ -61,6 +66,6 @@ namespace sprag
 
   double change_by_frequency(const std::vector<Row> &rows, const double begin, const double end)
   {
-    return estimate_slowing(rows, begin, ringing_end(rows, begin, end), 0., [](double) { return 1.; }).P;
+    return estimate_slowing(rows, begin, ringing_end(rows, begin, end), [](double) { return 1.; }).P;
   }
 } // namespace sprag
