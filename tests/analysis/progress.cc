@@ -61,9 +61,9 @@ namespace
     {
       auto &[multiplier, traction, damping, slip_speed, speed, step, point] = result[i];
       multiplier                                                            = first + i;
-      traction[0]                                                           = first + 10. + i;
+      traction                                                              = Slip({ first + 10. + i, first + 15. + i });
       damping                                                               = first + 20. + i;
-      slip_speed[0]                                                         = first + 30. + i;
+      slip_speed                                                            = Slip({ first + 30. + i, first + 33. + i });
       speed                                                                 = first + 35. + i;
       step                                                                  = first + 40. + i;
       point                                                                 = 50 + i;
@@ -168,19 +168,15 @@ TEST(Archive, KeepsEveryField)
 {
   const auto loads   = make_loads(2.);
   const auto history = make_history(100.);
-  PointHistory<2> on_surface;
-  on_surface.traction = dealii::Tensor<1, 2>({ 0.1, -0.2 });
-  on_surface.point    = 7;
   const dealii::FullMatrix<double> matrix(1, 1, std::array<double, 1>{ { -3. } }.data());
   const Motion motion{ make_drive_point(1.),
                        { make_vector({ 1., 2. }), make_vector({ 3. }), make_vector({ 4., 5., 6. }) },
                        make_vector({ 7., 8. }),
                        history,
                        loads,
-                       { on_surface },
                        std::make_shared<const StoredJacobian>(StoredJacobian{ { 5 }, matrix }) };
   {
-    const auto &[drive, coordinates, face_force, contact, forces, surface_contact, tangent] = restored(motion);
+    const auto &[drive, coordinates, face_force, contact, forces, tangent] = restored(motion);
     ASSERT_NE(tangent, nullptr);
     EXPECT_EQ(tangent->dofs, std::vector<unsigned int>{ 5 });
     EXPECT_EQ(tangent->matrix, matrix);
@@ -193,15 +189,10 @@ TEST(Archive, KeepsEveryField)
     EXPECT_TRUE(same_bytes(contact, history));
     EXPECT_EQ(forces.dofs, loads.dofs);
     EXPECT_EQ(forces.values, loads.values);
-    ASSERT_EQ(surface_contact.size(), 1u);
-    EXPECT_EQ(surface_contact[0].traction, on_surface.traction);
   }
-  const State state{ make_drive_point(3.), make_vector({ 9., -0. }), history, loads, { on_surface } };
+  const State state{ make_drive_point(3.), make_vector({ 9., -0. }), history, loads };
   {
-    const auto &[drive, coordinates, contact, forces, surface_contact] = restored(state);
-    ASSERT_EQ(surface_contact.size(), 1u);
-    EXPECT_EQ(surface_contact[0].traction, on_surface.traction);
-    EXPECT_EQ(surface_contact[0].point, 7u);
+    const auto &[drive, coordinates, contact, forces] = restored(state);
     EXPECT_TRUE(same_bytes(drive, state.drive));
     EXPECT_EQ(coordinates, state.coordinates);
     EXPECT_TRUE(std::signbit(coordinates[1]));

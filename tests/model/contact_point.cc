@@ -218,7 +218,7 @@ TEST(ContactPoint, OnASurfaceTheTangentIsTheDerivativeOfTheForce)
         law.weights        = generalised_alpha(0.8, 2e-3);
         law.weights.dt     = 2e-3;
         law.balance        = balance;
-        const PointHistory<2> history{ 0.1, dealii::Tensor<1, 2>({ 0.5, 0.2 }), 0., dealii::Tensor<1, 2>({ 90., 40. }), 1e-3 };
+        const ContactHistory history{ 0.1, dealii::Tensor<1, 2>({ 0.5, 0.2 }), 0., dealii::Tensor<1, 2>({ 90., 40. }), 1e-3 };
         const Place from({ 0.1, -0.2, -0.02 });
         const Place to   = from + Place({ slip, -0.7 * slip, -0.0007 });
         const auto at    = [&](const Place &q) { return step_response(surface_step(from, q), history, law); };

@@ -62,9 +62,8 @@ namespace sprag
     void evaluate_sliding(const SlidingState &, Evaluation &) const
     {
     }
-    std::vector<ContactHistory> touch(const dealii::Vector<double> &, const DrivePoint &, Evaluation &) const
+    void touch(const dealii::Vector<double> &, const DrivePoint &, Evaluation &) const
     {
-      return { ContactHistory{} };
     }
     double mean_slip(const Evaluation &, const dealii::Vector<double> &, double, const dealii::Vector<double> &, double) const
     {

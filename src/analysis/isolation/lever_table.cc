@@ -33,12 +33,6 @@ namespace sprag
       return std::min(2. * M_PI * std::sqrt(m / K), base.shortest_period);
     }
 
-    /// Returns true if any point is in contact, along a line or on a surface.
-    bool touches(const Motion &motion)
-    {
-      return !motion.contact.empty() || !motion.surface_contact.empty();
-    }
-
     double rounded(const double duration)
     {
       int exponent          = 0;
@@ -93,14 +87,14 @@ namespace sprag
   /// The force at the end of a motion, the outcome of the model's last step [N].
   double LeverTable::side_force(const Side &side, const Motion &motion) const
   {
-    if (!touches(motion))
+    if (motion.contact.empty())
       return 0.;
     return side.sign * levers * side.model.drive_force(motion);
   }
 
   bool LeverTable::is_free(const Side &side, const StepOutcome &outcome)
   {
-    return !touches(side.motion) && !touches(*outcome.motion) && outcome.work.drive == 0.;
+    return side.motion.contact.empty() && outcome.motion->contact.empty() && outcome.work.drive == 0.;
   }
 
   BasePoint LeverTable::base() const

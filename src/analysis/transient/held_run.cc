@@ -103,11 +103,9 @@ namespace sprag
 
   bool HeldRun::slides(const double speed) const
   {
-    const auto sticks = [speed](const auto &point)
+    const auto sticks = [speed](const ContactHistory &point)
     { return point.traction[0] != 0. && point.step > 0. && !(point.slip_speed[0] * speed > 0.); };
-    const auto &in_plane = now.motion.contact;
-    const auto &in_space = now.motion.surface_contact;
-    return std::none_of(in_plane.begin(), in_plane.end(), sticks) && std::none_of(in_space.begin(), in_space.end(), sticks);
+    return std::none_of(now.motion.contact.begin(), now.motion.contact.end(), sticks);
   }
 
   LedgerReport HeldRun::ledger() const

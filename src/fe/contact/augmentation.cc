@@ -68,7 +68,7 @@ namespace sprag
   /// Values at the points of `states` of the function that a traction of theirs is averaged to, an entry per state [MPa].
   template <int dim>
   template <class Traction>
-  std::vector<Traction> FaceMultipliers<dim>::averaged(const States &states, Traction PointTraction<dim - 1>::*traction) const
+  std::vector<Traction> FaceMultipliers<dim>::averaged(const States &states, Traction PointTraction::*traction) const
   {
     std::vector<Traction> coefficients(areas.size());
     for (const auto &state : states)
@@ -90,11 +90,11 @@ namespace sprag
   }
 
   template <int dim>
-  std::vector<PointHistory<dim - 1>> FaceMultipliers<dim>::augmented(const States &states) const
+  std::vector<ContactHistory> FaceMultipliers<dim>::augmented(const States &states) const
   {
     const auto pressures = averaged(states, &FacePointState<dim>::pressure);
     const auto tractions = averaged(states, &FacePointState<dim>::traction);
-    std::vector<History> result(states.size());
+    std::vector<ContactHistory> result(states.size());
     for (std::size_t a = 0; a < states.size(); ++a)
     {
       result[a].normal_multiplier = pressures[a];
@@ -105,7 +105,7 @@ namespace sprag
   }
 
   template <int dim>
-  double FaceMultipliers<dim>::largest_change(const States &states, const std::vector<History> &history) const
+  double FaceMultipliers<dim>::largest_change(const States &states, const std::vector<ContactHistory> &history) const
   {
     const auto pressures = averaged(states, &FacePointState<dim>::pressure);
     double largest       = 0.;

@@ -15,23 +15,22 @@ namespace sprag
   class FaceMultipliers
   {
   public:
-    using History = PointHistory<dim - 1>;
-    using States  = std::vector<FacePointState<dim>>;
+    using States = std::vector<FacePointState<dim>>;
 
     /// The face must outlive this. On a surface its cells are rectangles along xi and zeta.
     explicit FaceMultipliers(const FrictionFace<dim> &face);
 
     /// Multipliers of the next augmentation at the points of `states`, from their tractions.
-    std::vector<History> augmented(const States &states) const;
+    std::vector<ContactHistory> augmented(const States &states) const;
 
     /// Largest change of a pressure multiplier by the next augmentation, from those in `history` [MPa].
-    double largest_change(const States &states, const std::vector<History> &history) const;
+    double largest_change(const States &states, const std::vector<ContactHistory> &history) const;
 
   private:
     static constexpr unsigned int n_corners = 1u << (dim - 1);
 
     template <class Traction>
-    std::vector<Traction> averaged(const States &states, Traction PointTraction<dim - 1>::*traction) const;
+    std::vector<Traction> averaged(const States &states, Traction PointTraction::*traction) const;
 
     /// The hats of a cell's corners at one of its points.
     struct Share

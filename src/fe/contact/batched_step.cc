@@ -124,7 +124,7 @@ namespace sprag
 
   bool BatchedStep::begins_with(const History &history) const
   {
-    const auto same = [](const PointHistory<2> &a, const PointHistory<2> &b)
+    const auto same = [](const ContactHistory &a, const ContactHistory &b)
     {
       return a.point == b.point && a.step == b.step && a.traction == b.traction && a.slip_speed == b.slip_speed &&
              a.speed == b.speed && a.normal_multiplier == b.normal_multiplier;
@@ -577,7 +577,7 @@ namespace sprag
     state.pressure       = end.pressure[i];
     state.mu             = friction.mu[i];
     state.slipping       = friction.slipping[i] != 0;
-    dealii::Tensor<1, 2> begin_traction;
+    Slip begin_traction;
     for (unsigned int d = 0; d < 2; ++d)
     {
       state.traction[d]           = friction.traction[d][i];

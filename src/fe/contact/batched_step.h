@@ -16,7 +16,7 @@ namespace sprag
   {
   public:
     using Elements = FaceElements<3>;
-    using History  = std::vector<PointHistory<2>>;
+    using History  = std::vector<ContactHistory>;
 
     static constexpr unsigned int n_displacements = 3 * Elements::max_nodes;
     static constexpr unsigned int n_frame         = 4; ///< theta, x and slopes

@@ -30,7 +30,7 @@ namespace sprag
   }
 
   template <int dim>
-  std::vector<PointHistory<dim - 1>> FaceEvaluation<dim>::history() const
+  std::vector<ContactHistory> FaceEvaluation<dim>::history() const
   {
     if (sums.beyond_face)
       throw AnalysisError(dim == 3 ? check_validity()
@@ -39,7 +39,7 @@ namespace sprag
                                          rounded_text(x) +
                                          " mm: the cylinder yields or the lever bends too much. Try a larger Cylinder/Young "
                                          "modulus or a rigid cylinder.");
-    std::vector<PointHistory<dim - 1>> result;
+    std::vector<ContactHistory> result;
     for (const auto &point : points)
       if (point.pressure > 0.)
         result.push_back(point.history);
@@ -207,7 +207,7 @@ namespace sprag
     double normal = 0., speed = 0., mu = 0., power = 0., energy = 0., active = 0.;
     double elastic_slip = 0., penetration = 0., excess = 0., cone = 0.;
     dealii::Tensor<1, dim> force, position;
-    dealii::Tensor<1, dim - 1> friction;
+    Slip friction;
     for (const auto &point : found.points)
     {
       penetration = std::max(penetration, -point.gap);
@@ -228,7 +228,7 @@ namespace sprag
         force[d] += area * free * point.end_force[d];
         energy += 0.5 * area * point.end_force[d] * moved[d];
       }
-      const auto rate = found.duration > 0. ? point.slip_change / found.duration : dealii::Tensor<1, dim - 1>();
+      const auto rate = found.duration > 0. ? point.slip_change / found.duration : Slip();
       normal += area * point.pressure;
       friction += area * point.traction;
       position += area * point.pressure * point.position;

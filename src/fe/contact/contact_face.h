@@ -27,7 +27,7 @@ namespace sprag
 
     /// Returns the history of the points in contact, by increasing point. Throws AnalysisError where
     /// check_validity() objects.
-    std::vector<PointHistory<dim - 1>> history() const;
+    std::vector<ContactHistory> history() const;
 
     /// Tells why the contact goes beyond what can touch; empty if it does not.
     std::string check_validity() const;

@@ -185,8 +185,7 @@ namespace sprag
     return reach.dofs;
   }
 
-  std::vector<ContactHistory> FaceContact::touch(const Vector<double> &displacements, const DrivePoint &drive,
-                                                 FaceEvaluation<2> &found) const
+  void FaceContact::touch(const Vector<double> &displacements, const DrivePoint &drive, FaceEvaluation<2> &found) const
   {
     found.begin(displacements, drive.x, 0.);
     const auto at = configuration(displacements, drive.x);
@@ -198,7 +197,6 @@ namespace sprag
                        below.place(add_point(element, q, found));
                    });
     sum_forces(found.sums.loaded, dof_places, found.forces);
-    return {};
   }
 
   namespace

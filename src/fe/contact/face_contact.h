@@ -42,8 +42,7 @@ namespace sprag
     const DofSelection &candidate_dofs(double x, const PerLever &theta, double travel = 0.);
 
     /// Evaluates the contact at rest without force.
-    std::vector<ContactHistory> touch(const dealii::Vector<double> &displacements, const DrivePoint &drive,
-                                      FaceEvaluation<2> &found) const;
+    void touch(const dealii::Vector<double> &displacements, const DrivePoint &drive, FaceEvaluation<2> &found) const;
 
     const ContactPenalties &penalties() const
     {

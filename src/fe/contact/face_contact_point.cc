@@ -19,7 +19,7 @@ namespace sprag
 
   template <int dim>
   SlipShift slip_shift(const FaceElements<dim> &face, const unsigned int point, const double slope, const double travel,
-                       const double stiffness, const std::vector<PointHistory<dim - 1>> &history,
+                       const double stiffness, const std::vector<ContactHistory> &history,
                        const std::function<double(unsigned int)> &slip_at_begin)
   {
     const auto &line = face.lines[face.point_lines[point]];
@@ -43,9 +43,9 @@ namespace sprag
   }
 
   template SlipShift slip_shift<2>(const FaceElements<2> &, unsigned int, double, double, double,
-                                   const std::vector<PointHistory<1>> &, const std::function<double(unsigned int)> &);
+                                   const std::vector<ContactHistory> &, const std::function<double(unsigned int)> &);
   template SlipShift slip_shift<3>(const FaceElements<3> &, unsigned int, double, double, double,
-                                   const std::vector<PointHistory<2>> &, const std::function<double(unsigned int)> &);
+                                   const std::vector<ContactHistory> &, const std::function<double(unsigned int)> &);
 
   SlidingTangent slide(const FaceContactProperties &properties, const FrictionLaw &law, const SlidingState &sliding,
                        const double weight, FacePointState<2> &state, ContactSums &sums)

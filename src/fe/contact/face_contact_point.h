@@ -81,16 +81,16 @@ namespace sprag
 
   /// A point of the friction face in an evaluation, with its tractions at the end.
   template <int dim>
-  struct FacePointState : PointTraction<dim - 1>
+  struct FacePointState : PointTraction
   {
     unsigned int index   = 0;    ///< of the point in FrictionFace::points
     unsigned int element = 0;    ///< index in FrictionFace::elements
     dealii::Point<dim> position; ///< deformed, lever axes
     double gap            = 0.;
-    double trial_pressure = 0.;             ///< lambda - eps g at the end: the pressure where positive [MPa]
-    dealii::Tensor<1, dim - 1> slip_change; ///< in the step; without inertia as far as it would be at the speed of its end [mm]
-    double elastic_slip = 0.;               ///< of the tangential penalty [mm]
-    dealii::Tensor<1, dim + 2> end_force;   ///< on the lever per area along its axes, about the pivot, and along x on the drive
+    double trial_pressure = 0.;           ///< lambda - eps g at the end: the pressure where positive [MPa]
+    Slip slip_change;                     ///< in the step; without inertia as far as it would be at the speed of its end [mm]
+    double elastic_slip = 0.;             ///< of the tangential penalty [mm]
+    dealii::Tensor<1, dim + 2> end_force; ///< on the lever per area along its axes, about the pivot, and along x on the drive
   };
 
   /// The terms that a step without inertia has beside displacements, drive and contact history. Its forces are those at its end.
@@ -125,16 +125,15 @@ namespace sprag
   }
 
   /// Finds the history of the first point in contact from one on, by indices in the face.
-  template <int slips>
-  auto find_history(const std::vector<PointHistory<slips>> &history, const unsigned int point)
+  inline auto find_history(const std::vector<ContactHistory> &history, const unsigned int point)
   {
-    const auto is_before = [](const PointHistory<slips> &entry, const unsigned int q) { return entry.point < q; };
+    const auto is_before = [](const ContactHistory &entry, const unsigned int q) { return entry.point < q; };
     return std::lower_bound(history.begin(), history.end(), point, is_before);
   }
 
   /// Returns the elements that hold points in contact.
   template <int dim>
-  std::vector<unsigned int> touched_elements(const FaceElements<dim> &face, const std::vector<PointHistory<dim - 1>> &history)
+  std::vector<unsigned int> touched_elements(const FaceElements<dim> &face, const std::vector<ContactHistory> &history)
   {
     std::vector<unsigned int> result;
     for (const auto &entry : history)
@@ -163,8 +162,7 @@ namespace sprag
   /// face.
   template <int dim>
   SlipShift slip_shift(const FaceElements<dim> &face, unsigned int point, double slope, double travel, double stiffness,
-                       const std::vector<PointHistory<dim - 1>> &history,
-                       const std::function<double(unsigned int)> &slip_at_begin);
+                       const std::vector<ContactHistory> &history, const std::function<double(unsigned int)> &slip_at_begin);
 
   /// Friction's part of the tangent of an element that slides steadily, where it is wanted apart; see LinearisedForces.
   template <class Matrix>
@@ -255,7 +253,7 @@ namespace sprag
   void record(const StepResponse<n> &response, const FaceStep &step, const ContactHistory &begin, const double slip_change,
               const double weight, const double run, FacePointState<2> &state, ContactSums &sums)
   {
-    static_cast<PointTraction<1> &>(state) = response;
+    static_cast<PointTraction &>(state) = response;
 
     state.history.point  = state.index;
     state.slip_change[0] = slip_change * step.terms.speed_ratio;

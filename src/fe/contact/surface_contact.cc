@@ -13,11 +13,6 @@ namespace sprag
   using dealii::Tensor;
   using dealii::Vector;
 
-  namespace
-  {
-    const std::vector<SurfaceHistory> no_history;
-  } // namespace
-
   SurfaceContact::SurfaceContact(const FrictionFace<3> &face_, SurfaceContactProperties properties_)
       : ContactFace<3>(face_, properties_.half)
       , properties(std::move(properties_))
@@ -170,14 +165,14 @@ namespace sprag
       begin_augmented = terms.augmented;
     }
     found.duration = step.to.time - step.from.time;
-    evaluate({ step.end, step.to.x }, *step.surface_history, step.to.surface - step.from.surface, terms, found);
+    evaluate({ step.end, step.to.x }, step.history, step.to.surface - step.from.surface, terms, found);
     if (terms.augmented) // multipliers spread over the cells
       add_points(found);
     else
       add_points_in_contact(most_pressed, found);
   }
 
-  void SurfaceContact::evaluate(const SurfacePlace &end, const std::vector<SurfaceHistory> &history, const double surface_run,
+  void SurfaceContact::evaluate(const SurfacePlace &end, const std::vector<ContactHistory> &history, const double surface_run,
                                 const StaticTerms &terms, FaceEvaluation<3> &found)
   {
     if (!batched.begins_with(history))
@@ -216,7 +211,7 @@ namespace sprag
     return result;
   }
 
-  std::vector<SlipShift> SurfaceContact::slip_shifts(const unsigned int element, const std::vector<SurfaceHistory> &history,
+  std::vector<SlipShift> SurfaceContact::slip_shifts(const unsigned int element, const std::vector<ContactHistory> &history,
                                                      const StaticTerms &terms) const
   {
     const double stiffness = unwinding_stiffness(terms.augmented, properties.penalties.tangential);
@@ -274,7 +269,7 @@ namespace sprag
 
   void SurfaceContact::evaluate(const InterfaceStep &motion, FaceEvaluation<3> &found)
   {
-    const auto &history = motion.surface_history != nullptr ? *motion.surface_history : no_history;
+    const auto &history = motion.history;
     const bool is_first = begin_displacements.size() != motion.begin.position.size();
     if (is_first || begin_x != motion.from.x || begin_displacements != motion.begin.position || !batched.begins_with(history))
     {
@@ -409,14 +404,13 @@ namespace sprag
     press(step, place, reach.clip(near(place, step.end), found.within_reach), found);
   }
 
-  std::vector<SurfaceHistory> SurfaceContact::touch(const Vector<double> &z, const DrivePoint &drive, FaceEvaluation<3> &found)
+  void SurfaceContact::touch(const Vector<double> &z, const DrivePoint &drive, FaceEvaluation<3> &found)
   {
     const SurfacePlace place{ z, drive.x };
     const auto step = constants(Kind::touch, place, {});
     found.begin(z, drive.x, 0.);
     press(step, place, near(place, step.end), found);
     add_points(found);
-    return {};
   }
 
   /// Presses where the step begins.

@@ -13,8 +13,6 @@ namespace sprag
     bool half = false; ///< the face is half of one which is the same on both sides of the middle
   };
 
-  using SurfaceHistory = PointHistory<2>;
-
   /// Interface displacements and drive at one end of a step.
   struct SurfacePlace
   {
@@ -42,7 +40,7 @@ namespace sprag
     /// Evaluates forces, penetration and tangent of the step without inertia that ends at `end`. `history`: of the points in
     /// contact where it begins. `surface_run`: of the cylinder by turning [mm]. Of the terms `travel` and `augmented` belong to
     /// the step: they are the same until the next begin_step().
-    void evaluate(const SurfacePlace &end, const std::vector<SurfaceHistory> &history, double surface_run,
+    void evaluate(const SurfacePlace &end, const std::vector<ContactHistory> &history, double surface_run,
                   const StaticTerms &terms, FaceEvaluation<3> &found);
 
     /// Evaluates forces and compression of a step in time, and the tangent or what Request::complete adds.
@@ -59,7 +57,7 @@ namespace sprag
     LinearisedForces linearise(const SlidingState &sliding, FaceEvaluation<3> &found);
 
     /// Evaluates the contact at rest without force.
-    std::vector<SurfaceHistory> touch(const dealii::Vector<double> &z, const DrivePoint &drive, FaceEvaluation<3> &found);
+    void touch(const dealii::Vector<double> &z, const DrivePoint &drive, FaceEvaluation<3> &found);
 
     /// Returns by how much a small change of the displacements changes the gap where that is smallest [mm].
     double gap_change(const FaceEvaluation<3> &found, const dealii::Vector<double> &change, unsigned int lever = 0) const;
@@ -111,7 +109,7 @@ namespace sprag
     AxisSlopes turned_by(const dealii::Vector<double> &displacements) const;
     Elements::Indices near(const SurfacePlace &place, const RigidCylinder::Pose &pose) const;
     BatchedStep::Constants constants(Kind kind, const SurfacePlace &end, const FrictionLaw &friction) const;
-    std::vector<SlipShift> slip_shifts(unsigned int element, const std::vector<SurfaceHistory> &history,
+    std::vector<SlipShift> slip_shifts(unsigned int element, const std::vector<ContactHistory> &history,
                                        const StaticTerms &terms) const;
     void press_slide(const SlidingState &sliding, FaceEvaluation<3> &found);
     void press(const BatchedStep::Constants &step, const SurfacePlace &place, Elements::Indices elements_near,

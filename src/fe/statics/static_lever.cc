@@ -140,16 +140,6 @@ namespace sprag
       return { properties.spring.law.linear_stiffness(), properties.support_stiffness.value_or(0.), properties.spring.arm,
                properties.cylinder.slope_compliances(), 0.5 * properties.body.width };
     }
-
-    InterfaceStep with_history(const InterfaceStep &step, const std::vector<ContactHistory> &history)
-    {
-      return { step.from, history, step.to, step.begin, step.end, step.end_rate, step.weights };
-    }
-
-    InterfaceStep with_history(const InterfaceStep &step, const std::vector<SurfaceHistory> &history)
-    {
-      return { step.from, step.history, step.to, step.begin, step.end, step.end_rate, step.weights, &history };
-    }
   } // namespace
 
   template <int dim>
@@ -276,7 +266,6 @@ namespace sprag
   template <int dim>
   void StaticLever<dim>::evaluate_contacts(Step &step, const FrictionMode mode, Balance &found)
   {
-    static const std::vector<ContactHistory> none;
     auto &trial    = step.trial;
     const auto end = interface_displacements(trial.coordinates);
     std::vector<const InterfaceForces *> lever_forces;
@@ -287,14 +276,14 @@ namespace sprag
       auto &[properties, lever] = levers[i];
       auto &[history, contact]  = found.levers[i];
 
-      history         = lever_history(i, n_face_points(), trial.*Parts::history);
+      history         = lever_history(i, n_face_points(), trial.contact);
       auto terms      = static_terms(properties.friction, properties.geometry, step.start, trial.drive, mode);
       terms.augmented = augments();
       const Kinematic begin{ extract_lever(layout, i, step.displacements), {}, {} };
       const auto own_end = extract_lever(layout, i, end);
       const StepWeights weights{ trial.drive.time - step.start.time, 0., 0., 0., 0. };
       const Vector<double> no_rates;
-      lever.evaluate(with_history({ step.start, none, trial.drive, begin, own_end, no_rates, weights }, history), contact, terms);
+      lever.evaluate(InterfaceStep{ step.start, history, trial.drive, begin, own_end, no_rates, weights }, contact, terms);
       lever_forces.push_back(&contact.forces);
       within_reach = within_reach && contact.within_reach;
     }
@@ -386,7 +375,7 @@ namespace sprag
   void StaticLever<dim>::store_history(const Evaluation &evaluation, State &state) const
   {
     const auto &found = get_balance(evaluation).levers;
-    state.*Parts::history =
+    state.contact =
         augments() ? augmented(evaluation) : joined([&](const std::size_t lever) { return found[lever].contact.history(); });
   }
 

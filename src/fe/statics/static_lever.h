@@ -26,23 +26,21 @@ namespace sprag
   template <>
   struct LeverParts<2>
   {
-    using Source                  = dealii::Triangulation<2>;
-    using Body                    = ElasticBody<2>;
-    using KeptBody                = const ElasticBody<2>;
-    using Structure               = std::variant<StaticStructure, FullStiffness>;
-    using Contact                 = FaceContact;
-    static constexpr auto history = &State::contact; ///< of the contact
+    using Source    = dealii::Triangulation<2>;
+    using Body      = ElasticBody<2>;
+    using KeptBody  = const ElasticBody<2>;
+    using Structure = std::variant<StaticStructure, FullStiffness>;
+    using Contact   = FaceContact;
   };
 
   template <>
   struct LeverParts<3>
   {
-    using Source                  = SolidBody;
-    using Body                    = SolidBody;
-    using KeptBody                = const SolidBody &;
-    using Structure               = std::variant<SolidStructure>;
-    using Contact                 = SurfaceContact;
-    static constexpr auto history = &State::surface_contact;
+    using Source    = SolidBody;
+    using Body      = SolidBody;
+    using KeptBody  = const SolidBody &;
+    using Structure = std::variant<SolidStructure>;
+    using Contact   = SurfaceContact;
   };
 
   /// A meshed lever on its hub, rotational spring and support without inertia, or the two of a full mirrored pair, each on its
@@ -81,7 +79,7 @@ namespace sprag
     std::string check_validity(const State &state, const Evaluation &evaluation) const override;
     void augment(const Evaluation &evaluation, State &trial) const override
     {
-      trial.*Parts::history = augmented(evaluation);
+      trial.contact = augmented(evaluation);
     }
 
     void store_history(const Evaluation &evaluation, State &state) const override;
@@ -136,7 +134,7 @@ namespace sprag
     }
 
   private:
-    using History = std::vector<PointHistory<dim - 1>>;
+    using History = std::vector<ContactHistory>;
 
     struct Lever
     {

@@ -84,19 +84,18 @@ namespace sprag
   }
 
   /// Tractions at a contact point.
-  template <int slips>
   struct PointTraction
   {
-    double pressure = 0.;              ///< damping included
-    dealii::Tensor<1, slips> traction; ///< positive where the slip coordinate grows
+    double pressure = 0.; ///< damping included
+    Slip traction;        ///< positive where the slip coordinate grows
     double mu     = 0.;
     bool slipping = false;
-    PointHistory<slips> history;
+    ContactHistory history;
   };
 
   /// The response of a contact point to a step: its tractions at the end and its forces.
   template <int n, int slips = 1>
-  struct StepResponse : PointTraction<slips>
+  struct StepResponse : PointTraction
   {
     dealii::Tensor<1, slips> mean_traction; ///< of the step
     dealii::Tensor<1, n> force;             ///< of the step, generalised
@@ -110,7 +109,7 @@ namespace sprag
   };
 
   template <int slips>
-  SlipHistory<double, slips> slip_history(const PointHistory<slips> &history)
+  SlipHistory<double, slips> slip_history(const ContactHistory &history)
   {
     SlipHistory<double, slips> result;
     result.step  = history.step;
@@ -168,7 +167,7 @@ namespace sprag
   /// A balance at the end of a step: tractions and forces there. The history holds the multipliers of the current augmentation. A
   /// point that was open has no traction to start from: its slip history begins with the step in which it touches.
   template <int n, int slips>
-  StepResponse<n, slips> end_response(const StepKinematics<n, slips> &point, const PointHistory<slips> &history,
+  StepResponse<n, slips> end_response(const StepKinematics<n, slips> &point, const ContactHistory &history,
                                       const StepContactLaw &law)
   {
     using N = StepNumber<slips>;
@@ -178,7 +177,7 @@ namespace sprag
       return response;
     PointFriction<N, slips> friction;
     const auto slip   = variables(point.slip_change, 1);
-    friction.traction = stick_traction(law.slip, slip_history(history).traction, slip);
+    friction.traction = stick_traction(law.slip, slip_history<slips>(history).traction, slip);
     if (law.mode == FrictionMode::cone)
       friction =
           return_to_cone(law.slip, friction.traction, pressure, law.weights.dt, variables(point.slip_shift, 1 + slips), slip);
@@ -193,7 +192,7 @@ namespace sprag
   /// (discrete gradient), so that opening and closing make no energy; friction, returned to the cone at the end of the step, acts
   /// with the mean of both ends; both with the delay of generalised-alpha, whose work is the scheme's dissipation.
   template <int n, int slips>
-  StepResponse<n, slips> mean_response(const StepKinematics<n, slips> &point, const PointHistory<slips> &history,
+  StepResponse<n, slips> mean_response(const StepKinematics<n, slips> &point, const ContactHistory &history,
                                        const StepContactLaw &law)
   {
     using N = StepNumber<slips>;
@@ -207,9 +206,9 @@ namespace sprag
     const N damped      = (1. - alpha) * dashpot + alpha * history.damping;
     const N pressure    = mean + delay * (end - begin) + damped;
     const auto slip     = variables(point.slip_change, 1);
-    const auto before   = slip_history(history);
+    const auto before   = slip_history<slips>(history);
     const auto friction = end_friction(law.slip, before, slip, N(end + dashpot), law.weights.dt);
-    if (mean.v == 0. && end.v == 0. && history.damping == 0. && history.traction == dealii::Tensor<1, slips>())
+    if (mean.v == 0. && end.v == 0. && history.damping == 0. && history.traction == Slip())
       return response;
 
     const double gap_change = point.gap_end - point.gap_begin;
@@ -235,7 +234,7 @@ namespace sprag
 
   /// The one place where contact tractions, forces and tangents come from.
   template <int n, int slips>
-  StepResponse<n, slips> step_response(const StepKinematics<n, slips> &point, const PointHistory<slips> &history,
+  StepResponse<n, slips> step_response(const StepKinematics<n, slips> &point, const ContactHistory &history,
                                        const StepContactLaw &law)
   {
     return law.balance == ForceBalance::end ? end_response(point, history, law) : mean_response(point, history, law);

@@ -11,11 +11,10 @@ namespace sprag
   // which has `points` contact points.
 
   /// Returns the entries of one lever, with the numbers that its points have alone.
-  template <int slips>
-  std::vector<PointHistory<slips>> lever_history(const unsigned int lever, const unsigned int points,
-                                                 const std::vector<PointHistory<slips>> &pair_history)
+  inline std::vector<ContactHistory> lever_history(const unsigned int lever, const unsigned int points,
+                                                   const std::vector<ContactHistory> &pair_history)
   {
-    std::vector<PointHistory<slips>> result;
+    std::vector<ContactHistory> result;
     for (auto entry : pair_history)
       if (entry.point / points == lever)
       {
@@ -26,9 +25,8 @@ namespace sprag
   }
 
   /// Joins the entries of both levers.
-  template <int slips>
-  std::vector<PointHistory<slips>> joined_history(const unsigned int points, std::vector<PointHistory<slips>> first,
-                                                  const std::vector<PointHistory<slips>> &second)
+  inline std::vector<ContactHistory> joined_history(const unsigned int points, std::vector<ContactHistory> first,
+                                                    const std::vector<ContactHistory> &second)
   {
     for (auto entry : second)
     {

@@ -65,15 +65,12 @@ namespace sprag
       for (unsigned int lever = 0; lever < levers; ++lever)
       {
         const auto history = lever_history(lever, points, step.history);
-        const auto surface = step.surface_history != nullptr ? lever_history(lever, points, *step.surface_history)
-                                                             : std::vector<PointHistory<2>>();
         const Kinematic begin{ lever_part(lever, step.begin.position), lever_part(lever, step.begin.velocity),
                                lever_part(lever, step.begin.acceleration) };
         const auto end  = lever_part(lever, step.end);
         const auto rate = lever_part(lever, step.end_rate);
-        contact[lever]->evaluate(
-            InterfaceStep{ step.from, history, step.to, begin, end, rate, step.weights, &surface, step.request },
-            found.per_lever[lever]);
+        contact[lever]->evaluate(InterfaceStep{ step.from, history, step.to, begin, end, rate, step.weights, step.request },
+                                 found.per_lever[lever]);
       }
       join(found);
     }
@@ -119,14 +116,11 @@ namespace sprag
         lever_contact->widen_reach();
     }
 
-    auto touch(const dealii::Vector<double> &displacements, const DrivePoint &drive, Evaluation &found) const
+    void touch(const dealii::Vector<double> &displacements, const DrivePoint &drive, Evaluation &found) const
     {
-      const auto touch_lever = [&](const unsigned int lever)
-      { return contact[lever]->touch(lever_part(lever, displacements), drive, found.per_lever[lever]); };
-      const auto first   = touch_lever(0);
-      const auto history = joined_history(points, first, touch_lever(1));
+      for (unsigned int lever = 0; lever < levers; ++lever)
+        contact[lever]->touch(lever_part(lever, displacements), drive, found.per_lever[lever]);
       join(found);
-      return history;
     }
 
     double gap_change(const Evaluation &found, const dealii::Vector<double> &change, const unsigned int lever) const

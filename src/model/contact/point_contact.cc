@@ -368,12 +368,11 @@ namespace sprag
     return all;
   }
 
-  std::vector<ContactHistory> PointContact::touch(const Vector<double> &z, const DrivePoint &drive, Evaluation &found) const
+  void PointContact::touch(const Vector<double> &z, const DrivePoint &drive, Evaluation &found) const
   {
     found.window   = window_at(z, drive.x);
     found.end      = configure(found.window, coordinates(found.window, z, drive.x));
     found.response = {};
-    return { ContactHistory{} };
   }
 
   double PointContact::drive_force(const Evaluation &found) const

@@ -110,7 +110,7 @@ namespace sprag
     {
     }
     /// Evaluates the contact at rest without force.
-    std::vector<ContactHistory> touch(const dealii::Vector<double> &z, const DrivePoint &drive, Evaluation &found) const;
+    void touch(const dealii::Vector<double> &z, const DrivePoint &drive, Evaluation &found) const;
     /// Returns by how much a small change of the displacements changes the gap [mm].
     double gap_change(const Evaluation &found, const dealii::Vector<double> &change, unsigned int lever = 0) const;
 

@@ -117,9 +117,7 @@ namespace sprag
           rate = drifted.velocity;
           rate.add(weights.rate(), z, -weights.rate(), drifted.position);
         }
-        contact->evaluate(
-            InterfaceStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights, &accepted.surface_contact, request },
-            found);
+        contact->evaluate(InterfaceStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights, request }, found);
         coupling.add_forces(begin, z, weights, found.forces);
         hub_spring.add_forces(turned, lever_rotations(frame.layout, z), weights, found.forces);
         return { &found.forces, found.penetration() };
@@ -213,7 +211,7 @@ namespace sprag
       add_real_part(size, eigenmode.displacements, displacements);
       add_real_part(size * eigenmode.mode.eigenvalue, eigenmode.displacements, rates);
       contact->evaluate_sliding(SlidingState{ displacements, slide.drive, slide.speed, &rates, slide.friction }, found);
-      store_history(found.history(), motion);
+      motion.contact = found.history();
       return motion;
     }
 
@@ -341,7 +339,8 @@ namespace sprag
       // A cylinder out of the mirror plane presses on one lever from the beginning.
       if (frame.layout.levers == 2 && penetrates(structure->positions(motion), drive))
         return pressed_at_rest(drive, ContactFriction::none);
-      store_history(contact->touch(structure->positions(motion), drive, found), motion);
+      contact->touch(structure->positions(motion), drive, found);
+      motion.contact = found.history();
       return motion;
     }
 
@@ -503,9 +502,9 @@ namespace sprag
     /// Adds to a motion what the structure does not know: drive, history of the contact and its forces.
     Motion completed(Motion motion, const DrivePoint &drive, const InterfaceForces &forces) const
     {
-      motion.drive  = drive;
-      motion.forces = { forces.dofs, forces.values };
-      store_history(found.history(), motion);
+      motion.drive   = drive;
+      motion.forces  = { forces.dofs, forces.values };
+      motion.contact = found.history();
       return motion;
     }
   };

@@ -17,25 +17,23 @@ namespace sprag
     dealii::Tensor<2, n> slip_curvature; ///< d2(slip)/dq2
   };
 
+  /// A slip, rate or traction along a face. In a plane a point slips the first way alone, on a surface also along the cylinder.
+  using Slip = dealii::Tensor<1, 2>;
+
   /// The history of a contact point. In an accepted state these are the values at the end of its step.
-  template <int slips>
-  struct PointHistory
+  struct ContactHistory
   {
-    double normal_multiplier = 0.;     ///< lambda [MPa]; stays 0 in the penalty method
-    dealii::Tensor<1, slips> traction; ///< friction from which the stick predictor starts [MPa]; 0 while open
+    double normal_multiplier = 0.; ///< lambda [MPa]; stays 0 in the penalty method
+    Slip traction;                 ///< friction from which the stick predictor starts [MPa]; 0 while open
 
     // Steps in time only.
-    double damping = 0.;                 ///< force of the dashpot at the end of the last step, per area at points of a face
-    dealii::Tensor<1, slips> slip_speed; ///< mean of the last step; 0 in stick and where there was no contact [mm/s]
-    double speed = 0.;                   ///< that a mu falling with speed follows [mm/s]
-    double step  = 0.;                   ///< duration of the last step if it ended in contact, else 0 [s]
+    double damping = 0.; ///< force of the dashpot at the end of the last step, per area at points of a face
+    Slip slip_speed;     ///< mean of the last step; 0 in stick and where there was no contact [mm/s]
+    double speed = 0.;   ///< that a mu falling with speed follows [mm/s]
+    double step  = 0.;   ///< duration of the last step if it ended in contact, else 0 [s]
 
     unsigned int point = 0; ///< index of the point in a face, where only points in contact have a history
   };
-
-  // In a plane a point slips one way.
-  using ContactHistory = PointHistory<1>;
-  using Slip           = dealii::Tensor<1, 1>;
 
   enum class FrictionMode
   {

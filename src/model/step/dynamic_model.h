@@ -27,19 +27,8 @@ namespace sprag
     dealii::Vector<double> face_force; ///< elastic forces in the static face shapes [N]; empty without such shapes
     std::vector<ContactHistory> contact;
     DofLoads forces;                               ///< of the step that led here: where the search for the next ones starts
-    std::vector<PointHistory<2>> surface_contact;  ///< in three dimensions, in place of `contact`
     std::shared_ptr<const StoredJacobian> tangent; ///< of a step on the way here; null without
   };
-
-  // Stores the history of a contact, along a line or on a surface.
-  inline void store_history(std::vector<ContactHistory> history, Motion &motion)
-  {
-    motion.contact = std::move(history);
-  }
-  inline void store_history(std::vector<PointHistory<2>> history, Motion &motion)
-  {
-    motion.surface_contact = std::move(history);
-  }
 
   struct DofState
   {

@@ -15,7 +15,6 @@ namespace sprag
     const dealii::Vector<double> &end;
     const dealii::Vector<double> &end_rate;
     StepWeights weights;
-    const std::vector<PointHistory<2>> *surface_history = nullptr; ///< of the contact of a surface, in place of `history`
-    Request request                                     = Request::with_tangent;
+    Request request = Request::with_tangent;
   };
 } // namespace sprag

@@ -20,10 +20,9 @@ namespace sprag
   struct State
   {
     DrivePoint drive;
-    dealii::Vector<double> coordinates;             ///< generalised coordinates of the model
-    std::vector<ContactHistory> contact;            ///< of the contact points, as the model keeps them
-    DofLoads forces{};                              ///< at the interface of a meshed lever, which its displacements follow from
-    std::vector<PointHistory<2>> surface_contact{}; ///< of the contact points of a surface
+    dealii::Vector<double> coordinates;  ///< generalised coordinates of the model
+    std::vector<ContactHistory> contact; ///< of the contact points, as the model keeps them
+    DofLoads forces{};                   ///< at the interface of a meshed lever, which its displacements follow from
   };
 
   /// A step without inertia from an accepted state.

@@ -48,13 +48,13 @@ namespace sprag
 
   void serialise(Archive &archive, Motion &motion)
   {
-    auto &[drive, coordinates, face_force, contact, forces, surface_contact, tangent] = motion;
-    archive(drive, coordinates, face_force, contact, forces, surface_contact, tangent);
+    auto &[drive, coordinates, face_force, contact, forces, tangent] = motion;
+    archive(drive, coordinates, face_force, contact, forces, tangent);
   }
 
   void serialise(Archive &archive, State &state)
   {
-    auto &[drive, coordinates, contact, forces, surface_contact] = state;
-    archive(drive, coordinates, contact, forces, surface_contact);
+    auto &[drive, coordinates, contact, forces] = state;
+    archive(drive, coordinates, contact, forces);
   }
 } // namespace sprag
