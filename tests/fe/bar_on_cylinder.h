@@ -27,9 +27,9 @@ namespace sprag
     return { R, 3., 12., (R - 3. - 12. * std::sin(rest_inclination)) / std::cos(rest_inclination) };
   }
 
-  inline FaceContactProperties make_properties(const ElasticBody<2> &body, const bool sprung, const double regularisation_speed)
+  inline FaceProperties<2> make_properties(const ElasticBody<2> &body, const bool sprung, const double regularisation_speed)
   {
-    FaceContactProperties result;
+    FaceProperties<2> result;
     const auto geometry     = cylinder_below_bar();
     result.counterface      = cylinder(geometry);
     result.centre           = cylinder_centre(geometry);

@@ -172,13 +172,7 @@ TEST_P(BatchedStepOfAnAxis, AStepWithoutInertiaFollowsTheLawsAtEachPoint)
     Bed bed(cylinder, 12.5, 2);
     const StaticTerms terms{ friction, 6e-3, mode, augmented, 0.31, 1.2 };
     const auto step = [&](const auto &from, const auto &to, const double x, const std::vector<ContactHistory> &history)
-    {
-      FaceEvaluation<3> found;
-      bed.surface().begin_step({ from, x - 0.7 });
-      bed.surface().evaluate({ to, x }, history, run, terms, found);
-      bed.surface().add_points(found);
-      return found;
-    };
+    { return bed.evaluated(from, x - 0.7, to, x, history, run, terms); };
     const auto begin = bed.pressed(0.1);
     auto end         = bed.pressed(0.03);
     for (unsigned int dof = 0; dof < bed.layout.surface; ++dof)
@@ -368,7 +362,7 @@ TEST_P(BatchedStepOfAnAxis, PointsInContactTellWhatAllPointsTell)
   const auto weights = generalised_alpha(0.8, 6e-3);
   const std::vector<ContactHistory> nothing;
   Bed bed(short_barrel(GetParam()), 12.5, 6, friction);
-  const ContactFace<3> view(bed.friction_face());
+  const ContactFace<3> &view = bed.surface();
   for (const double penetration : { 0.06, 0.02, -0.01 })
   {
     const auto begin = bed.pressed(penetration - 0.01), end = bed.pressed(penetration);
@@ -525,16 +519,8 @@ TEST_P(BatchedStepOfAnAxis, EveryEntryOfTheTangentIsTheDerivativeOfAForce)
         bed, end, [&](const auto &at) { return in_time(begin, at, Bed::x, history, Request::with_tangent); }, every);
 
     StaticTerms terms{ friction, 6e-3, FrictionMode::cone, false, 0.31, 1.2 };
-    bed.surface().begin_step({ begin, Bed::x - 0.7 });
     expect_every_entry(
-        bed, end,
-        [&](const auto &at)
-        {
-          FaceEvaluation<3> found;
-          bed.surface().evaluate({ at, Bed::x }, history, 0.3, terms, found);
-          return found;
-        },
-        every);
+        bed, end, [&](const auto &at) { return bed.evaluated(begin, Bed::x - 0.7, at, Bed::x, history, 0.3, terms); }, every);
 
     const DrivePoint drive{ 0., Bed::x, speed, 0. };
     expect_every_entry(

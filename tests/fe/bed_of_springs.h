@@ -46,9 +46,9 @@ namespace sprag
       layout.slopes           = cylinder.has_free_axis() ? 2 : 0;
       const Geometry geometry = model_a().geometry;
       contact                 = std::make_unique<SurfaceContact>(
-          face, SurfaceContactProperties{
-                    { cylinder_centre(geometry), geometry.cylinder_radius, layout, 0., { stiffness, stiffness }, friction },
-                    RigidCylinder(geometry, cylinder) });
+          face, FaceProperties<3>{
+                                    { cylinder_centre(geometry), geometry.cylinder_radius, layout, 0., { stiffness, stiffness }, friction },
+                                    RigidCylinder(geometry, cylinder) });
     }
 
     /// Returns displacements at rest and an inclination at which the cylinder penetrates by so much in the middle [mm].
@@ -64,9 +64,16 @@ namespace sprag
     FaceEvaluation<3> evaluated(const dealii::Vector<double> &begin, const double from_x, const dealii::Vector<double> &end,
                                 const double friction)
     {
+      return evaluated(begin, from_x, end, x, {}, 0., { { CoulombFriction{ friction } }, 1. });
+    }
+
+    /// A step without inertia in which the cylinder's surface runs by a turn, with all points near the cylinder.
+    FaceEvaluation<3> evaluated(const dealii::Vector<double> &begin, const double from_x, const dealii::Vector<double> &end,
+                                const double to_x, const std::vector<ContactHistory> &history, const double run,
+                                const StaticTerms &terms)
+    {
       FaceEvaluation<3> found;
-      contact->begin_step({ begin, from_x });
-      contact->evaluate({ end, x }, {}, 0., StaticTerms{ { CoulombFriction{ friction } }, 1. }, found);
+      contact->evaluate({ { 0., from_x }, history, { 0., to_x, 0., 0., run }, { begin, {}, {} }, end, {}, {} }, found, terms);
       contact->add_points(found);
       return found;
     }

@@ -19,7 +19,7 @@ namespace
   class FaceContactOn : public testing::TestWithParam<std::string>
   {
   protected:
-    FaceContactProperties properties(const bool sprung, const double regularisation_speed) const
+    FaceProperties<2> properties(const bool sprung, const double regularisation_speed) const
     {
       return make_properties(body, sprung, regularisation_speed);
     }

@@ -217,12 +217,7 @@ TEST_P(SurfaceContactOfAnAxis, TheTangentKnowsTheSpeedOfAContactThatTravels)
     StaticTerms terms{ { StribeckFriction{ 0.6, kinetic, 100., 1., viscous } }, 6e-3 };
     terms.travel        = 0.69;
     const auto evaluate = [&](const dealii::Vector<double> &at)
-    {
-      FaceEvaluation<3> found;
-      bed.surface().begin_step({ begin, Bed::x - 0.7 });
-      bed.surface().evaluate({ at, Bed::x }, history, 0.3, terms, found);
-      return found;
-    };
+    { return bed.evaluated(begin, Bed::x - 0.7, at, Bed::x, history, 0.3, terms); };
     expect_tangent(bed, end, evaluate, kinetic, 1e-8);
   }
 }

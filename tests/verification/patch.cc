@@ -158,7 +158,7 @@ TEST(Patch, HydrostaticPressureBalancesAcrossACurvedInterface)
   for (unsigned int i = 0; i < dofs.size(); ++i)
     z[i] = u[dofs[i]];
 
-  FaceContactProperties constants;
+  FaceProperties<2> constants;
   constants.counterface = properties.counterface;
   constants.centre      = properties.centre;
   constants.friction    = properties.friction;

@@ -208,7 +208,8 @@ namespace sprag
     /// Moves the block's held side to a place from where the block touches without force [mm].
     void move(const Vector &place, const double friction)
     {
-      contact.begin_step({ placed, 0. });
+      const Kinematic begin{ placed, {}, {} };
+      const DrivePoint drive{};
       const StaticTerms terms{ { CoulombFriction{ friction } }, 1. };
       const auto history  = found.history();
       const auto evaluate = [&](const dealii::Vector<double> &at)
@@ -216,7 +217,7 @@ namespace sprag
         placed = at;
         for (unsigned int interface_dof = 0; interface_dof < layout.surface; ++interface_dof)
           placed[interface_dof] += place[interface_dof % 3];
-        contact.evaluate({ placed, 0. }, history, 0., terms, found);
+        contact.evaluate({ drive, history, drive, begin, placed, {}, {} }, found, terms);
         auto residual = window.residual(at, found.forces, looked_at);
         return Pressed{ residual.norm, found.sums.penetration, std::move(residual) };
       };
@@ -291,7 +292,7 @@ namespace sprag
       return result;
     }
 
-    static SurfaceContactProperties make_properties(const Counterface &counterface, const InterfaceLayout &layout)
+    static FaceProperties<3> make_properties(const Counterface &counterface, const InterfaceLayout &layout)
     {
       Geometry geometry;
       geometry.cylinder_radius = counterface.radius;

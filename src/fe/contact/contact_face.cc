@@ -131,12 +131,20 @@ namespace sprag
   }
 
   template <int dim>
-  ContactFace<dim>::ContactFace(const FrictionFace<dim> &face_, const bool half)
+  ContactFace<dim>::ContactFace(const FrictionFace<dim> &face_, FaceProperties<dim> properties_)
       : face(face_)
       , grid(face)
-      , is_half(half)
+      , properties(std::move(properties_))
       , parts(face_parts(face))
   {
+  }
+
+  template <int dim>
+  FaceConfiguration ContactFace<dim>::configuration(const dealii::Vector<double> &displacements, const double x) const
+  {
+    const double inclination = properties.rest_inclination + displacements[properties.layout.rotation()];
+    const double relative    = x - (properties.layout.sprung ? displacements[properties.layout.support()] : 0.);
+    return { &displacements, inclination, relative, properties.centre(relative, inclination) };
   }
 
   template <int dim>
@@ -260,7 +268,7 @@ namespace sprag
     if constexpr (dim == 3)
     {
       row.across.assign(columns_across().size(), 0.);
-      if (is_half)
+      if (properties.half)
         return;
       row.across[0] = force[2];
       row.across[1] = normal > 0. ? position[2] / normal : 0.;

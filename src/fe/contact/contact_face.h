@@ -62,8 +62,19 @@ namespace sprag
     static constexpr unsigned int levers   = 1;
     using Evaluation                       = FaceEvaluation<dim>;
 
-    /// The face must outlive this. `half`: it is half of one which is the same on both sides of the middle.
-    explicit ContactFace(const FrictionFace<dim> &face, bool half = false);
+    /// The face must outlive this.
+    ContactFace(const FrictionFace<dim> &face, FaceProperties<dim> properties);
+
+    const ContactPenalties &penalties() const
+    {
+      return properties.penalties;
+    }
+
+    /// Evaluates with other penalties from now on [N/mm^3], > 0.
+    void use_penalties(const ContactPenalties &penalties)
+    {
+      properties.penalties = penalties;
+    }
 
     /// Doubles how far candidate dofs reach, from the next call on. To be called where an evaluation was not within them.
     void widen_reach()
@@ -96,6 +107,9 @@ namespace sprag
     }
 
   protected:
+    /// Returns the places at interface displacements, which it refers to, and x of the drive [mm].
+    FaceConfiguration configuration(const dealii::Vector<double> &displacements, double x) const;
+
     /// Returns the displacements of some nodes along the lever.
     SurfaceShape node_shape(const std::vector<unsigned int> &nodes, const dealii::Vector<double> &displacements) const;
 
@@ -116,13 +130,13 @@ namespace sprag
 
     const FrictionFace<dim> &face;
     FaceElements<dim> grid;
+    FaceProperties<dim> properties;
     FaceReach<dim> reach;
 
   private:
     void observe_pressure(const Evaluation &found, Row &row) const;
     PressureSamples pressure_samples(const Evaluation &found, unsigned int line) const;
 
-    const bool is_half;
     const FaceParts parts;
   };
 

@@ -18,7 +18,7 @@ namespace sprag
   } // namespace
 
   ElasticCounterface::ElasticCounterface(const FrictionFace<2> &lever, const FrictionFace<2> &cylinder,
-                                         const FaceElements<2> &face_, const FaceContactProperties &properties_)
+                                         const FaceElements<2> &face_, const FaceProperties<2> &properties_)
       : face(face_)
       , properties(properties_)
       , pair(lever, cylinder)

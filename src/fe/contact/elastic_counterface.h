@@ -16,7 +16,7 @@ namespace sprag
   public:
     /// All must outlive the counterface; `face` are the lever's elements.
     ElasticCounterface(const FrictionFace<2> &lever, const FrictionFace<2> &cylinder, const FaceElements<2> &face,
-                       const FaceContactProperties &properties);
+                       const FaceProperties<2> &properties);
 
     void enter(const StepPlaces &places);
     FaceElements<2>::Indices near() const;
@@ -73,7 +73,7 @@ namespace sprag
     dealii::Vector<double> change(const dealii::Vector<double> &from, const dealii::Vector<double> &to) const;
 
     const FaceElements<2> &face;
-    const FaceContactProperties &properties;
+    const FaceProperties<2> &properties;
     const FacePair pair;
     const LeverPoint first_node; ///< of the cylinder's face, about its centre
     StepPlaces places{};

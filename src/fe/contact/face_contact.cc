@@ -20,7 +20,7 @@ namespace sprag
   namespace
   {
     std::variant<RigidCounterface, ElasticCounterface> make_counterface(const ElasticBody<2> &body, const FaceElements<2> &grid,
-                                                                        const FaceContactProperties &properties)
+                                                                        const FaceProperties<2> &properties)
     {
       using Counterfaces = std::variant<RigidCounterface, ElasticCounterface>;
       if (body.cylinder_face().elements.empty())
@@ -29,24 +29,16 @@ namespace sprag
     }
   } // namespace
 
-  FaceContact::FaceContact(const ElasticBody<2> &body, FaceContactProperties properties_)
-      : ContactFace<2>(body.friction_face())
-      , properties(std::move(properties_))
+  FaceContact::FaceContact(const ElasticBody<2> &body, FaceProperties<2> properties_)
+      : ContactFace<2>(body.friction_face(), std::move(properties_))
       , counterface(make_counterface(body, grid, properties))
       , dof_places(properties.layout.size())
   {
   }
 
-  FaceConfiguration FaceContact::configuration(const Vector<double> &displacements, const double x) const
-  {
-    const double inclination = properties.rest_inclination + displacements[properties.layout.rotation()];
-    const double relative    = x - (properties.layout.sprung ? displacements[properties.layout.support()] : 0.);
-    return { &displacements, inclination, relative, properties.centre(relative, inclination) };
-  }
-
   namespace
   {
-    StepContactLaw step_law(const FaceContactProperties &properties, const InterfaceStep &step,
+    StepContactLaw step_law(const FaceProperties<2> &properties, const InterfaceStep &step,
                             const std::optional<StaticTerms> &statics)
     {
       StepContactLaw law;

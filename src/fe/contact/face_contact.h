@@ -23,7 +23,7 @@ namespace sprag
     static constexpr bool keeps_tangent = false;
 
     /// The body must outlive the contact.
-    FaceContact(const ElasticBody<2> &body, FaceContactProperties properties);
+    FaceContact(const ElasticBody<2> &body, FaceProperties<2> properties);
 
     /// Evaluates a step: in time, or without inertia, where the rates do not count.
     void evaluate(const InterfaceStep &step, FaceEvaluation<2> &found, const std::optional<StaticTerms> &statics = {}) const;
@@ -44,17 +44,6 @@ namespace sprag
     /// Evaluates the contact at rest without force.
     void touch(const dealii::Vector<double> &displacements, const DrivePoint &drive, FaceEvaluation<2> &found) const;
 
-    const ContactPenalties &penalties() const
-    {
-      return properties.penalties;
-    }
-
-    /// Evaluates with other penalties from now on [N/mm^3], > 0.
-    void use_penalties(const ContactPenalties &penalties)
-    {
-      properties.penalties = penalties;
-    }
-
     /// Returns by how much a small change of the displacements changes the gap in the middle of the contact, or where it is
     /// smallest [mm].
     double gap_change(const FaceEvaluation<2> &found, const dealii::Vector<double> &moved, unsigned int lever = 0) const;
@@ -73,7 +62,6 @@ namespace sprag
     }
 
   private:
-    FaceConfiguration configuration(const dealii::Vector<double> &displacements, double x) const;
     FaceElements<2>::Indices near_step(const std::vector<ContactHistory> &history, ForceBalance balance,
                                        FaceEvaluation<2> &found) const;
 
@@ -96,8 +84,6 @@ namespace sprag
     }
 
     static FacePointState<2> &add_point(unsigned int element, unsigned int point, FaceEvaluation<2> &found);
-
-    FaceContactProperties properties;
 
     // Workspace of evaluations; nothing of it is a result.
     mutable std::variant<RigidCounterface, ElasticCounterface> counterface; ///< looks at one element after the other

@@ -47,7 +47,7 @@ namespace sprag
   template SlipShift slip_shift<3>(const FaceElements<3> &, unsigned int, double, double, double,
                                    const std::vector<ContactHistory> &, const std::function<double(unsigned int)> &);
 
-  SlidingTangent slide(const FaceContactProperties &properties, const FrictionLaw &law, const SlidingState &sliding,
+  SlidingTangent slide(const FaceProperties<2> &properties, const FrictionLaw &law, const SlidingState &sliding,
                        const double weight, FacePointState<2> &state, ContactSums &sums)
   {
     const auto &penalty         = properties.penalties;

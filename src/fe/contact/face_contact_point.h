@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fe/contact/face_elements.h"
+#include "fe/contact/rigid_cylinder.h"
 #include "model/contact/contact_step.h"
 #include "model/interface/interface_coordinates.h"
 #include "model/step/linearisation.h"
@@ -71,9 +72,21 @@ namespace sprag
     double layer_thickness = 0.; ///< [mm]
   };
 
-  struct FaceContactProperties : ContactProperties
+  /// The same of one dimension. In space the layout has three dofs a node of the face, with slopes where these may change.
+  template <int dim>
+  struct FaceProperties;
+
+  template <>
+  struct FaceProperties<2> : ContactProperties
   {
     Counterface counterface; ///< an elastic one as it is without load
+  };
+
+  template <>
+  struct FaceProperties<3> : ContactProperties
+  {
+    RigidCylinder cylinder;
+    bool half = false; ///< the face is half of one which is the same on both sides of the middle
   };
 
   /// The damper's cylinder.
@@ -281,8 +294,8 @@ namespace sprag
   };
 
   /// Sets tractions from the state's gap < 0 and slip and adds them to the sums.
-  SlidingTangent slide(const FaceContactProperties &properties, const FrictionLaw &law, const SlidingState &sliding,
-                       double weight, FacePointState<2> &state, ContactSums &sums);
+  SlidingTangent slide(const FaceProperties<2> &properties, const FrictionLaw &law, const SlidingState &sliding, double weight,
+                       FacePointState<2> &state, ContactSums &sums);
 
   /// Returns the delay of friction at a point with these rows.
   FrictionDelay friction_delay(const SlidingTangent &sliding_tangent, double speed, const FacePointRows &rows);

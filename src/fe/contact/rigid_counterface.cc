@@ -19,7 +19,7 @@ namespace sprag
   } // namespace
 
   RigidCounterface::RigidCounterface(const FrictionFace<2> &lever, const FaceElements<2> &face_,
-                                     const FaceContactProperties &properties_)
+                                     const FaceProperties<2> &properties_)
       : face(face_)
       , properties(properties_)
       , slopes(face.points.size())

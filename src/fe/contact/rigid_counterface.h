@@ -14,7 +14,7 @@ namespace sprag
   {
   public:
     /// `face`, the lever's elements, and `properties` must outlive the counterface.
-    RigidCounterface(const FrictionFace<2> &lever, const FaceElements<2> &face, const FaceContactProperties &properties);
+    RigidCounterface(const FrictionFace<2> &lever, const FaceElements<2> &face, const FaceProperties<2> &properties);
 
     /// Sets the configurations of all that follows; for steady sliding beginning and end are one.
     void enter(const StepPlaces &places);
@@ -86,7 +86,7 @@ namespace sprag
     InterfaceCoordinates interface_coordinates() const;
 
     const FaceElements<2> &face;
-    const FaceContactProperties &properties;
+    const FaceProperties<2> &properties;
     std::vector<Slopes> slopes; ///< of the shapes of a point's nodes along xi [1/mm]
     StepPlaces places{};
     PlacedCounterface end;

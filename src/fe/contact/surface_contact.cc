@@ -13,9 +13,8 @@ namespace sprag
   using dealii::Tensor;
   using dealii::Vector;
 
-  SurfaceContact::SurfaceContact(const FrictionFace<3> &face_, SurfaceContactProperties properties_)
-      : ContactFace<3>(face_, properties_.half)
-      , properties(std::move(properties_))
+  SurfaceContact::SurfaceContact(const FrictionFace<3> &face_, FaceProperties<3> properties_)
+      : ContactFace<3>(face_, std::move(properties_))
       , batched(face, grid, properties.cylinder)
   {
     find_ends();
@@ -38,11 +37,9 @@ namespace sprag
                                       [&](const auto &node) { return node.position[0] <= first || node.position[0] >= last; }));
   }
 
-  RigidCylinder::Pose SurfaceContact::to_pose(const SurfacePlace &place) const
+  RigidCylinder::Pose SurfaceContact::pose(const FaceConfiguration &at) const
   {
-    const double u = properties.layout.sprung ? place.displacements[properties.layout.support()] : 0.;
-    return properties.cylinder.pose(place.x - u, properties.rest_inclination + place.displacements[properties.layout.rotation()],
-                                    turned_by(place.displacements));
+    return properties.cylinder.pose(at.x, at.theta, turned_by(*at.displacement));
   }
 
   AxisSlopes SurfaceContact::turned_by(const Vector<double> &displacements) const
@@ -105,15 +102,22 @@ namespace sprag
     row.across.insert(row.across.end(), slopes.begin(), slopes.end());
   }
 
-  void SurfaceContact::begin_step(const SurfacePlace &begin)
+  /// What is known of the beginning of the last step is kept where this one begins alike.
+  void SurfaceContact::begin_step(const InterfaceStep &step, const std::optional<StaticTerms> &statics)
   {
-    begin_displacements = begin.displacements;
-    begin_x             = begin.x;
-    begin_pose          = to_pose(begin);
-    begin_slips.resize(grid.elements.size());
-    for (auto &element_slips : begin_slips)
-      element_slips.clear();
-    batched.begin({});
+    const auto &from  = step.begin.position;
+    const auto shifts = statics ? std::optional(std::pair(statics->travel, statics->augmented)) : std::nullopt;
+    if (begin_x == step.from.x && begin_displacements.size() == from.size() && begin_displacements == from &&
+        begin_shifts == shifts && batched.begins_with(step.history))
+      return;
+    begin_displacements = from;
+    begin_x             = step.from.x;
+    begin_shifts        = shifts;
+    const auto at       = configuration(begin_displacements, begin_x);
+    begin_pose          = pose(at);
+    begin_slips.assign(grid.elements.size(), {});
+    batched.begin(step.history);
+    near_begin = statics ? Elements::Indices() : united(near(at, begin_pose), touched_elements(grid, step.history));
   }
 
   double SurfaceContact::slip_at_begin(const unsigned int point) const
@@ -131,80 +135,56 @@ namespace sprag
   }
 
   /// The gap is convex: over an element it lies above its tangent at the first node. The margin covers bending.
-  SurfaceContact::Elements::Indices SurfaceContact::near(const SurfacePlace &place, const RigidCylinder::Pose &pose) const
+  SurfaceContact::Elements::Indices SurfaceContact::near(const FaceConfiguration &at,
+                                                         const RigidCylinder::Pose &cylinder_pose) const
   {
     const auto position = [&](const FaceEdge<3>::Node &node)
     {
       auto result = node.position;
       if (node.index != FaceEdge<3>::held)
         for (unsigned int d = 0; d < 3; ++d)
-          result[d] += place.displacements[3 * node.index + d];
+          result[d] += (*at.displacement)[3 * node.index + d];
       return result;
     };
     const auto distance = [&](const unsigned int element)
     {
       const auto &nodes          = face.edges[element].nodes;
       const Point<3> first       = position(nodes.front());
-      const auto [gap, gradient] = properties.cylinder.gap_and_gradient(pose, first);
+      const auto [gap, gradient] = properties.cylinder.gap_and_gradient(cylinder_pose, first);
       double fall                = 0.;
       for (const auto &node : nodes)
         fall = std::min(fall, gradient * (position(node) - first));
       return gap + fall - 0.02 * grid.elements[element].length;
     };
-    const auto centre = properties.centre(pose.x, pose.theta);
-    return grid.find_near({ centre.xi, centre.eta, 0. }, distance);
+    return grid.find_near({ at.centre.xi, at.centre.eta, 0. }, distance);
   }
 
-  void SurfaceContact::evaluate(const InterfaceStep &step, FaceEvaluation<3> &found, const StaticTerms &terms)
+  void SurfaceContact::evaluate(const InterfaceStep &step, FaceEvaluation<3> &found, const std::optional<StaticTerms> &statics)
   {
-    if (begin_x != step.from.x || begin_displacements.size() != step.begin.position.size() ||
-        begin_displacements != step.begin.position || begin_travel != terms.travel || begin_augmented != terms.augmented)
-    {
-      begin_step({ step.begin.position, step.from.x });
-      begin_travel    = terms.travel;
-      begin_augmented = terms.augmented;
-    }
-    found.duration = step.to.time - step.from.time;
-    evaluate({ step.end, step.to.x }, step.history, step.to.surface - step.from.surface, terms, found);
-    if (terms.augmented) // multipliers spread over the cells
+    begin_step(step, statics);
+    const auto end       = configuration(step.end, step.to.x);
+    const auto constants = step_constants(step, end, statics);
+    batched.set(constants);
+    found.begin(step.end, step.to.x, step.weights.dt);
+    looked_at = reach.clip(united(near(end, constants.end), near_begin), found.within_reach);
+    place_elements(begin_displacements, step.history, statics);
+    press_elements(step.end, found);
+    set_forces(step.request, found.forces);
+    if (statics && statics->augmented) // multipliers spread over the cells
       add_points(found);
-    else
+    else if (statics)
       add_points_in_contact(most_pressed, found);
-  }
-
-  void SurfaceContact::evaluate(const SurfacePlace &end, const std::vector<ContactHistory> &history, const double surface_run,
-                                const StaticTerms &terms, FaceEvaluation<3> &found)
-  {
-    if (!batched.begins_with(history))
-      batched.begin(history);
-    auto step        = constants(Kind::at_end, end, terms.friction);
-    step.begin       = begin_pose;
-    step.sticks      = terms.mode == FrictionMode::stick;
-    step.weights.dt  = terms.duration;
-    step.surface_run = surface_run;
-    step.augmented   = terms.augmented;
-    step.speed_ratio = terms.speed_ratio;
-    batched.set(step);
-
-    found.displacement     = end.displacements;
-    found.x                = end.x;
-    found.sums.penetration = 0.;
-    found.points.clear();
-    looked_at = reach.clip(near(end, step.end), found.within_reach);
-    for (const unsigned int element : looked_at)
-      if (!batched.is_placed(element))
-        batched.place(element, Elements::nodal(grid.elements[element], begin_displacements),
-                      slip_shifts(element, history, terms));
-    press_elements(end.displacements, found);
-    set_forces(Request::with_tangent, found.forces);
+    else if (step.request == Request::complete)
+      complete(found);
   }
 
   /// Constants of a step that is balanced where it ends.
-  BatchedStep::Constants SurfaceContact::constants(const Kind kind, const SurfacePlace &end, const FrictionLaw &friction) const
+  BatchedStep::Constants SurfaceContact::constants(const Kind kind, const FaceConfiguration &end,
+                                                   const FrictionLaw &friction) const
   {
     BatchedStep::Constants result;
     result.kind  = kind;
-    result.begin = result.balance = result.end = to_pose(end);
+    result.begin = result.balance = result.end = pose(end);
     result.normal                              = { properties.penalties.normal, 1. };
     result.slip                                = slip_law(friction, properties.penalties.tangential);
     result.slopes                              = properties.layout.slopes;
@@ -251,52 +231,39 @@ namespace sprag
     return reach.dofs;
   }
 
-  BatchedStep::Constants SurfaceContact::step_constants(const InterfaceStep &motion) const
+  BatchedStep::Constants SurfaceContact::step_constants(const InterfaceStep &step, const FaceConfiguration &end_at,
+                                                        const std::optional<StaticTerms> &statics) const
   {
-    auto result       = constants(Kind::in_time, { motion.end, motion.to.x }, step_friction(properties.friction, motion.to.v));
-    result.weights    = motion.weights;
-    result.begin      = begin_pose;
-    result.share      = motion.weights.stiffness();
+    auto result        = constants(statics ? Kind::at_end : Kind::in_time, end_at,
+                            statics ? statics->friction : step_friction(properties.friction, step.to.v));
+    result.begin       = begin_pose;
+    result.weights     = step.weights;
+    result.surface_run = step.to.surface - step.from.surface;
+    if (statics)
+    {
+      result.sticks      = statics->mode == FrictionMode::stick;
+      result.weights.dt  = statics->duration;
+      result.augmented   = statics->augmented;
+      result.speed_ratio = statics->speed_ratio;
+      return result;
+    }
+    result.share      = step.weights.stiffness();
+    result.advance    = step.to.x - step.from.x;
     const auto &begin = result.begin, &end = result.end;
     const auto balanced = [share = result.share](const double a, const double b) { return (1. - share) * a + share * b; };
     result.balance =
         properties.cylinder.pose(balanced(begin.x, end.x), balanced(begin.theta, end.theta),
                                  { { balanced(begin.turned[0], end.turned[0]), balanced(begin.turned[1], end.turned[1]) } });
-    result.surface_run = motion.to.surface - motion.from.surface;
-    result.advance     = motion.to.x - motion.from.x;
     return result;
   }
 
-  void SurfaceContact::evaluate(const InterfaceStep &motion, FaceEvaluation<3> &found)
-  {
-    const auto &history = motion.history;
-    const bool is_first = begin_displacements.size() != motion.begin.position.size();
-    if (is_first || begin_x != motion.from.x || begin_displacements != motion.begin.position || !batched.begins_with(history))
-    {
-      begin_step({ motion.begin.position, motion.from.x });
-      batched.begin(history);
-      looked_at_first = united(near({ begin_displacements, begin_x }, begin_pose), touched_elements(grid, history));
-    }
-    const auto step = step_constants(motion);
-    batched.set(step);
-
-    found.displacement     = motion.end;
-    found.x                = motion.to.x;
-    found.duration         = motion.weights.dt;
-    found.sums.penetration = 0.;
-    looked_at              = reach.clip(united(near({ motion.end, motion.to.x }, step.end), looked_at_first), found.within_reach);
-    place_elements(motion.begin.position);
-    press_elements(motion.end, found);
-    set_forces(motion.request, found.forces);
-    if (motion.request == Request::complete)
-      complete(found);
-  }
-
-  void SurfaceContact::place_elements(const Vector<double> &begin)
+  void SurfaceContact::place_elements(const Vector<double> &begin, const std::vector<ContactHistory> &history,
+                                      const std::optional<StaticTerms> &statics)
   {
     for (const unsigned int element : looked_at)
       if (!batched.is_placed(element))
-        batched.place(element, Elements::nodal(grid.elements[element], begin));
+        batched.place(element, Elements::nodal(grid.elements[element], begin),
+                      statics ? slip_shifts(element, history, *statics) : std::vector<SlipShift>());
   }
 
   /// Presses the elements that are looked at, which are placed.
@@ -389,9 +356,9 @@ namespace sprag
 
   void SurfaceContact::press_slide(const SlidingState &sliding, FaceEvaluation<3> &found)
   {
-    const SurfacePlace place{ sliding.displacements, sliding.drive.x };
+    const auto at = configuration(sliding.displacements, sliding.drive.x);
     found.begin(sliding.displacements, sliding.drive.x, 1.); // slips are those of a second
-    auto step           = constants(Kind::slide, place, slide_friction(properties.friction, sliding));
+    auto step           = constants(Kind::slide, at, slide_friction(properties.friction, sliding));
     step.slide.speed    = sliding.speed;
     step.slide.friction = sliding.friction;
     if (sliding.rates != nullptr)
@@ -401,28 +368,28 @@ namespace sprag
       step.slide.x_rate      = properties.layout.sprung ? -(*sliding.rates)[properties.layout.support()] : 0.;
       step.slide.slope_rates = turned_by(*sliding.rates);
     }
-    press(step, place, reach.clip(near(place, step.end), found.within_reach), found);
+    press(step, sliding.displacements, reach.clip(near(at, step.end), found.within_reach), found);
   }
 
   void SurfaceContact::touch(const Vector<double> &z, const DrivePoint &drive, FaceEvaluation<3> &found)
   {
-    const SurfacePlace place{ z, drive.x };
-    const auto step = constants(Kind::touch, place, {});
+    const auto at   = configuration(z, drive.x);
+    const auto step = constants(Kind::touch, at, {});
     found.begin(z, drive.x, 0.);
-    press(step, place, near(place, step.end), found);
+    press(step, z, near(at, step.end), found);
     add_points(found);
   }
 
   /// Presses where the step begins.
-  void SurfaceContact::press(const BatchedStep::Constants &step, const SurfacePlace &place, Elements::Indices elements_near,
-                             FaceEvaluation<3> &found)
+  void SurfaceContact::press(const BatchedStep::Constants &step, const Vector<double> &displacements,
+                             Elements::Indices elements_near, FaceEvaluation<3> &found)
   {
     looked_at = std::move(elements_near);
-    begin_displacements.reinit(0); // a step in time that follows begins anew
+    begin_displacements.reinit(0); // a step that follows begins anew
     batched.set(step);
     batched.begin({});
-    place_elements(place.displacements);
-    press_elements(place.displacements, found);
+    place_elements(displacements);
+    press_elements(displacements, found);
   }
 
   double SurfaceContact::gap_change(const FaceEvaluation<3> &found, const Vector<double> &change, unsigned int) const
@@ -432,7 +399,7 @@ namespace sprag
     const auto &element_points = grid.points[point.index];
     const auto &at             = properties.layout;
     const auto nodal           = Elements::nodal(grid.elements[point.element], change);
-    return properties.cylinder.changes(to_pose({ found.displacement, found.x }), point.position,
+    return properties.cylinder.changes(pose(configuration(found.displacement, found.x)), point.position,
                                        Elements::position(element_points, nodal) - element_points.position,
                                        at.sprung ? -change[at.support()] : 0., change[at.rotation()], turned_by(change))[0];
   }
@@ -440,17 +407,15 @@ namespace sprag
   double SurfaceContact::mean_slip(const FaceEvaluation<3> &found, const Vector<double> &from, const double from_x,
                                    const Vector<double> &to, const double to_x) const
   {
-    return pressure_mean(found,
-                         [&](const FacePointState<3> &point) {
-                           return slip_at(point, { to, to_x }) - slip_at(point, { from, from_x });
-                         });
+    const auto begin = configuration(from, from_x), end = configuration(to, to_x);
+    return pressure_mean(found, [&](const FacePointState<3> &point) { return slip_at(point, end) - slip_at(point, begin); });
   }
 
   /// The slip coordinate round the cylinder of a point, in another configuration [mm].
-  double SurfaceContact::slip_at(const FacePointState<3> &point, const SurfacePlace &place) const
+  double SurfaceContact::slip_at(const FacePointState<3> &point, const FaceConfiguration &at) const
   {
-    const auto nodal = Elements::nodal(grid.elements[point.element], place.displacements);
-    return properties.cylinder.slip(to_pose(place), Elements::position(grid.points[point.index], nodal));
+    const auto nodal = Elements::nodal(grid.elements[point.element], *at.displacement);
+    return properties.cylinder.slip(pose(at), Elements::position(grid.points[point.index], nodal));
   }
 
   void SurfaceContact::add_points(FaceEvaluation<3> &found) const

@@ -6,20 +6,6 @@
 
 namespace sprag
 {
-  /// Constants of the contact along a surface. The layout has three dofs a node of the face, with slopes where these may change.
-  struct SurfaceContactProperties : ContactProperties
-  {
-    RigidCylinder cylinder;
-    bool half = false; ///< the face is half of one which is the same on both sides of the middle
-  };
-
-  /// Interface displacements and drive at one end of a step.
-  struct SurfacePlace
-  {
-    const dealii::Vector<double> &displacements;
-    double x; ///< of the drive [mm]
-  };
-
   /// Contact of a rigid cylinder along the friction face of a body in three dimensions by the penalty method: pressure and, in
   /// two directions, friction at the points of the face. What FaceContact has as well is as there.
   class SurfaceContact : public ContactFace<3>
@@ -28,23 +14,12 @@ namespace sprag
     static constexpr bool keeps_tangent = true;
 
     /// The face must outlive the contact.
-    SurfaceContact(const FrictionFace<3> &face, SurfaceContactProperties properties);
+    SurfaceContact(const FrictionFace<3> &face, FaceProperties<3> properties);
 
-    /// Evaluates a step without inertia, with its points: where it is augmented all near the cylinder, else those of
+    /// Evaluates forces and penetration of a step, in time or without inertia, and the tangent or what Request::complete adds.
+    /// Without inertia it finds points in any case: where it is augmented all near the cylinder, else those of
     /// Request::complete.
-    void evaluate(const InterfaceStep &step, FaceEvaluation<3> &found, const StaticTerms &terms);
-
-    /// Sets the accepted state in which the following steps begin.
-    void begin_step(const SurfacePlace &begin);
-
-    /// Evaluates forces, penetration and tangent of the step without inertia that ends at `end`. `history`: of the points in
-    /// contact where it begins. `surface_run`: of the cylinder by turning [mm]. Of the terms `travel` and `augmented` belong to
-    /// the step: they are the same until the next begin_step().
-    void evaluate(const SurfacePlace &end, const std::vector<ContactHistory> &history, double surface_run,
-                  const StaticTerms &terms, FaceEvaluation<3> &found);
-
-    /// Evaluates forces and compression of a step in time, and the tangent or what Request::complete adds.
-    void evaluate(const InterfaceStep &step, FaceEvaluation<3> &found);
+    void evaluate(const InterfaceStep &step, FaceEvaluation<3> &found, const std::optional<StaticTerms> &statics = {});
 
     /// Finds all points near the cylinder of the last evaluation, in time or without inertia.
     void add_points(FaceEvaluation<3> &found) const;
@@ -86,14 +61,9 @@ namespace sprag
       return node_shape(nodes_at(0.), displacements);
     }
 
-    const ContactPenalties &penalties() const
-    {
-      return properties.penalties;
-    }
-
     void use_penalties(const ContactPenalties &penalties)
     {
-      properties.penalties = penalties;
+      ContactFace<3>::use_penalties(penalties);
       begin_displacements.reinit(0); // no step has begun with them
     }
 
@@ -105,19 +75,22 @@ namespace sprag
     void complete(FaceEvaluation<3> &found) const;
     bool share_line(unsigned int element, unsigned int other) const;
     void add_points_in_contact(const std::optional<unsigned int> &peak, FaceEvaluation<3> &found) const;
-    RigidCylinder::Pose to_pose(const SurfacePlace &place) const;
+    RigidCylinder::Pose pose(const FaceConfiguration &at) const;
     AxisSlopes turned_by(const dealii::Vector<double> &displacements) const;
-    Elements::Indices near(const SurfacePlace &place, const RigidCylinder::Pose &pose) const;
-    BatchedStep::Constants constants(Kind kind, const SurfacePlace &end, const FrictionLaw &friction) const;
+    Elements::Indices near(const FaceConfiguration &at, const RigidCylinder::Pose &cylinder_pose) const;
+    BatchedStep::Constants constants(Kind kind, const FaceConfiguration &end, const FrictionLaw &friction) const;
     std::vector<SlipShift> slip_shifts(unsigned int element, const std::vector<ContactHistory> &history,
                                        const StaticTerms &terms) const;
     void press_slide(const SlidingState &sliding, FaceEvaluation<3> &found);
-    void press(const BatchedStep::Constants &step, const SurfacePlace &place, Elements::Indices elements_near,
+    void begin_step(const InterfaceStep &step, const std::optional<StaticTerms> &statics);
+    void press(const BatchedStep::Constants &step, const dealii::Vector<double> &displacements, Elements::Indices elements_near,
                FaceEvaluation<3> &found);
-    void place_elements(const dealii::Vector<double> &begin);
+    void place_elements(const dealii::Vector<double> &begin, const std::vector<ContactHistory> &history = {},
+                        const std::optional<StaticTerms> &statics = {});
     void press_elements(const dealii::Vector<double> &end, FaceEvaluation<3> &found);
-    BatchedStep::Constants step_constants(const InterfaceStep &step) const;
-    double slip_at(const FacePointState<3> &point, const SurfacePlace &place) const;
+    BatchedStep::Constants step_constants(const InterfaceStep &step, const FaceConfiguration &end,
+                                          const std::optional<StaticTerms> &statics) const;
+    double slip_at(const FacePointState<3> &point, const FaceConfiguration &at) const;
     std::vector<unsigned int> nodes_at(double zeta) const;
     double indentation(const FaceEvaluation<3> &found, const Row &row) const;
     void find_summed(Elements::Indices touched);
@@ -127,15 +100,13 @@ namespace sprag
     double slip_at_begin(unsigned int point) const;
     InterfaceCoordinates element_coordinates(unsigned int element) const;
 
-    SurfaceContactProperties properties;
     std::vector<std::vector<unsigned int>> element_lines; ///< increasing
     std::vector<bool> is_at_end;                          ///< whether an element is at an end of the face along xi
 
     dealii::Vector<double> begin_displacements;
     double begin_x = 0.;
     RigidCylinder::Pose begin_pose{};
-    double begin_travel  = 0.; ///< of the terms without inertia
-    bool begin_augmented = false;
+    std::optional<std::pair<double, bool>> begin_shifts;  ///< travel and augmentation, which shifts of slips follow from
     mutable std::vector<std::vector<double>> begin_slips; ///< of the points by elements; of those that were looked at
 
     /// Elements whose forces are summed, and their dofs.
@@ -147,7 +118,7 @@ namespace sprag
     };
 
     BatchedStep batched;
-    Elements::Indices looked_at_first;        ///< elements near where a step in time begins, and where it was in contact
+    Elements::Indices near_begin;             ///< elements near where a step in time begins, and where it was in contact
     Elements::Indices looked_at;              ///< by the last evaluation
     std::vector<BatchedStep::Forces> pressed; ///< of the elements that are summed
     std::optional<unsigned int> most_pressed; ///< the one of the largest penetration

@@ -33,8 +33,8 @@ namespace sprag
       const auto contact           = [&](const unsigned int lever)
       {
         return std::make_unique<FaceContact>(
-            body, FaceContactProperties{ contact_in_time(device, layout.single_lever(), facts.penalties, lever),
-                                         cylinder(lever_device(device, lever).geometry) });
+            body, FaceProperties<2>{ contact_in_time(device, layout.single_lever(), facts.penalties, lever),
+                                     cylinder(lever_device(device, lever).geometry) });
       };
       return assemble_lever(std::move(structure), lever_frame(device, layout, facts.total_mass), contact,
                             static_cast<unsigned int>(body.friction_face().points.size()));

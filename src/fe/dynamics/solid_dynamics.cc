@@ -155,9 +155,9 @@ namespace sprag
     {
       const Device own     = lever_device(device, index);
       const auto penalties = penalties_in_time(device, lever.body->friction_face());
-      return std::make_unique<SurfaceContact>(face, SurfaceContactProperties{ contact_in_time(device, layout, penalties, index),
-                                                                              RigidCylinder(own.geometry, own.cylinder),
-                                                                              lever.body->is_half() });
+      return std::make_unique<SurfaceContact>(face, FaceProperties<3>{ contact_in_time(device, layout, penalties, index),
+                                                                       RigidCylinder(own.geometry, own.cylinder),
+                                                                       lever.body->is_half() });
     }
 
     LeverFrame make_frame(const Device &device, const SolidInTime &lever, const InterfaceLayout &layout)
