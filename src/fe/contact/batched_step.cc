@@ -95,7 +95,6 @@ namespace sprag
     for (unsigned int first = range.begin; first < range.end; first += n_lanes)
     {
       auto &block = blocks[element].all.emplace_back();
-      block       = Block();
       block.first = first, block.n = std::min(n_lanes, range.end - first), block.clear_until = -1.;
       for (unsigned int i = 0; i < n_lanes; ++i)
       {
@@ -488,7 +487,7 @@ namespace sprag
       in_time ? find_element_tangents<2, true>(some, part, take) : find_element_tangents<2, false>(some, part, take);
   }
 
-  void BatchedStep::add_sums(const unsigned int element, Sums &sums) const
+  double BatchedStep::add_sums(const unsigned int element, ContactSums &sums) const
   {
     // Second derivatives along the way of the step.
     using N           = Dual<Dual<Batch, 1>, 1>;
@@ -503,7 +502,7 @@ namespace sprag
     const auto pose =
         to_batch(cylinder_pose(moving(Number{} + data.balance.x, data.end.x - data.begin.x),
                                moving(Number{} + data.balance.theta, data.end.theta - data.begin.theta), slope(0), slope(1)));
-    const double delay = data.weights.delay();
+    double pressure = 0.;
     End<Batch> end;
     for (unsigned int b = 0; b < blocks[element].all.size(); ++b)
     {
@@ -514,7 +513,7 @@ namespace sprag
       evaluate(block, begin, blocks[element].travel.displacement(), end);
       const auto &friction   = end.friction;
       const SimdBatch weight = block.takes_part ? block.weight : SimdBatch{};
-      sums.pressure          = std::max(sums.pressure, largest(block.takes_part ? end.pressure : SimdBatch{}));
+      pressure               = std::max(pressure, largest(block.takes_part ? end.pressure : SimdBatch{}));
       sums.stored += sum(weight * (0.5 / data.normal.stiffness * end.pressure * end.pressure + friction.energy));
       if (data.kind != Kind::in_time)
         continue;
@@ -532,11 +531,12 @@ namespace sprag
       const auto balanced = seen(cylinder.shape, to_batch(data.balance), at);
       const auto force =
           point_force(cylinder.shape, balanced, to_batch(data.balance).axes.axis, end.mean_pressure, end.mean_traction);
-      sums.friction += sum(weight * friction.dissipated);
-      sums.algorithmic += delay * sum(weight * work);
-      sums.drive += sum(weight * (data.surface_run * end.mean_traction[0] + data.advance * force.x));
-      sums.creep = std::max(sums.creep, largest(block.takes_part ? friction.creep : SimdBatch{}));
+      sums.work.friction += sum(weight * friction.dissipated);
+      sums.work.algorithmic += data.weights.delay() * sum(weight * work);
+      sums.work.drive += sum(weight * (data.surface_run * end.mean_traction[0] + data.advance * force.x));
+      sums.work.creep = std::max(sums.work.creep, largest(block.takes_part ? friction.creep : SimdBatch{}));
     }
+    return pressure;
   }
 
   void BatchedStep::add_points(const unsigned int element, const bool all, std::vector<FacePointState<3>> &points) const

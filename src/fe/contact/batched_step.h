@@ -105,17 +105,9 @@ namespace sprag
     void find_tangents(const Elements::Indices &elements, Part part,
                        const std::function<void(unsigned int, const Tangent &)> &take) const;
 
-    /// Works of the points of an element in the step, and the energy of their springs at its end [N mm].
-    struct Sums
-    {
-      double stored = 0.;
-      double drive = 0., friction = 0., algorithmic = 0.; ///< in time alone
-      double creep    = 0.;                               ///< the largest [mm]
-      double pressure = 0.;                               ///< the largest [MPa]
-    };
-
-    /// Adds those of an element as it was pressed last.
-    void add_sums(unsigned int element, Sums &sums) const;
+    /// Adds works of the points of an element in a step in time, and the energy of their springs at its end, as it was pressed
+    /// last. Returns the largest pressure in it [MPa].
+    double add_sums(unsigned int element, ContactSums &sums) const;
 
     /// Adds its points, all or those of blocks that take part.
     void add_points(unsigned int element, bool all, std::vector<FacePointState<3>> &points) const;

@@ -102,7 +102,7 @@ namespace sprag
     row.across.insert(row.across.end(), slopes.begin(), slopes.end());
   }
 
-  /// What is known of the beginning of the last step is kept where this one begins alike.
+  /// Keeps what is known of the beginning of the last step where this one begins alike.
   void SurfaceContact::begin_step(const InterfaceStep &step, const std::optional<StaticTerms> &statics)
   {
     const auto &from  = step.begin.position;
@@ -442,23 +442,16 @@ namespace sprag
   /// Finds works, energy and points of the elements as they were pressed last.
   void SurfaceContact::complete(FaceEvaluation<3> &found) const
   {
-    BatchedStep::Sums sums;
+    double largest = 0.;
     std::optional<unsigned int> peak;
     for (const unsigned int element : looked_at)
-    {
-      const double before = sums.pressure;
-      batched.add_sums(element, sums);
-      if (sums.pressure > before)
-        peak = element;
-    }
+      if (const double pressure = batched.add_sums(element, found.sums); pressure > largest)
+      {
+        largest = pressure;
+        peak    = element;
+      }
     add_points_in_contact(peak, found);
-    found.sums.stored           = sums.stored;
-    found.sums.beyond_face      = reaches_end(found);
-    found.sums.work             = StepWork();
-    found.sums.work.drive       = sums.drive;
-    found.sums.work.friction    = sums.friction;
-    found.sums.work.algorithmic = sums.algorithmic;
-    found.sums.work.creep       = sums.creep;
+    found.sums.beyond_face = reaches_end(found);
   }
 
   bool SurfaceContact::reaches_end(const FaceEvaluation<3> &found) const
