@@ -384,8 +384,8 @@ TEST_P(BatchedStepOfAnAxis, PointsInContactTellWhatAllPointsTell)
     };
     EXPECT_EQ(deepest(found)->index, deepest(all)->index);
     Row some_row, all_row;
-    view.observe_face(found, some_row);
-    view.observe_face(all, all_row);
+    view.observe(found, some_row);
+    view.observe(all, all_row);
     EXPECT_GE(all_row[Column::active_points], penetration > 0. ? 100. : 0.);
     for (std::size_t i = 0; i < n_columns; ++i)
     {

@@ -51,8 +51,32 @@ namespace sprag
 
   namespace
   {
+    /// Returns the nodes that lie closest to a zeta, in a plane all.
+    template <int dim>
+    std::vector<unsigned int> nodes_at(const FrictionFace<dim> &face, const double zeta)
+    {
+      const auto distance = [&](const FaceNode<dim> &node) { return dim == 3 ? std::abs(node.position[dim - 1] - zeta) : 0.; };
+      double closest      = std::numeric_limits<double>::max();
+      for (const auto &node : face.nodes)
+        closest = std::min(closest, distance(node));
+      std::vector<unsigned int> result;
+      for (unsigned int i = 0; i < face.nodes.size(); ++i)
+        if (distance(face.nodes[i]) < closest + 1e-6)
+          result.push_back(i);
+      return result;
+    }
+
+    /// Returns the displacement along eta of the node closest to xi, at the zeta where the pressure is largest [mm].
+    double deflection(const FrictionFace<3> &face, const dealii::Vector<double> &displacement, const Row &row, const double xi)
+    {
+      const auto line      = nodes_at(face, row.across[4]);
+      const auto is_closer = [&](const unsigned int a, const unsigned int b)
+      { return std::abs(face.nodes[a].position[0] - xi) < std::abs(face.nodes[b].position[0] - xi); };
+      return displacement[3 * *std::min_element(line.begin(), line.end(), is_closer) + 1];
+    }
+
     /// Displacement along eta at xi, linear between the points [mm].
-    double deflection(const FrictionFace<2> &face, const dealii::Vector<double> &displacement, const double xi)
+    double deflection(const FrictionFace<2> &face, const dealii::Vector<double> &displacement, const Row &, const double xi)
     {
       const auto &points     = face.points;
       const auto is_before   = [](const auto &point, const double value) { return point.position[0] < value; };
@@ -120,16 +144,6 @@ namespace sprag
     }
   } // namespace
 
-  double indentation(const FrictionFace<2> &face, const FaceEvaluation<2> &found, const Row &row, const double layer_thickness)
-  {
-    if (layer_thickness == 0. || !(row[Column::normal_resultant] > 0.))
-      return 0.;
-    const double centre = row[Column::s];
-    const double aside  = 0.5 * row[Column::contact_width] + 4. * layer_thickness;
-    const auto at       = [&](const double xi) { return deflection(face, found.displacement, xi); };
-    return at(centre) - 0.5 * (at(centre - aside) + at(centre + aside));
-  }
-
   template <int dim>
   ContactFace<dim>::ContactFace(const FrictionFace<dim> &face_, FaceProperties<dim> properties_)
       : face(face_)
@@ -148,11 +162,29 @@ namespace sprag
   }
 
   template <int dim>
-  SurfaceShape ContactFace<dim>::node_shape(const std::vector<unsigned int> &nodes,
-                                            const dealii::Vector<double> &displacements) const
+  AxisSlopes ContactFace<dim>::axis_turn(const dealii::Vector<double> &displacements) const
+  {
+    AxisSlopes result{};
+    for (unsigned int i = 0; i < properties.layout.slopes; ++i)
+      result[i] = displacements[properties.layout.slope(i)];
+    return result;
+  }
+
+  template <int dim>
+  AxisSlopes ContactFace<dim>::slopes_in(const FaceEvaluation<dim> &found) const
+  {
+    auto result = axis_turn(found.displacement);
+    if constexpr (dim == 3)
+      for (unsigned int i = 0; i < 2; ++i)
+        result[i] += properties.cylinder.slopes[i];
+    return result;
+  }
+
+  template <int dim>
+  SurfaceShape ContactFace<dim>::surface_shape(const dealii::Vector<double> &displacements, unsigned int) const
   {
     SurfaceShape shape;
-    for (const unsigned int node : nodes)
+    for (const unsigned int node : nodes_at(face, 0.))
     {
       shape.xi.push_back(face.nodes[node].position[0]);
       shape.along.push_back(displacements[dim * node]);
@@ -202,11 +234,31 @@ namespace sprag
   }
 
   template <int dim>
-  void ContactFace<dim>::observe_face(const FaceEvaluation<dim> &found, Row &row) const
+  void ContactFace<dim>::observe(const FaceEvaluation<dim> &found, Row &row, unsigned int) const
   {
     observe_resultants(found, row);
     observe_pressure(found, row);
-    row[Column::Q] = drive_force(found);
+    row[Column::Q]           = drive_force(found);
+    row[Column::indentation] = indentation(found, row);
+    if constexpr (dim == 3)
+      if (properties.cylinder.has_free_axis)
+      {
+        const auto slopes = slopes_in(found);
+        row.across.insert(row.across.end(), slopes.begin(), slopes.end());
+      }
+  }
+
+  /// Returns the deflection of a layer's face at the centre of pressure over that aside of the contact, from the columns that
+  /// are filled [mm]; 0 without a layer.
+  template <int dim>
+  double ContactFace<dim>::indentation(const FaceEvaluation<dim> &found, const Row &row) const
+  {
+    if (properties.layer_thickness == 0. || !(row[Column::normal_resultant] > 0.))
+      return 0.;
+    const double centre = row[Column::s];
+    const double aside  = 0.5 * row[Column::contact_width] + 4. * properties.layer_thickness;
+    const auto at       = [&](const double xi) { return deflection(face, found.displacement, row, xi); };
+    return at(centre) - 0.5 * (at(centre - aside) + at(centre + aside));
   }
 
   template <int dim>

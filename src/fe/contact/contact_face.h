@@ -82,11 +82,17 @@ namespace sprag
       reach.factor *= 2.;
     }
 
-    /// Fills the columns that follow from tractions and positions on the face.
-    void observe_face(const Evaluation &found, Row &row) const;
+    /// Fills the columns of a row that follow from the contact.
+    void observe(const Evaluation &found, Row &row, unsigned int lever = 0) const;
 
     /// Fills those of them that are sums over the points under pressure.
     void observe_resultants(const Evaluation &found, Row &row) const;
+
+    /// Returns the slopes of the cylinder's axis in space.
+    AxisSlopes slopes_in(const Evaluation &found) const;
+
+    /// Returns the displacements of the nodes in the middle of the width, in a plane of all.
+    SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
 
     /// Returns the parts of the face.
     const FacePoints &face_points() const
@@ -110,8 +116,8 @@ namespace sprag
     /// Returns the places at interface displacements, which it refers to, and x of the drive [mm].
     FaceConfiguration configuration(const dealii::Vector<double> &displacements, double x) const;
 
-    /// Returns the displacements of some nodes along the lever.
-    SurfaceShape node_shape(const std::vector<unsigned int> &nodes, const dealii::Vector<double> &displacements) const;
+    /// Returns by how much displacements or their rates turn the cylinder's axis in space.
+    AxisSlopes axis_turn(const dealii::Vector<double> &displacements) const;
 
     /// Returns the mean of `value`(point) over the points in contact, weighted with their pressure; 0 without any.
     template <class Value>
@@ -135,12 +141,9 @@ namespace sprag
 
   private:
     void observe_pressure(const Evaluation &found, Row &row) const;
+    double indentation(const Evaluation &found, const Row &row) const;
     PressureSamples pressure_samples(const Evaluation &found, unsigned int line) const;
 
     const FaceParts parts;
   };
-
-  /// Returns the deflection of a layer's face in a plane at the centre of pressure over that aside of the contact, from the
-  /// columns that ContactFace fills [mm]; 0 without a layer.
-  double indentation(const FrictionFace<2> &face, const FaceEvaluation<2> &found, const Row &row, double layer_thickness);
 } // namespace sprag

@@ -11,12 +11,6 @@ namespace sprag
 {
   using dealii::Vector;
 
-  void FaceContact::observe(const FaceEvaluation<2> &found, Row &row, unsigned int) const
-  {
-    observe_face(found, row);
-    row[Column::indentation] = indentation(face, found, row, properties.layer_thickness);
-  }
-
   namespace
   {
     std::variant<RigidCounterface, ElasticCounterface> make_counterface(const ElasticBody<2> &body, const FaceElements<2> &grid,

@@ -52,15 +52,6 @@ namespace sprag
     double mean_slip(const FaceEvaluation<2> &found, const dealii::Vector<double> &from, double from_x,
                      const dealii::Vector<double> &to, double to_x) const;
 
-    /// Fills the columns of a row that follow from the contact.
-    void observe(const FaceEvaluation<2> &found, Row &row, unsigned int lever = 0) const;
-
-    /// Returns the displacements of the face's nodes.
-    SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int /*lever*/ = 0) const
-    {
-      return node_shape(all_dofs(static_cast<unsigned int>(face.nodes.size())), displacements);
-    }
-
   private:
     FaceElements<2>::Indices near_step(const std::vector<ContactHistory> &history, ForceBalance balance,
                                        FaceEvaluation<2> &found) const;

@@ -39,67 +39,7 @@ namespace sprag
 
   RigidCylinder::Pose SurfaceContact::pose(const FaceConfiguration &at) const
   {
-    return properties.cylinder.pose(at.x, at.theta, turned_by(*at.displacement));
-  }
-
-  AxisSlopes SurfaceContact::turned_by(const Vector<double> &displacements) const
-  {
-    AxisSlopes result{};
-    for (unsigned int i = 0; i < properties.layout.slopes; ++i)
-      result[i] = displacements[properties.layout.slope(i)];
-    return result;
-  }
-
-  AxisSlopes SurfaceContact::slopes_in(const FaceEvaluation<3> &found) const
-  {
-    auto result = turned_by(found.displacement);
-    for (unsigned int i = 0; i < 2; ++i)
-      result[i] += properties.cylinder.slopes[i];
-    return result;
-  }
-
-  std::vector<unsigned int> SurfaceContact::nodes_at(const double zeta) const
-  {
-    double closest = std::numeric_limits<double>::max();
-    for (const auto &node : face.nodes)
-      closest = std::min(closest, std::abs(node.position[2] - zeta));
-    std::vector<unsigned int> result;
-    for (unsigned int i = 0; i < face.nodes.size(); ++i)
-      if (std::abs(face.nodes[i].position[2] - zeta) < closest + 1e-6)
-        result.push_back(i);
-    return result;
-  }
-
-  /// Deflection under the contact beyond that on both sides of it, between the nodes closest to these places.
-  double SurfaceContact::indentation(const FaceEvaluation<3> &found, const Row &row) const
-  {
-    if (properties.layer_thickness == 0. || !(row[Column::normal_resultant] > 0.))
-      return 0.;
-    const auto line       = nodes_at(row.across[4]);
-    const double s        = row[Column::s];
-    const double aside    = 0.5 * row[Column::contact_width] + 4. * properties.layer_thickness;
-    const auto deflection = [&](const double xi)
-    {
-      const auto is_closer = [&](const unsigned int a, const unsigned int b)
-      { return std::abs(face.nodes[a].position[0] - xi) < std::abs(face.nodes[b].position[0] - xi); };
-      return found.displacement[3 * *std::min_element(line.begin(), line.end(), is_closer) + 1];
-    };
-    return deflection(s) - 0.5 * (deflection(s - aside) + deflection(s + aside));
-  }
-
-  void SurfaceContact::observe(const FaceEvaluation<3> &found, Row &row, unsigned int) const
-  {
-    observe_contact(found, row);
-    row[Column::indentation] = indentation(found, row);
-  }
-
-  void SurfaceContact::observe_contact(const FaceEvaluation<3> &found, Row &row) const
-  {
-    observe_face(found, row);
-    if (!properties.cylinder.has_free_axis)
-      return;
-    const auto slopes = slopes_in(found);
-    row.across.insert(row.across.end(), slopes.begin(), slopes.end());
+    return properties.cylinder.pose(at.x, at.theta, axis_turn(*at.displacement));
   }
 
   /// Keeps what is known of the beginning of the last step where this one begins alike.
@@ -366,7 +306,7 @@ namespace sprag
       step.slide.rates       = sliding.rates;
       step.slide.theta_rate  = (*sliding.rates)[properties.layout.rotation()];
       step.slide.x_rate      = properties.layout.sprung ? -(*sliding.rates)[properties.layout.support()] : 0.;
-      step.slide.slope_rates = turned_by(*sliding.rates);
+      step.slide.slope_rates = axis_turn(*sliding.rates);
     }
     press(step, sliding.displacements, reach.clip(near(at, step.end), found.within_reach), found);
   }
@@ -401,7 +341,7 @@ namespace sprag
     const auto nodal           = Elements::nodal(grid.elements[point.element], change);
     return properties.cylinder.changes(pose(configuration(found.displacement, found.x)), point.position,
                                        Elements::position(element_points, nodal) - element_points.position,
-                                       at.sprung ? -change[at.support()] : 0., change[at.rotation()], turned_by(change))[0];
+                                       at.sprung ? -change[at.support()] : 0., change[at.rotation()], axis_turn(change))[0];
   }
 
   double SurfaceContact::mean_slip(const FaceEvaluation<3> &found, const Vector<double> &from, const double from_x,

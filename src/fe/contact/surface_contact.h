@@ -46,21 +46,6 @@ namespace sprag
     /// those that it passes between take no part.
     const DofSelection &candidate_dofs(double x, const PerLever &theta, double travel = 0.);
 
-    /// The slopes of the cylinder's axis in an evaluation.
-    AxisSlopes slopes_in(const FaceEvaluation<3> &found) const;
-
-    /// Fills the columns of a row that follow from the contact, but for the indentation.
-    void observe_contact(const FaceEvaluation<3> &found, Row &row) const;
-
-    /// Fills these columns, and the indentation from the displacements of the whole face.
-    void observe(const FaceEvaluation<3> &found, Row &row, unsigned int lever = 0) const;
-
-    /// Returns the displacements of the nodes at the middle of the width.
-    SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int /*lever*/ = 0) const
-    {
-      return node_shape(nodes_at(0.), displacements);
-    }
-
     void use_penalties(const ContactPenalties &penalties)
     {
       ContactFace<3>::use_penalties(penalties);
@@ -76,7 +61,6 @@ namespace sprag
     bool share_line(unsigned int element, unsigned int other) const;
     void add_points_in_contact(const std::optional<unsigned int> &peak, FaceEvaluation<3> &found) const;
     RigidCylinder::Pose pose(const FaceConfiguration &at) const;
-    AxisSlopes turned_by(const dealii::Vector<double> &displacements) const;
     Elements::Indices near(const FaceConfiguration &at, const RigidCylinder::Pose &cylinder_pose) const;
     BatchedStep::Constants constants(Kind kind, const FaceConfiguration &end, const FrictionLaw &friction) const;
     std::vector<SlipShift> slip_shifts(unsigned int element, const std::vector<ContactHistory> &history,
@@ -91,8 +75,6 @@ namespace sprag
     BatchedStep::Constants step_constants(const InterfaceStep &step, const FaceConfiguration &end,
                                           const std::optional<StaticTerms> &statics) const;
     double slip_at(const FacePointState<3> &point, const FaceConfiguration &at) const;
-    std::vector<unsigned int> nodes_at(double zeta) const;
-    double indentation(const FaceEvaluation<3> &found, const Row &row) const;
     void find_summed(Elements::Indices touched);
     void set_forces(Request request, InterfaceForces &forces) const;
     dealii::FullMatrix<double> tangent(BatchedStep::Part part) const;
