@@ -162,6 +162,16 @@ namespace sprag
   }
 
   template <int dim>
+  bool ContactFace<dim>::begin_at(const dealii::Vector<double> &displacements, const double x) const
+  {
+    if (x == begin_x && displacements.size() == begin_displacements.size() && displacements == begin_displacements)
+      return false;
+    begin_displacements = displacements;
+    begin_x             = x;
+    return true;
+  }
+
+  template <int dim>
   AxisSlopes ContactFace<dim>::axis_turn(const dealii::Vector<double> &displacements) const
   {
     AxisSlopes result{};

@@ -116,6 +116,9 @@ namespace sprag
     /// Returns the places at interface displacements, which it refers to, and x of the drive [mm].
     FaceConfiguration configuration(const dealii::Vector<double> &displacements, double x) const;
 
+    /// Notes where a step begins, at interface displacements and x [mm]. Returns whether the last one began elsewhere.
+    bool begin_at(const dealii::Vector<double> &displacements, double x) const;
+
     /// Returns by how much displacements or their rates turn the cylinder's axis in space.
     AxisSlopes axis_turn(const dealii::Vector<double> &displacements) const;
 
@@ -138,6 +141,11 @@ namespace sprag
     FaceElements<dim> grid;
     FaceProperties<dim> properties;
     FaceReach<dim> reach;
+
+    // State at the begin of the last step, the same in all its iterations.
+    mutable dealii::Vector<double> begin_displacements;
+    mutable double begin_x = 0.;
+    mutable std::vector<unsigned int> near_begin; ///< elements near the counterface there
 
   private:
     void observe_pressure(const Evaluation &found, Row &row) const;

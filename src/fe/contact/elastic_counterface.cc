@@ -26,21 +26,20 @@ namespace sprag
   {
   }
 
-  void ElasticCounterface::enter(const StepPlaces &places_)
+  void ElasticCounterface::enter(const StepPlaces &places_, const bool begins_anew)
   {
     places         = places_;
     end.at         = pair.configuration(places.end);
     end.first_slip = first_slip(places.end);
-    if (places.moves())
-      enter_begin(places.begin);
+    if (begins_anew)
+    {
+      begin_side.at         = pair.configuration(places.begin);
+      begin_side.first_slip = first_slip(places.begin);
+      begin_facets.clear();
+    }
+    begin_side.at.at = places.begin;
     if (!places.balanced_at_end())
       enter_balance();
-  }
-
-  FaceElements<2>::Indices ElasticCounterface::near() const
-  {
-    const auto at_last = near(end.at);
-    return places.balanced_at_end() ? at_last : united(at_last, near_begin);
   }
 
   FaceElements<2>::Indices ElasticCounterface::near(const PairConfiguration &at) const
@@ -53,18 +52,6 @@ namespace sprag
   double ElasticCounterface::first_slip(const FaceConfiguration &at) const
   {
     return properties.counterface(at.x, at.theta)({ at.centre.xi + first_node.xi, at.centre.eta + first_node.eta }).slip;
-  }
-
-  void ElasticCounterface::enter_begin(const FaceConfiguration &at)
-  {
-    if (is_same(at, begin_side.at.at, known_begin))
-      return;
-    begin_side.at                 = pair.configuration(at);
-    begin_side.first_slip         = first_slip(at);
-    known_begin                   = *at.displacement;
-    begin_side.at.at.displacement = &known_begin;
-    near_begin                    = near(begin_side.at);
-    begin_facets.clear();
   }
 
   void ElasticCounterface::enter_balance()

@@ -18,8 +18,15 @@ namespace sprag
     ElasticCounterface(const FrictionFace<2> &lever, const FrictionFace<2> &cylinder, const FaceElements<2> &face,
                        const FaceProperties<2> &properties);
 
-    void enter(const StepPlaces &places);
-    FaceElements<2>::Indices near() const;
+    void enter(const StepPlaces &places, bool begins_anew);
+    FaceElements<2>::Indices near_end() const
+    {
+      return near(end.at);
+    }
+    FaceElements<2>::Indices near_begin() const
+    {
+      return near(begin_side.at);
+    }
     void enter(unsigned int element);
     bool place(FacePointState<2> &state) const;
 
@@ -44,7 +51,6 @@ namespace sprag
 
     double first_slip(const FaceConfiguration &at) const;
     FaceElements<2>::Indices near(const PairConfiguration &at) const;
-    void enter_begin(const FaceConfiguration &at);
     void enter_balance();
     const ElementFacets &facets_at_begin(unsigned int element_index);
     double slip_at_begin(unsigned int point);
@@ -85,8 +91,6 @@ namespace sprag
 
     // State at the begin of the step, the same in all its iterations.
     Side begin_side;
-    dealii::Vector<double> known_begin;
-    FaceElements<2>::Indices near_begin;
     std::map<unsigned int, ElementFacets> begin_facets; ///< by elements
 
     // State of the element at hand.

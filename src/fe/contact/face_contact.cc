@@ -70,20 +70,37 @@ namespace sprag
     found.begin(step.end, step.to.x, step.weights.dt);
     const FaceStep face_step{ step_law(properties, step, statics), step.history, step.to.surface - step.from.surface,
                               statics.value_or(StaticTerms()) };
-    enter({ configuration(step.begin.position, step.from.x), configuration(step.end, step.to.x), step.weights.stiffness(),
-            statics.has_value() });
-    visit_elements(near_step(step.history, face_step.law.balance, found),
+    const StepPlaces places{ configuration(step.begin.position, step.from.x), configuration(step.end, step.to.x),
+                             step.weights.stiffness(), statics.has_value() };
+    enter(places);
+    visit_elements(near_step(step.history, places, found),
                    [&](auto &below, const unsigned int element) { step_element(below, element, face_step, found); });
     sum_forces(found.sums.loaded, dof_places, found.forces);
     found.sums.work.drive -= found.sums.force_on_counterface * (step.to.x - step.from.x);
   }
 
-  /// Finds the elements of a step. Where forces are means over the step, those in contact when it began belong to them.
-  FaceElements<2>::Indices FaceContact::near_step(const std::vector<ContactHistory> &history, const ForceBalance balance,
+  /// Enters a step. What is known of the beginning of the last one is kept where this one begins alike.
+  void FaceContact::enter(const StepPlaces &places) const
+  {
+    const bool begins_anew = places.moves() && begin_at(*places.begin.displacement, places.begin.x);
+    std::visit(
+        [&](auto &below)
+        {
+          below.enter(places, begins_anew);
+          if (begins_anew)
+            near_begin = below.near_begin();
+        },
+        counterface);
+  }
+
+  /// Finds the elements of a step. Where forces are means over it, those near and in contact when it began belong to them.
+  FaceElements<2>::Indices FaceContact::near_step(const std::vector<ContactHistory> &history, const StepPlaces &places,
                                                   FaceEvaluation<2> &found) const
   {
-    auto elements = near();
-    if (balance != ForceBalance::end)
+    auto elements = near_end();
+    if (!places.balanced_at_end())
+      elements = united(elements, near_begin);
+    if (!places.static_end)
       elements = united(elements, touched_elements(grid, history));
     return reach.clip(std::move(elements), found.within_reach);
   }
@@ -138,7 +155,7 @@ namespace sprag
     const auto at       = configuration(sliding.displacements, sliding.drive.x);
     enter({ at, at });
     const auto law = slide_friction(properties.friction, sliding);
-    visit_elements(reach.clip(near(), found.within_reach),
+    visit_elements(reach.clip(near_end(), found.within_reach),
                    [&](auto &below, const unsigned int element)
                    {
                      for (unsigned int q = grid.elements[element].begin; q < grid.elements[element].end; ++q)
@@ -176,7 +193,7 @@ namespace sprag
     found.begin(displacements, drive.x, 0.);
     const auto at = configuration(displacements, drive.x);
     enter({ at, at });
-    visit_elements(near(),
+    visit_elements(near_end(),
                    [&](auto &below, const unsigned int element)
                    {
                      for (unsigned int q = grid.elements[element].begin; q < grid.elements[element].end; ++q)

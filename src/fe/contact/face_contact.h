@@ -53,7 +53,7 @@ namespace sprag
                      const dealii::Vector<double> &to, double to_x) const;
 
   private:
-    FaceElements<2>::Indices near_step(const std::vector<ContactHistory> &history, ForceBalance balance,
+    FaceElements<2>::Indices near_step(const std::vector<ContactHistory> &history, const StepPlaces &places,
                                        FaceEvaluation<2> &found) const;
 
     /// Enters elements of the face one after the other and calls `visit_element`(counterface, element).
@@ -64,14 +64,11 @@ namespace sprag
     void step_element(CounterfaceBelow &below, unsigned int element, const FaceStep &step, FaceEvaluation<2> &found) const;
     void slide(const SlidingState &sliding, bool in_parts, FaceEvaluation<2> &found) const;
 
-    void enter(const StepPlaces &places) const
-    {
-      std::visit([&](auto &below) { below.enter(places); }, counterface);
-    }
+    void enter(const StepPlaces &places) const;
 
-    FaceElements<2>::Indices near() const
+    FaceElements<2>::Indices near_end() const
     {
-      return std::visit([](const auto &below) { return below.near(); }, counterface);
+      return std::visit([](const auto &below) { return below.near_end(); }, counterface);
     }
 
     static FacePointState<2> &add_point(unsigned int element, unsigned int point, FaceEvaluation<2> &found);

@@ -253,13 +253,6 @@ namespace sprag
     }
   };
 
-  /// Returns whether a configuration is another, whose displacements are `displacement`.
-  inline bool is_same(const FaceConfiguration &at, const FaceConfiguration &other, const dealii::Vector<double> &displacement)
-  {
-    return at.x == other.x && at.theta == other.theta && displacement.size() == at.displacement->size() &&
-           displacement == *at.displacement;
-  }
-
   /// Records a point's response to a step in its state and the sums, its forces apart. `run` [mm] is how far the counterface's
   /// surface runs at the point.
   template <int n>

@@ -41,33 +41,18 @@ namespace sprag
     }
   }
 
-  void RigidCounterface::enter(const StepPlaces &places_)
+  void RigidCounterface::enter(const StepPlaces &places_, const bool begins_anew)
   {
     places = places_;
     end    = properties.counterface(places.end.x, places.end.theta);
-    if (places.moves())
-      enter_begin(places.begin);
+    if (begins_anew)
+    {
+      begin = properties.counterface(places.begin.x, places.begin.theta);
+      begin_points.clear();
+    }
     if (!places.balanced_at_end())
       balance = properties.counterface(places.balanced(places.begin.x, places.end.x),
                                        places.balanced(places.begin.theta, places.end.theta));
-  }
-
-  void RigidCounterface::enter_begin(const FaceConfiguration &at)
-  {
-    if (is_same(at, begin_configuration, known_begin))
-      return;
-    known_begin                      = *at.displacement;
-    begin_configuration              = at;
-    begin_configuration.displacement = &known_begin;
-    begin                            = properties.counterface(at.x, at.theta);
-    near_begin                       = near(begin_configuration, begin);
-    begin_points.clear();
-  }
-
-  FaceElements<2>::Indices RigidCounterface::near() const
-  {
-    const auto at_last = near(places.end, end);
-    return places.balanced_at_end() ? at_last : united(at_last, near_begin);
   }
 
   /// The gap along a straight element to a convex counterface lies above its tangent at the first point; the margin covers
@@ -111,7 +96,7 @@ namespace sprag
     if (is_new)
     {
       const auto &chosen = face.elements[element_index];
-      const auto nodal   = FaceElements<2>::nodal(chosen, known_begin);
+      const auto nodal   = FaceElements<2>::nodal(chosen, *places.begin.displacement);
       for (unsigned int q = chosen.begin; q < chosen.end; ++q)
       {
         const auto position = FaceElements<2>::position(face.points[q], nodal);

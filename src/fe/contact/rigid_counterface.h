@@ -16,12 +16,20 @@ namespace sprag
     /// `face`, the lever's elements, and `properties` must outlive the counterface.
     RigidCounterface(const FrictionFace<2> &lever, const FaceElements<2> &face, const FaceProperties<2> &properties);
 
-    /// Sets the configurations of all that follows; for steady sliding beginning and end are one.
-    void enter(const StepPlaces &places);
+    /// Sets the configurations of all that follows; for steady sliding beginning and end are one. `begins_anew`: the beginning is
+    /// another than that of the last step.
+    void enter(const StepPlaces &places, bool begins_anew);
 
-    /// Elements within reach at the end of the step, and where the step's mean counts at its beginning as well; at least one that
-    /// is closest up to the margin, 0.02 of its length.
-    FaceElements<2>::Indices near() const;
+    // Elements within reach at the end of the step and at its beginning; at least one that is closest up to the margin, 0.02 of
+    // its length.
+    FaceElements<2>::Indices near_end() const
+    {
+      return near(places.end, end);
+    }
+    FaceElements<2>::Indices near_begin() const
+    {
+      return near(places.begin, begin);
+    }
 
     /// Sets the element of all that follows.
     void enter(unsigned int element);
@@ -67,7 +75,6 @@ namespace sprag
     };
 
     FaceElements<2>::Indices near(const FaceConfiguration &at, const PlacedCounterface &counterface) const;
-    void enter_begin(const FaceConfiguration &at);
     const std::vector<BeginPoint> &points_at_begin(unsigned int element_index);
 
     const BeginPoint &at_begin(const unsigned int point) const
@@ -97,10 +104,7 @@ namespace sprag
     ContactKinematics<4> placed{}; ///< of it, once step() or slide() need it
 
     // State at the begin of the step, the same in all its iterations.
-    FaceConfiguration begin_configuration{};
     PlacedCounterface begin;
-    dealii::Vector<double> known_begin;
-    FaceElements<2>::Indices near_begin;
     std::map<unsigned int, std::vector<BeginPoint>> begin_points; ///< by elements
 
     // State of the element at hand.

@@ -45,16 +45,13 @@ namespace sprag
   /// Keeps what is known of the beginning of the last step where this one begins alike.
   void SurfaceContact::begin_step(const InterfaceStep &step, const std::optional<StaticTerms> &statics)
   {
-    const auto &from  = step.begin.position;
+    const bool is_new = begin_at(step.begin.position, step.from.x);
     const auto shifts = statics ? std::optional(std::pair(statics->travel, statics->augmented)) : std::nullopt;
-    if (begin_x == step.from.x && begin_displacements.size() == from.size() && begin_displacements == from &&
-        begin_shifts == shifts && batched.begins_with(step.history))
+    if (!is_new && begin_shifts == shifts && batched.begins_with(step.history))
       return;
-    begin_displacements = from;
-    begin_x             = step.from.x;
-    begin_shifts        = shifts;
-    const auto at       = configuration(begin_displacements, begin_x);
-    begin_pose          = pose(at);
+    begin_shifts  = shifts;
+    const auto at = configuration(begin_displacements, begin_x);
+    begin_pose    = pose(at);
     begin_slips.assign(grid.elements.size(), {});
     batched.begin(step.history);
     near_begin = statics ? Elements::Indices() : united(near(at, begin_pose), touched_elements(grid, step.history));

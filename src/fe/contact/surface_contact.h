@@ -85,8 +85,6 @@ namespace sprag
     std::vector<std::vector<unsigned int>> element_lines; ///< increasing
     std::vector<bool> is_at_end;                          ///< whether an element is at an end of the face along xi
 
-    dealii::Vector<double> begin_displacements;
-    double begin_x = 0.;
     RigidCylinder::Pose begin_pose{};
     std::optional<std::pair<double, bool>> begin_shifts;  ///< travel and augmentation, which shifts of slips follow from
     mutable std::vector<std::vector<double>> begin_slips; ///< of the points by elements; of those that were looked at
@@ -100,7 +98,6 @@ namespace sprag
     };
 
     BatchedStep batched;
-    Elements::Indices near_begin;             ///< elements near where a step in time begins, and where it was in contact
     Elements::Indices looked_at;              ///< by the last evaluation
     std::vector<BatchedStep::Forces> pressed; ///< of the elements that are summed
     std::optional<unsigned int> most_pressed; ///< the one of the largest penetration
