@@ -30,11 +30,9 @@ namespace sprag
                                            const MeshedDynamics &facts)
     {
       const InterfaceLayout layout = structure->layout();
-      const auto contact           = [&](const unsigned int lever)
-      {
-        return std::make_unique<FaceContact>(
-            body, FaceProperties<2>{ contact_in_time(device, layout.single_lever(), facts.penalties, lever),
-                                     cylinder(lever_device(device, lever).geometry) });
+      const auto levers            = all_lever_properties(device);
+      const auto contact           = [&](const unsigned int lever) {
+        return std::make_unique<FaceContact>(body, face_properties(body, levers[lever], layout.single_lever(), facts.penalties));
       };
       return assemble_lever(std::move(structure), lever_frame(device, layout, facts.total_mass), contact,
                             static_cast<unsigned int>(body.friction_face().points.size()));

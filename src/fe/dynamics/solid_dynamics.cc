@@ -146,18 +146,8 @@ namespace sprag
     InterfaceLayout make_layout(const FaceWindow &window, const SolidInTime &lever, const Device &device)
     {
       InterfaceLayout result{ static_cast<unsigned int>(3 * window.face.nodes.size()), true, lever.sensors->number() };
-      result.slopes = lever.body->is_half() || !device.cylinder.has_free_axis() ? 0 : 2;
+      result.slopes = count_slopes(*lever.body, device.cylinder);
       return result;
-    }
-
-    std::unique_ptr<SurfaceContact> make_contact(const Device &device, const SolidInTime &lever, const FrictionFace<3> &face,
-                                                 const InterfaceLayout &layout, const unsigned int index)
-    {
-      const Device own     = lever_device(device, index);
-      const auto penalties = penalties_in_time(device, lever.body->friction_face());
-      return std::make_unique<SurfaceContact>(face, FaceProperties<3>{ contact_in_time(device, layout, penalties, index),
-                                                                       RigidCylinder(own.geometry, own.cylinder),
-                                                                       lever.body->is_half() });
     }
 
     LeverFrame make_frame(const Device &device, const SolidInTime &lever, const InterfaceLayout &layout)
@@ -174,7 +164,7 @@ namespace sprag
       MeshedDynamics result;
       static_cast<MassSums &>(result) = lever.modes;
       result.n_coordinates            = count_levers(device) * n_modes + (device.support.type == SupportType::sprung ? 1 : 0);
-      result.penalties                = penalties_in_time(device, lever.body->friction_face());
+      result.penalties                = penalties_in_time(device, *lever.body);
       return result;
     }
   } // namespace
@@ -223,17 +213,21 @@ namespace sprag
     };
     const auto displacement = [&lever, structures, dofs = face_dofs(face)](const unsigned int part, const Motion &motion)
     { return condensed_displacement(lever.body->held(), *structures[part], dofs, make_response(*lever.body), motion); };
-    const auto assemble = [&](auto all)
+    MeshedDynamics result = facts(device, lever, n_modes);
+    const auto assemble   = [&](auto all)
     {
       const InterfaceLayout layout = all->layout();
+      const auto properties        = all_lever_properties(device);
       const auto contact           = [&](const unsigned int index)
-      { return make_contact(device, lever, face, layout.single_lever(), index); };
+      {
+        return std::make_unique<SurfaceContact>(
+            face, face_properties(*lever.body, properties[index], layout.single_lever(), result.penalties));
+      };
       return assemble_lever(std::move(all), make_frame(device, lever, layout), contact,
                             static_cast<unsigned int>(face.points.size()));
     };
-    MeshedDynamics result = facts(device, lever, n_modes);
-    result.face           = std::shared_ptr<const FrictionFace<3>>(window, &face);
-    result.follow_edge    = [&lever, structures](const Eigenmode &mode, ModeShape &shape)
+    result.face        = std::shared_ptr<const FrictionFace<3>>(window, &face);
+    result.follow_edge = [&lever, structures](const Eigenmode &mode, ModeShape &shape)
     { follow_edge(lever.body->friction_face(), structures, mode, shape); };
     complete_condensed(levers, levers == 2 && structures[0] == structures[1], structure, displacement, assemble, result);
     return result;

@@ -2,7 +2,6 @@
 #include "fe/statics/contact_penalties.h"
 
 #include "scene/device.h"
-#include "scene/mirrored_pair.h"
 
 #include <algorithm>
 
@@ -43,50 +42,59 @@ namespace sprag
         return by_cells;
       return std::min(by_cells, largest_penalty_factor / penalty_factor * by_layer);
     }
+
+    template <int dim>
+    ContactPenalties face_penalties(const FrictionFace<dim> &face, const ContactSettings &settings, const double layer_thickness,
+                                    const std::optional<double> &over_layer, const double longest)
+    {
+      const double automatic = over_layer && settings.enforcement == Enforcement::penalty
+                                   ? *over_layer * face.young_modulus / std::max(face.depth, layer_thickness)
+                                   : automatic_penalty(face, settings.enforcement, layer_thickness, longest);
+      const double normal    = settings.penalty.value_or(automatic);
+      return { normal, settings.tangential_penalty.value_or(normal) };
+    }
+
+    ContactProperties contact_properties(const LeverProperties &lever, const InterfaceLayout &layout,
+                                         const ContactPenalties &penalties)
+    {
+      return { lever.centre, lever.radius, layout, lever.spring.rest, penalties, lever.friction, lever.layer_thickness };
+    }
   } // namespace
 
   template <int dim>
-  ContactPenalties contact_penalties(const FrictionFace<dim> &face, const ContactSettings &settings, const double layer_thickness,
+  ContactPenalties contact_penalties(const ElasticBody<dim> &body, const ContactSettings &settings, const double layer_thickness,
                                      const std::optional<double> &over_layer, const double longest)
   {
-    const double automatic = over_layer && settings.enforcement == Enforcement::penalty
-                                 ? *over_layer * face.young_modulus / std::max(face.depth, layer_thickness)
-                                 : automatic_penalty(face, settings.enforcement, layer_thickness, longest);
-    const double normal    = settings.penalty.value_or(automatic);
-    return { normal, settings.tangential_penalty.value_or(normal) };
-  }
-
-  ContactPenalties contact_penalties(const ElasticBody<2> &body, const ContactSettings &settings, const double layer_thickness,
-                                     const std::optional<double> &over_layer, const double longest)
-  {
-    const auto lever = contact_penalties(body.friction_face(), settings, layer_thickness, over_layer, longest);
+    const auto lever = face_penalties(body.friction_face(), settings, layer_thickness, over_layer, longest);
     if (body.cylinder_face().elements.empty())
       return lever;
-    const auto cylinder = contact_penalties(body.cylinder_face(), settings, 0., over_layer);
+    const auto cylinder = face_penalties(body.cylinder_face(), settings, 0., over_layer, 0.);
     return { std::min(lever.normal, cylinder.normal), std::min(lever.tangential, cylinder.tangential) };
   }
 
-  template <class Source>
-  ContactPenalties penalties_in_time(const Device &device, const Source &source)
+  template <int dim>
+  ContactPenalties penalties_in_time(const Device &device, const ElasticBody<dim> &body)
   {
     const double factor = device.mesh.degree == 1 ? in_time_linear : in_time;
-    return contact_penalties(source, device.contact, device.layer.thickness, factor);
+    return contact_penalties(body, device.contact, device.layer.thickness, factor);
   }
 
-  ContactProperties contact_in_time(const Device &device, const InterfaceLayout &layout, const ContactPenalties &penalties,
-                                    const unsigned int lever)
+  FaceProperties<2> face_properties(const ElasticBody<2> &, const LeverProperties &lever, const InterfaceLayout &layout,
+                                    const ContactPenalties &penalties)
   {
-    const Device own = lever_device(device, lever);
-    return {
-      cylinder_centre(own.geometry), own.geometry.cylinder_radius, layout, rest_inclination(device), penalties, own.friction,
-      device.layer.thickness
-    };
+    return { contact_properties(lever, layout, penalties), lever.counterface };
   }
 
+  FaceProperties<3> face_properties(const SolidBody &body, const LeverProperties &lever, const InterfaceLayout &layout,
+                                    const ContactPenalties &penalties)
+  {
+    return { contact_properties(lever, layout, penalties), RigidCylinder(*lever.geometry, lever.cylinder), body.is_half() };
+  }
+
+  template ContactPenalties contact_penalties(const ElasticBody<2> &, const ContactSettings &, double,
+                                              const std::optional<double> &, double);
+  template ContactPenalties contact_penalties(const ElasticBody<3> &, const ContactSettings &, double,
+                                              const std::optional<double> &, double);
   template ContactPenalties penalties_in_time(const Device &, const ElasticBody<2> &);
-  template ContactPenalties penalties_in_time(const Device &, const FrictionFace<3> &);
-  template ContactPenalties contact_penalties(const FrictionFace<2> &, const ContactSettings &, double,
-                                              const std::optional<double> &, double);
-  template ContactPenalties contact_penalties(const FrictionFace<3> &, const ContactSettings &, double,
-                                              const std::optional<double> &, double);
+  template ContactPenalties penalties_in_time(const Device &, const ElasticBody<3> &);
 } // namespace sprag

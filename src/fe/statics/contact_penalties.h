@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/body/elastic_body.h"
 #include "fe/contact/face_contact_point.h"
-#include "scene/discretisation_settings.h"
+#include "fe/statics/lever_properties.h"
+#include "fe/statics/solid_body.h"
 
 #include <optional>
 
@@ -17,20 +17,28 @@ namespace sprag
 
   /// The settings' penalties, or `over_layer` E/depth, or without it what suits mesh and layer of a run without inertia or of the
   /// augmented Lagrangian. `longest` is the length of the longest cells where the contact passes, of a graded mesh [mm]; 0: they
-  /// are as long as the shortest.
+  /// are as long as the shortest. With an elastic cylinder the softer of both faces counts.
   template <int dim>
-  ContactPenalties contact_penalties(const FrictionFace<dim> &face, const ContactSettings &settings, double layer_thickness,
+  ContactPenalties contact_penalties(const ElasticBody<dim> &body, const ContactSettings &settings, double layer_thickness,
                                      const std::optional<double> &over_layer, double longest = 0.);
 
-  /// The same of a body; with an elastic cylinder the softer of both faces counts.
-  ContactPenalties contact_penalties(const ElasticBody<2> &body, const ContactSettings &settings, double layer_thickness,
-                                     const std::optional<double> &over_layer, double longest = 0.);
+  /// The same in time.
+  template <int dim>
+  ContactPenalties penalties_in_time(const Device &device, const ElasticBody<dim> &body);
 
-  /// The same in time, of a face in space or a body in a plane.
-  template <class Source>
-  ContactPenalties penalties_in_time(const Device &device, const Source &source);
+  // Properties of the contact of a lever.
+  FaceProperties<2> face_properties(const ElasticBody<2> &body, const LeverProperties &lever, const InterfaceLayout &layout,
+                                    const ContactPenalties &penalties);
+  FaceProperties<3> face_properties(const SolidBody &body, const LeverProperties &lever, const InterfaceLayout &layout,
+                                    const ContactPenalties &penalties);
 
-  /// Returns the properties of the contact of a lever (0, of a pair also 1) in time.
-  ContactProperties contact_in_time(const Device &device, const InterfaceLayout &layout, const ContactPenalties &penalties,
-                                    unsigned int lever);
+  // Number of slopes that the axis of the cylinder may change before a body.
+  inline unsigned int count_slopes(const ElasticBody<2> &, const Cylinder &)
+  {
+    return 0;
+  }
+  inline unsigned int count_slopes(const SolidBody &body, const Cylinder &cylinder)
+  {
+    return body.is_half() || !cylinder.has_free_axis() ? 0 : 2;
+  }
 } // namespace sprag

@@ -70,16 +70,6 @@ namespace sprag
       return body;
     }
 
-    unsigned int n_slopes(const ElasticBody<2> &, const LeverProperties &)
-    {
-      return 0;
-    }
-
-    unsigned int n_slopes(const SolidBody &body, const LeverProperties &properties)
-    {
-      return body.is_half() || !properties.cylinder.has_free_axis() ? 0 : 2;
-    }
-
     template <class Body>
     InterfaceLayout make_layout(const Body &body, const std::vector<LeverProperties> &levers)
     {
@@ -87,33 +77,18 @@ namespace sprag
                               levers.front().support_stiffness.has_value() };
       result.levers      = static_cast<unsigned int>(levers.size());
       result.has_inertia = false;
-      result.slopes      = n_slopes(body, levers.front());
+      result.slopes      = count_slopes(body, levers.front().cylinder);
       return result;
     }
 
-    template <class Source>
-    ContactProperties contact_properties(const Source &source, const LeverProperties &properties, const InterfaceLayout &layout)
+    const ElasticBody<2> &contact_source(const ElasticBody<2> &body)
     {
-      return { properties.centre,
-               properties.radius,
-               layout,
-               properties.spring.rest,
-               contact_penalties(source, properties.contact, properties.layer_thickness, properties.penalty_factor,
-                                 properties.longest_face),
-               properties.friction,
-               properties.layer_thickness };
+      return body;
     }
 
-    FaceContact make_contact(const ElasticBody<2> &body, const LeverProperties &properties, const InterfaceLayout &layout)
+    const FrictionFace<3> &contact_source(const SolidBody &body)
     {
-      return { body, { contact_properties(body, properties, layout), properties.counterface } };
-    }
-
-    SurfaceContact make_contact(const SolidBody &body, const LeverProperties &properties, const InterfaceLayout &layout)
-    {
-      return { body.friction_face(),
-               { contact_properties(body.friction_face(), properties, layout),
-                 RigidCylinder(*properties.geometry, properties.cylinder), body.is_half() } };
+      return body.friction_face();
     }
 
     LeverParts<2>::Structure make_structure(const ElasticBody<2> &body, const LeverProperties &properties,
@@ -145,7 +120,9 @@ namespace sprag
   template <int dim>
   StaticLever<dim>::Lever::Lever(const typename Parts::Body &body, const InterfaceLayout &layout, LeverProperties lever)
       : properties(std::move(lever))
-      , contact(make_contact(body, properties, layout))
+      , contact(contact_source(body), face_properties(body, properties, layout,
+                                                      contact_penalties(body, properties.contact, properties.layer_thickness,
+                                                                        properties.penalty_factor, properties.longest_face)))
   {
   }
 
