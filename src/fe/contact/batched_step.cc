@@ -133,8 +133,8 @@ namespace sprag
 
   void BatchedStep::set(const Constants &constants)
   {
-    data             = constants;
-    data.slip.pieces = rising_pieces(data.slip.friction);
+    data                 = constants;
+    data.law.slip.pieces = rising_pieces(data.law.slip.friction);
   }
 
   void BatchedStep::place(const unsigned int element, const Elements::Nodal &nodal, const std::vector<SlipShift> &shifts)
@@ -238,7 +238,7 @@ namespace sprag
     auto &friction        = end.friction;
     friction.slip_speed   = slip_rates(block);
     const bool rubs       = data.slide.friction == ContactFriction::sliding;
-    const bool is_elastic = data.slip.friction.regularisation_speed == 0.;
+    const bool is_elastic = data.law.slip.friction.regularisation_speed == 0.;
     if (rubs)
     {
       const SizeAndDirection<Batch, 2> w(friction.slip_speed);
@@ -246,7 +246,7 @@ namespace sprag
       for_each_lane(~BatchMask{},
                     [&](const unsigned int i)
                     {
-                      const auto found = sliding_friction(data.slip.friction, w.size[i]);
+                      const auto found = sliding_friction(data.law.slip.friction, w.size[i]);
                       coefficient[i] = found.coefficient, slope[i] = found.derivative;
                       friction.mu[i] = found.mu;
                     });
@@ -267,9 +267,9 @@ namespace sprag
     }
     else if (data.slide.friction == ContactFriction::stuck)
       for (unsigned int s = 0; s < 2; ++s)
-        friction.traction[s] = data.slip.stiffness * end.slip[s];
+        friction.traction[s] = data.law.slip.stiffness * end.slip[s];
     for (unsigned int s = 0; s < 2 && is_elastic; ++s)
-      friction.energy += 0.5 / data.slip.stiffness * value(friction.traction[s]) * value(friction.traction[s]);
+      friction.energy += 0.5 / data.law.slip.stiffness * value(friction.traction[s]) * value(friction.traction[s]);
   }
 
   /// Sets pressure and friction of points that are seen at the end of the step.
@@ -291,16 +291,16 @@ namespace sprag
                      end.seen.along - begin.along } };
     if constexpr (in_time)
     {
-      const double delay = data.weights.delay();
-      end.pressure       = spring_force(data.normal, end.seen.gap);
-      end.friction       = end_friction(data.slip, begin.history, end.slip, end.pressure, data.weights.dt);
-      end.mean_pressure =
-          mean_spring_force(data.normal, begin.gap, end.seen.gap) + delay * (end.pressure - spring_force(data.normal, begin.gap));
+      const double delay = data.law.weights.delay();
+      end.pressure       = spring_force(data.law.normal, end.seen.gap);
+      end.friction       = end_friction(data.law.slip, begin.history, end.slip, end.pressure, data.law.weights.dt);
+      end.mean_pressure  = mean_spring_force(data.law.normal, begin.gap, end.seen.gap) +
+                          delay * (end.pressure - spring_force(data.law.normal, begin.gap));
       for (unsigned int s = 0; s < 2; ++s)
         end.mean_traction[s] = (0.5 + delay) * end.friction.traction[s] + (0.5 - delay) * begin.history.traction[s];
       return;
     }
-    const N pressure  = begin.multiplier - data.normal.stiffness * end.seen.gap;
+    const N pressure  = begin.multiplier - data.law.normal.stiffness * end.seen.gap;
     end.pressure      = select(value(pressure) > 0., pressure, N{});
     end.mean_pressure = end.pressure;
     if (data.kind == Kind::slide)
@@ -314,11 +314,11 @@ namespace sprag
         slope.d[std::size(slope.d) - 1] = uniform_batch(1.);
       const N shift    = begin.by_slope * slope + begin.shift;
       end.shift        = value(shift);
-      const auto trial = stick_traction(data.slip, begin.history.traction, end.slip);
-      if (data.sticks)
+      const auto trial = stick_traction(data.law.slip, begin.history.traction, end.slip);
+      if (data.law.mode == FrictionMode::stick)
         end.friction.traction = trial;
       else
-        end.friction = return_to_cone(data.slip, trial, end.pressure, uniform_batch(data.weights.dt),
+        end.friction = return_to_cone(data.law.slip, trial, end.pressure, uniform_batch(data.law.weights.dt),
                                       Several<N, 2>{ { shift + begin.elastic_shift, N{} } }, end.slip);
     }
     end.mean_traction = end.friction.traction;
@@ -337,7 +337,7 @@ namespace sprag
     if (data.kind == Kind::in_time)
       end.takes_part = (gap < 0.) | (begin.gap < 0.) | begin.known;
     else
-      end.takes_part = data.kind == Kind::touch ? BatchMask{} : begin.multiplier - data.normal.stiffness * gap > 0.;
+      end.takes_part = data.kind == Kind::touch ? BatchMask{} : begin.multiplier - data.law.normal.stiffness * gap > 0.;
     if (!any(end.takes_part))
       return;
     if (data.kind == Kind::in_time)
@@ -373,7 +373,7 @@ namespace sprag
       if (!any(block.takes_part))
         continue;
       takes_part           = true;
-      const SimdBatch most = in_time ? -smaller(gap, begin.gap) : end.pressure / data.normal.stiffness;
+      const SimdBatch most = in_time ? -smaller(gap, begin.gap) : end.pressure / data.law.normal.stiffness;
       penetration          = std::max(penetration, largest(most));
 
       const auto at          = in_time ? begin.place + data.share * (end.place - begin.place) : end.place;
@@ -514,7 +514,7 @@ namespace sprag
       const auto &friction   = end.friction;
       const SimdBatch weight = block.takes_part ? block.weight : SimdBatch{};
       pressure               = std::max(pressure, largest(block.takes_part ? end.pressure : SimdBatch{}));
-      sums.stored += sum(weight * (0.5 / data.normal.stiffness * end.pressure * end.pressure + friction.energy));
+      sums.stored += sum(weight * (0.5 / data.law.normal.stiffness * end.pressure * end.pressure + friction.energy));
       if (data.kind != Kind::in_time)
         continue;
       const auto moved = end.place - begin.place;
@@ -526,13 +526,13 @@ namespace sprag
       const auto &t = friction.traction, &t_begin = begin.history.traction;
       const SimdBatch work = (t[0] - t_begin[0]) * end.slip[0] + (t[1] - t_begin[1]) * end.slip[1] +
                              end.mean_traction[0] * slip.d[0].d[0] + end.mean_traction[1] * place.along.d[0].d[0] -
-                             (end.pressure - spring_force(data.normal, begin.gap)) * (end.seen.gap - begin.gap) -
+                             (end.pressure - spring_force(data.law.normal, begin.gap)) * (end.seen.gap - begin.gap) -
                              end.mean_pressure * place.gap.d[0].d[0];
       const auto balanced = seen(cylinder.shape, to_batch(data.balance), at);
       const auto force =
           point_force(cylinder.shape, balanced, to_batch(data.balance).axes.axis, end.mean_pressure, end.mean_traction);
       sums.work.friction += sum(weight * friction.dissipated);
-      sums.work.algorithmic += data.weights.delay() * sum(weight * work);
+      sums.work.algorithmic += data.law.weights.delay() * sum(weight * work);
       sums.work.drive += sum(weight * (data.surface_run * end.mean_traction[0] + data.advance * force.x));
       sums.work.creep = std::max(sums.work.creep, largest(block.takes_part ? friction.creep : SimdBatch{}));
     }
@@ -570,7 +570,7 @@ namespace sprag
     state.index          = block.first + i;
     state.position       = dealii::Point<3>(end.place.x[i], end.place.y[i], end.place.z[i]);
     state.gap            = end.seen.gap[i];
-    state.trial_pressure = begin.multiplier[i] - data.normal.stiffness * state.gap;
+    state.trial_pressure = begin.multiplier[i] - data.law.normal.stiffness * state.gap;
     if (!block.takes_part[i])
       return;
     const auto &friction = end.friction;
@@ -583,18 +583,18 @@ namespace sprag
       state.traction[d]           = friction.traction[d][i];
       state.history.slip_speed[d] = friction.slip_speed[d][i];
       state.slip_change[d]        = data.kind == Kind::slide ? friction.slip_speed[d][i] : end.slip[d][i];
-      if (data.augmented)
+      if (data.terms.augmented)
         begin_traction[d] = begin.history.traction[d][i];
     }
     state.history.traction = state.traction;
     state.history.speed    = friction.speed[i];
     state.history.point    = state.index;
-    state.history.step     = data.kind == Kind::in_time ? data.weights.dt : 0.;
-    state.elastic_slip     = (state.traction - begin_traction).norm() / data.slip.stiffness;
+    state.history.step     = data.kind == Kind::in_time ? data.law.weights.dt : 0.;
+    state.elastic_slip     = (state.traction - begin_traction).norm() / data.law.slip.stiffness;
     if (data.kind == Kind::at_end)
     {
       state.slip_change[0] += end.shift[i];
-      state.slip_change *= data.speed_ratio;
+      state.slip_change *= data.terms.speed_ratio;
     }
   }
 } // namespace sprag

@@ -54,23 +54,14 @@ namespace sprag
     };
 
     /// Constants that all points of a step have in common.
-    struct Constants
+    struct Constants : StepTerms
     {
       RigidCylinder::Pose begin, balance, end; ///< `balance`: where forces are balanced
-      double share = 1.;                       ///< of the step until there; 1: `balance` is as the end
-      Kind kind    = Kind::at_end;
-      NormalLaw normal;
-      SlipLaw slip;
-      StepWeights weights{};
-      double surface_run  = 0.;
+      double share        = 1.;                ///< of the step until there; 1: `balance` is as the end
+      Kind kind           = Kind::at_end;
       double advance      = 0.; ///< of the drive; in time alone [mm]
       unsigned int slopes = 0;
       Slide slide         = {};
-
-      // Without inertia, see StaticTerms.
-      bool sticks        = false; ///< whatever friction can hold
-      bool augmented     = false;
-      double speed_ratio = 1.;
     };
 
     /// All of these must outlive it.

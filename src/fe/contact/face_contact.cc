@@ -30,26 +30,6 @@ namespace sprag
   {
   }
 
-  namespace
-  {
-    StepContactLaw step_law(const FaceProperties<2> &properties, const InterfaceStep &step,
-                            const std::optional<StaticTerms> &statics)
-    {
-      StepContactLaw law;
-      law.normal = { properties.penalties.normal, 1. };
-      law.slip =
-          slip_law(statics ? statics->friction : step_friction(properties.friction, step.to.v), properties.penalties.tangential);
-      law.weights = step.weights;
-      if (statics)
-      {
-        law.balance    = ForceBalance::end;
-        law.mode       = statics->mode;
-        law.weights.dt = statics->duration;
-      }
-      return law;
-    }
-  } // namespace
-
   template <class ElementVisitor>
   void FaceContact::visit_elements(const FaceElements<2>::Indices &elements, const ElementVisitor &visit_element) const
   {
@@ -68,8 +48,7 @@ namespace sprag
   void FaceContact::evaluate(const InterfaceStep &step, FaceEvaluation<2> &found, const std::optional<StaticTerms> &statics) const
   {
     found.begin(step.end, step.to.x, step.weights.dt);
-    const FaceStep face_step{ step_law(properties, step, statics), step.history, step.to.surface - step.from.surface,
-                              statics.value_or(StaticTerms()) };
+    const FaceStep face_step{ step_terms(properties, step, statics), step.history };
     const StepPlaces places{ configuration(step.begin.position, step.from.x), configuration(step.end, step.to.x),
                              step.weights.stiffness(), statics.has_value() };
     enter(places);

@@ -17,6 +17,29 @@ namespace sprag
     };
   }
 
+  StepContactLaw contact_law(const ContactPenalties &penalties, const FrictionLaw &friction)
+  {
+    StepContactLaw result;
+    result.normal = { penalties.normal, 1. };
+    result.slip   = slip_law(friction, penalties.tangential);
+    return result;
+  }
+
+  StepTerms step_terms(const ContactProperties &properties, const InterfaceStep &step, const std::optional<StaticTerms> &statics)
+  {
+    const auto friction = statics ? statics->friction : step_friction(properties.friction, step.to.v);
+    StepTerms result{ contact_law(properties.penalties, friction), step.to.surface - step.from.surface };
+    result.law.weights = step.weights;
+    if (statics)
+    {
+      result.law.balance    = ForceBalance::end;
+      result.law.mode       = statics->mode;
+      result.law.weights.dt = statics->duration;
+      result.terms          = *statics;
+    }
+    return result;
+  }
+
   template <int dim>
   SlipShift slip_shift(const FaceElements<dim> &face, const unsigned int point, const double slope, const double travel,
                        const double stiffness, const std::vector<ContactHistory> &history,

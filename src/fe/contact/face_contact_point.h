@@ -5,11 +5,13 @@
 #include "fe/contact/rigid_cylinder.h"
 #include "model/contact/contact_step.h"
 #include "model/interface/interface_coordinates.h"
+#include "model/step/interface_step.h"
 #include "model/step/linearisation.h"
 
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <optional>
 
 namespace sprag
 {
@@ -122,13 +124,23 @@ namespace sprag
     double speed_ratio = 1.;    ///< sliding speed of a rigid lever at the end over its mean; the law's duration is shorter by it
   };
 
-  /// A step of the contact.
-  struct FaceStep
+  /// Constants of a step that all points of a contact have in common.
+  struct StepTerms
   {
     StepContactLaw law;
+    double surface_run = 0.; ///< of the counterface by turning [mm]
+    StaticTerms terms{};     ///< without inertia
+  };
+
+  /// Returns the law of points that takes neither time nor place.
+  StepContactLaw contact_law(const ContactPenalties &penalties, const FrictionLaw &friction);
+
+  StepTerms step_terms(const ContactProperties &properties, const InterfaceStep &step, const std::optional<StaticTerms> &statics);
+
+  /// A step of the contact in a plane.
+  struct FaceStep : StepTerms
+  {
     const std::vector<ContactHistory> &history; ///< of the points in contact where it begins, by increasing point
-    double surface_run;                         ///< of the counterface by turning [mm]
-    StaticTerms terms;                          ///< without inertia
   };
 
   /// Returns what the tangential penalty adds to the traction of the history, over the slip; a multiplier needs none.

@@ -116,14 +116,12 @@ namespace sprag
   }
 
   /// Constants of a step that is balanced where it ends.
-  BatchedStep::Constants SurfaceContact::constants(const Kind kind, const FaceConfiguration &end,
-                                                   const FrictionLaw &friction) const
+  BatchedStep::Constants SurfaceContact::constants(const Kind kind, const FaceConfiguration &end, StepTerms terms) const
   {
     BatchedStep::Constants result;
-    result.kind  = kind;
+    static_cast<StepTerms &>(result) = std::move(terms);
+    result.kind                      = kind;
     result.begin = result.balance = result.end = pose(end);
-    result.normal                              = { properties.penalties.normal, 1. };
-    result.slip                                = slip_law(friction, properties.penalties.tangential);
     result.slopes                              = properties.layout.slopes;
     return result;
   }
@@ -171,19 +169,10 @@ namespace sprag
   BatchedStep::Constants SurfaceContact::step_constants(const InterfaceStep &step, const FaceConfiguration &end_at,
                                                         const std::optional<StaticTerms> &statics) const
   {
-    auto result        = constants(statics ? Kind::at_end : Kind::in_time, end_at,
-                            statics ? statics->friction : step_friction(properties.friction, step.to.v));
-    result.begin       = begin_pose;
-    result.weights     = step.weights;
-    result.surface_run = step.to.surface - step.from.surface;
+    auto result  = constants(statics ? Kind::at_end : Kind::in_time, end_at, step_terms(properties, step, statics));
+    result.begin = begin_pose;
     if (statics)
-    {
-      result.sticks      = statics->mode == FrictionMode::stick;
-      result.weights.dt  = statics->duration;
-      result.augmented   = statics->augmented;
-      result.speed_ratio = statics->speed_ratio;
       return result;
-    }
     result.share      = step.weights.stiffness();
     result.advance    = step.to.x - step.from.x;
     const auto &begin = result.begin, &end = result.end;
@@ -295,7 +284,7 @@ namespace sprag
   {
     const auto at = configuration(sliding.displacements, sliding.drive.x);
     found.begin(sliding.displacements, sliding.drive.x, 1.); // slips are those of a second
-    auto step           = constants(Kind::slide, at, slide_friction(properties.friction, sliding));
+    auto step = constants(Kind::slide, at, { contact_law(properties.penalties, slide_friction(properties.friction, sliding)) });
     step.slide.speed    = sliding.speed;
     step.slide.friction = sliding.friction;
     if (sliding.rates != nullptr)
@@ -311,7 +300,7 @@ namespace sprag
   void SurfaceContact::touch(const Vector<double> &z, const DrivePoint &drive, FaceEvaluation<3> &found)
   {
     const auto at   = configuration(z, drive.x);
-    const auto step = constants(Kind::touch, at, {});
+    const auto step = constants(Kind::touch, at, { contact_law(properties.penalties, {}) });
     found.begin(z, drive.x, 0.);
     press(step, z, near(at, step.end), found);
     add_points(found);

@@ -62,7 +62,7 @@ namespace sprag
     void add_points_in_contact(const std::optional<unsigned int> &peak, FaceEvaluation<3> &found) const;
     RigidCylinder::Pose pose(const FaceConfiguration &at) const;
     Elements::Indices near(const FaceConfiguration &at, const RigidCylinder::Pose &cylinder_pose) const;
-    BatchedStep::Constants constants(Kind kind, const FaceConfiguration &end, const FrictionLaw &friction) const;
+    BatchedStep::Constants constants(Kind kind, const FaceConfiguration &end, StepTerms terms) const;
     std::vector<SlipShift> slip_shifts(unsigned int element, const std::vector<ContactHistory> &history,
                                        const StaticTerms &terms) const;
     void press_slide(const SlidingState &sliding, FaceEvaluation<3> &found);
