@@ -70,9 +70,8 @@ namespace sprag
     }
     const PhaseTimer::Scope scope(time, "model");
     Dynamics result;
-    result.solid = solid.second;
-    result.meshed =
-        make_solid_dynamics(scene, *result.solid, reachable_contact(scene), contact_reference(scene).relaxation, n_modes);
+    result.solid  = solid.second;
+    result.meshed = make_solid_dynamics(scene, *result.solid, contact_range(scene), contact_reference(scene).relaxation, n_modes);
     return result;
   }
 

@@ -191,12 +191,12 @@ namespace sprag
     /// Matrices of the interface that a lever in three dimensions keeps: a few, and one for each duration of its steps.
     constexpr double interface_matrices = 20.;
 
-    /// Modes, and matrices of the part of the face that a contact in three dimensions can reach.
+    /// Modes, and matrices of the part of the face where a contact in three dimensions may come.
     double solid_mode_bytes(const Scene &scene, const double displacements, const double n_interface)
     {
       if (scene.analysis.type == AnalysisType::quasi_static)
         return 0.;
-      const auto [begin, end] = reachable_contact(scene);
+      const auto [begin, end] = contact_range(scene);
       const double reached    = n_interface * std::min(1., (end - begin) / scene.mesh.face_size / elements_along_face(scene));
       const bool has_two      = scene.analysis.type == AnalysisType::isolation || scene.pair.type == PairType::full;
       const double kept       = (has_two ? 2. : 1.) * interface_matrices;

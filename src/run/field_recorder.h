@@ -117,6 +117,6 @@ namespace sprag
     if (dynamics.lever)
       return BodyFields(*dynamics.lever->body);
     const auto &body = *dynamics.solid->body;
-    return { body, reached_face(reachable_contact(scene), body) };
+    return { body, candidate_face(contact_range(scene), body) };
   }
 } // namespace sprag

@@ -111,7 +111,7 @@ namespace sprag
     return held;
   }
 
-  std::array<double, 2> reachable_contact(const Scene &scene)
+  std::array<double, 2> contact_range(const Scene &scene)
   {
     const double room = 0.1 * scene.geometry.cylinder_radius + 4. * scene.layer.thickness;
     const bool stays  = holds_slide(scene.analysis.type) && scene.analysis.type != AnalysisType::sprag_slip && // which wanders

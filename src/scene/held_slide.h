@@ -31,7 +31,7 @@ namespace sprag
 
   /// Returns the first and last xi of the part of the face that models in three dimensions with inertia look at [mm]: where the
   /// contact of a held slide, else of the whole drive, may come, with what it is looked at beside.
-  std::array<double, 2> reachable_contact(const Scene &scene);
+  std::array<double, 2> contact_range(const Scene &scene);
 
   /// Returns the parameters of Stability/Critical with their ranges; none if it cannot be read. `points` is how many are tried
   /// before a root is searched.

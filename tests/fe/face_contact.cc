@@ -82,13 +82,13 @@ TEST_P(FaceContactOn, TangentOfSteadySlidingIsTheDerivativeOfTheForces)
 }
 
 // The contact widens its search as it goes, and the width outlasts a kill.
-TEST_P(FaceContactOn, ReachIsHistory)
+TEST_P(FaceContactOn, CandidatesAreHistory)
 {
   const auto contact_properties = properties(false, 0.);
   FaceContact contact(body, contact_properties), fresh(body, contact_properties);
   const PerLever theta{ { contact_properties.rest_inclination } };
   const auto narrow = contact.candidate_dofs(1., theta);
-  contact.widen_reach();
+  contact.widen_candidates();
   const auto wide = contact.candidate_dofs(1., theta);
   Archive archive;
   contact.serialise_history(archive);

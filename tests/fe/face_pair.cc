@@ -62,7 +62,7 @@ namespace
     PairPlace place;
     std::vector<unsigned int> result;
     for (unsigned int element = 0; element < faces.lever.elements.size(); ++element)
-      if (faces.pair.reach(element, at, place) < 0.)
+      if (faces.pair.smallest_gap(element, at, place) < 0.)
         result.push_back(element);
     return result;
   }

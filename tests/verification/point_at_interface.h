@@ -6,7 +6,7 @@
 
 namespace sprag
 {
-  /// Base of the contacts of verification problems: one point at dof 0, always within reach, that never slides steadily.
+  /// Base of the contacts of verification problems: one point at dof 0, always a candidate, that never slides steadily.
   class PointAtInterface
   {
   public:
@@ -15,10 +15,10 @@ namespace sprag
     static constexpr bool stands_for_layer = false;
     static constexpr unsigned int levers   = 1;
 
-    /// At the end of the step.
+    /// The contact at the end of the step.
     struct Evaluation
     {
-      static constexpr bool within_reach = true;
+      static constexpr bool within_candidates = true;
 
       InterfaceForces forces{ { 0 }, dealii::Vector<double>(1), dealii::FullMatrix<double>(1, 1) };
       ContactHistory last_history;
@@ -56,7 +56,7 @@ namespace sprag
     {
     }
 
-    void widen_reach()
+    void widen_candidates()
     {
     }
     void evaluate_sliding(const SlidingState &, Evaluation &) const

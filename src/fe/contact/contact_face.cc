@@ -12,11 +12,11 @@ namespace sprag
   template <int dim>
   void FaceEvaluation<dim>::begin(const dealii::Vector<double> &displacements, const double at_x, const double duration_)
   {
-    displacement = displacements;
-    x            = at_x;
-    duration     = duration_;
-    within_reach = true;
-    sums         = {};
+    displacement      = displacements;
+    x                 = at_x;
+    duration          = duration_;
+    within_candidates = true;
+    sums              = {};
     points.clear();
   }
 

@@ -14,9 +14,9 @@ namespace sprag
   struct FaceEvaluation
   {
     dealii::Vector<double> displacement; ///< of the dofs
-    double x          = 0.;              ///< of the drive [mm]
-    double duration   = 0.;              ///< of the step; 0: no slip speed [s]
-    bool within_reach = true;            ///< whether the contact was within the candidate dofs
+    double x               = 0.;         ///< of the drive [mm]
+    double duration        = 0.;         ///< of the step; 0: no slip speed [s]
+    bool within_candidates = true;       ///< whether the contact was within the candidate dofs
     ContactSums sums;
     std::vector<FacePointState<dim>>
         points; ///< near the counterface, by increasing point; in three dimensions see SurfaceContact
@@ -77,9 +77,9 @@ namespace sprag
     }
 
     /// Doubles how far candidate dofs reach, from the next call on. To be called where an evaluation was not within them.
-    void widen_reach()
+    void widen_candidates()
     {
-      reach.factor *= 2.;
+      candidates.factor *= 2.;
     }
 
     /// Fills the columns of a row that follow from the contact.
@@ -108,7 +108,7 @@ namespace sprag
     /// Serialises how far contact is sought and where it was last.
     void serialise_history(Archive &archive)
     {
-      archive(reach.factor);
+      archive(candidates.factor);
       grid.serialise_history(archive);
     }
 
@@ -140,7 +140,7 @@ namespace sprag
     const FrictionFace<dim> &face;
     FaceElements<dim> grid;
     FaceProperties<dim> properties;
-    FaceReach<dim> reach;
+    FaceCandidates<dim> candidates;
 
     // State at the begin of the last step, the same in all its iterations.
     mutable dealii::Vector<double> begin_displacements;

@@ -46,7 +46,7 @@ namespace sprag
   {
     PairPlace place;
     return face.find_near({ at.at.centre.xi, at.at.centre.eta },
-                          [&](const unsigned int element_index) { return pair.reach(element_index, at, place); });
+                          [&](const unsigned int element_index) { return pair.smallest_gap(element_index, at, place); });
   }
 
   double ElasticCounterface::first_slip(const FaceConfiguration &at) const

@@ -81,7 +81,7 @@ namespace sprag
       elements = united(elements, near_begin);
     if (!places.static_end)
       elements = united(elements, touched_elements(grid, history));
-    return reach.clip(std::move(elements), found.within_reach);
+    return candidates.clip(std::move(elements), found.within_candidates);
   }
 
   FacePointState<2> &FaceContact::add_point(const unsigned int element, const unsigned int point, FaceEvaluation<2> &found)
@@ -134,7 +134,7 @@ namespace sprag
     const auto at       = configuration(sliding.displacements, sliding.drive.x);
     enter({ at, at });
     const auto law = slide_friction(properties.friction, sliding);
-    visit_elements(reach.clip(near_end(), found.within_reach),
+    visit_elements(candidates.clip(near_end(), found.within_candidates),
                    [&](auto &below, const unsigned int element)
                    {
                      for (unsigned int q = grid.elements[element].begin; q < grid.elements[element].end; ++q)
@@ -154,7 +154,7 @@ namespace sprag
   const DofSelection &FaceContact::candidate_dofs(const double x, const PerLever &inclinations, const double travel)
   {
     const double radius_limit  = properties.radius > 0. ? 0.05 * properties.radius : std::numeric_limits<double>::infinity();
-    const double near_distance = reach.factor * radius_limit + std::abs(travel);
+    const double near_distance = candidates.factor * radius_limit + std::abs(travel);
     const double aside         = 4. * properties.layer_thickness; // where the face is looked at besides
     const double xi            = properties.centre(x, inclinations.front()).xi;
     const auto elements_within = [&](const double distance)
@@ -162,9 +162,9 @@ namespace sprag
       constexpr double infinity = std::numeric_limits<double>::max();
       return grid.elements_in({ { { xi - distance, -infinity }, { xi + distance, infinity } } });
     };
-    reach.set(grid, elements_within(near_distance), elements_within(near_distance + aside),
-              2 * static_cast<unsigned int>(face.nodes.size()), properties.layout.size());
-    return reach.dofs;
+    candidates.set(grid, elements_within(near_distance), elements_within(near_distance + aside),
+                   2 * static_cast<unsigned int>(face.nodes.size()), properties.layout.size());
+    return candidates.dofs;
   }
 
   void FaceContact::touch(const Vector<double> &displacements, const DrivePoint &drive, FaceEvaluation<2> &found) const

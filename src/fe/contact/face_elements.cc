@@ -150,10 +150,10 @@ namespace sprag
   }
 
   template <int dim>
-  void FaceReach<dim>::set(const FaceElements<dim> &face, Indices may_touch, Indices shown, const unsigned int surface,
-                           const unsigned int size)
+  void FaceCandidates<dim>::set(const FaceElements<dim> &face, Indices may_touch, Indices shown, const unsigned int surface,
+                                const unsigned int size)
   {
-    reached = std::move(may_touch);
+    elements = std::move(may_touch);
     if (!dofs.empty() && shown == looked_at)
       return;
     looked_at = std::move(shown);
@@ -163,13 +163,13 @@ namespace sprag
   }
 
   template <int dim>
-  auto FaceReach<dim>::clip(Indices near, bool &within_reach) const -> Indices
+  auto FaceCandidates<dim>::clip(Indices near, bool &within_candidates) const -> Indices
   {
-    within_reach = dofs.empty() || std::includes(reached.begin(), reached.end(), near.begin(), near.end());
-    if (within_reach)
+    within_candidates = dofs.empty() || std::includes(elements.begin(), elements.end(), near.begin(), near.end());
+    if (within_candidates)
       return near;
     Indices result;
-    std::set_intersection(near.begin(), near.end(), reached.begin(), reached.end(), std::back_inserter(result));
+    std::set_intersection(near.begin(), near.end(), elements.begin(), elements.end(), std::back_inserter(result));
     return result;
   }
 
@@ -236,6 +236,6 @@ namespace sprag
 
   template class FaceElements<2>;
   template class FaceElements<3>;
-  template struct FaceReach<2>;
-  template struct FaceReach<3>;
+  template struct FaceCandidates<2>;
+  template struct FaceCandidates<3>;
 } // namespace sprag

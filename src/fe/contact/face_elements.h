@@ -107,22 +107,22 @@ namespace sprag
     return result;
   }
 
-  /// The part of a face where a contact may be.
+  /// Elements and dofs of a face that a contact may touch.
   template <int dim>
-  struct FaceReach
+  struct FaceCandidates
   {
     using Indices = typename FaceElements<dim>::Indices;
 
     double factor = 1.;             ///< of the distances that are looked at
-    Indices reached;                ///< elements that the contact may touch
+    Indices elements;               ///< elements that the contact may touch
     Indices looked_at;              ///< elements of the dofs
     std::vector<unsigned int> dofs; ///< increasing; none before the first set()
 
     /// Sets elements and dofs: those of the elements looked at, and those that follow the face's, from `surface` to `size`.
     void set(const FaceElements<dim> &face, Indices may_touch, Indices shown, unsigned int surface, unsigned int size);
 
-    /// Leaves out the elements beyond reach and tells whether there are none. Before the first set() all can be reached.
-    Indices clip(Indices near, bool &within_reach) const;
+    /// Leaves out elements that are no candidates and tells if there are none. Before the first set() all are candidates.
+    Indices clip(Indices near, bool &within_candidates) const;
   };
 
   template <int dim>

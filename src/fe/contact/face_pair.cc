@@ -288,7 +288,7 @@ namespace sprag
     facet.stretch = stretch / facet.weight;
   }
 
-  double FacePair::reach(const unsigned int element, const PairConfiguration &at, PairPlace &place) const
+  double FacePair::smallest_gap(const unsigned int element, const PairConfiguration &at, PairPlace &place) const
   {
     const auto curve = deformed_curve(lever[element], *at.at.displacement);
     double smallest  = std::numeric_limits<double>::max();

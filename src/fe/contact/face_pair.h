@@ -151,7 +151,7 @@ namespace sprag
 
     /// Smallest gap at the ends and in the middle of an element, less a margin for its bending [mm]. `place` is where on the
     /// cylinder to look first, and then where the element was found.
-    double reach(unsigned int element, const PairConfiguration &at, PairPlace &place) const;
+    double smallest_gap(unsigned int element, const PairConfiguration &at, PairPlace &place) const;
 
     void find_facets(unsigned int element, const PairConfiguration &at, ElementFacets &result) const;
 

@@ -59,7 +59,7 @@ namespace sprag
   /// bending.
   FaceElements<2>::Indices RigidCounterface::near(const FaceConfiguration &at, const PlacedCounterface &counterface) const
   {
-    const auto reach = [&](const unsigned int element_index)
+    const auto smallest_gap = [&](const unsigned int element_index)
     {
       const auto &chosen = face.elements[element_index];
       const auto nodal   = FaceElements<2>::nodal(chosen, *at.displacement);
@@ -68,7 +68,7 @@ namespace sprag
       const auto contact = counterface(to_lever_point(first));
       return contact.gap + std::min(0., contact.gap_row[0] * along[0] + contact.gap_row[1] * along[1]) - 0.02 * chosen.length;
     };
-    return face.find_near({ at.centre.xi, at.centre.eta }, reach);
+    return face.find_near({ at.centre.xi, at.centre.eta }, smallest_gap);
   }
 
   void RigidCounterface::enter(const unsigned int element_index)

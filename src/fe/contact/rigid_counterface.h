@@ -20,8 +20,8 @@ namespace sprag
     /// another than that of the last step.
     void enter(const StepPlaces &places, bool begins_anew);
 
-    // Elements within reach at the end of the step and at its beginning; at least one that is closest up to the margin, 0.02 of
-    // its length.
+    // Elements near the counterface at the end of the step and at its beginning; at least one that is closest up to the margin,
+    // 0.02 of its length.
     FaceElements<2>::Indices near_end() const
     {
       return near(places.end, end);

@@ -103,7 +103,7 @@ namespace sprag
     const auto constants = step_constants(step, end, statics);
     batched.set(constants);
     found.begin(step.end, step.to.x, step.weights.dt);
-    looked_at = reach.clip(united(near(end, constants.end), near_begin), found.within_reach);
+    looked_at = candidates.clip(united(near(end, constants.end), near_begin), found.within_candidates);
     place_elements(begin_displacements, step.history, statics);
     press_elements(step.end, found);
     set_forces(step.request, found.forces);
@@ -154,7 +154,7 @@ namespace sprag
   {
     constexpr double over_radius = 0.05;
     constexpr double infinity    = std::numeric_limits<double>::max();
-    const double aside           = reach.factor * over_radius * properties.radius;
+    const double aside           = candidates.factor * over_radius * properties.radius;
     const double end             = properties.centre(x, theta.front()).xi;
     const double begin           = end - travel;
     const auto between           = [&](const double a, const double b) {
@@ -162,8 +162,8 @@ namespace sprag
     };
     const auto [first, last] = std::minmax(begin, end);
     const auto now = last - first > 2. * aside ? united(between(first, first), between(last, last)) : between(first, last);
-    reach.set(grid, now, now, 3 * static_cast<unsigned int>(face.nodes.size()), properties.layout.size());
-    return reach.dofs;
+    candidates.set(grid, now, now, 3 * static_cast<unsigned int>(face.nodes.size()), properties.layout.size());
+    return candidates.dofs;
   }
 
   BatchedStep::Constants SurfaceContact::step_constants(const InterfaceStep &step, const FaceConfiguration &end_at,
@@ -294,7 +294,7 @@ namespace sprag
       step.slide.x_rate      = properties.layout.sprung ? -(*sliding.rates)[properties.layout.support()] : 0.;
       step.slide.slope_rates = axis_turn(*sliding.rates);
     }
-    press(step, sliding.displacements, reach.clip(near(at, step.end), found.within_reach), found);
+    press(step, sliding.displacements, candidates.clip(near(at, step.end), found.within_candidates), found);
   }
 
   void SurfaceContact::touch(const Vector<double> &z, const DrivePoint &drive, FaceEvaluation<3> &found)

@@ -77,13 +77,13 @@ namespace sprag
     }
 
     /// A part of a friction face in three dimensions as a face of its own.
-    struct FaceWindow
+    struct FacePart
     {
       FrictionFace<3> face;
       unsigned int first_node; ///< number of its first node in the whole face; the others follow
     };
 
-    bool reaches_into(const FaceEdge<3> &edge, const double begin, const double end)
+    bool intersects(const FaceEdge<3> &edge, const double begin, const double end)
     {
       const auto is_before = [](const auto &a, const auto &b) { return a.position[0] < b.position[0]; };
       const auto ends      = std::minmax_element(edge.nodes.begin(), edge.nodes.end(), is_before);
@@ -92,12 +92,12 @@ namespace sprag
 
     /// Returns the part whose elements reach into `begin` ... `end` along xi [mm]. The face's nodes increase along xi. Throws
     /// AnalysisError where there is no such element.
-    FaceWindow make_window(const FrictionFace<3> &face, const double begin, const double end)
+    FacePart cut_face(const FrictionFace<3> &face, const double begin, const double end)
     {
       std::vector<std::size_t> chosen;
       auto first = static_cast<unsigned int>(face.nodes.size()), last = 0u;
       for (std::size_t i = 0; i < face.edges.size(); ++i)
-        if (reaches_into(face.edges[i], begin, end))
+        if (intersects(face.edges[i], begin, end))
         {
           chosen.push_back(i);
           for (const auto &node : face.edges[i].nodes)
@@ -110,7 +110,7 @@ namespace sprag
       if (first >= last)
         throw AnalysisError("the friction face ends before the contact at xi = " + mm(0.5 * (begin + end)));
 
-      FaceWindow result{ {}, first };
+      FacePart result{ {}, first };
       auto &part         = result.face;
       part.young_modulus = face.young_modulus;
       part.depth         = face.depth;
@@ -134,19 +134,19 @@ namespace sprag
       return result;
     }
 
-    DofSelection window_dofs(const FaceWindow &window)
+    DofSelection part_dofs(const FacePart &face_part)
     {
-      DofSelection result(3 * window.face.nodes.size());
+      DofSelection result(3 * face_part.face.nodes.size());
       for (unsigned int i = 0; i < result.size(); ++i)
-        result[i] = 3 * window.first_node + i;
+        result[i] = 3 * face_part.first_node + i;
       return result;
     }
 
-    /// Returns the layout of the window, the sensors, the cylinder's axis, the hub and its momentum.
-    InterfaceLayout make_layout(const FaceWindow &window, const SolidInTime &lever, const Device &device)
+    /// Returns the layout of the part of the face, the sensors, the cylinder's axis, the hub and its momentum.
+    InterfaceLayout make_layout(const FacePart &face_part, const SolidInTime &lever, const Device &device)
     {
-      InterfaceLayout result{ static_cast<unsigned int>(3 * window.face.nodes.size()), true, lever.sensors->number() };
-      result.slopes = count_slopes(*lever.body, device.cylinder);
+      InterfaceLayout result{ static_cast<unsigned int>(3 * face_part.face.nodes.size()), true, lever.sensors->number() };
+      result.slopes = lever.body->is_half() || !device.cylinder.has_free_axis() ? 0 : 2;
       return result;
     }
 
@@ -196,11 +196,12 @@ namespace sprag
     return result;
   }
 
-  MeshedDynamics make_solid_dynamics(const Device &device, const SolidInTime &lever, const std::array<double, 2> &reach,
+  MeshedDynamics make_solid_dynamics(const Device &device, const SolidInTime &lever, const std::array<double, 2> &contact_range,
                                      const double relaxation, const unsigned int n_modes)
   {
-    const auto window     = std::make_shared<const FaceWindow>(make_window(lever.body->friction_face(), reach[0], reach[1]));
-    const auto &face      = window->face;
+    const auto face_part =
+        std::make_shared<const FacePart>(cut_face(lever.body->friction_face(), contact_range[0], contact_range[1]));
+    const auto &face      = face_part->face;
     const auto levers     = count_levers(device);
     const auto structures = structure_modes(lever, levers);
     const auto structure  = [&](const unsigned int part)
@@ -226,15 +227,15 @@ namespace sprag
       return assemble_lever(std::move(all), make_frame(device, lever, layout), contact,
                             static_cast<unsigned int>(face.points.size()));
     };
-    result.face        = std::shared_ptr<const FrictionFace<3>>(window, &face);
+    result.face        = std::shared_ptr<const FrictionFace<3>>(face_part, &face);
     result.follow_edge = [&lever, structures](const Eigenmode &mode, ModeShape &shape)
     { follow_edge(lever.body->friction_face(), structures, mode, shape); };
     complete_condensed(levers, levers == 2 && structures[0] == structures[1], structure, displacement, assemble, result);
     return result;
   }
 
-  FrictionFace<3> reached_face(const std::array<double, 2> &reach, const SolidBody &body)
+  FrictionFace<3> candidate_face(const std::array<double, 2> &contact_range, const SolidBody &body)
   {
-    return make_window(body.friction_face(), reach[0], reach[1]).face;
+    return cut_face(body.friction_face(), contact_range[0], contact_range[1]).face;
   }
 } // namespace sprag

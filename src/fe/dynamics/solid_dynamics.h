@@ -19,7 +19,7 @@ namespace sprag
   struct SolidInTime
   {
     std::unique_ptr<const SolidBody> body;
-    std::unique_ptr<LayeredCompliance> compliance; ///< remembers what it found
+    std::unique_ptr<LayeredCompliance> compliance; ///< keeps the columns found
     std::unique_ptr<const SensorForces> sensors;
     LeverModes modes;
     std::optional<LeverModes> swinging; ///< of a pair's levers that swing together, where they are others
@@ -33,12 +33,12 @@ namespace sprag
   SolidInTime make_solid_in_time(const Device &device, const Mesh &plane);
 
   /// The condensed model of a scene, of a lever or both of its full pair: the lowest `n_modes` of a lever's modes, and the static
-  /// answer of the part of the face that the contact can reach, see reachable_contact(). Displacements are found by a
+  /// answer of the part of the face where the contact may come, see contact_range(). Displacements are found by a
   /// back-substitution with the whole body. `relaxation`: damping over stiffness of the friction layer [s]. The lever must
   /// outlive it.
-  MeshedDynamics make_solid_dynamics(const Device &device, const SolidInTime &lever, const std::array<double, 2> &reach,
+  MeshedDynamics make_solid_dynamics(const Device &device, const SolidInTime &lever, const std::array<double, 2> &contact_range,
                                      double relaxation, unsigned int n_modes);
 
   /// Returns the part of the face that this model looks at: where the contact may come.
-  FrictionFace<3> reached_face(const std::array<double, 2> &reach, const SolidBody &body);
+  FrictionFace<3> candidate_face(const std::array<double, 2> &contact_range, const SolidBody &body);
 } // namespace sprag

@@ -51,7 +51,7 @@ namespace sprag
   /// Forces on the face of a lever, and the displacements of their dofs.
   using FaceSample = std::pair<DofLoads, dealii::Vector<double>>;
 
-  /// One or both levers of a pair in three dimensions in statics, seen through a window of the dofs of their faces. At finite
+  /// One or both levers of a pair in three dimensions in statics, seen through candidate dofs of their faces. At finite
   /// strain the displacements of the whole body of each lever follow those of the interface among the coordinates. To be made and
   /// used by the first rank.
   class SolidStructure : public StaticInterface
@@ -122,7 +122,7 @@ namespace sprag
 
     const SolidBody &body;
     const std::vector<unsigned int> surface;           ///< the body's degrees of freedom on a lever's faces
-    mutable LayeredCompliance compliance;              ///< of a face; remembers what it found
+    mutable LayeredCompliance compliance;              ///< of a face; keeps the columns found
     std::vector<std::vector<unsigned int>> node_lines; ///< nodes of the face with the same zeta, along xi; three and more
     const SensorForces sensors;
     mutable std::optional<FiniteStrain> finite; ///< of a body that is not linear

@@ -16,22 +16,22 @@ namespace sprag
   {
   }
 
-  /// Moves the window where it lacks some dofs. Returns their places.
+  /// Chooses new candidates if some dofs are none. Returns their places.
   DofSelection StaticInterface::look_at(const DofSelection &near)
   {
-    if (!std::includes(window.begin(), window.end(), near.begin(), near.end()))
-      move_window(near);
+    if (!std::includes(candidates.begin(), candidates.end(), near.begin(), near.end()))
+      set_candidates(near);
     return find_indices(near);
   }
 
-  void StaticInterface::move_window(const DofSelection &selected)
+  void StaticInterface::set_candidates(const DofSelection &selected)
   {
-    window_for = selected;
-    window.clear();
+    requested = selected;
+    candidates.clear();
     compliance            = {};
     const auto add_spring = [&](const unsigned int dof, const double own)
     {
-      window.push_back(dof);
+      candidates.push_back(dof);
       compliance.append(own);
     };
     for (unsigned int lever = 0; lever < layout.levers; ++lever)
@@ -45,7 +45,7 @@ namespace sprag
         std::transform(begin, end, std::back_inserter(face_dofs), [&](const unsigned int dof) { return dof - first; });
         const auto blocks = face.whole_blocks(face_dofs);
         for (const unsigned int place : blocks)
-          window.push_back(first + place);
+          candidates.push_back(first + place);
         if (!blocks.empty())
           compliance.append(face.among(blocks));
         first += face.n_interface;
@@ -60,10 +60,10 @@ namespace sprag
 
   void StaticInterface::serialise_history(Archive &archive)
   {
-    DofSelection selected = window_for;
+    DofSelection selected = requested;
     archive(selected);
     if (archive.reads() && !selected.empty())
-      move_window(selected);
+      set_candidates(selected);
   }
 
   DofSelection StaticInterface::find_indices(const DofSelection &selected) const
@@ -72,7 +72,7 @@ namespace sprag
     unsigned int place = 0;
     for (const unsigned int dof : selected)
     {
-      while (window.at(place) != dof) // throws where the window lacks it
+      while (candidates.at(place) != dof) // throws if it is no candidate
         ++place;
       result.push_back(place);
     }
@@ -85,8 +85,8 @@ namespace sprag
     Vector<double> displacements(compliance.size());
     add_response(compliance, find_indices(forces.dofs), forces.values, places, displacements);
     for (const unsigned int place : places)
-      if (layout.is_surface(window[place]))
-        coordinates[window[place]] = displacements[place];
+      if (layout.is_surface(candidates[place]))
+        coordinates[candidates[place]] = displacements[place];
   }
 
   Residual StaticInterface::residual(const Vector<double> &coordinates, const InterfaceForces &forces, const DofSelection &near,
@@ -95,13 +95,13 @@ namespace sprag
     const auto places = look_at(near);
     Vector<double> mismatch(compliance.size());
     for (const unsigned int place : places)
-      mismatch[place] = -coordinates[window[place]];
+      mismatch[place] = -coordinates[candidates[place]];
     add_response(compliance, find_indices(forces.dofs), forces.values, places, mismatch);
     Residual result{ Vector<double>(n_coordinates()), 0. };
     double squares = 0.;
     for (const unsigned int place : places)
     {
-      const unsigned int dof = window[place];
+      const unsigned int dof = candidates[place];
       const bool is_set      = face_displacements != nullptr && layout.is_surface(dof);
       result.values[dof]     = is_set ? (*face_displacements)[dof] - coordinates[dof] : mismatch[place];
       squares += result.values[dof] * result.values[dof];
@@ -124,11 +124,11 @@ namespace sprag
     const auto places = look_at(near);
     Vector<double> mismatch(compliance.size());
     for (const unsigned int place : places)
-      mismatch[place] = residual.values[window[place]];
-    const auto in_window = interface_correction(compliance, find_indices(forces.dofs), forces.tangent, places, mismatch);
+      mismatch[place] = residual.values[candidates[place]];
+    const auto values = interface_correction(compliance, find_indices(forces.dofs), forces.tangent, places, mismatch);
     Vector<double> result(n_coordinates());
     for (const unsigned int place : places)
-      result[window[place]] = in_window[place];
+      result[candidates[place]] = values[place];
     return result;
   }
 

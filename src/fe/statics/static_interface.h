@@ -39,8 +39,8 @@ namespace sprag
   };
 
   /// Interface of linear levers on linear springs in statics, z = G f(z). The compliance G is dense on the faces of a lever and
-  /// diagonal on hubs and support, which do not move a body in its own axes, and on the cylinder's slopes. It is known in a
-  /// window of whole blocks, which moves where other dofs are looked at. Only dofs with forces carry tangents, so that a Newton
+  /// diagonal on hubs and support, which do not move a body in its own axes, and on the cylinder's slopes. It is known for
+  /// candidate dofs in whole blocks, which change if others are looked at. Only dofs with forces carry tangents, so that a Newton
   /// correction is a dense solve of those, and the iterates are those of the full system. Coordinates: displacements of all dofs.
   /// `near` are the dofs that are looked at, which increase and hold those of the forces, of hubs and of the support.
   class StaticInterface
@@ -77,7 +77,7 @@ namespace sprag
     /// Returns the correction, 0 on dofs that are not looked at. Throws AnalysisError if the tangent is singular.
     dealii::Vector<double> correction(const Residual &residual, const InterfaceForces &forces, const DofSelection &near);
 
-    /// Serialises where the window is.
+    /// Serialises the candidate dofs.
     void serialise_history(Archive &archive);
 
   protected:
@@ -87,15 +87,15 @@ namespace sprag
     const InterfaceLayout layout;
 
   private:
-    void move_window(const DofSelection &selected);
+    void set_candidates(const DofSelection &selected);
     DofSelection find_indices(const DofSelection &selected) const;
     DofSelection look_at(const DofSelection &near);
 
     const JointSprings springs;
     const std::vector<FaceResponse> faces;
 
-    DofSelection window;            ///< dofs that the compliance is known of, a place for each
-    DofSelection window_for;        ///< dofs that it was made for
+    DofSelection candidates;        ///< dofs of known compliance, a place for each
+    DofSelection requested;         ///< dofs for which they were chosen
     InterfaceCompliance compliance; ///< of the places
   };
 } // namespace sprag

@@ -187,7 +187,7 @@ namespace sprag
   void StaticLever<dim>::look_at(Step &step)
   {
     const auto before = step.near;
-    reached = step.near = reachable(step);
+    candidates = step.near = find_candidates(step);
     std::visit(
         [&](auto &s)
         {
@@ -202,7 +202,7 @@ namespace sprag
 
   /// Finds the candidate dofs of the contacts in a step that ends near its trial state, and those of the forces it begins with.
   template <int dim>
-  DofSelection StaticLever<dim>::reachable(const Step &step)
+  DofSelection StaticLever<dim>::find_candidates(const Step &step)
   {
     const auto end       = interface_displacements(step.trial.coordinates);
     const double begin_x = step.start.x - support_displacement(step.displacements);
@@ -226,7 +226,7 @@ namespace sprag
   Evaluation StaticLever<dim>::evaluate(Step &step, const FrictionMode mode)
   {
     Balance found;
-    if (looks_at_some() && step.near != reached)
+    if (looks_at_some() && step.near != candidates)
       look_at(step);
     evaluate_contacts(step, mode, found);
     excess.add_forces(turns(step.trial), !found.forces.dofs.empty(), found.forces);
@@ -246,7 +246,7 @@ namespace sprag
     auto &trial    = step.trial;
     const auto end = interface_displacements(trial.coordinates);
     std::vector<const InterfaceForces *> lever_forces;
-    bool within_reach = true;
+    bool within_candidates = true;
     found.levers.resize(layout.levers);
     for (unsigned int i = 0; i < layout.levers; ++i)
     {
@@ -262,12 +262,12 @@ namespace sprag
       const Vector<double> no_rates;
       lever.evaluate(InterfaceStep{ step.start, history, trial.drive, begin, own_end, no_rates, weights }, contact, terms);
       lever_forces.push_back(&contact.forces);
-      within_reach = within_reach && contact.within_reach;
+      within_candidates = within_candidates && contact.within_candidates;
     }
-    if (within_reach)
+    if (within_candidates)
       return join_forces(layout, lever_forces, found.forces);
     for (auto &lever : levers)
-      lever.contact.widen_reach();
+      lever.contact.widen_candidates();
     look_at(step);
     evaluate_contacts(step, mode, found);
   }

@@ -180,7 +180,7 @@ namespace sprag
     }
 
     void look_at(Step &step);
-    DofSelection reachable(const Step &step);
+    DofSelection find_candidates(const Step &step);
     void evaluate_contacts(Step &step, FrictionMode mode, Balance &found);
     History joined(const std::function<History(std::size_t)> &history) const;
     History augmented(const Evaluation &evaluation) const;
@@ -221,6 +221,6 @@ namespace sprag
     const FaceMultipliers<dim> multipliers;
     HubSpringExcess excess;
     const bool joint_is_free;
-    DofSelection reached; ///< that the contacts look at
+    DofSelection candidates; ///< the dofs that the contacts look at
   };
 } // namespace sprag

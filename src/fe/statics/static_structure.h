@@ -50,7 +50,7 @@ namespace sprag
   };
 
   /// Linear levers on linear springs in statics, one or both of a pair, which are alike: factorised once and seen through a
-  /// window of their interface.
+  /// candidate dofs of their interface.
   class StaticStructure : public StaticInterface
   {
   public:

@@ -29,8 +29,8 @@ namespace sprag
     {
       std::array<typename Contact::Evaluation, 2> per_lever;
       InterfaceForces forces;
-      bool within_reach   = true;
-      unsigned int points = 0; ///< of a lever, see joined_history()
+      bool within_candidates = true;
+      unsigned int points    = 0; ///< of a lever, see joined_history()
 
       auto history() const
       {
@@ -100,20 +100,20 @@ namespace sprag
 
     const DofSelection &candidate_dofs(const double x, const PerLever &theta)
     {
-      reachable.clear();
+      candidates.clear();
       for (unsigned int lever = 0; lever < levers; ++lever)
         for (const unsigned int dof : contact[lever]->candidate_dofs(x, { { theta[lever] } }))
           if (dof < layout.dofs_per_lever())
-            reachable.push_back(layout.first(lever) + dof);
+            candidates.push_back(layout.first(lever) + dof);
       if (layout.sprung)
-        reachable.push_back(layout.support());
-      return reachable;
+        candidates.push_back(layout.support());
+      return candidates;
     }
 
-    void widen_reach()
+    void widen_candidates()
     {
       for (const auto &lever_contact : contact)
-        lever_contact->widen_reach();
+        lever_contact->widen_candidates();
     }
 
     void touch(const dealii::Vector<double> &displacements, const DrivePoint &drive, Evaluation &found) const
@@ -170,7 +170,7 @@ namespace sprag
     const std::array<std::unique_ptr<Contact>, 2> contact;
     const InterfaceLayout layout;
     const unsigned int points;
-    DofSelection reachable;
+    DofSelection candidates;
 
     dealii::Vector<double> lever_part(const unsigned int lever, const dealii::Vector<double> &pair_displacements) const
     {
@@ -195,8 +195,8 @@ namespace sprag
     {
       const auto &evaluations = found.per_lever;
       join_forces(layout, { &evaluations[0].forces, &evaluations[1].forces }, found.forces);
-      found.within_reach = evaluations[0].within_reach && evaluations[1].within_reach;
-      found.points       = points;
+      found.within_candidates = evaluations[0].within_candidates && evaluations[1].within_candidates;
+      found.points            = points;
     }
   };
 } // namespace sprag

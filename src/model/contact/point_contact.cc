@@ -42,7 +42,7 @@ namespace sprag
   };
 
   /// Two elements around the point across from the circle's centre: the contact stays between their ends for a step.
-  unsigned int PointContact::window_at(const Vector<double> &z, const double x) const
+  unsigned int PointContact::find_node(const Vector<double> &z, const double x) const
   {
     const auto &mesh = properties.mesh;
     if (mesh.elements == 0)
@@ -53,32 +53,32 @@ namespace sprag
     return static_cast<unsigned int>(std::clamp(before, 0., mesh.elements - 2.));
   }
 
-  PointContact::Local PointContact::coordinates(const unsigned int window, const Vector<double> &z, const double x) const
+  PointContact::Local PointContact::coordinates(const unsigned int node, const Vector<double> &z, const double x) const
   {
-    Local q = rates(window, z, x);
+    Local q = rates(node, z, x);
     q[theta_index] += properties.rest_inclination;
     return q;
   }
 
-  PointContact::Local PointContact::rates(const unsigned int window, const Vector<double> &interface_rates, const double v) const
+  PointContact::Local PointContact::rates(const unsigned int node, const Vector<double> &interface_rates, const double v) const
   {
     Local q;
     if (properties.mesh.elements > 0)
       for (unsigned int i = 0; i < n_nodal; ++i)
-        if (window + i / 2 > 0)
-          q[i] = interface_rates[2 * window + i - 2];
+        if (node + i / 2 > 0)
+          q[i] = interface_rates[2 * node + i - 2];
     q[theta_index] = interface_rates[properties.layout.rotation()];
     q[x_index]     = v - (properties.layout.sprung ? interface_rates[properties.layout.support()] : 0.);
     return q;
   }
 
-  unsigned int PointContact::first_element_dof(const unsigned int window, const double xi) const
+  unsigned int PointContact::first_element_dof(const unsigned int node, const double xi) const
   {
-    return properties.mesh.elements > 0 && xi >= (window + 1) * properties.mesh.element_length() ? 2 : 0;
+    return properties.mesh.elements > 0 && xi >= (node + 1) * properties.mesh.element_length() ? 2 : 0;
   }
 
   template <class N, class Nodal>
-  PointContact::Surface<N> PointContact::surface(const unsigned int window, const Nodal &nodal, const N &xi) const
+  PointContact::Surface<N> PointContact::surface(const unsigned int node, const Nodal &nodal, const N &xi) const
   {
     Surface<N> at{};
     const auto &mesh = properties.mesh;
@@ -88,7 +88,7 @@ namespace sprag
     if (mesh.elements > 0)
     {
       const double h = mesh.element_length();
-      const HermiteShapes<N> shapes(h, 1. / h * xi - (window + first_element_dof(window, value(xi)) / 2));
+      const HermiteShapes<N> shapes(h, 1. / h * xi - (node + first_element_dof(node, value(xi)) / 2));
       for (unsigned int a = 0; a < n_element_dofs; ++a)
       {
         at.shape[a] = shapes.shape[a];
@@ -106,15 +106,15 @@ namespace sprag
   }
 
   /// Newton's method for (p - c) . p' = 0 from the point across from the circle's centre.
-  PointContact::Closest PointContact::closest(const unsigned int window, const Local &q) const
+  PointContact::Closest PointContact::closest(const unsigned int node, const Local &q) const
   {
     using N      = Dual<double, 1>;
     const auto c = cylinder_centre(properties.geometry, q[x_index], q[theta_index]);
     Closest result{ c.xi, 1. };
     for (unsigned int i = 0; i < 20 && properties.mesh.elements > 0; ++i)
     {
-      const auto *const nodal = &q[first_element_dof(window, result.xi)];
-      const auto at           = surface(window, nodal, variable<N>(result.xi, 0));
+      const auto *const nodal = &q[first_element_dof(node, result.xi)];
+      const auto at           = surface(node, nodal, variable<N>(result.xi, 0));
       const N slope           = (at.xi - c.xi) * at.tangent[0] + (at.eta - c.eta) * at.tangent[1];
       const double change     = slope.v / slope.d[0];
       result.d_slope          = slope.d[0];
@@ -125,29 +125,29 @@ namespace sprag
     return result;
   }
 
-  double PointContact::gap(const unsigned int window, const Local &q) const
+  double PointContact::gap(const unsigned int node, const Local &q) const
   {
-    const double xi = closest(window, q).xi;
-    const auto at   = surface(window, &q[first_element_dof(window, xi)], xi);
+    const double xi = closest(node, q).xi;
+    const auto at   = surface(node, &q[first_element_dof(node, xi)], xi);
     const auto c    = cylinder_centre(properties.geometry, q[x_index], q[theta_index]);
     return std::hypot(at.xi - c.xi, at.eta - c.eta) - properties.geometry.cylinder_radius;
   }
 
-  PointContact::Configuration PointContact::configure(const unsigned int window, const Local &q) const
+  PointContact::Configuration PointContact::configure(const unsigned int node, const Local &q) const
   {
     constexpr int n_used = n_element_dofs + 2; // coordinates of the element, theta, x
     using N              = Dual<double, n_used>;
-    const auto foot      = closest(window, q);
-    const auto first     = first_element_dof(window, foot.xi);
+    const auto foot      = closest(node, q);
+    const auto first     = first_element_dof(node, foot.xi);
     const auto circle    = placed_circle(properties.geometry, variable<N>(q[x_index], 5), variable<N>(q[theta_index], 4));
     Several<N, n_element_dofs> nodal;
     for (unsigned int a = 0; a < n_element_dofs; ++a)
       nodal[a] = variable<N>(q[first + a], a);
 
     // Another step of Newton's method tells how the closest point moves with the coordinates.
-    const auto fixed = surface(window, nodal, N{} + foot.xi);
+    const auto fixed = surface(node, nodal, N{} + foot.xi);
     const N slope    = (fixed.xi - circle.xi) * fixed.tangent[0] + (fixed.eta - circle.eta) * fixed.tangent[1];
-    const auto at    = surface(window, nodal, N(foot.xi - 1. / foot.d_slope * slope));
+    const auto at    = surface(node, nodal, N(foot.xi - 1. / foot.d_slope * slope));
     const auto point = on_circle(circle, at.xi, at.eta);
     const double arm = properties.geometry.interface_offset - properties.neutral_axis_offset;
 
@@ -179,15 +179,15 @@ namespace sprag
 
   double PointContact::gap_change(const Evaluation &found, const Vector<double> &change, unsigned int) const
   {
-    return found.end.gap_row * rates(found.window, change, 0.);
+    return found.end.gap_row * rates(found.node, change, 0.);
   }
 
   double PointContact::mean_slip(const Evaluation &found, const Vector<double> &from, const double from_x,
                                  const Vector<double> &to, const double to_x) const
   {
-    const Local q_0 = coordinates(found.window, from, from_x);
-    const Local q_1 = coordinates(found.window, to, to_x);
-    return configure(found.window, 0.5 * (q_0 + q_1)).slip_row * (q_1 - q_0);
+    const Local q_0 = coordinates(found.node, from, from_x);
+    const Local q_1 = coordinates(found.node, to, to_x);
+    return configure(found.node, 0.5 * (q_0 + q_1)).slip_row * (q_1 - q_0);
   }
 
   SurfaceShape PointContact::surface_shape(const Vector<double> &displacements, unsigned int) const
@@ -224,17 +224,17 @@ namespace sprag
   StepKinematics<PointContact::n> PointContact::step_kinematics(const InterfaceStep &step, const Local &end_rates,
                                                                 Evaluation &found) const
   {
-    const Local q_0    = coordinates(found.window, step.begin.position, step.from.x);
-    const Local q_1    = coordinates(found.window, step.end, step.to.x);
+    const Local q_0    = coordinates(found.node, step.begin.position, step.from.x);
+    const Local q_1    = coordinates(found.node, step.end, step.to.x);
     const Local change = q_1 - q_0;
     const double share = step.weights.stiffness();
     const double delay = step.weights.delay();
-    const auto balance = configure(found.window, share * q_1 + (1. - share) * q_0);
-    const auto &end = found.end = configure(found.window, q_1);
+    const auto balance = configure(found.node, share * q_1 + (1. - share) * q_0);
+    const auto &end = found.end = configure(found.node, q_1);
 
     StepKinematics<n> k;
     set_balance(balance, share, change, k);
-    k.gap_begin          = gap(found.window, q_0);
+    k.gap_begin          = gap(found.node, q_0);
     k.gap_end            = end.gap;
     k.gap_row_end        = end.gap_row;
     k.slip_change[0]     = balance.slip_row * change - delay * k.slip_bend[0];
@@ -247,8 +247,8 @@ namespace sprag
 
   void PointContact::evaluate(const InterfaceStep &step, Evaluation &found) const
   {
-    found.window          = window_at(step.begin.position, step.from.x);
-    const Local end_rates = rates(found.window, step.end_rate, step.to.v);
+    found.node            = find_node(step.begin.position, step.from.x);
+    const Local end_rates = rates(found.node, step.end_rate, step.to.v);
     const double surface  = step.to.surface - step.from.surface;
     auto kinematics       = step_kinematics(step, end_rates, found);
     kinematics.slip_change[0] += surface;
@@ -268,9 +268,9 @@ namespace sprag
   void PointContact::evaluate_sliding(const SlidingState &state, Evaluation &found) const
   {
     const bool slides = state.friction == ContactFriction::sliding;
-    found.window      = window_at(state.displacements, state.drive.x);
-    const auto &end = found.end = configure(found.window, coordinates(found.window, state.displacements, state.drive.x));
-    const Local rate            = state.rates == nullptr ? Local() : rates(found.window, *state.rates, 0.);
+    found.node        = find_node(state.displacements, state.drive.x);
+    const auto &end = found.end = configure(found.node, coordinates(found.node, state.displacements, state.drive.x));
+    const Local rate            = state.rates == nullptr ? Local() : rates(found.node, *state.rates, 0.);
     const auto law              = slide_friction(properties.friction, state);
     using N                     = Dual<double, 2>; // of the gap and its rate
     const auto gap              = variable<N>(end.gap, 0);
@@ -316,7 +316,7 @@ namespace sprag
   LinearisedForces PointContact::linearise(const SlidingState &state, Evaluation &found) const
   {
     evaluate_sliding(state, found);
-    const auto places           = interface_coordinates(found.window);
+    const auto places           = interface_coordinates(found.node);
     const Local d_traction_rate = found.sliding.coefficient * found.d_pressure_rate +
                                   found.sliding.derivative * found.response.pressure * found.end.slip_row;
     LinearisedForces result(found.forces.dofs);
@@ -341,20 +341,20 @@ namespace sprag
   }
 
   /// Returns the local coordinates that are dofs of the interface.
-  InterfaceCoordinates PointContact::interface_coordinates(const unsigned int window) const
+  InterfaceCoordinates PointContact::interface_coordinates(const unsigned int node) const
   {
     InterfaceCoordinates result;
     result.reserve(n);
     for (unsigned int i = 0; i < n_nodal && properties.mesh.elements > 0; ++i)
-      if (window + i / 2 > 0)
-        result.push_back({ i, 2 * window + i - 2, 1. });
+      if (node + i / 2 > 0)
+        result.push_back({ i, 2 * node + i - 2, 1. });
     add_frame(properties.layout, theta_index, x_index, result);
     return result;
   }
 
   void PointContact::sum_forces(Evaluation &found) const
   {
-    const auto places = interface_coordinates(found.window);
+    const auto places = interface_coordinates(found.node);
     auto &forces      = found.forces;
     forces.values     = row_on_dofs(places, found.response.force);
     forces.tangent    = matrix_on_dofs(places, found.response.tangent);
@@ -370,8 +370,8 @@ namespace sprag
 
   void PointContact::touch(const Vector<double> &z, const DrivePoint &drive, Evaluation &found) const
   {
-    found.window   = window_at(z, drive.x);
-    found.end      = configure(found.window, coordinates(found.window, z, drive.x));
+    found.node     = find_node(z, drive.x);
+    found.end      = configure(found.node, coordinates(found.node, z, drive.x));
     found.response = {};
   }
 

@@ -59,7 +59,7 @@ namespace sprag
     class Evaluation
     {
     public:
-      static constexpr bool within_reach = true; ///< all dofs are
+      static constexpr bool within_candidates = true; ///< all dofs are
 
       InterfaceForces forces;
 
@@ -83,7 +83,7 @@ namespace sprag
     private:
       friend class PointContact;
 
-      unsigned int window = 0; ///< node before the first local one
+      unsigned int node = 0; ///< node before the first local one
       Configuration end;
       StepResponse<n> response;
       StepWork works;
@@ -106,7 +106,7 @@ namespace sprag
 
     /// Returns the dofs that the contact may reach: all.
     const DofSelection &candidate_dofs(double x, const PerLever &theta) const;
-    void widen_reach()
+    void widen_candidates()
     {
     }
     /// Evaluates the contact at rest without force.
@@ -151,21 +151,21 @@ namespace sprag
       double xi, d_slope;
     };
 
-    unsigned int window_at(const dealii::Vector<double> &z, double x) const;
-    Local coordinates(unsigned int window, const dealii::Vector<double> &z, double x) const;
-    Local rates(unsigned int window, const dealii::Vector<double> &interface_rates, double v) const;
-    unsigned int first_element_dof(unsigned int window, double xi) const;
+    unsigned int find_node(const dealii::Vector<double> &z, double x) const;
+    Local coordinates(unsigned int node, const dealii::Vector<double> &z, double x) const;
+    Local rates(unsigned int node, const dealii::Vector<double> &interface_rates, double v) const;
+    unsigned int first_element_dof(unsigned int node, double xi) const;
     template <class N, class Nodal>
-    Surface<N> surface(unsigned int window, const Nodal &nodal, const N &xi) const;
-    Closest closest(unsigned int window, const Local &q) const;
-    double gap(unsigned int window, const Local &q) const;
-    Configuration configure(unsigned int window, const Local &q) const;
+    Surface<N> surface(unsigned int node, const Nodal &nodal, const N &xi) const;
+    Closest closest(unsigned int node, const Local &q) const;
+    double gap(unsigned int node, const Local &q) const;
+    Configuration configure(unsigned int node, const Local &q) const;
     StepKinematics<n> step_kinematics(const InterfaceStep &step, const Local &end_rates, Evaluation &found) const;
     void sum_forces(Evaluation &found) const;
     static LocalMatrix pressure_tangent(const Evaluation &found);
     LocalMatrix friction_tangent(ContactFriction friction, const Evaluation &found) const;
 
-    InterfaceCoordinates interface_coordinates(unsigned int window) const;
+    InterfaceCoordinates interface_coordinates(unsigned int node) const;
     std::vector<FrictionDelay> friction_delays(const InterfaceCoordinates &places, const FrictionLaw &law,
                                                const Evaluation &found) const;
 

@@ -131,9 +131,9 @@ namespace sprag
       outcome.iterations = solved.newton.iterations;
       if (!solved.newton.converged)
         return outcome;
-      if (!found.within_reach)
+      if (!found.within_candidates)
       {
-        contact->widen_reach();
+        contact->widen_candidates();
         return step(accepted, to, weights);
       }
 

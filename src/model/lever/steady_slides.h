@@ -165,7 +165,7 @@ namespace sprag
       };
       const auto solved = ModifiedNewton({ structure.compliance(), free, frame.lengths, near }, at, StepWeights{}, factors)
                               .solve(guess, kept, z, left_out_in_time);
-      if (!solved.newton.converged || !found.within_reach)
+      if (!solved.newton.converged || !found.within_candidates)
       {
         kept.reset();
         return nullptr;
@@ -218,9 +218,9 @@ namespace sprag
       const auto solved = solve_interface({ structure.compliance(), free, frame.lengths, near }, at, z);
       if (!solved.newton.converged)
         return nullptr;
-      if (!found.within_reach)
+      if (!found.within_candidates)
       {
-        contact.widen_reach();
+        contact.widen_candidates();
         return solve_from_last(drive, ratio, friction, round_off, share);
       }
       return accept(z, ideal, *solved.forces);
