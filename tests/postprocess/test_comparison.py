@@ -76,8 +76,8 @@ class ParametersTest(unittest.TestCase):
         self.assertEqual(found["Lever/Depth"], ("20", "mm", None, "Depth of the metal, without the friction layer", "a number > 0"))
         self.assertEqual(found["Friction/Coefficient"][:3], ("0.73", "1", None))  # its default
         self.assertEqual(parameters.parse(listing(mu="0.7"))["Friction/Coefficient"][:3], ("0.7", "1", "0.73"))
-        as_given = listing(mu="0.7").replace("# default: 0.73", "# given as 70 %; default: 0.73")
-        self.assertEqual(parameters.parse(as_given)["Friction/Coefficient"][:3], ("0.7", "1", "0.73"))
+        own_unit = listing(mu="0.7").replace("# default: 0.73", "# given as 70 %; default: 0.73")
+        self.assertEqual(parameters.parse(own_unit)["Friction/Coefficient"][:3], ("0.7", "1", "0.73"))
         self.assertEqual((found["Analysis/Model"].text, found["Analysis/Model"].number), ("beam", None))
 
     def test_what_differs(self):
