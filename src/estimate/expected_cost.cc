@@ -128,7 +128,7 @@ namespace sprag
         return work;
       constexpr double damping_values = 7., stick_limits = 2.;
       const double verdict = least_slides(scene);
-      work.slides          = least_slides(scene, true);
+      work.slides          = verdict;
       if (scene.stability.ranges == "none" && scene.stability.damping)
         work.slides += (damping_values + stick_limits) * verdict;
       if (scene.stability.roles)

@@ -415,12 +415,11 @@ namespace sprag
     return result;
   }
 
-  unsigned int least_slides(const Scene &scene, const bool in_full)
+  unsigned int least_slides(const Scene &scene)
   {
     auto sets = combined_ends(scene).size();
-    if (in_full)
-      for (const auto &range : constant_ranges(scene))
-        sets += values_inside(scene, range).size();
+    for (const auto &range : constant_ranges(scene))
+      sets += values_inside(scene, range).size();
     const auto n = static_cast<unsigned int>(sets * held_directions(scene).size());
     return n * (looks_over_stroke(scene) ? points_along(scene) : 1);
   }

@@ -98,8 +98,8 @@ namespace sprag
   /// Returns the names of those of Stability/Ranges whose ends give the same slides, to the last digit.
   std::vector<std::string> ranges_without_effect(const Scene &scene, const SweptSlides &swept);
 
-  /// Returns the slides that a sweep checks without those where a growth rate peaks; those inside ranges count `in_full` alone.
-  unsigned int least_slides(const Scene &scene, bool in_full = false);
+  /// Returns the slides that a sweep checks if all are stable at the ends of the ranges, without those where a growth rate peaks.
+  unsigned int least_slides(const Scene &scene);
 
   /// Returns whether values inside the range need meshes of their own.
   bool changes_mesh(const Scene &scene, const ParameterRange &range);
