@@ -17,7 +17,7 @@ PAGES = {path: path.read_text(encoding="utf-8") for folder in ("", "params", "me
 PROGRAMS = ("./run", "sprag", "build/sprag")
 # In place of what a page leaves to its reader.
 MEANT = {"=K": "=1e5", "=TILT": "=1e-4", "=$depth": "=10", "SCENE.prm": "model-a.prm"}
-UNTRIED = ("own/", "[", "...", "slip")  # files that the reader makes, a synopsis, an analysis
+UNTRIED = ("own/", "[", "...", "slip", "--new")  # files that the reader or the program makes, a synopsis, an analysis
 PASSED_OVER = ("--output", "--overwrite", "--validate", "--verbose", "--print-parameters")  # with --print-parameters
 
 
