@@ -2,13 +2,16 @@
 #include "program/arguments.h"
 
 #include "base/errors.h"
+#include "base/pattern.h"
 #include "base/shipped_file.h"
+#include "base/system/file_content.h"
 #include "base/text.h"
 #include "base/version.h"
 #include "input/read.h"
 #include "program/outcome.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -66,8 +69,10 @@ namespace sprag
       for (const auto &entry : fs::directory_iterator(shipped.parent_path(), error))
         if (entry.path().extension() == ".prm")
           names.push_back(entry.path().stem());
-      if (!fs::exists(shipped, error))
+      if (std::find(names.begin(), names.end(), name) == names.end())
         return tell(InputError("--from " + name + ": there is no such scene" + did_you_mean(nearest(name, names))));
+      if (contains_match(read_whole_file(shipped.string(), 1 << 20), R"(\n\s*set [^#\n]*\.(csv|geo|msh)\b)"))
+        return tell(InputError("--from " + name + ": that scene reads files of its folder; copy it together with them"));
       if (!fs::copy_file(shipped, arguments.new_file, error))
         return tell(InputError("--new " + arguments.new_file + ": " + error.message()));
       std::cout << arguments.new_file << ": a copy of " << shipped.filename().string() << ", to be edited and run\n";

@@ -89,7 +89,8 @@ class BadScene(ProgramTest):
         self.assertEqual(sprag("--new", copy, "--from", "model-a").returncode, 0)
         self.assertIn("Model A", copy.read_text().splitlines()[0])
         before = tree(self.folder)
-        for words, says in ((("--new", new), "exists"), (("--new", self.folder / "b.prm", "--from", "modl-a"), "did you mean 'model-a'?")):
+        refused = (("modl-a", "did you mean 'model-a'?"), ("../params/model-a", "no such scene"), ("solid-rib-a", "reads files"), ("identification-a", "reads files"))
+        for words, says in ((("--new", new), "exists"), *((("--new", self.folder / "b.prm", "--from", name), text) for name, text in refused)):
             done = sprag(*words)
             self.assertEqual(done.returncode, 2)
             self.assertIn(says, done.stderr)
