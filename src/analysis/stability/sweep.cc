@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 namespace sprag
 {
@@ -378,17 +379,21 @@ namespace sprag
     for (const auto &constants : combined_ends(scene))
       add(constants, held_directions(scene));
     for (const auto &range : constant_ranges(scene))
+    {
+      std::map<Constants, std::vector<Direction>> worst_constants;
       for (const auto direction : held_directions(scene))
       {
         const auto fails = [&](const SweptWay &way) { return way.direction == direction && !way.along.not_checked.empty(); };
         if (std::any_of(result.ways.begin(), result.ways.end(), fails))
           continue;
         const CheckedSlide worst = result.worst(direction);
-        if (!in_full && worst.kind != SlideKind::stable)
-          continue;
-        for (const double value : values_inside(scene, range))
-          add(replaced(worst.constants, range.name, value), { direction });
+        if (in_full || worst.kind == SlideKind::stable)
+          worst_constants[worst.constants].push_back(direction);
       }
+      for (const auto &[constants, directions] : worst_constants)
+        for (const double value : values_inside(scene, range))
+          add(replaced(constants, range.name, value), directions);
+    }
     return result;
   }
 

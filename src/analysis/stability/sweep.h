@@ -92,7 +92,7 @@ namespace sprag
 
   /// Checks them. Inside each range a reduced lever is checked at seven values, any other in the middle, with the other constants
   /// of the worst slide found so far. `in_full`: also finds the x where the kind changes. Else a direction is checked inside the
-  /// ranges only if it is stable at their ends: its kind is known otherwise.
+  /// ranges only if it is stable at their ends: it is unsafe otherwise, be it by flutter or as it jams inside.
   SweptSlides sweep(const Scene &scene, DynamicsMaker &maker, bool in_full = false);
 
   /// Returns the names of those of Stability/Ranges whose ends give the same slides, to the last digit.
