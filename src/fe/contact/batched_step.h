@@ -96,7 +96,7 @@ namespace sprag
     void find_tangents(const Elements::Indices &elements, Part part,
                        const std::function<void(unsigned int, const Tangent &)> &take) const;
 
-    /// Adds works of the points of an element in a step in time, and the energy of their springs at its end, as it was pressed
+    /// Adds works of the points of an element in the step, and the energy of their springs at its end, as it was pressed
     /// last. Returns the largest pressure in it [MPa].
     double add_sums(unsigned int element, ContactSums &sums) const;
 

@@ -246,10 +246,16 @@ namespace sprag
   template <int dim>
   void ContactFace<dim>::observe(const FaceEvaluation<dim> &found, Row &row, unsigned int) const
   {
+    observe_contact(found, row);
+    row[Column::indentation] = indentation(found, row);
+  }
+
+  template <int dim>
+  void ContactFace<dim>::observe_contact(const FaceEvaluation<dim> &found, Row &row) const
+  {
     observe_resultants(found, row);
     observe_pressure(found, row);
-    row[Column::Q]           = drive_force(found);
-    row[Column::indentation] = indentation(found, row);
+    row[Column::Q] = drive_force(found);
     if constexpr (dim == 3)
       if (properties.cylinder.has_free_axis)
       {

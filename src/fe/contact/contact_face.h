@@ -85,6 +85,9 @@ namespace sprag
     /// Fills the columns of a row that follow from the contact.
     void observe(const Evaluation &found, Row &row, unsigned int lever = 0) const;
 
+    /// Fills all of them but the indentation.
+    void observe_contact(const Evaluation &found, Row &row) const;
+
     /// Fills those of them that are sums over the points under pressure.
     void observe_resultants(const Evaluation &found, Row &row) const;
 

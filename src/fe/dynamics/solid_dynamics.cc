@@ -146,7 +146,7 @@ namespace sprag
     InterfaceLayout make_layout(const FacePart &face_part, const SolidInTime &lever, const Device &device)
     {
       InterfaceLayout result{ static_cast<unsigned int>(3 * face_part.face.nodes.size()), true, lever.sensors->number() };
-      result.slopes = lever.body->is_half() || !device.cylinder.has_free_axis() ? 0 : 2;
+      result.slopes = count_slopes(*lever.body, device.cylinder);
       return result;
     }
 

@@ -384,10 +384,14 @@ namespace sprag
     const double support       = properties.support_stiffness.value_or(0.);
     row[Column::theta]         = theta;
     row[Column::spring_energy] = properties.spring.law.energy(turn);
-    contact.observe(found, row);
-    if constexpr (dim == 3) // between nodes
+    if constexpr (dim == 2)
+      contact.observe(found, row);
+    else
+    {
+      contact.observe_contact(found, row);
       row[Column::indentation] = std::get<SolidStructure>(own_structure)
                                      .indentation(lever, properties.layer_thickness, state.coordinates, state.forces, row);
+    }
     row[Column::centre_offset]        = row[Column::s] - properties.centre(state.drive.x - u, theta).xi;
     row[Column::Q]                    = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
     row[Column::support_displacement] = u;

@@ -49,7 +49,7 @@ namespace sprag
     std::vector<std::vector<Block>> searches; ///< the blocks found together
   };
 
-  /// Linear levers on linear springs in statics, one or both of a pair, which are alike: factorised once and seen through a
+  /// Linear levers on linear springs in statics, one or both of a pair, which are alike: factorised once and seen through the
   /// candidate dofs of their interface.
   class StaticStructure : public StaticInterface
   {

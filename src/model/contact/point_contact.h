@@ -104,7 +104,7 @@ namespace sprag
     /// Evaluates steady sliding and linearises its interface forces.
     LinearisedForces linearise(const SlidingState &state, Evaluation &found) const;
 
-    /// Returns the dofs that the contact may reach: all.
+    /// Returns the dofs that the contact may touch: all.
     const DofSelection &candidate_dofs(double x, const PerLever &theta) const;
     void widen_candidates()
     {
