@@ -185,7 +185,7 @@ namespace sprag
           throw NoEstimate{ "with another " + part.name + (part.name == "mesh" ? ", or elsewhere between its nodes," : "") +
                             " the slide behind the first reversal has no vibration of this frequency." };
       const double between_rows = 1. - std::cos(0.5 * omega * slowing.peak_step); // of a peak
-      const double first_swing  = 2. * by_step(slowing.peak_step) + between_rows;
+      const double at_overshoot = 2. * by_step(slowing.peak_step) + between_rows;
       const double faces        = largest(rows, Column::contact_width) / scene.mesh.face_size;
       ErrorEstimate decay{ "decay", "", {}, "No estimate: P does not decay in the window behind the first reversal." };
       if (const double fitted = -turned.growth_rate; fitted > 0.)
@@ -195,7 +195,7 @@ namespace sprag
         // Steps and passing elements keep the envelope up, to which the decay is fitted; the slide's own decay knows neither.
         decay.parts.push_back({ "fit", std::abs(decay_rate(found) / fitted - 1.), step });
       }
-      ErrorEstimate overshoot{ "overshoot", "it", with_step(times(frequency_parts, 2.), first_swing, step), {} };
+      ErrorEstimate overshoot{ "overshoot", "it", with_step(times(frequency_parts, 2.), at_overshoot, step), {} };
       if (is_meshed(scene.analysis.model) && faces < fewest_faces)
         overshoot.parts.push_back({ "turn", std::min(most_by_place, by_place / faces), "Try a smaller Mesh/Face size." });
       return { { "P", "its peak", with_step(times(frequency_parts, lag), slowing.P / largest(rows, Column::P), step), {} },

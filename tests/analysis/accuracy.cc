@@ -125,16 +125,21 @@ TEST(ChangeByFrequency, IsTheLagOfADecayingVibration)
 
 TEST(EstimateSlowing, TakesTheLongestStepUpToTheOvershoot)
 {
-  // Friction turns at 1 s in steps of 1e-5 s; P first meets its value without inertia at 1.002 s and is largest at 1.0105 s, in
-  // steps of 4e-5 s, many periods of 500 Hz later: a slow reversal swells the ringing.
-  std::vector<Row> rows;
+  // Friction turns at 1 s in steps of 1e-5 s. |P| is largest at 1.0105 s, many periods of 500 Hz later, as a slow reversal swells
+  // the ringing: behind steps of 4e-5 s, in one of 2e-5 s, before those of 8e-5 s.
   const double omega = 2. * M_PI * 500.;
-  for (double t = 0., dt = 1e-5; t < 0.03; dt = t < 0.008 ? 1e-5 : 4e-5, t += dt)
+  const auto step_at = [](const double t) { return t < 0.008 ? 1e-5 : t < 0.009 ? 4e-5 : t < 0.015 ? 2e-5 : 8e-5; };
+  const auto itself  = [](const double dt) { return dt; };
+  for (const double sign : { 1., -1. })
   {
-    rows.push_back(row(1. + t, 0., -1., 10. + std::exp(-std::pow((t - 0.0105) / 0.004, 2)) * std::sin(omega * t)));
-    rows.back()[Column::P_quasi_static] = 10.;
-    rows.back()[Column::time_step]      = dt;
+    std::vector<Row> rows;
+    for (double t = 0., dt = 1e-5; t < 0.03; dt = step_at(t), t += dt)
+    {
+      const double ringing = std::exp(-std::pow((t - 0.0105) / 0.004, 2)) * std::sin(omega * t);
+      rows.push_back(row(1. + t, 0., -1., sign * (10. + ringing)));
+      rows.back()[Column::P_quasi_static] = sign * 10.;
+      rows.back()[Column::time_step]      = dt;
+    }
+    EXPECT_DOUBLE_EQ(estimate_slowing(rows, 1., 2., itself).peak_step, 4e-5) << sign;
   }
-  const auto by_step = [](const double dt) { return dt; };
-  EXPECT_DOUBLE_EQ(estimate_slowing(rows, 1., 2., by_step).peak_step, 4e-5);
 }
