@@ -6,6 +6,7 @@
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/trim.hpp>
 
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
@@ -28,7 +29,7 @@ namespace sprag
         if (!boost::starts_with(line, "| `"))
           continue;
         Material material;
-        for (std::size_t i = 2; i < cells.size(); ++i)
+        for (std::size_t i = 2; i < std::min(cells.size(), headings.size()); ++i)
           material.emplace(headings[i], cells[i]);
         result.emplace_back(boost::trim_copy_if(cells[1], boost::is_any_of("`")), material);
       }

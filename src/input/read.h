@@ -27,7 +27,7 @@ namespace sprag
   /// was not read.
   std::string parameters_text(const Scene &scene);
 
-  /// Writes the parameters that were given, in the same form. It is read back as the same scene.
+  /// Writes the parameters that were given, in the same form. It is read back as the same scene, but for what the program chose.
   std::string specified_parameters_text(const Scene &scene);
 
   /// Writes every parameter with its default and documentation, in .prm form.
