@@ -97,7 +97,11 @@ namespace sprag
     {
       return app.exit(error) == 0 ? success : bad_input;
     }
-    return arguments.new_file.empty() ? std::nullopt : std::make_optional(write_new_scene(arguments));
+    if (arguments.new_file.empty())
+      return {};
+    if (app.get_options([](const CLI::Option *option) { return option->count() > 0; }).size() > 1 + app.count("--from"))
+      return tell(InputError("--new goes with --from alone: give other options to the run of the new scene"));
+    return write_new_scene(arguments);
   }
 
   bool is_run(const Arguments &arguments)

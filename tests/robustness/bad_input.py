@@ -89,8 +89,16 @@ class BadScene(ProgramTest):
         self.assertEqual(sprag("--new", copy, "--from", "model-a").returncode, 0)
         self.assertIn("Model A", copy.read_text().splitlines()[0])
         before = tree(self.folder)
-        refused = (("modl-a", "did you mean 'model-a'?"), ("../params/model-a", "no such scene"), ("solid-rib-a", "reads files"), ("identification-a", "reads files"))
-        for words, says in ((("--new", new), "exists"), *((("--new", self.folder / "b.prm", "--from", name), text) for name, text in refused)):
+        elsewhere = self.folder / "b.prm"
+        refused = (
+            (("--new", new), "exists"),
+            (("--new", elsewhere, "--validate"), "--from alone"),
+            (("--new", elsewhere, "--from", "modl-a"), "did you mean 'model-a'?"),
+            (("--new", elsewhere, "--from", "../params/model-a"), "no such scene"),
+            (("--new", elsewhere, "--from", "solid-rib-a"), "reads files"),
+            (("--new", elsewhere, "--from", "identification-a"), "reads files"),
+        )
+        for words, says in refused:
             done = sprag(*words)
             self.assertEqual(done.returncode, 2)
             self.assertIn(says, done.stderr)
