@@ -23,6 +23,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <set>
 
 namespace sprag
 {
@@ -124,6 +125,7 @@ namespace sprag
       SceneSettings input;
       std::vector<Parameter> parameters;
       Settings settings;
+      std::set<std::string> filled_in; ///< names of the parameters whose values are those of a material
 
       ParameterValues values() const
       {
@@ -190,7 +192,10 @@ namespace sprag
             const bool fills = own == settings.specified.end() || (place == "--set" && own->second.place != "--set");
             is_idle          = is_idle && !fills && leading_number(own->second.value)->value != leading_number(value)->value;
             if (fills)
+            {
               settings.specified[full_name(*parameter)] = { names_it, value, "that of " + material };
+              filled_in.insert(full_name(*parameter));
+            }
           }
         if (is_idle)
           report(names_it, "has no effect, as this section sets other constants");
@@ -204,8 +209,7 @@ namespace sprag
             if (parameter.rule.kind == Rule::Kind::file || found->first == "Condensed/Cache")
               resolve(found->second.value);
             parameter.store(found->second.value);
-            const bool is_filled_in = boost::ends_with(found->second.place, material_parameter);
-            if (input.scene.chosen.count(found->first) == 0 && !is_filled_in)
+            if (input.scene.chosen.count(found->first) == 0 && filled_in.count(found->first) == 0)
               input.scene.specified.insert(found->first);
             if (!found->second.written.empty())
               input.scene.written.emplace(found->first, found->second.written);

@@ -5,6 +5,7 @@
 #include "scene/messages.h"
 #include "scene/scene.h"
 
+#include <array>
 #include <regex>
 
 using namespace sprag;
@@ -76,6 +77,23 @@ TEST(Materials, OfTheCommandLineOrAStudyReplaceThoseOfTheFile)
   EXPECT_EQ(variant(rubber, { "Friction layer/Made of=none" }).layer.poisson_ratio, FrictionLayer().poisson_ratio);
   EXPECT_EQ(with_layer(own, { "Friction layer/Made of=PTFE", "Friction layer/Density=1e-9" }).layer.density, 1e-9);
   EXPECT_EQ(with_layer(own, { "Friction layer/Made of=PTFE" }).layer.young_modulus, 500.);
+}
+
+TEST(Materials, FillTheirOwnSectionAlone)
+{
+  const std::array<std::string, 5> sections = { "Lever", "Friction layer", "Friction plate", "Leaf spring", "Cylinder" };
+  const auto defaults                       = read_scene(written("")).parameters;
+  for (const auto &section : sections)
+  {
+    const auto filled = read_scene(written("subsection " + section + "\nset Made of = brass\nend\n")).parameters;
+    for (const auto &other : sections)
+    {
+      const std::string modulus = other + "/Young's modulus";
+      EXPECT_EQ(std::stod(filled->at(modulus)) == 1e5, other == section)
+          << section << ", " << other << ": " << filled->at(modulus);
+      EXPECT_EQ(filled->at(modulus) == defaults->at(modulus), other != section) << section << ", " << other;
+    }
+  }
 }
 
 TEST(Materials, UnknownOrWithoutEffectAreMistakes)
