@@ -52,7 +52,8 @@ namespace sprag
     begin_shifts  = shifts;
     const auto at = configuration(begin_displacements, begin_x);
     begin_pose    = pose(at);
-    begin_slips.assign(grid.elements.size(), {});
+    if (is_new)
+      begin_slips.assign(grid.elements.size(), {});
     batched.begin(step.history);
     near_begin = statics ? Elements::Indices() : united(near(at, begin_pose), touched_elements(grid, step.history));
   }
