@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/task_farm/task_farm.h"
-#include "base/error_text.h"
 #include "base/fingerprint.h"
 #include "base/hdf5_handle.h"
 #include "base/messages.h"
@@ -16,6 +15,7 @@
 #include "program/output_folder.h"
 #include "program/resources.h"
 #include "program/run_log.h"
+#include "run/error_text.h"
 #include "run/run.h"
 #include "scene/analysis_use.h"
 #include "scene/scene.h"
@@ -178,6 +178,7 @@ int main(int argc, char **argv)
     {
       return tell(error);
     }
+
   RunLog log(argc, argv);
   int no_arguments = 1;
   std::optional<dealii::Utilities::MPI::MPI_InitFinalize> mpi;

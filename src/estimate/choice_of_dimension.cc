@@ -23,7 +23,7 @@ namespace sprag
   namespace
   {
     constexpr double default_target = 0.01;
-    constexpr double trial_faces    = 1.5; ///< across the contact where P is largest: both trial runs have the same
+    constexpr double coarse_faces   = 1.5; ///< across the contact where P is largest: both trial runs have the same
     constexpr double most_faces     = 40.; ///< along the way of the contact
     constexpr unsigned int across   = 6;   ///< elements of a trial run
     constexpr const char *pressure  = "largest_pressure";
@@ -39,7 +39,7 @@ namespace sprag
     {
       const auto [from, to]       = swept_contact(scene);
       const double width          = estimated_contact_width(scene, contact_reference(scene).P);
-      scene.mesh.face_size        = std::max({ scene.mesh.face_size, width / trial_faces, (to - from) / most_faces });
+      scene.mesh.face_size        = std::max({ scene.mesh.face_size, width / coarse_faces, (to - from) / most_faces });
       scene.mesh.faces_in_contact = 0.;
       scene.mesh.elements_across  = std::min(scene.mesh.elements_across, across);
       scene.analysis.dimension    = 3;

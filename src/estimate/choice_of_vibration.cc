@@ -24,15 +24,15 @@ namespace sprag
   namespace
   {
     // Shares of the target that the causes of an error may use up.
-    constexpr double mesh_share    = 0.3;
-    constexpr double penalty_share = 0.2;
-    constexpr double mode_share    = 0.1;
-    constexpr double step_share    = 0.4;
-    constexpr double model_share   = 0.8;
+    constexpr double slide_mesh_share    = 0.3;
+    constexpr double slide_penalty_share = 0.2;
+    constexpr double slide_mode_share    = 0.1;
+    constexpr double slide_step_share    = 0.4;
+    constexpr double slide_model_share   = 0.8;
 
-    constexpr double stiffest    = 0.5; ///< penalty over the stiffest that a mesh takes
-    constexpr double trial_faces = 3.;  ///< across the contact where P is largest
-    constexpr double finest      = 8.;  ///< Mesh/Face size of the trial run over that of a run
+    constexpr double stiffest          = 0.5; ///< penalty over the stiffest that a mesh takes
+    constexpr double slide_trial_faces = 3.;  ///< across the contact where P is largest
+    constexpr double slide_finest      = 8.;  ///< Mesh/Face size of the trial run over that of a run
 
     double difference(const SlideStability &found, const SlideStability &other, const std::vector<std::string> &quantities)
     {
@@ -87,7 +87,7 @@ namespace sprag
         DynamicsMaker maker(true, 2);
         Scene fine          = held_scene(scene);
         fine.analysis.model = ModelType::condensed;
-        face_size           = estimated_contact_width(scene, contact_reference(scene).P) / trial_faces;
+        face_size           = estimated_contact_width(scene, contact_reference(scene).P) / slide_trial_faces;
         fine.mesh.face_size = face_size;
         const auto found    = check_slide(fine, maker);
         const auto change = [&](const Scene &other) { return factor * difference(found, check_slide(other, maker), quantities); };
@@ -125,8 +125,9 @@ namespace sprag
           add_modes(target, choice);
         if (scene.analysis.type == AnalysisType::transient && is_open(scene, "Time/Tolerance") && is_open(scene, "Time/Step"))
         {
-          choice.error += step_share * target;
-          choice.settings.push_back({ "Time/Tolerance", rounded_text(step_share * target), "errors of P are about as large" });
+          choice.error += slide_step_share * target;
+          choice.settings.push_back(
+              { "Time/Tolerance", rounded_text(slide_step_share * target), "errors of P are about as large" });
         }
         return choice;
       }
@@ -142,15 +143,15 @@ namespace sprag
 
       bool takes_beam(const double target) const
       {
-        const double share = scene.analysis.type == AnalysisType::transient ? 1. - step_share : model_share;
+        const double share = scene.analysis.type == AnalysisType::transient ? 1. - slide_step_share : slide_model_share;
         return scene.accuracy.is_model_open && beam_error <= share * target;
       }
 
       double add_mesh(const double target, Choice &choice) const
       {
         const double order = force_order(scene);
-        const double ideal = face_size * std::pow(mesh_share * target / std::max(mesh_error, 1e-12), 1. / order);
-        const double size  = std::clamp(ideal, face_size / finest, coarser * face_size);
+        const double ideal = face_size * std::pow(slide_mesh_share * target / std::max(mesh_error, 1e-12), 1. / order);
+        const double size  = std::clamp(ideal, face_size / slide_finest, coarser * face_size);
         choice.error += mesh_error * std::pow(size / face_size, order);
         choice.settings.push_back({ "Mesh/Face size", rounded_text(size),
                                     "a probe with " + rounded_text(face_size) + " mm is " + percent(mesh_error) + " off" });
@@ -164,7 +165,7 @@ namespace sprag
         Scene sized                = scene;
         sized.mesh.face_size       = size;
         const double most          = std::max(1., stiffest * largest_penalty(sized) / penalties.normal);
-        const double needed_factor = std::max(1., penalty_error / (penalty_share * target));
+        const double needed_factor = std::max(1., penalty_error / (slide_penalty_share * target));
         const double factor        = std::min(needed_factor, most);
         if (factor < needed_factor)
           choice.limit = "A stiffer Contact/Penalty is too stiff for this mesh.";
@@ -178,7 +179,7 @@ namespace sprag
       void add_modes(const double target, Choice &choice) const
       {
         for (const auto &[modes, error] : mode_errors)
-          if (error <= mode_share * target)
+          if (error <= slide_mode_share * target)
           {
             choice.error += error;
             choice.settings.push_back({ "Condensed/Modes", std::to_string(modes), percent(error) + " off a probe with more" });

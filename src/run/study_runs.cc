@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "run/study_runs.h"
 
-#include "base/error_text.h"
 #include "base/errors.h"
 #include "base/phase_timer.h"
 #include "base/progress.h"
@@ -11,6 +10,7 @@
 #include "input/scene_key.h"
 #include "program/resources.h"
 #include "report/warnings.h"
+#include "run/error_text.h"
 #include "run/run.h"
 #include "scene/analysis_use.h"
 #include "scene/scene.h"

@@ -2,8 +2,8 @@
 #include "fe/dynamics/sparse_vibration.h"
 
 #include "bar.h"
-#include "base/eigenvalues.h"
 #include "fe/dynamics/condensed_basis.h"
+#include "model/structure/eigenvalues.h"
 #include "mpi_environment.h"
 #include "support/lever_in_time.h"
 

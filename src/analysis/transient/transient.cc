@@ -2,13 +2,13 @@
 #include "analysis/transient/transient.h"
 
 #include "analytic/step_clock.h"
-#include "base/eigenvalues.h"
 #include "base/errors.h"
 #include "base/text.h"
 #include "levers/dynamics.h"
 #include "model/step/force_history.h"
 #include "model/step/generalised_alpha.h"
 #include "model/step/state_archive.h"
+#include "model/structure/eigenvalues.h"
 #include "scene/contact_estimates.h"
 #include "scene/scene.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/sparse_vibration.h"
 
-#include "base/eigenvalues.h"
 #include "base/errors.h"
 #include "base/text.h"
+#include "model/structure/eigenvalues.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
 

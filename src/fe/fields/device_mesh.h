@@ -2,8 +2,8 @@
 #pragma once
 
 #include "fe/fields/body_fields.h"
+#include "fe/fields/field_files.h"
 #include "results/columns.h"
-#include "results/field_files.h"
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/symmetric_tensor.h>

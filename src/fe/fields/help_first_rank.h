@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "results/shared_writing.h"
+#include "fe/fields/shared_writing.h"
 
 namespace sprag
 {

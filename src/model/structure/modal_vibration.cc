@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "model/structure/modal_vibration.h"
 
-#include "base/eigenvalues.h"
 #include "base/errors.h"
+#include "model/structure/eigenvalues.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/eigenvalues.h"
+#include "model/structure/eigenvalues.h"
 
 #include "base/errors.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "results/shared_writing.h"
+#include "fe/fields/shared_writing.h"
 
 #include "base/errors.h"
 #include "mpi_environment.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/error_text.h"
+#include "run/error_text.h"
 
 #include "base/text.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "results/field_files.h"
+#include "fe/fields/field_files.h"
 
 #include "results/earlier_fields.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "results/field_files.h"
+#include "fe/fields/field_files.h"
 
 #include "base/errors.h"
 #include "base/system/disk_reserve.h"
@@ -102,7 +102,7 @@ namespace sprag
     }
 
     /// Behind the last grid.
-    void append(const std::string &path, const std::string &grid)
+    void append_grid(const std::string &path, const std::string &grid)
     {
       std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
       file.seekp(-static_cast<std::streamoff>(closing.size()), std::ios::end);
@@ -221,7 +221,7 @@ namespace sprag
       const bool is_last = index.grids.empty() || time > index.grids.rbegin()->first;
       const auto &text = index.grids[time] = grid(index, time, file_name + ":" + group_path(index), fields[i], facts);
       if (is_last)
-        append(index.path, text);
+        append_grid(index.path, text);
       else
         write_index(index.path, index.grids);
     }
