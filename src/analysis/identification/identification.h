@@ -34,8 +34,8 @@ namespace sprag
       double v; ///< [mm/s], with the sign of the stroke's direction
     };
 
-    /// Takes x of the measurement, or else of the drive at its times; v from a line through x over up to a fortieth of the
-    /// stroke, or of the drive, at its peak speed where no times are known.
+    /// Takes x from the measurement, else from the drive. v is the slope of a line fitted to x over at most a fortieth of the
+    /// stroke, or that of the drive; without times it is the drive's peak speed.
     explicit MeasuredMotion(const Scene &scene);
 
     const std::vector<Stroke> &strokes() const
@@ -43,18 +43,17 @@ namespace sprag
       return all;
     }
 
-    /// Returns the stroke of what is measured in a row that comes a lag behind x [s].
+    /// Returns the stroke at the instant of the row less `lag` [s], by which measured forces come late.
     std::size_t stroke_at(std::size_t row, double lag) const;
 
-    /// Returns whether the cylinder was in the stroke a lag before the row, behind its first row and before its last:
-    /// which way it moves there nobody knows.
+    /// Returns whether that instant lies within the stroke, its ends excluded: there the direction of motion is unknown.
     bool covers(std::size_t row, double lag, std::size_t stroke) const;
 
-    /// Returns where the cylinder was a lag before the row. Beyond the stroke's ends it goes on at their speed, so that a place
-    /// changes smoothly with the lag.
+    /// Returns the cylinder's place at that instant. Beyond its ends a stroke is continued at constant speed, so that the place
+    /// is a smooth function of the lag.
     Place at(std::size_t row, double lag, std::size_t stroke) const;
 
-    /// Returns how far the cylinder has gone in the stroke a lag before the row [mm].
+    /// Returns the distance covered in the stroke until that instant [mm].
     double travel(std::size_t row, double lag, std::size_t stroke) const;
 
     /// Returns the distance between the ends of a stroke [mm].
@@ -78,16 +77,17 @@ namespace sprag
     std::vector<double> measured_speeds(const Stroke &stroke) const;
   };
 
+  /// A number to be identified.
   struct UnknownNumber
   {
     std::string name; ///< "mu", "k", "offset_P"
     std::string unit;
     std::string meaning;
     double start;
-    double scale; ///< a change that is large, > 0
+    double scale; ///< size of a large change, > 0; scaled unknowns are value/scale
   };
 
-  /// A lever as far as a stroke tells of it.
+  /// The properties of a lever and its sensors on which a measured stroke depends.
   struct IdentifiedLever
   {
     Geometry geometry;
@@ -98,7 +98,7 @@ namespace sprag
     double lag = 0.;             ///< [s]
   };
 
-  /// The unknowns of a scene as numbers, of which a law of friction may have several.
+  /// The unknowns of a scene as a list of numbers: a friction law may have several.
   class LeverUnknowns
   {
   public:
@@ -115,8 +115,8 @@ namespace sprag
     /// Returns the scene with the lever, changed in memory.
     Scene scene_with(const IdentifiedLever &lever) const;
 
-    /// Returns "Section/Name=value" for what a scene has of the lever. `friction_table` is the file that a polynomial or table of
-    /// mu is in.
+    /// Returns overrides "Section/Name=value" that give a scene this lever. `friction_table` is the file with mu(v), empty for a
+    /// constant mu.
     std::vector<std::string> overrides(IdentifiedLever lever, const std::string &friction_table) const;
 
     /// Returns the rows, speed [mm/s] and mu, of a polynomial or table of mu; empty for another law.
@@ -134,21 +134,20 @@ namespace sprag
   /// Forces of a model's steady slide less those of the closed form, at x [mm] in a direction, 1 or -1.
   using ModelCorrection = std::function<SlidingForces(double x, int direction)>;
 
-  /// Returns the differences of the scene's model from the closed form of the same lever, at the drive's peak speed and at places
-  /// over the drive between which they are interpolated; nothing for Analysis/Model = closed form. Throws AnalysisError where the
-  /// model has no steady slide.
+  /// Returns the corrections at the drive's peak speed [mm/s], interpolated between 24 positions over the drive; zero for
+  /// Analysis/Model = closed form. Throws AnalysisError where the model has no steady slide.
   ModelCorrection model_correction(const Scene &scene, double peak_speed);
 
   /// One measured force at one row.
   struct UsedValue
   {
-    std::size_t row;
-    std::size_t channel;
-    std::size_t stroke;
-    double value; ///< [N]
+    std::size_t row;     ///< of the measurement
+    std::size_t channel; ///< of MeasuredStroke::channels
+    std::size_t stroke;  ///< of MeasuredMotion::strokes()
+    double value;        ///< [N]
   };
 
-  /// A lever against a measured stroke: which values count, and by how much the lever misses them.
+  /// Compares a lever with a measured stroke: selects the values to be fitted and computes their residuals.
   class StrokeFit
   {
   public:
@@ -156,39 +155,39 @@ namespace sprag
 
     StrokeFit(const Scene &scene, const MeasuredMotion &motion, const LeverUnknowns &unknowns);
 
-    /// Returns the values that count with this window behind each turn [mm] and lag: x > 0, a speed of more than 2 % of the
-    /// peak, and not the last 2 % of a stroke, in which the drive slows down to turn.
+    /// Returns the values to be fitted: x > 0, further than `window` [mm] behind a turn, faster than 2 % of the peak speed, and
+    /// not in the last 2 % of a stroke, in which the drive slows down. `lag` is in s.
     std::vector<UsedValue> used(double window, double lag) const;
 
     /// Returns the forces of the lever at a row, correction included; none where it has no slide there.
     std::optional<SlidingForces> slide(const IdentifiedLever &lever, const ModelCorrection &correction, std::size_t row,
                                        std::size_t stroke) const;
 
-    /// Returns what a channel shows of them, offset included [N].
+    /// Returns the value of a channel under these forces, offset included [N].
     double shown(const IdentifiedLever &lever, const SlidingForces &slide, std::size_t channel) const;
 
-    /// Returns measured less shown over the standard deviation of the channel and times the square root of the weight, where
-    /// there are weights; large numbers where the lever has no slide.
+    /// Returns sqrt(weight) (measured - computed)/deviation of each value; 1e6 where the lever has no slide. Empty `weights` are
+    /// all 1. `deviations` are those of the channels [N].
     std::vector<double> residuals(const std::vector<double> &scaled, const std::vector<UsedValue> &values,
                                   const std::vector<double> &deviations, const ModelCorrection &correction,
                                   const std::vector<double> &weights = {}) const;
 
-    /// Returns the unknowns in their units.
+    /// Returns the values of scaled unknowns, in their units.
     std::vector<double> in_units(const std::vector<double> &scaled) const;
 
   private:
     const Scene &scene;
     const LeverUnknowns &unknowns;
-    const double inertia; ///< J, which a steady speed already turns unevenly [t mm^2]; 0 for the closed form
+    const double inertia; ///< J [t mm^2]; 0 for the closed form, which neglects theta'' of steady sliding
   };
 
   /// Noise of a channel, estimated from its residuals.
   struct ChannelNoise
   {
     double deviation   = 0.; ///< standard deviation [N]
-    double rows        = 0.; ///< that count
-    double correlation = 1.; ///< rows for one independent one: 1 + 2 (sum of the autocorrelation), >= 1
-    double spread      = 1.; ///< of the estimate, over that of least squares of normal noise
+    double rows        = 0.; ///< number of values used
+    double correlation = 1.; ///< rows per independent row: 1 + 2 (sum of the autocorrelation), >= 1
+    double spread      = 1.; ///< variance of the estimate over that of least squares under normal noise
 
     double effective_rows() const
     {
@@ -196,15 +195,15 @@ namespace sprag
     }
   };
 
-  /// Influence of a residual of so many standard deviations on the fit: itself, or at most Huber's 1.345 either way.
+  /// Returns the influence of a residual r, in standard deviations: r for least squares, r within +-1.345 for Huber's loss.
   double influence(IdentificationLoss loss, double residual);
 
-  /// Returns the noise of each channel. `residuals` are over `deviations`. The autocorrelation is summed within strokes up to the
-  /// first that is less than 2/sqrt(rows); the mean is not taken off, so that what the lever cannot follow counts as correlated.
+  /// Returns the noise of each channel from `residuals`, given in `deviations`. The autocorrelation is summed within strokes up
+  /// to the first value below 2/sqrt(rows). The mean stays in: a systematic misfit counts as correlated noise.
   std::vector<ChannelNoise> estimate_noise(const std::vector<UsedValue> &values, const std::vector<double> &residuals,
                                            const std::vector<double> &deviations, IdentificationLoss loss, std::size_t unknowns);
 
-  /// Uncertainty of the unknowns. All entries refer to scaled unknowns.
+  /// Uncertainty of the scaled unknowns.
   struct Knowledge
   {
     std::vector<double> deviations;      ///< standard deviations
@@ -212,14 +211,16 @@ namespace sprag
     SingularValues singular;             ///< of the Jacobian over the noise; `left` empty
     double quantile = 0.;                ///< of Student's t for the confidence asked for, two-sided
     double freedom  = 0.;                ///< degrees of freedom: effective rows less unknowns, at least 1
-    std::vector<std::string> indistinct; ///< sentences: what the data cannot find or tell apart
-    std::vector<std::string> weak;       ///< sentences: what they tell apart badly, where they tell all
+    std::vector<std::string> indistinct; ///< sentences: unknowns that the data do not determine or separate
+    std::vector<std::string> weak;       ///< sentences: badly separated unknowns, if all are determined
   };
 
-  /// `jacobian` is that of residuals over the deviations of `noise`, without weights.
+  /// Returns the uncertainty from the Jacobian of residuals in deviations of `noise`, without weights. `confidence` is between 0
+  /// and 1.
   Knowledge knowledge(const std::vector<double> &jacobian, const std::vector<UsedValue> &values,
                       const std::vector<ChannelNoise> &noise, const std::vector<UnknownNumber> &unknowns, double confidence);
 
+  /// An identified number with its confidence interval, in its unit.
   struct FoundNumber
   {
     UnknownNumber number;
@@ -228,13 +229,13 @@ namespace sprag
     double low, high; ///< ends of the interval
   };
 
-  /// An unknown that was not sought and by which the lever would follow the data.
+  /// An unknown that was not sought and whose change would explain the residuals.
   struct OneMoreUnknown
   {
     std::string name; ///< "Geometry/Cylinder radius"
     std::string unit;
     double change; ///< from the scene's value
-    double share;  ///< of the squares of the residuals beyond noise that it explains
+    double share;  ///< of the sum of squared residuals, noise subtracted, that it explains
   };
 
   /// Result of identifying a lever from a measured stroke.
@@ -246,9 +247,9 @@ namespace sprag
     IdentifiedLever lever;
     ModelCorrection correction;
     std::vector<UsedValue> used;
-    double window       = 0.;    ///< left out behind each turn [mm]
-    bool window_is_full = false; ///< whether one from the data ends where no more may be left out
-    unsigned int rounds = 0;     ///< of fits, with new noise, window and correction
+    double window       = 0.;    ///< distance behind each turn that is not fitted [mm]
+    bool window_is_full = false; ///< a window found from the data reached its upper limit
+    unsigned int rounds = 0;     ///< fits, each with new noise, window and correction
     bool converged      = false;
     std::vector<OneMoreUnknown> more; ///< that would explain the residuals, see more_unknowns()
   };

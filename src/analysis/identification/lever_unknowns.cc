@@ -20,10 +20,11 @@ namespace sprag
 {
   namespace
   {
-    constexpr double least_turn         = 0.02; ///< of the whole range
-    constexpr std::size_t lines_a_way   = 40;   ///< of a stroke, by which speeds are smoothed
-    constexpr std::size_t most_each_way = 50;   ///< rows of such a line
+    constexpr double least_stroke            = 0.02; ///< share of the range of x; shorter returns are noise
+    constexpr std::size_t windows_per_stroke = 40;   ///< in which lines are fitted to x(t) for the speed
+    constexpr std::size_t largest_half_width = 50;   ///< rows of such a window before or after its middle
 
+    /// Returns the Hermite cubic at s = `share` of an interval of length `step`, by values and slopes at its ends.
     double cubic(const double share, const double step, const double from, const double to, const double v_from,
                  const double v_to)
     {
@@ -32,9 +33,9 @@ namespace sprag
              step * (s * (1. - s) * (1. - s) * v_from - s * s * (1. - s) * v_to);
     }
 
-    constexpr unsigned int polynomial_rows = 61;   ///< of the table that a polynomial becomes
-    constexpr double large_share           = 0.25; ///< of R - e and th0: a change that is large
-    constexpr double beyond_peak           = 1.25;
+    constexpr unsigned int polynomial_rows = 61;   ///< rows of the table of mu(v) written for a polynomial
+    constexpr double large_share           = 0.25; ///< scale of e and th0, as a share of R - e and th0
+    constexpr double largest_table_speed   = 1.25; ///< of that table, over the peak speed
 
     double root_mean_square(const std::vector<double> &values)
     {
@@ -55,7 +56,7 @@ namespace sprag
       double &(*number)(IdentifiedLever &lever);
     };
 
-    /// Parameters that unknowns stand for, by the names of these.
+    /// Parameters of the scene by the name of the unknown.
     const std::map<std::string, LeverParameter> lever_parameters = {
       { "k", { "Rotational spring/Stiffness", [](IdentifiedLever &lever) -> double & { return lever.stiffness; } } },
       { "rest", { "Rotational spring/Rest angle", [](IdentifiedLever &lever) -> double & { return lever.rest_angle; } } },
@@ -65,7 +66,7 @@ namespace sprag
       { "friction_factor", { "Friction/Factor", [](IdentifiedLever &lever) -> double & { return lever.friction.factor; } } }
     };
 
-    /// Back to their defaults: those that count only with another law and would be refused beside this one.
+    /// Returns overrides that choose a law and reset the parameters of the others, which would be refused beside it.
     std::vector<std::string> without_other_laws(const std::string &law)
     {
       SceneSettings defaults;
@@ -104,7 +105,7 @@ namespace sprag
   void MeasuredMotion::find_strokes()
   {
     const auto range   = std::minmax_element(x.begin(), x.end());
-    const double least = least_turn * (*range.second - *range.first);
+    const double least = least_stroke * (*range.second - *range.first);
     std::size_t first = 0, lowest = 0, highest = 0;
     int direction  = 0;
     const auto end = [&](const std::size_t turn)
@@ -139,15 +140,15 @@ namespace sprag
 
   std::vector<double> MeasuredMotion::measured_speeds(const Stroke &stroke) const
   {
-    const auto rows     = stroke.last - stroke.first + 1;
-    const auto each_way = std::clamp<std::size_t>(rows / lines_a_way / 2, 2, most_each_way);
+    const auto rows   = stroke.last - stroke.first + 1;
+    const auto widest = std::clamp<std::size_t>(rows / windows_per_stroke / 2, 2, largest_half_width);
     std::vector<double> result;
     for (std::size_t row = stroke.first; row <= stroke.last; ++row)
     {
-      // The window has as many rows before as after: the line's slope is then of second order where the speed changes.
-      const auto room = std::max<std::size_t>(1, std::min({ each_way, row - stroke.first, stroke.last - row }));
-      const auto from = std::max(row, stroke.first + room) - room;
-      const auto to   = std::min(row + room, stroke.last) + 1;
+      // With as many rows before as after, the slope of the line has an error of second order in the window.
+      const auto half = std::max<std::size_t>(1, std::min({ widest, row - stroke.first, stroke.last - row }));
+      const auto from = std::max(row, stroke.first + half) - half;
+      const auto to   = std::min(row + half, stroke.last) + 1;
       const auto part = [&](const std::vector<double> &values)
       { return std::vector<double>(values.begin() + from, values.begin() + to); };
       const auto times = part(time);
@@ -272,7 +273,7 @@ namespace sprag
       if (all[i].name == "mu_0")
         for (unsigned int row = 0; row < polynomial_rows; ++row)
         {
-          const double v  = beyond_peak * peak_speed * row / (polynomial_rows - 1);
+          const double v  = largest_table_speed * peak_speed * row / (polynomial_rows - 1);
           const double mu = values[i] + v * (values[i + 1] + v * values[i + 2]);
           rows.emplace_back(v, std::clamp(mu, 0., 10.));
         }
@@ -313,7 +314,7 @@ namespace sprag
       result.friction = { TabulatedFriction(speeds, coefficients), scene.friction.speed };
     }
     auto &geometry = result.geometry;
-    if (theta)
+    if (theta) // R - e = l sin(theta_0) + h cos(theta_0) (eq. 9), solved for h
       geometry.pivot_height =
           (geometry.cylinder_radius - geometry.interface_offset - geometry.pivot_distance * std::sin(*theta)) / std::cos(*theta);
     const double arm = geometry.cylinder_radius - geometry.interface_offset;

@@ -21,23 +21,23 @@ namespace sprag
 {
   namespace
   {
-    constexpr unsigned int places = 24; ///< over the drive, each way
+    constexpr unsigned int sampled_positions = 24; ///< x per direction, equally spaced over the drive
 
-    /// P and Q over x, one way.
-    std::array<MonotoneCubic, 2> differences(const Scene &scene, DynamicModel &model, const double v)
+    /// Returns P and Q of the model less those of the closed form [N], interpolated over x; the sign of `v` is the direction.
+    std::array<MonotoneCubic, 2> force_corrections(const Scene &scene, DynamicModel &model, const double v)
     {
       const double from = scene.drive.minimum();
       const double to   = scene.drive.maximum();
       std::vector<double> x, P, Q;
-      if (from == 0. && scene.spring.rest_angle == 0.) // where nothing presses
+      if (from == 0. && scene.spring.rest_angle == 0.) // no contact force at x = 0, so no difference
       {
         x.push_back(0.);
         P.push_back(0.);
         Q.push_back(0.);
       }
-      for (unsigned int i = 1; i <= places; ++i)
+      for (unsigned int i = 1; i <= sampled_positions; ++i)
       {
-        const DrivePoint drive{ 0., from + (to - from) * i / places, v, 0. };
+        const DrivePoint drive{ 0., from + (to - from) * i / sampled_positions, v, 0. };
         const auto found = model.sliding_forces(drive);
         if (!found)
           throw AnalysisError("the model has no steady slide at x = " + mm(drive.x) + (v < 0. ? " backward" : " forward") +
@@ -50,9 +50,9 @@ namespace sprag
       return { { MonotoneCubic(x, P), MonotoneCubic(x, Q) } };
     }
 
-    constexpr double least_speed = 0.02; ///< over the peak; below that friction may be in stick
-    constexpr double stroke_end  = 0.02; ///< of its length: there the drive slows down to turn
-    constexpr double impossible  = 1e6;  ///< standard deviations
+    constexpr double least_speed       = 0.02; ///< share of the peak speed, below which the contact may stick
+    constexpr double stroke_end        = 0.02; ///< share of the stroke's length, in which the drive slows down to turn
+    constexpr double no_slide_residual = 1e6;  ///< standard deviations; residual of a lever without a steady slide
 
     /// Returns the second derivative of theta over x: theta_x = sin^2 th / ((R - e) cos th - h) [rad/mm^2].
     double curvature(const Geometry &geometry, const Kinematics &contact)
@@ -63,14 +63,15 @@ namespace sprag
       return contact.theta_x * sine * (2. * std::cos(contact.theta) * below + arm * sine * sine) / (below * below);
     }
 
-    constexpr double huber             = 1.345; ///< standard deviations; 95 % as good as least squares for normal noise
-    constexpr double unknown_from      = 0.5;   ///< half-width of an interval over the scale of what is unknown then
-    constexpr double lost_deviation    = 1e6;   ///< scales of an unknown that the data do not feel at all
-    constexpr double slowest_decay     = 0.98;  ///< of the autocorrelation from row to row
-    constexpr double weak_from         = 0.98;  ///< correlation of two unknowns
-    constexpr double largest_part      = 0.2;   ///< components of a direction that name their unknowns
-    constexpr double smallest_singular = 1e-10; ///< over the largest: what is below is round-off
+    constexpr double huber_limit         = 1.345; ///< standard deviations; 95 % efficiency for normal noise (Huber)
+    constexpr double indistinct_width    = 0.5;   ///< half-width of an interval over an unknown's scale: not determined
+    constexpr double unlimited_deviation = 1e6;   ///< in scales, of a direction without influence on the data
+    constexpr double slowest_decay       = 0.98;  ///< ratio of the autocorrelation at neighbouring distances
+    constexpr double weak_correlation    = 0.98;  ///< of two unknowns that are badly separated
+    constexpr double named_component     = 0.2;   ///< smallest component, over the largest, whose unknown is named
+    constexpr double smallest_singular   = 1e-10; ///< over the largest singular value: round-off below
 
+    /// Returns r(d) = sum x_i x_(i + d) / sum x_i^2 within strokes, for residuals x at a distance of d rows.
     double autocorrelation(const std::vector<std::vector<double>> &strokes, const std::size_t distance)
     {
       double products = 0., squares = 0.;
@@ -84,6 +85,7 @@ namespace sprag
       return squares > 0. ? products / squares : 0.;
     }
 
+    /// Returns the rows per independent row, 1 + 2 sum_d r(d), over distances d up to the first r(d) < 2/sqrt(rows).
     double estimate_correlation(const std::vector<std::vector<double>> &strokes, const double rows)
     {
       std::size_t longest = 0;
@@ -99,12 +101,13 @@ namespace sprag
         last = found;
         rate = distance == 1 ? found : rate;
       }
-      // The rest of the sum is a geometric series with the ratio of the first distance.
+      // The rest of the sum is approximated by a geometric series with ratio r(1).
       return sum + 2. * last * rate / (1. - std::min(rate, slowest_decay));
     }
 
-    std::vector<std::string> names_in(const SingularValues &singular, const std::size_t direction,
-                                      const std::vector<UnknownNumber> &unknowns)
+    /// Returns the names of the unknowns with large components in a right singular vector of the Jacobian.
+    std::vector<std::string> direction_names(const SingularValues &singular, const std::size_t direction,
+                                             const std::vector<UnknownNumber> &unknowns)
     {
       const auto n         = unknowns.size();
       const auto component = [&](const std::size_t i) { return std::abs(singular.directions[i * n + direction]); };
@@ -113,7 +116,7 @@ namespace sprag
         largest = std::max(largest, component(i));
       std::vector<std::string> result;
       for (std::size_t i = 0; i < n; ++i)
-        if (component(i) >= largest_part * largest)
+        if (component(i) >= named_component * largest)
           result.push_back(unknowns[i].name);
       return result;
     }
@@ -125,8 +128,8 @@ namespace sprag
       return names.empty() ? last : boost::algorithm::join(names, ", ") + " and " + last;
     }
 
-    /// Covariance of the scaled unknowns: (J'J)^-1 (sum of J_c' J_c times what a channel's noise is beyond white and normal)
-    /// (J'J)^-1.
+    /// Returns the covariance of the scaled unknowns, (J'J)^-1 (sum_c f_c J_c' J_c) (J'J)^-1, by J = U S V'. f_c is
+    /// correlation times spread of channel c, 1 for white normal noise (sandwich estimator).
     std::vector<double> covariance(const SingularValues &singular, const std::vector<UsedValue> &values,
                                    const std::vector<ChannelNoise> &noise)
     {
@@ -143,7 +146,7 @@ namespace sprag
       for (std::size_t a = 0; a < n; ++a)
       {
         const bool is_lost = singular.values[a] <= smallest_singular * singular.values[0];
-        inverse[a]         = is_lost ? lost_deviation : 1. / singular.values[a];
+        inverse[a]         = is_lost ? unlimited_deviation : 1. / singular.values[a];
         if (is_lost)
           middle[a * n + a] = 1.;
       }
@@ -156,7 +159,8 @@ namespace sprag
       return result;
     }
 
-    void tell_indistinct(const std::vector<double> &covariances, const std::vector<UnknownNumber> &unknowns, Knowledge &found)
+    /// Adds a sentence for each right singular vector along which the confidence interval is too wide.
+    void add_indistinct(const std::vector<double> &covariances, const std::vector<UnknownNumber> &unknowns, Knowledge &found)
     {
       const auto n = unknowns.size();
       for (std::size_t direction = n; direction-- > 0;)
@@ -166,20 +170,21 @@ namespace sprag
           for (std::size_t j = 0; j < n; ++j)
             variance += found.singular.directions[i * n + direction] * covariances[i * n + j] *
                         found.singular.directions[j * n + direction];
-        if (found.quantile * std::sqrt(variance) < unknown_from)
+        if (found.quantile * std::sqrt(variance) < indistinct_width)
           continue;
-        const auto names = names_in(found.singular, direction, unknowns);
+        const auto names = direction_names(found.singular, direction, unknowns);
         found.indistinct.push_back(names.size() == 1 ? "The data do not tell " + names[0] + "."
                                                      : "The data do not tell " + listed(names) + " apart.");
       }
     }
 
-    void tell_weak(const std::vector<UnknownNumber> &unknowns, Knowledge &found)
+    /// Adds a sentence for each pair of strongly correlated unknowns.
+    void add_weak(const std::vector<UnknownNumber> &unknowns, Knowledge &found)
     {
       const auto n = unknowns.size();
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = i + 1; j < n; ++j)
-          if (std::abs(found.correlation[i * n + j]) > weak_from)
+          if (std::abs(found.correlation[i * n + j]) > weak_correlation)
             found.weak.push_back(unknowns[i].name + " and " + unknowns[j].name + " are told apart badly: correlation " +
                                  formatted("%.4f", found.correlation[i * n + j]) + ".");
     }
@@ -193,12 +198,12 @@ namespace sprag
     held.stability.damping = false;
     held                   = held_scene(held);
     const auto dynamics    = DynamicsMaker(false).make(held);
-    const auto forward     = differences(scene, dynamics.model(), peak_speed);
-    const auto back        = differences(scene, dynamics.model(), -peak_speed);
+    const auto forward     = force_corrections(scene, dynamics.model(), peak_speed);
+    const auto back        = force_corrections(scene, dynamics.model(), -peak_speed);
     return [forward, back](const double x, const int direction)
     {
-      const auto &way = direction > 0 ? forward : back;
-      return SlidingForces{ way[0].value(x), way[1].value(x) };
+      const auto &forces = direction > 0 ? forward : back;
+      return SlidingForces{ forces[0].value(x), forces[1].value(x) };
     };
   }
 
@@ -239,13 +244,14 @@ namespace sprag
     const auto contact  = kinematics(lever.geometry, place.x);
     const double turn   = contact.theta - kinematics(lever.geometry, 0.).theta;
     const double spring = lever.stiffness * (turn - lever.rest_angle);
+    // Steady sliding still accelerates the lever: theta'' = theta_xx v^2.
     const double moment = spring + inertia * curvature(lever.geometry, contact) * v * v;
     const auto state    = closed_form(lever.geometry, lever.friction, moment, contact, v);
     const double arm    = contact.s + direction * state.mu * lever.geometry.interface_offset;
     if (!(arm > 0.) || !std::isfinite(state.P) || state.mu < 0.)
       return std::nullopt;
-    const auto more = correction(place.x, direction);
-    return SlidingForces{ state.P + more.P, state.Q + more.Q };
+    const auto model = correction(place.x, direction);
+    return SlidingForces{ state.P + model.P, state.Q + model.Q };
   }
 
   double StrokeFit::shown(const IdentifiedLever &lever, const SlidingForces &slide, const std::size_t channel) const
@@ -266,7 +272,7 @@ namespace sprag
                                            const std::vector<double> &deviations, const ModelCorrection &correction,
                                            const std::vector<double> &weights) const
   {
-    std::vector<double> result(values.size(), impossible);
+    std::vector<double> result(values.size(), no_slide_residual);
     try
     {
       const auto lever = unknowns.lever(in_units(scaled));
@@ -284,14 +290,14 @@ namespace sprag
     }
     catch (const InputError &)
     {
-      // No lever: a trial step that is refused for its large residuals.
+      // The values make no lever: the least-squares step is rejected for its large residuals.
     }
     return result;
   }
 
   double influence(const IdentificationLoss loss, const double residual)
   {
-    return loss == IdentificationLoss::squares ? residual : std::clamp(residual, -huber, huber);
+    return loss == IdentificationLoss::squares ? residual : std::clamp(residual, -huber_limit, huber_limit);
   }
 
   std::vector<ChannelNoise> estimate_noise(const std::vector<UsedValue> &values, const std::vector<double> &residuals,
@@ -310,28 +316,28 @@ namespace sprag
           continue;
         if (last == values.size() || values[i].stroke != values[last].stroke)
           strokes.emplace_back();
-        last              = i;
-        const double felt = influence(loss, residuals[i]);
-        strokes.back().push_back(felt);
+        last                 = i;
+        const double bounded = influence(loss, residuals[i]);
+        strokes.back().push_back(bounded);
         sizes.push_back(std::abs(residuals[i]));
         squares += residuals[i] * residuals[i];
-        influences += felt * felt;
-        slopes += felt == residuals[i] ? 1. : 0.;
+        influences += bounded * bounded;
+        slopes += bounded == residuals[i] ? 1. : 0.;
       }
       auto &noise = result[channel];
       noise.rows  = static_cast<double>(sizes.size());
       if (sizes.empty())
         continue;
       noise.correlation = estimate_correlation(strokes, noise.rows);
-      // The fit has taken its share of the independent ones.
-      const double taken      = static_cast<double>(unknowns) * noise.correlation / static_cast<double>(values.size());
-      const double free_share = 1. - std::min(taken, 0.9);
+      // Degrees of freedom: the fit uses as many independent rows as it has unknowns.
+      const double fitted     = static_cast<double>(unknowns) * noise.correlation / static_cast<double>(values.size());
+      const double free_share = 1. - std::min(fitted, 0.9);
       if (loss == IdentificationLoss::squares)
         noise.deviation = deviations[channel] * std::sqrt(squares / noise.rows / free_share);
       else
       {
         std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
-        noise.deviation    = deviations[channel] * sizes[sizes.size() / 2] / 0.6745; // median of the normal distribution
+        noise.deviation    = deviations[channel] * sizes[sizes.size() / 2] / 0.6745; // median of |x| for normal x, deviation 1
         const double share = slopes / noise.rows;
         noise.spread       = influences / noise.rows / free_share / (share * share);
       }
@@ -358,9 +364,9 @@ namespace sprag
       for (std::size_t j = 0; j < n; ++j)
         result.correlation[i * n + j] = covariances[i * n + j] / std::sqrt(covariances[i * n + i] * covariances[j * n + j]);
     }
-    tell_indistinct(covariances, unknowns, result);
+    add_indistinct(covariances, unknowns, result);
     if (result.indistinct.empty())
-      tell_weak(unknowns, result);
+      add_weak(unknowns, result);
     result.singular.left.clear();
     return result;
   }
