@@ -14,23 +14,23 @@ namespace sprag
     std::string remedy; ///< a sentence: what to change to halve it
   };
 
-  /// The error that a run tells of one of its results.
+  /// The estimated error of one result of a run.
   struct ErrorEstimate
   {
     std::string quantity;              ///< name in /accuracy: P, Q, loop_area
-    std::string relative_to;           ///< what the error is a share of
+    std::string relative_to;           ///< name of the quantity by which the error is divided
     std::vector<ErrorPart> parts;      ///< empty where no estimate holds
     std::string unknown;               ///< why no estimate holds, a sentence
-    std::vector<ErrorPart> left_out{}; ///< what the model leaves out, which no setting of it mends; not in the sum of the parts
+    std::vector<ErrorPart> left_out{}; ///< errors of the model itself, which no setting reduces; not in the sum of the parts
   };
 
-  /// Returns the sum of the parts, which says what is to be feared when none cancels another; NaN without parts.
+  /// Returns the sum of the parts, an upper estimate as parts may cancel; NaN without parts.
   double total_error(const ErrorEstimate &estimate);
 
   /// Returns the largest part; there must be one.
   const ErrorPart &largest_part(const ErrorEstimate &estimate);
 
-  /// Returns the error of the finer of two results over their difference, coarse less fine, where sizes are `ratio` > 1 apart and
-  /// the error goes with a power `order` > 0 of the size (Richardson).
+  /// Returns (error of the finer result)/(coarse - fine) = 1/(ratio^order - 1), for an error proportional to size^order, order
+  /// > 0, and sizes `ratio` > 1 apart (Richardson).
   double finer_share(double ratio, double order);
 } // namespace sprag

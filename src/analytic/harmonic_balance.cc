@@ -17,7 +17,8 @@ namespace sprag
       double elastic, damping;
     };
 
-    /// Integrates over the quarters of a half cycle on which z > 0 grows and shrinks; the others are alike.
+    /// Returns a = 1/pi int D sin phi dphi and b = 1/pi int D cos phi dphi of the damper's force D over a cycle z = A sin phi,
+    /// as twice the integrals over the quarters on which z > 0 grows and shrinks: the other half cycle is symmetric.
     FirstHarmonic first_harmonic(const Damper &damper, const double amplitude, const double w)
     {
       const auto force = [&](const double angle, const int away)
@@ -32,35 +33,35 @@ namespace sprag
   std::vector<HarmonicBalance> harmonic_balance(const IsolationSystem &system, const double base_amplitude,
                                                 const double frequency)
   {
-    constexpr unsigned int looks = 160;
-    const double w = frequency, push = system.mass * w * w * base_amplitude;
+    constexpr unsigned int brackets = 160; // of A, geometrically spaced; each change of sign holds a solution
+    const double w = frequency, base_force = system.mass * w * w * base_amplitude;
     const double largest = std::min(system.damper.reach, 1e3 * base_amplitude);
     const auto residual  = [&](const double A)
     {
       const auto [a, b] = first_harmonic(system.damper, A, w);
-      return std::hypot((system.stiffness - system.mass * w * w) * A + a, b) - push;
+      return std::hypot((system.stiffness - system.mass * w * w) * A + a, b) - base_force;
     };
     const auto found_at = [&](const double A)
     {
       const auto [a, b] = first_harmonic(system.damper, A, w);
-      return HarmonicBalance{ A, std::hypot(system.stiffness * A + a, b) / push };
+      return HarmonicBalance{ A, std::hypot(system.stiffness * A + a, b) / base_force };
     };
     std::vector<HarmonicBalance> found;
     double from = 1e-6 * largest, before = residual(from);
     if (before >= 0.)
       found.push_back({ 0., 1. });
-    for (unsigned int i = 1; i <= looks; ++i)
+    for (unsigned int i = 1; i <= brackets; ++i)
     {
-      const double to = largest * std::pow(1e-6, 1. - static_cast<double>(i) / looks), behind = residual(to);
-      if (std::isfinite(behind) && before * behind < 0.)
+      const double to = largest * std::pow(1e-6, 1. - static_cast<double>(i) / brackets), after = residual(to);
+      if (std::isfinite(after) && before * after < 0.)
       {
         boost::uintmax_t most = 100;
-        const auto root       = boost::math::tools::toms748_solve(residual, from, to, before, behind,
+        const auto root       = boost::math::tools::toms748_solve(residual, from, to, before, after,
                                                                   boost::math::tools::eps_tolerance<double>(48), most);
         found.push_back(found_at(0.5 * (root.first + root.second)));
       }
       from   = to;
-      before = behind;
+      before = after;
     }
     return found;
   }

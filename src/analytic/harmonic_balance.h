@@ -11,11 +11,11 @@ namespace sprag
   struct HarmonicBalance
   {
     double amplitude;        ///< A [mm]; 0: friction holds the table
-    double transmissibility; ///< of the first harmonic
+    double transmissibility; ///< first harmonic of the table's acceleration over that of the base
   };
 
-  /// Returns all motions of one harmonic under a harmonic base of this amplitude [mm] and frequency [1/s], the smallest first:
-  /// ((K - m w^2) A + a(A))^2 + b(A)^2 = (m w^2 X)^2 with the parts a and b of the damper's force in phase with z and z'. The
-  /// table is held where b(0) is as large as the right side. Amplitudes beyond the damper's way or 1000 X are not looked for.
+  /// Returns all solutions A, the smallest first, of ((K - m w^2) A + a(A))^2 + b(A)^2 = (m w^2 X)^2, with a and b the parts of
+  /// the damper's force in phase with z and z'. X: `base_amplitude` [mm], w: `frequency` [rad/s]. Friction holds the table
+  /// (A = 0) if b(0) >= m w^2 X. A is sought up to the damper's reach and 1000 X.
   std::vector<HarmonicBalance> harmonic_balance(const IsolationSystem &system, double base_amplitude, double frequency);
 } // namespace sprag

@@ -22,7 +22,9 @@ namespace sprag
       const double rest      = kinematics(scene.geometry, 0.).theta;
       const MomentLaw spring = moment_law(scene.spring);
 
-      /// Columns at a point of the drive.
+      /// Returns the row at a point of the drive, with subscripts for derivatives by x and theta_x = sin theta / s:
+      ///   s_x = -cos theta - (R - e) theta_x,  theta_xx = (cos theta theta_x s - sin theta s_x) / s^2,
+      ///   theta' = theta_x v,  theta'' = theta_x a + theta_xx v^2.
       Row row(const DrivePoint &point) const
       {
         const auto &g          = scene.geometry;
@@ -59,6 +61,7 @@ namespace sprag
       return energy;
     }
 
+    /// Returns the works of drive and friction over a time interval, by Gauss' rule with three points.
     StepWork work_between(const IdealContact &lever, const Drive &drive, const double begin, const double end)
     {
       const double points[]  = { 0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15) };

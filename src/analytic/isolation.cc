@@ -16,26 +16,26 @@ namespace sprag
 {
   namespace
   {
-    /// State at an instant of each period of the base; all of the unit of `amplitude`, the largest displacement of the period
-    /// that ends with it.
+    /// State at the end of a period of the base: z, z'/(2 pi f) and the largest |z| of that period [mm].
     struct Instant
     {
       double z, rate_over_frequency, amplitude;
     };
 
-    /// Tells from the states at the same phase of each period of the base whether the motion repeats.
+    /// Decides whether the motion repeats, from the states at the ends of the base's periods.
     struct SteadyState
     {
       const std::vector<Instant> &instants;
-      const double tolerance; ///< way left to the steady state, over the amplitude
+      const double tolerance; ///< distance to the steady state, over the amplitude
 
+      /// Returns the distance [mm] between the states at an instant and some periods earlier.
       double change(const std::size_t instant, const unsigned int periods) const
       {
         const auto &now = instants[instant], &before = instants[instant - periods];
         return std::hypot(now.z - before.z, now.rate_over_frequency - before.rate_over_frequency);
       }
 
-      /// The way left follows from how fast changes become smaller.
+      /// Extrapolates geometrically: with changes c_i and q = c_i/c_(i-1) the remaining distance is c_i q/(1 - q).
       bool repeats(const std::size_t instant, const unsigned int periods) const
       {
         constexpr double round_off = 1e-13;
@@ -47,7 +47,8 @@ namespace sprag
         return ratio < 1. && last * ratio / (1. - ratio) <= tolerance * amplitude && last <= 1e3 * tolerance * amplitude;
       }
 
-      /// A decay that turns seems to repeat after several periods first; close to the steady state all that is left is small.
+      /// Returns the shortest period that divides `repeating` and leaves a small change: an oscillating decay seems to repeat
+      /// after several periods before it does after one.
       unsigned int shortest(const unsigned int repeating) const
       {
         const std::size_t last = instants.size() - 1;
@@ -68,14 +69,15 @@ namespace sprag
       }
     };
 
-    /// Peaks, means and stops of one period of a harmonic base.
+    /// One period of a harmonic base: largest |z''_table| and |z|, integrals of the table's acceleration a (a^2, a cos wt,
+    /// a sin wt) and number of stops.
     struct Period
     {
       double peak, displacement, square, cosine, sine;
       unsigned int stops;
     };
 
-    /// A section holds the sums from the beginning of a run over a random base to its own end.
+    /// Integrals of the squared accelerations of table and base, from the start of a run to the end of a section.
     struct Section
     {
       double square, base_square;
@@ -84,8 +86,8 @@ namespace sprag
     constexpr unsigned int random_sections = 12;
     constexpr double section_quantile      = 2.20; ///< 97.5 % of Student's t with 11 degrees of freedom
 
-    /// Returns half of the interval of 95 % about the ratio of root mean squares, by the jackknife: the ratio is taken again and
-    /// again without one of the sections.
+    /// Returns the half-width of the 95 % interval of the ratio of root mean squares by the jackknife,
+    /// t sqrt((n - 1)/n sum_i (r_i - mean)^2), with r_i the ratio without section i.
     double half_interval(const std::vector<Section> &ends)
     {
       const auto n = static_cast<double>(ends.size());
@@ -113,11 +115,11 @@ namespace sprag
       unsigned int periods_ended = 0;
       unsigned int period_stops  = 0;
       bool has_ended             = false;
-      std::vector<Instant> instants; ///< at the ends of periods
-      std::vector<Period> periods;   ///< the last
-      std::vector<Section> sections; ///< that ended
-      std::vector<double> last_turns;
-      double square           = 0.; ///< of the table's acceleration, of the periods that ended
+      std::vector<Instant> instants;  ///< at the ends of periods
+      std::vector<Period> periods;    ///< the last 8
+      std::vector<Section> sections;  ///< finished ones
+      std::vector<double> last_turns; ///< z of the last two [mm]
+      double square           = 0.;   ///< integral of the table's squared acceleration over finished periods
       double largest_energy   = 0.;
       double largest_residual = 0.;
     };
@@ -128,16 +130,17 @@ namespace sprag
       archive(rows, ended, stops, has_ended, instants, periods, sections, turns, square, energy, residual);
     }
 
-    /// Adds to the last ones, of which so many are kept.
+    /// Appends an item and drops the first one if there are more than `largest_size`.
     template <class Item>
-    void add_last(const Item &item, const std::size_t kept, std::vector<Item> &items)
+    void append_limited(const Item &item, const std::size_t largest_size, std::vector<Item> &items)
     {
       items.push_back(item);
-      if (items.size() > kept)
+      if (items.size() > largest_size)
         items.erase(items.begin());
     }
 
-    struct Follower
+    /// Runs a table to its end: stops at rows, ends of periods and of sections, and collects the findings.
+    struct IsolationRun
     {
       const Scene &scene;
       IsolatedTable &motion;
@@ -149,25 +152,25 @@ namespace sprag
       const double between_rows         = output_step(settings);
       SolverState solver                = {};
 
-      void follow()
+      void run()
       {
         if (keeper == nullptr || !keeper->progress.take_up(progress()))
         {
-          note();
+          update_extremes();
           write(false);
         }
         while (motion.state().time < settings.duration && !solver.has_ended)
         {
           const double row = static_cast<double>(solver.rows) * between_rows;
           const double end = period_end(), section = section_end();
-          go_on(std::min({ settings.duration, record ? row : settings.duration, end, section }));
+          advance_to(std::min({ settings.duration, record ? row : settings.duration, end, section }));
           if (motion.state().time >= row)
             ++solver.rows;
           if (motion.state().time == end)
             end_period();
           if (motion.state().time == section)
             solver.sections.push_back({ motion.state().square, motion.state().base_square });
-          keep();
+          accept_step();
         }
         if (keeper != nullptr)
           keeper->progress.end_steps(progress());
@@ -175,7 +178,7 @@ namespace sprag
 
       void conclude()
       {
-        note();
+        update_extremes();
         const auto &state = motion.state();
         found.time        = state.time;
         found.rests       = motion.rests();
@@ -189,7 +192,7 @@ namespace sprag
         found.rms_acceleration = state.time > 0. ? std::sqrt(solver.square / state.time) : 0.;
         found.energy_residual  = solver.largest_energy > 0. ? solver.largest_residual / solver.largest_energy : 0.;
         if (is_harmonic)
-          take_period_ratios();
+          compute_period_ratios();
         else if (motion.largest_base_acceleration() > 0.)
         {
           found.peak = motion.largest_acceleration() / motion.largest_base_acceleration();
@@ -233,8 +236,8 @@ namespace sprag
         };
       }
 
-      /// To be called where all that has happened is recorded. Ends the run where it is interrupted.
-      void keep()
+      /// Ends an interrupted run here; findings and table must be complete up to this instant.
+      void accept_step()
       {
         if (keeper != nullptr)
           keeper->progress.accept_step(progress());
@@ -248,7 +251,7 @@ namespace sprag
           record(motion, is_before);
       }
 
-      void note()
+      void update_extremes()
       {
         const auto &state          = motion.state();
         const double largest       = std::max({ std::abs(state.base_work), state.dissipated, motion.energy() });
@@ -258,19 +261,19 @@ namespace sprag
         found.largest_acceleration = std::max(found.largest_acceleration, motion.largest_acceleration());
       }
 
-      void go_on(const double until)
+      void advance_to(const double until)
       {
         do
         {
-          note_event(motion.advance(until));
+          record_event(motion.advance(until));
           if (motion.state().time < until)
-            keep();
+            accept_step();
         } while (motion.state().time < until);
-        note();
+        update_extremes();
         write(false);
       }
 
-      void note_event(const TableEvent event)
+      void record_event(const TableEvent event)
       {
         if (event == TableEvent::none)
           return;
@@ -278,7 +281,7 @@ namespace sprag
         if (turns)
         {
           ++found.turns;
-          add_last(motion.state().z, 2, solver.last_turns);
+          append_limited(motion.state().z, 2, solver.last_turns);
           write(true);
         }
         if (event == TableEvent::stop)
@@ -286,16 +289,16 @@ namespace sprag
           ++found.stops;
           ++solver.period_stops;
         }
-        note();
+        update_extremes();
         write(false);
       }
 
       void end_period()
       {
         const auto &state = motion.state();
-        add_last(Period{ motion.largest_acceleration(), motion.largest_displacement(), state.square, state.cosine, state.sine,
-                         solver.period_stops },
-                 8, solver.periods);
+        append_limited(Period{ motion.largest_acceleration(), motion.largest_displacement(), state.square, state.cosine,
+                               state.sine, solver.period_stops },
+                       8, solver.periods);
         solver.square += state.square;
         solver.instants.push_back({ state.z, state.rate / (2. * M_PI * settings.base_frequency), motion.largest_displacement() });
         ++solver.periods_ended;
@@ -309,7 +312,9 @@ namespace sprag
         solver.has_ended = repeats && settings.end == IsolationEnd::steady_state;
       }
 
-      void take_period_ratios()
+      /// Averages over the periods after which the motion repeats, T long in all; a_base = X w^2: fundamental =
+      /// 2/T |(int a cos wt, int a sin wt)| / a_base, rms = sqrt(2/T int a^2) / a_base.
+      void compute_period_ratios()
       {
         found.periods = std::min<unsigned int>(found.periods, static_cast<unsigned int>(solver.periods.size()));
         if (found.periods == 0)
@@ -342,7 +347,7 @@ namespace sprag
     const double natural   = 2. * M_PI * std::sqrt(settings.mass / settings.stiffness);
     const auto base        = base_motion(settings);
     const double base_step = std::min(0.01 * natural, 0.1 * base.shortest_period);
-    // Rows as fine as a record show its whole spectrum.
+    // A recorded base motion needs rows at its own spacing to show its whole spectrum.
     const bool is_record = settings.base == BaseMotionType::record && !base.kinks.empty();
     return is_record ? std::min(base_step, base.kinks.back() / static_cast<double>(base.kinks.size())) : base_step;
   }
@@ -350,18 +355,18 @@ namespace sprag
   void run_isolation(const Scene &scene, IsolatedTable &table, IsolationFindings &findings, const RecordTable &record,
                      const TableKeeper *const keeper)
   {
-    Follower follower{ scene, table, findings, record, keeper };
+    IsolationRun run{ scene, table, findings, record, keeper };
     try
     {
-      follower.follow();
+      run.run();
     }
     catch (const AnalysisError &)
     {
-      follower.conclude();
+      run.conclude();
       throw;
     }
-    follower.conclude();
-    follower.check_energy();
+    run.conclude();
+    run.check_energy();
   }
 
   void run_isolation(const Scene &scene, IsolationFindings &findings, const RecordTable &record)

@@ -15,10 +15,10 @@ namespace sprag
   /// over the last periods, otherwise over the whole run. A finding that does not apply is NaN.
   struct IsolationFindings
   {
-    unsigned int turns     = 0;  ///< instants with z' = 0 that a motion led to, stops included
-    unsigned int stops     = 0;  ///< of these at which friction held the table
-    double time            = 0.; ///< at the end [s]
-    bool rests             = false;
+    unsigned int turns     = 0;       ///< instants at which z' becomes 0, stops included
+    unsigned int stops     = 0;       ///< turns after which friction holds the table
+    double time            = 0.;      ///< at the end [s]
+    bool rests             = false;   ///< friction holds the table at the end
     double residual_offset = unknown; ///< z at rest, or on a base at rest the mean of the last two turns [mm]
 
     double largest_displacement = 0.;      ///< [mm]
@@ -37,31 +37,31 @@ namespace sprag
     double stops_a_period = unknown;
     double steady_from    = unknown; ///< [s]
 
-    double base_work       = 0.; ///< [N mm]
-    double dissipated      = 0.;
+    double base_work       = 0.; ///< work of the base on the table [N mm]
+    double dissipated      = 0.; ///< [N mm]
     double energy_residual = 0.; ///< largest, over the largest energy or work
   };
 
-  /// Takes the motion at the instants of the table; `is_before` tells that the force is still that before a turn.
+  /// Records a row of the table. `is_before`: at a turn the force is still that before it, and a second row follows.
   using RecordTable = std::function<void(const IsolatedTable &, bool is_before)>;
 
-  /// Keeper of a run's progress, with the serialiser of the table's part of it.
+  /// Keeps the progress of a run; `serialise_table` adds the state of the table.
   struct TableKeeper
   {
     ProgressKeeper &progress;
     ProgressSerialiser serialise_table;
   };
 
-  /// Follows a table of the scene to its end and fills in what it finds, also where it throws AnalysisError: the damper ends,
-  /// locks, or more energy is left open than Analysis/Maximum energy residual. Without `record` nothing is recorded. With a
-  /// keeper, null without, a run goes on from where an interrupted one was.
+  /// Runs the scene's table to its end and fills in the findings, also if it throws AnalysisError: the damper reaches its end,
+  /// it locks, or the energy residual exceeds Analysis/Maximum energy residual. An empty `record` records nothing. With a keeper
+  /// an interrupted run is resumed.
   void run_isolation(const Scene &scene, IsolatedTable &table, IsolationFindings &findings, const RecordTable &record,
                      const TableKeeper *keeper = nullptr);
 
-  /// Does so with the damper that formulas give.
+  /// Runs a table on the damper of the closed form.
   void run_isolation(const Scene &scene, IsolationFindings &findings, const RecordTable &record);
 
-  /// Returns the time between two rows [s]: that given, or a hundredth of the natural period, and a tenth of the base's shortest
-  /// where that is less.
+  /// Returns the time between two rows [s]: Isolation/Output step, else the least of 1/100 natural period, 1/10 of the base's
+  /// shortest period and the spacing of a record.
   double output_step(const IsolationSettings &settings);
 } // namespace sprag
