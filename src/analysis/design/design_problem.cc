@@ -258,7 +258,7 @@ namespace sprag
       free.push_back(*find_parameter(declared, parameter.name));
   }
 
-  bool DesignProblem::is_dear() const
+  bool DesignProblem::is_expensive() const
   {
     return dear ||
            asks_for(base.design, [](const Q quantity) { return is_table_quantity(quantity) && quantity != Q::friction_ratio; });
@@ -318,13 +318,13 @@ namespace sprag
     return place;
   }
 
-  BoxProblem DesignProblem::box(const std::optional<DesignAim> &aim, const std::optional<std::size_t> &spared,
+  BoxProblem DesignProblem::box(const std::optional<DesignAim> &aim, const std::optional<std::size_t> &omitted,
                                 const std::optional<Demand> &limit) const
   {
     BoxProblem problem;
     std::vector<std::size_t> counting;
     for (std::size_t i = 0; i < base.design.demanded.size(); ++i)
-      if (i != spared && (dear || base.design.demanded[i].term.quantity != DesignQuantity::growth_rate))
+      if (i != omitted && (dear || base.design.demanded[i].term.quantity != DesignQuantity::growth_rate))
         counting.push_back(i);
     problem.dimension     = free.size();
     problem.n_constraints = 1 + counting.size() + (limit ? 1 : 0);

@@ -17,13 +17,13 @@ namespace sprag
 {
   struct Scene;
 
-  /// A function to be minimised over the unit cube under constraints, all of which an evaluation finds together.
+  /// A minimisation over the unit cube with inequality constraints; one evaluation returns objective and constraints.
   struct BoxProblem
   {
     struct Evaluation
     {
       double objective = 0.;
-      std::vector<double> constraints; ///< each <= 0 where it is kept
+      std::vector<double> constraints; ///< satisfied if <= 0
     };
 
     std::size_t dimension     = 0;
@@ -31,7 +31,7 @@ namespace sprag
     std::function<Evaluation(const std::vector<double> &)> evaluate;
   };
 
-  /// Values of all quantities of a lever; NaN of what is not known.
+  /// Values of all quantities of a lever, NaN if unknown.
   class DesignQuantities
   {
   public:
@@ -54,102 +54,100 @@ namespace sprag
     std::array<double, static_cast<std::size_t>(DesignQuantity::parameter)> values;
   };
 
-  /// A rule that every lever keeps, whatever is demanded: it can be built and slides on the whole stroke.
+  /// A condition for a lever that can be built and slides on the whole stroke, whatever the demands.
   struct LeverRule
   {
-    double violation = 0.; ///< of lengths over the largest of them; <= 0: kept
+    double violation = 0.; ///< relative to a length of the rule; <= 0: satisfied
     std::string text;      ///< "the cylinder must not reach the pivot on the stroke"
   };
 
-  /// Returns the first rule that the lever breaks, or the one that it comes closest to breaking. `has_length`: whether
-  /// Lever/Length must reach beyond the contact.
+  /// Returns the rule with the largest violation. `has_length`: Lever/Length must reach 2 mm beyond the contact.
   LeverRule hardest_rule(const Scene &scene, bool has_length);
 
-  /// Returns the largest distance of forces from the best line through 0, over the largest force.
+  /// Returns max |F_i - c x_i| / max |F_i| with c = sum x_i F_i / sum x_i^2, the best line through 0.
   double compute_nonlinearity(const std::vector<double> &x, const std::vector<double> &forces);
 
   /// Returns the largest size of some forces.
   double largest_magnitude(const std::vector<double> &forces);
 
-  /// Returns the ratio of forces or slopes forward and back; infinite where the way back does not damp.
+  /// Returns forward/-backward of forces or slopes; infinite for backward >= 0, where the return stroke does not damp.
   double direction_ratio(double forward, double backward);
 
-  /// Adds the quantities that follow from the representative slopes of one lever forward and back [N/mm].
+  /// Adds the quantities that follow from the slopes C_Q of one lever forward and backward [N/mm], see scene/design.cc.
   void add_slopes(const Scene &scene, double forward, double backward, DesignQuantities &quantities);
 
-  /// Returns those quantities of a lever that keeps the rules which follow from the closed form on the stroke.
+  /// Returns the quantities that follow from the closed form, for a lever that satisfies the rules.
   DesignQuantities lever_quantities(const Scene &scene);
 
-  /// Fills in what the table does on such levers, as far as the design asks for it: by one harmonic, and the offset by a run in
-  /// time. A table without a motion of one harmonic within the levers' way has an infinite transmissibility, one whose levers end
-  /// or lock an infinite offset.
+  /// Adds the quantities of the isolated table that the design asks for: by harmonic balance, the offset by a run in time. They
+  /// are infinite if there is no periodic motion within the levers' reach, or if a lever reaches its end or locks.
   void add_table_quantities(const Scene &scene, const DesignSettings &design, DesignQuantities &quantities);
 
-  /// A lever within the bounds and what it does.
+  /// A lever within the bounds, with its quantities.
   struct Proposal
   {
-    std::vector<double> parameters; ///< in the order of the free ones, in their units
-    LeverRule rule;                 ///< that it is closest to breaking
-    DesignQuantities quantities;    ///< NaN where it breaks one; with the corrections
-    std::vector<double> violations; ///< of the demands, scaled: by how much each is missed over its target; <= 0: met
+    std::vector<double> parameters; ///< values of the free parameters, in their order and units
+    LeverRule rule;                 ///< the one with the largest violation
+    DesignQuantities quantities;    ///< corrected, see DesignProblem::correct(); NaN if a rule is violated
+    std::vector<double> violations; ///< demand_violation() of each demand
   };
 
-  /// Returns by how much a quantity misses a demand, over the target or, where that is 0, the scale of the quantity; <= 0 where
-  /// it is met.
+  /// Returns by how much a value misses a demand, over the target (over the tolerance for a target of 0, over 100/s for growth
+  /// rates); <= 0: met.
   double demand_violation(const Demand &demand, double value);
 
-  /// Returns the value that a quantity or a free parameter has.
+  /// Returns the value of a quantity or a free parameter.
   double term_value(const DesignTerm &term, const Proposal &proposal);
 
   /// Returns the lever's parameters as overrides of the scene of the design, "Section/Name=value".
   std::vector<std::string> design_overrides(const Scene &design, const Proposal &lever);
 
-  /// The levers of a scene between the bounds of its free parameters, by the closed form.
+  /// The levers within the bounds of a design's free parameters, evaluated by the closed form with corrections by models.
   class DesignProblem
   {
   public:
-    /// Computes quantities that the closed form does not know, such as growth rates, from the scene of a lever.
+    /// Adds expensive quantities that the closed form does not give, such as growth rates, to those of a lever's scene.
     using Dear = std::function<void(const Scene &, DesignQuantities &)>;
 
     explicit DesignProblem(const Scene &scene);
 
-    /// Makes the closed form meet from now on what a check model found of a lever: what is positive by a factor, the rest by a
-    /// difference. `by_closed_form` is without earlier corrections.
+    /// Corrects a quantity from now on to what a check model found: by the factor found/by_closed_form if both are positive, else
+    /// by their difference. `by_closed_form` is uncorrected.
     void correct(DesignQuantity quantity, double by_closed_form, double found);
 
-    /// Returns a quantity without the corrections.
+    /// Returns a corrected value without its correction.
     double uncorrected(DesignQuantity quantity, double corrected) const;
 
-    /// Margin by which demands are met, over their targets. It is larger where corrections are known to first order alone, and
-    /// at most a quarter of a demand's tolerance.
+    /// Safety margin of the demands, over their targets; at most a quarter of a demand's tolerance. It is larger while
+    /// corrections are known to first order only.
     double room = 1e-7;
 
-    /// Counted with every lever from now on; empty: nothing.
+    /// Called for every lever evaluated from now on; empty: growth rates are unknown and not demanded.
     Dear dear;
 
-    /// Returns the lever at a place of the unit cube of bounds.
+    /// Returns the lever at a point of the unit cube of bounds.
     Proposal at(const std::vector<double> &place) const;
 
-    /// Returns the place of parameters, in the unit cube.
+    /// Returns the point of the unit cube for values of the free parameters, in their units.
     std::vector<double> search_point(const std::vector<double> &parameters) const;
 
     /// Returns the scene with the lever's parameters, unchecked.
     const Scene &scene_at(const std::vector<double> &parameters) const;
 
-    /// Returns whether levers are dear: what their table does takes a thousandth of a second, the rest a hundredth of that.
-    bool is_dear() const;
+    /// Returns whether an evaluation takes about 1 ms, with the isolated table or `dear`; else it takes 10 us.
+    bool is_expensive() const;
 
     const DesignSettings &settings() const
     {
       return base.design;
     }
 
-    /// Returns the search for what makes `aim` best, or without one for any lever, under those of the demands that are known:
-    /// of growth rates where there is a `dear`. `spared`: a demand that does not count; `limit`: one more that does.
-    BoxProblem box(const std::optional<DesignAim> &aim, const std::optional<std::size_t> &spared = {},
+    /// Returns the minimisation for an aim (none: any lever that meets the demands). `omitted`: index of a demand to leave out;
+    /// `limit`: an additional demand. Demands of growth rates count only with `dear`.
+    BoxProblem box(const std::optional<DesignAim> &aim, const std::optional<std::size_t> &omitted = {},
                    const std::optional<Demand> &limit = {}) const;
 
-    /// Returns how often levers were computed.
+    /// Returns the number of levers evaluated.
     std::size_t evaluations() const
     {
       return *count;

@@ -21,7 +21,7 @@ namespace sprag
       unsigned int starts      = 24;   ///< of local searches besides it
       unsigned int local       = 400;  ///< evaluations of a local search
       unsigned int seed        = 1;
-      std::vector<double> near = {}; ///< a place whose neighbourhood is enough where constraints can be kept there; empty: none
+      std::vector<double> near = {}; ///< first start, sufficient if its local search satisfies the constraints; empty: none
     };
 
     struct Optimum
@@ -36,8 +36,7 @@ namespace sprag
       return *std::max_element(constraints.begin(), constraints.end());
     }
 
-    /// Returns whether a place is better than another. Those that keep all constraints compare by their objective, the others by
-    /// how far they are from keeping them.
+    /// Compares points that satisfy all constraints by their objective, others by their largest violation.
     bool is_better(const Optimum &a, const Optimum &b)
     {
       if (a.violation <= 0. && b.violation <= 0.)
@@ -45,7 +44,7 @@ namespace sprag
       return std::max(a.violation, 0.) < std::max(b.violation, 0.);
     }
 
-    /// Evaluates once where the library asks for objective and constraints of one place apart, and keeps the best place.
+    /// Evaluates a point once although NLopt asks for objective and constraints separately, and keeps the best point.
     class Evaluator
     {
     public:
@@ -56,13 +55,13 @@ namespace sprag
 
       const BoxProblem::Evaluation &at(const double *first)
       {
-        const std::vector<double> asked(first, first + problem.dimension);
-        // An interrupted search comes to its end without computing anything more.
-        if (asked == place || (interrupted() && !place.empty()))
+        const std::vector<double> point(first, first + problem.dimension);
+        // After an interrupt NLopt runs to its end on the last values, without further evaluations.
+        if (point == place || (interrupted() && !place.empty()))
           return last;
         try
         {
-          last = problem.evaluate(place = asked);
+          last = problem.evaluate(place = point);
         }
         catch (...)
         {
@@ -81,7 +80,7 @@ namespace sprag
       }
 
       const BoxProblem &problem;
-      std::exception_ptr thrown; ///< by the last evaluation, which the library makes an error of its own
+      std::exception_ptr thrown; ///< by an evaluation; NLopt replaces it by an exception of its own
 
     private:
       std::vector<double> place;
@@ -110,8 +109,8 @@ namespace sprag
       return max_constraint(to_evaluator(data).at(x).constraints);
     }
 
-    // Behind the place stands a bound on all constraints.
-    double bound(const unsigned int n, const double *x, double *, void *)
+    // Constraints are approached by minimising b under c_i(x) <= b, with b as the last variable after x.
+    double constraint_bound(const unsigned int n, const double *x, double *, void *)
     {
       return x[n - 1];
     }
@@ -135,7 +134,7 @@ namespace sprag
       {
         if (evaluator.thrown)
           std::rethrow_exception(evaluator.thrown);
-        // NLopt cannot go on: the best place tried is the answer.
+        // NLopt stopped by round-off or a failure of its own: the evaluator holds the best point.
       }
     }
 
@@ -160,7 +159,7 @@ namespace sprag
       x.push_back(std::max(most, 0.));
       search.set_lower_bounds(low);
       search.set_upper_bounds(high);
-      search.set_min_objective(bound, nullptr);
+      search.set_min_objective(constraint_bound, nullptr);
       search.add_inequality_mconstraint(constraints_below_bound, &evaluator,
                                         std::vector<double>(evaluator.problem.n_constraints));
       search.set_stopval(-1e-3);
@@ -178,7 +177,7 @@ namespace sprag
       optimise(search, start, evaluator);
     }
 
-    /// Steps become shorter where the search begins anew, as it may stop at an edge between two constraints.
+    /// Restarts local searches with shorter steps: COBYLA may stop early at an edge between two constraints.
     Optimum from_start(const BoxProblem &problem, std::vector<double> start, const unsigned int evaluations,
                        const bool only_approaches)
     {
@@ -208,10 +207,9 @@ namespace sprag
       return evaluator.best().place;
     }
 
-    /// Finds the smallest objective where all constraints are kept: by evolution (ISRES) over the cube, then from there and from
-    /// other starts by linear approximations (COBYLA); of a start that keeps none the nearest place that does is the beginning.
-    /// With `only_approaches` it stops where all constraints are kept. Where there is no such place it is the one at which the
-    /// largest constraint is smallest.
+    /// Finds the smallest objective that satisfies all constraints: by an evolution strategy (ISRES), then by local searches
+    /// (COBYLA) from its result and random starts. If none satisfies the constraints, the result has the smallest violation.
+    /// `only_approaches`: stops at the first point that satisfies them.
     Optimum search_everywhere(const BoxProblem &problem, const SearchSettings &settings, const bool only_approaches = false)
     {
       if (!settings.near.empty())
@@ -236,7 +234,7 @@ namespace sprag
     SearchSettings search_settings(const DesignProblem &problem)
     {
       SearchSettings search{ problem.settings().evaluations, 24, 400, problem.settings().seed, {} };
-      if (problem.is_dear())
+      if (problem.is_expensive())
       {
         search.evaluations = std::min(search.evaluations, 600u);
         search.starts      = 3;
@@ -245,25 +243,27 @@ namespace sprag
       return search;
     }
 
-    /// Turns a demand into an aim: the quantity is to come from `value` towards the target.
+    /// Returns the aim to move a quantity from `value` towards the demand's target.
     DesignAim towards(const Demand &demand, const double value)
     {
       return { demand.term, value < demand.target, {} };
     }
 
-    /// Returns the demand to be at least as good by an aim as this value.
+    /// Returns the demand to be at least as good as `value` by an aim.
     Demand limited_by(const DesignAim &aim, const double value)
     {
       return { aim.term, aim.maximises ? DemandKind::at_least : DemandKind::at_most, value, 0., {} };
     }
 
+    /// Returns whether lever a is better than b by an aim, by more than `share` of b's value.
     bool beats(const DesignAim &aim, const Proposal &a, const Proposal &b, const double share)
     {
       const double first = term_value(aim.term, a), second = term_value(aim.term, b);
       return (aim.maximises ? first - second : second - first) > share * std::abs(second);
     }
 
-    bool is_beaten(const std::vector<DesignAim> &aims, const Proposal &lever, const std::vector<Proposal> &others)
+    /// Returns whether another lever is better by one aim and not worse by the other (Pareto dominance).
+    bool is_dominated(const std::vector<DesignAim> &aims, const Proposal &lever, const std::vector<Proposal> &others)
     {
       constexpr double same = 1e-6;
       return std::any_of(others.begin(), others.end(),
@@ -312,7 +312,7 @@ namespace sprag
     const unsigned int last   = problem.settings().front_points - 1;
     for (unsigned int i = 1; i <= last; ++i)
     {
-      // The last limit can be kept only to round-off.
+      // The bound at the optimum itself could be met only up to round-off.
       const double share = i < last ? static_cast<double>(i) / last : 1. - 1e-6;
       const double limit = from + share * (to - from);
       const auto optimum = search_everywhere(problem.box(aims[0], {}, limited_by(aims[1], limit)), settings);
@@ -321,7 +321,7 @@ namespace sprag
     }
     std::vector<Proposal> front;
     for (const auto &lever : all)
-      if (!is_beaten(aims, lever, all))
+      if (!is_dominated(aims, lever, all))
         front.push_back(lever);
     return front;
   }

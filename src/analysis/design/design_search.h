@@ -8,31 +8,31 @@
 
 namespace sprag
 {
-  /// A demand without which the others can be met.
+  /// A demand without which all others can be met.
   struct StoppingDemand
   {
-    std::size_t demand;
-    double attainable; ///< the value of its quantity that is closest to it where all others are met
-    Proposal lever;    ///< that has it
+    std::size_t demand; ///< its index
+    double attainable;  ///< value of its quantity closest to the target if all other demands are met
+    Proposal lever;     ///< with this value
   };
 
   /// Result of a search within the bounds.
   struct Found
   {
-    Proposal lever;          ///< the best, or the one that misses the demands least
-    bool meets_all  = false; ///< of the demands that the search knew
-    double distance = 0.;    ///< largest violation, of one that misses any
+    Proposal lever;          ///< the best, or the one with the smallest violation
+    bool meets_all  = false; ///< all demands of the search are met
+    double distance = 0.;    ///< largest violation, 0 if all are met
   };
 
-  /// Finds the lever that meets all demands and is best by the first aim. `near`: a lever in whose neighbourhood it is looked for
-  /// first, and where one is found nowhere else; none: everywhere.
+  /// Finds the best lever by the first aim among those that meet all demands. With `near` the search starts at that lever, and
+  /// searches the whole cube only if no lever there meets the demands.
   Found best_lever(const DesignProblem &problem, const std::optional<Proposal> &near = {});
 
-  /// Leaves out each demand in turn and returns those without which there is a lever; none where two or more exclude one
-  /// another in pairs, or the rules that every lever keeps exclude all.
+  /// Returns each demand without which a lever meets all others. The result is empty if leaving out one demand is not enough,
+  /// or if no lever satisfies the rules.
   std::vector<StoppingDemand> stopping_demands(const DesignProblem &problem);
 
-  /// Finds levers between the best by either of two aims, equally apart in what the second aim has: each the best by the first
-  /// aim among those at least as good by the second one. Levers that another beats in both are left out.
+  /// Returns Pareto-optimal levers of two aims (epsilon-constraint method): each optimises the first aim with a bound on the
+  /// second. The bounds are equally spaced between the second aim's values of the two single optima.
   std::vector<Proposal> pareto_front(const DesignProblem &problem);
 } // namespace sprag

@@ -71,8 +71,8 @@ namespace sprag
       return slide ? slide->uniqueness : std::numeric_limits<double>::quiet_NaN();
     }
 
-    /// Tells how a pair's levers move in that mode: "mirroring", "swinging", "either" where a mode of each kind has its
-    /// eigenvalue, "mixed" where the levers differ. It is empty for one lever and without equilibrium.
+    /// Returns how a pair's levers move in that mode: "mirroring" (symmetric), "swinging" (antisymmetric), "either" if both have
+    /// the eigenvalue, "mixed" if the levers differ; empty for one lever or without equilibrium.
     std::string motion() const;
   };
 

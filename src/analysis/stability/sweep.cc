@@ -370,7 +370,8 @@ namespace sprag
       for (const auto direction : directions)
       {
         here.stability.direction = direction;
-        SweptWay way{ direction, constants, slides_along(here, dynamics.model(), { in_full ? tolerance : 0., island_steps }) };
+        SweptDirection way{ direction, constants,
+                            slides_along(here, dynamics.model(), { in_full ? tolerance : 0., island_steps }) };
         if (way.along.worst)
           way.along.worst->constants = constants;
         result.ways.push_back(std::move(way));
@@ -383,7 +384,8 @@ namespace sprag
       std::map<Constants, std::vector<Direction>> worst_constants;
       for (const auto direction : held_directions(scene))
       {
-        const auto fails = [&](const SweptWay &way) { return way.direction == direction && !way.along.not_checked.empty(); };
+        const auto fails = [&](const SweptDirection &way)
+        { return way.direction == direction && !way.along.not_checked.empty(); };
         if (std::any_of(result.ways.begin(), result.ways.end(), fails))
           continue;
         const CheckedSlide worst = result.worst(direction);

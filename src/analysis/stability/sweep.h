@@ -11,7 +11,7 @@ namespace sprag
 {
   struct Scene;
 
-  /// A slide and what it does, or the worst of several.
+  /// The stability of one steady slide, or of the worst of several.
   struct CheckedSlide
   {
     SlideKind kind     = SlideKind::jammed;
@@ -21,12 +21,12 @@ namespace sprag
     double mu          = std::numeric_limits<double>::quiet_NaN();
     double P           = std::numeric_limits<double>::quiet_NaN(); ///< [N]
     std::string motion;                                            ///< see SlideStability::motion()
-    DrivePoint drive;                                              ///< where
+    DrivePoint drive;                                              ///< position and speed
     std::vector<std::string> constants; ///< "Section/Name=value", of Stability/Ranges; empty: those of the scene
-    std::vector<double> growth_rates;   ///< of the modes by increasing |lambda|; empty of the worst of several
+    std::vector<double> growth_rates;   ///< of the modes by increasing |lambda| [1/s]; empty for the worst of several
   };
 
-  /// Returns whether a does worse than b: what jams is worse than what vibrates, this than what is stable; then growth decides.
+  /// Returns whether a is worse than b: jammed before unstable before stable, then by the larger growth rate.
   bool is_worse(const CheckedSlide &a, const CheckedSlide &b);
 
   /// A value of a parameter at which the kind of a slide changes.
@@ -56,55 +56,56 @@ namespace sprag
   /// Values that a search is expected to try beside the points of its range.
   constexpr unsigned int expected_values_between = 8;
 
+  /// Limits of search_kinds().
   struct SearchEffort
   {
-    double tolerance;          ///< of a change, over the range; 0: changes are not sought
-    unsigned int island_steps; ///< golden sections where a growth rate peaks
+    double tolerance;          ///< of a change, over the length of the range; 0: changes are not located
+    unsigned int island_steps; ///< golden-section steps at each peak of a growth rate
   };
 
-  /// Finds the changes of kind along a parameter. It is tried at the range's points and at `hints` between them, then where a
-  /// growth rate peaks so high that it may change its sign, and the changes are narrowed by bisection, or by regula falsi between
-  /// growth rates of both signs. An island narrower than the spacing that no growth rate hints at is missed. `check_at` throws
-  /// InputError or AnalysisError for values that cannot be checked; these are passed over. `tried` is called after each value.
+  /// Finds the changes of kind along a parameter: at the range's points and `hints`, then near peaks of growth rates that may
+  /// cross 0. Changes are located by bisection or regula falsi. A range of another kind narrower than the spacing can be missed.
+  /// Values for which `check_at` throws InputError or AnalysisError are skipped. `tried` is called after each value.
   CriticalSearch search_kinds(
       const ParameterRange &range, const SearchEffort &effort, const std::function<CheckedSlide(double)> &check_at,
       const std::vector<double> &hints = {}, const std::function<void()> &tried = [] {});
 
-  /// The slides of one direction with one set of constants, along x; at a single x only the worst is told.
-  struct SweptWay
+  /// The slides of one direction along x, with one set of constants. At a single x `along` holds only the worst.
+  struct SweptDirection
   {
     Direction direction;
     std::vector<std::string> constants; ///< see CheckedSlide
     CriticalSearch along;
   };
 
-  /// The slides that a verdict looks at: of Stability/Position or the whole stroke, of Stability/Direction or both, with the
-  /// constants of the scene, each combination of the ends of Stability/Ranges, and values inside each range.
+  /// The slides on which a verdict rests: at Stability/Position or over the stroke, in Stability/Direction or both, with the
+  /// constants of the scene, all combinations of the ends of Stability/Ranges and values inside each range.
   struct SweptSlides
   {
-    std::vector<SweptWay> ways;
+    std::vector<SweptDirection> ways; ///< one for each set of constants and direction
 
-    /// Returns the worst slide, of one direction or both. Throws AnalysisError where one of them could not be checked.
+    /// Returns the worst slide of one direction or both. Throws AnalysisError if one of them could not be checked.
     const CheckedSlide &worst(Direction direction = Direction::both) const;
 
-    unsigned int slides() const; ///< checked
+    /// Returns the number of slides checked.
+    unsigned int slides() const;
   };
 
-  /// Checks them. Inside each range a reduced lever is checked at seven values, any other in the middle, with the other constants
-  /// of the worst slide found so far. `in_full`: also finds the x where the kind changes. Else a direction is checked inside the
-  /// ranges only if it is stable at their ends: it is unsafe otherwise, be it by flutter or as it jams inside.
+  /// Checks these slides. Inside each range a reduced lever is checked at seven values, any other in the middle, with the other
+  /// constants of the worst slide so far. `in_full`: also locates the x where the kind changes. Else a direction that is unstable
+  /// at the ends of the ranges is not checked inside them.
   SweptSlides sweep(const Scene &scene, DynamicsMaker &maker, bool in_full = false);
 
-  /// Returns the names of those of Stability/Ranges whose ends give the same slides, to the last digit.
+  /// Returns the names of Stability/Ranges without influence: both ends give identical slides.
   std::vector<std::string> ranges_without_effect(const Scene &scene, const SweptSlides &swept);
 
-  /// Returns the slides that a sweep checks if all are stable at the ends of the ranges, without those where a growth rate peaks.
+  /// Returns the number of slides of a sweep if all are stable at the ends of the ranges, without those near peaks of growth.
   unsigned int least_slides(const Scene &scene);
 
   /// Returns whether values inside the range need meshes of their own.
   bool changes_mesh(const Scene &scene, const ParameterRange &range);
 
-  /// Finds the changes of the verdict along one parameter of the scene, that on the worst of its slides.
+  /// Finds the changes of the verdict along a parameter of the scene; the worst of the slides decides.
   CriticalSearch critical_values(
       const Scene &scene, const ParameterRange &range, double tolerance, DynamicsMaker &maker,
       const std::function<void()> &tried = [] {});
