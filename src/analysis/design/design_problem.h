@@ -122,7 +122,7 @@ namespace sprag
     /// corrections are known to first order only.
     double room = 1e-7;
 
-    /// Called for every lever evaluated from now on; empty: growth rates are unknown and not demanded.
+    /// Called for every lever evaluated from now on; empty: growth rates stay unknown.
     Dear dear;
 
     /// Returns the lever at a point of the unit cube of bounds.

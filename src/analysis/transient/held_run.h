@@ -10,28 +10,28 @@
 
 namespace sprag
 {
-  /// Tells where the drive is at an instant of a run [s], how far its surface has run included.
+  /// Returns position, velocity and surface travel of the cylinder at an instant [s].
   using DrivePath = std::function<DrivePoint(double time)>;
 
-  /// Returns the path on which the centre stays where it is and the surface runs on at the slide's speed.
+  /// Returns the path of a cylinder that turns about a fixed centre, its surface at the slide's speed.
   DrivePath held_path(const DrivePoint &from, const HeldSlide &slide);
 
-  /// Returns the path on which the centre moves smoothly from one slide's x to another's within `duration` > 0 [s]. The surface
-  /// runs the slower the more that motion slides by itself, so that the slip goes on at the speed of the slides.
+  /// Returns the path along which the centre moves smoothly from one slide's x to another's within `duration` > 0 [s]. The
+  /// rotation is reduced by the slip due to that motion, so that the total slip speed stays that of the slides.
   DrivePath moving_path(const DrivePoint &from, const HeldSlide &begin, const HeldSlide &end, double duration);
 
-  /// A state of a run from which it can be taken up again.
+  /// State from which a run can be resumed.
   struct RunState
   {
     Motion motion;
     StoredEnergy energy;
   };
 
-  /// Takes steps of one duration about held slides and keeps their energy ledger.
+  /// Integrates vibrations about held slides in steps of constant duration, with an energy ledger.
   class HeldRun
   {
   public:
-    double spectral_radius = 1.; ///< of the steps from now on, 0 ... 1
+    double spectral_radius = 1.; ///< spectral radius at infinity of the generalised-alpha steps from now on, 0 to 1
     const double dt;             ///< duration of a step [s]
 
     /// Prepares steps of `dt` > 0 [s]; one without solution is divided in two, up to 12 times.
@@ -41,11 +41,10 @@ namespace sprag
     {
     }
 
-    /// Begins at a motion, the outcome of the model's last hold() or perturbed(). The ledger begins anew; the time of a run that
-    /// has begun before goes on.
+    /// Starts from a motion, the outcome of the model's last hold() or perturbed(). The ledger restarts; the time continues.
     void begin(Motion motion);
 
-    /// Takes up a former state of this run, its time apart; the ledger begins anew.
+    /// Returns to an earlier state of this run; the ledger restarts, the time continues.
     void resume(RunState state);
 
     const RunState &state() const
@@ -53,7 +52,7 @@ namespace sprag
       return now;
     }
 
-    /// Goes on by dt and returns the row there. Throws AnalysisError where there is no solution, or when the run is interrupted.
+    /// Advances by dt and returns the row at its end. Throws AnalysisError if there is no solution or the run is interrupted.
     const Row &step(const DrivePath &path);
 
     /// Returns where the drive is at the present state.
@@ -68,10 +67,10 @@ namespace sprag
       return count;
     }
 
-    /// Returns whether every point in contact now slides the way of `speed`.
+    /// Returns whether every point in contact slides in the direction of `speed`.
     bool slides(double speed) const;
 
-    /// Returns the report of the ledger that leaves most open.
+    /// Returns the report of the ledger with the largest residual.
     LedgerReport ledger() const;
 
   private:

@@ -21,10 +21,10 @@ namespace sprag
 
   namespace
   {
-    /// Hats over some places, of which the first and the last go on as they are beyond them.
+    /// Hat functions: linear between places, 1 at their own and 0 at the others; the first and last stay 1 outside.
     struct Hats
     {
-      std::vector<double> places; ///< increasing
+      std::vector<double> places; ///< increasing [mm]
 
       unsigned int number() const
       {
@@ -41,8 +41,7 @@ namespace sprag
       }
     };
 
-    /// Places between cells of the face along an axis, at least a spacing apart: with fewer hats than cells no two loads are
-    /// the same.
+    /// Returns hats at edges of the face's cells, at least a spacing apart [mm], so that the loads stay linearly independent.
     Hats hats_between_cells(const FrictionFace<3> &face, const unsigned int axis, const double begin, const double end,
                             const double spacing)
     {
@@ -69,15 +68,15 @@ namespace sprag
       return result;
     }
 
-    bool is_bond(const SolidBody &body, const DoFHandler<3>::active_cell_iterator &cell, const unsigned int f)
+    /// Returns whether face f of a cell separates the near-surface layer from the body behind.
+    bool is_layer_interface(const SolidBody &body, const DoFHandler<3>::active_cell_iterator &cell, const unsigned int f)
     {
       return body.is_near_layer(cell) && !cell->at_boundary(f) && !body.is_near_layer(cell->neighbor(f));
     }
 
-    /// Returns smooth loads on the bond between the near-surface layer and what is behind it: hats over a grid of xi and zeta, in
-    /// each of three directions, which together can carry any force and moment. They are consistent nodal forces by the body's
-    /// degrees of freedom, a column each; those that only the hub carries are left out. Beyond `begin` ... `end` along xi hats go
-    /// on as they are; spacings are aimed at [mm]. Empty for a body without near-surface layer.
+    /// Returns the attachment loads B on the interface between near-surface layer and body behind, as consistent nodal forces:
+    ///   B_aj = int N_a h_i(xi) h_k(zeta) e_d dA,  a column j for each pair of hats (i, k) and direction d.
+    /// Spacings [mm] are aimed at. It has no columns for a body without near-surface layer.
     SparseColumns attachment_loads(const SolidBody &body, const double begin, const double end, const double spacing_xi,
                                    const double spacing_zeta)
     {
@@ -92,7 +91,7 @@ namespace sprag
       std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
       for (const auto &cell : body.dofs().active_cell_iterators())
         for (const unsigned int f : cell->face_indices())
-          if (is_bond(body, cell, f))
+          if (is_layer_interface(body, cell, f))
           {
             values.reinit(cell, f);
             cell->get_dof_indices(indices);
@@ -123,24 +122,25 @@ namespace sprag
       return result;
     }
 
-    /// Surroundings of a column that must be alike for it to answer alike, over the depth of the near-surface layer. What lies
-    /// further away differs in the length of its cells, if at all.
+    /// Distance over the layer's depth within which cells must be equal for two blocks to have equal columns.
     constexpr double surroundings_over_depth = 0.3;
 
-    /// Displacements of the near part that count, over its largest.
+    /// Smallest entries of G_near that are kept, over the largest.
     constexpr double negligible = 1e-9;
 
-    /// Columns solved for together, which bounds the memory that they take.
+    /// Number of columns solved together, limited by memory.
     constexpr int chunk = 64;
 
+    /// Returns a length in nanometres, to compare positions [mm].
     long rounded(const double place)
     {
       return std::lround(1e6 * place);
     }
 
+    /// A cell of the near-surface layer.
     struct NearCell
     {
-      double begin, end; ///< along xi
+      double begin, end; ///< along xi [mm]
       std::vector<Point<3>> corners;
     };
 
@@ -158,7 +158,7 @@ namespace sprag
       return result;
     }
 
-    /// The corners of the cells near a place, seen from there.
+    /// Returns the corners of the cells within a distance of xi [mm], relative to xi, in nanometres.
     std::set<std::vector<long>> find_surroundings(const double xi, const double distance, const std::vector<NearCell> &cells)
     {
       std::set<std::vector<long>> result;
@@ -199,20 +199,20 @@ namespace sprag
     if (!body.has_near_layer())
       return;
     const auto cells = near_cells(body);
-    std::map<std::set<std::vector<long>>, std::vector<unsigned int>> alike;
+    std::map<std::set<std::vector<long>>, std::vector<unsigned int>> equal_blocks;
     for (unsigned int t = 0; t < blocks.size(); ++t)
-      alike[find_surroundings(blocks[t].xi, surroundings, cells)].push_back(t);
-    for (const auto &[around, some] : alike)
-      for (const unsigned int t : some)
+      equal_blocks[find_surroundings(blocks[t].xi, surroundings, cells)].push_back(t);
+    for (const auto &[corners, equal] : equal_blocks)
+      for (const unsigned int t : equal)
       {
-        blocks[t].like    = some[some.size() / 2];
-        blocks[t].n_alike = static_cast<unsigned int>(some.size());
+        blocks[t].representative = equal[equal.size() / 2];
+        blocks[t].n_represented  = static_cast<unsigned int>(equal.size());
       }
   }
 
   void LayeredCompliance::find_basis(const double begin, const double end, const double spacing)
   {
-    constexpr double beyond = 4.; // how far what the near-surface layer hands on spreads, over its depth
+    constexpr double beyond = 4.; // distance over the layer's depth to which forces spread on the interface
     const double depth      = body.near_layer_depth();
     const auto loads        = attachment_loads(body, begin - beyond * depth, end + beyond * depth, spacing, depth);
     const int n             = loads.size();
@@ -318,31 +318,31 @@ namespace sprag
     return found != known.end() ? found->second : known.emplace(block_index, find_near_columns(block_index)).first->second;
   }
 
-  /// Returns true if the columns of the like block serve for a column's block: the row then lies in the same place about both.
-  bool LayeredCompliance::is_like(const unsigned int row_block, const unsigned int column_block) const
+  /// Returns true if the representative's columns hold for this row: it has the same distance to the representative's block.
+  bool LayeredCompliance::is_represented(const unsigned int row_block, const unsigned int column_block) const
   {
-    const unsigned int like = blocks[column_block].like;
-    const int other         = static_cast<int>(like) + static_cast<int>(row_block) - static_cast<int>(column_block);
+    const unsigned int representative = blocks[column_block].representative;
+    const int other = static_cast<int>(representative) + static_cast<int>(row_block) - static_cast<int>(column_block);
     return other >= 0 && other < static_cast<int>(blocks.size()) &&
-           rounded(blocks[other].xi - blocks[like].xi) == rounded(blocks[row_block].xi - blocks[column_block].xi);
+           rounded(blocks[other].xi - blocks[representative].xi) == rounded(blocks[row_block].xi - blocks[column_block].xi);
   }
 
-  /// The block whose columns stand for those of another at a row.
-  unsigned int LayeredCompliance::stand_in(const unsigned int row_block, const unsigned int column_block) const
+  /// Returns the block whose columns are used for a pair of blocks.
+  unsigned int LayeredCompliance::source_block(const unsigned int row_block, const unsigned int column_block) const
   {
-    return is_like(row_block, column_block) ? blocks[column_block].like : column_block;
+    return is_represented(row_block, column_block) ? blocks[column_block].representative : column_block;
   }
 
-  /// Displacements of a block by forces on another; none where they are negligible.
+  /// Returns the block of G_near; null if it is negligible.
   const FullMatrix<double> *LayeredCompliance::near_block(const unsigned int row_block, const unsigned int column_block)
   {
-    const auto &columns    = near_columns(stand_in(row_block, column_block));
+    const auto &columns    = near_columns(source_block(row_block, column_block));
     const int number       = static_cast<int>(row_block) - static_cast<int>(column_block) - columns.first;
     const bool is_far_away = number < 0 || number >= static_cast<int>(columns.block_matrices.size());
     return is_far_away ? nullptr : &columns.block_matrices[number];
   }
 
-  /// Returns the displacement of a dof by a unit force on each, of the near-surface layer alone.
+  /// Returns a row of G_near: the displacement of a dof by a unit force on each dof.
   const std::vector<double> &LayeredCompliance::near_row(const unsigned int surface_dof)
   {
     const auto [found, is_new] = known_rows.try_emplace(surface_dof, dofs.size());
@@ -368,14 +368,14 @@ namespace sprag
     FullMatrix<double> result(rows.end - rows.begin, columns.end - columns.begin);
     if (n > 0)
     {
-      const double once = 1., none = 0.; // row by row is column by column of what is transposed
-      gemm("T", "N", &n_columns, &n_rows, &n, &once, &basis(columns.begin, 0), &n, &basis(rows.begin, 0), &n, &none,
-           &result(0, 0), &n_columns);
+      const double one = 1., zero = 0.; // row-major matrices are the transposed of BLAS's column-major ones
+      gemm("T", "N", &n_columns, &n_rows, &n, &one, &basis(columns.begin, 0), &n, &basis(rows.begin, 0), &n, &zero, &result(0, 0),
+           &n_columns);
     }
-    // It is symmetric: where columns of another block do not serve, those for the row may. Of two that must be solved for, the
-    // kind that is rarer is met again.
-    const bool by_column =
-        is_like(row_block, column_block) || (!is_like(column_block, row_block) && columns.n_alike <= rows.n_alike);
+    // G_near is symmetric: the transposed block serves if it is represented and this one is not. If both must be solved for,
+    // the block with the fewer equal ones is.
+    const bool by_column = is_represented(row_block, column_block) ||
+                           (!is_represented(column_block, row_block) && columns.n_represented <= rows.n_represented);
     const auto *const near = by_column ? near_block(row_block, column_block) : near_block(column_block, row_block);
     if (near != nullptr && by_column)
       result.add(1., *near);
@@ -399,7 +399,7 @@ namespace sprag
       spare_matrix = std::make_shared<FullMatrix<double>>();
     auto &result = *spare_matrix;
     result.TableBase<2, double>::reinit({ n, n }, true); // all of it is set below
-    // Most of it was found last time, in one piece.
+    // Copy the contiguous part that the last result has in common with this one.
     const auto first  = std::find_if(whole_blocks.begin(), whole_blocks.end(),
                                      [&](const unsigned int surface_dof)
                                      { return std::binary_search(last_dofs.begin(), last_dofs.end(), surface_dof); });
@@ -442,8 +442,7 @@ namespace sprag
     return result;
   }
 
-  /// Returns the displacement of a dof by the loads near it. If the columns of other blocks do not serve, a row costs less than
-  /// all columns.
+  /// Returns the displacement of a dof by G_near. Without a representative one row is computed, cheaper than a block's columns.
   double LayeredCompliance::near_displacement(const unsigned int surface_dof, const DofLoads &forces)
   {
     const unsigned int to = containing_block(surface_dof);
@@ -451,7 +450,7 @@ namespace sprag
     for (unsigned int a = 0; a < forces.dofs.size(); ++a)
     {
       const unsigned int by = forces.dofs[a], from = containing_block(by);
-      if (!is_like(to, from))
+      if (!is_represented(to, from))
         result += near_row(surface_dof)[by] * forces.values[a];
       else if (const auto *const block = near_block(to, from))
         result += (*block)(surface_dof - blocks[to].begin, by - blocks[from].begin) * forces.values[a];

@@ -13,32 +13,30 @@ namespace sprag
 {
   /// Compliance G between the displacements of the friction face's nodes, three a node, the body held at its hub [mm/N].
   ///
-  /// It is that of the body's near-surface layer on a rigid bond, which is known exactly and dies away within some depths, and
-  /// the answer of what is behind the bond to the forces that the near-surface layer hands on. They are smooth there: the answer
-  /// is found for loads on the bond, hats of some spacing in all three directions (attachment modes; Galerkin, so that the part
-  /// left out is never negative), and is symmetric, Z Z^T. Without a near-surface layer the near part is the whole body's and
-  /// exact.
+  /// G = G_near + Z Z^T. G_near is that of the near-surface layer fixed at its interface to the body behind; it is exact and
+  /// decays along the face within some depths of the layer. Z Z^T is the Galerkin approximation of the rest by attachment modes:
+  /// responses to smooth loads (products of hat functions) on that interface. The part left out is positive semidefinite.
+  /// Without a near-surface layer G = G_near of the whole body, without error.
   ///
-  /// The near part is found in columns of nodes with the same xi, once for those whose surroundings in the near-surface layer are
-  /// alike.
+  /// G_near is computed in blocks of nodes with the same xi, once for all blocks with equal surroundings in the layer.
   class LayeredCompliance
   {
   public:
-    /// `begin` ... `end`: part of the face where forces act, along xi [mm]. `spacing_over_depth`: of the loads on the bond along
-    /// xi, over the depth of the near-surface layer, > 0; the smaller, the less is left out. The body must outlive this.
+    /// Forces act on the face between `begin` and `end` along xi [mm]. `spacing_over_depth` > 0 is the spacing of the attachment
+    /// loads along xi over the layer's depth; smaller ones leave out less. The body must outlive this object.
     LayeredCompliance(const SolidBody &body, double begin, double end, double spacing_over_depth = 1.);
 
-    /// Returns the dofs of the columns of nodes that hold some, increasing. Dofs are numbers among the face's displacements,
-    /// sorted by the columns, see surface_dofs().
+    /// Returns all dofs of the blocks that contain the selected dofs, increasing. Dofs are numbers among the face's
+    /// displacements, sorted by blocks, see surface_dofs().
     DofSelection whole_blocks(const DofSelection &surface_dofs) const;
 
-    /// Returns the compliance between some dofs, which make up whole columns.
+    /// Returns the compliance between dofs that make up whole blocks [mm/N].
     std::shared_ptr<const dealii::FullMatrix<double>> among(const DofSelection &whole_blocks);
 
-    /// Returns the displacements of some dofs by forces on others, those of the near-surface layer left out where they are
-    /// further away than it reaches [mm].
+    /// Returns the displacements of some dofs by forces on others [mm]; negligible entries of G_near are left out.
     dealii::Vector<double> displacements(const DofSelection &surface_dofs, const DofLoads &forces);
 
+    /// Returns the number of attachment modes, columns of Z.
     unsigned int basis_size() const
     {
       return static_cast<unsigned int>(basis.n());
@@ -48,24 +46,24 @@ namespace sprag
     /// Nodes of the face with the same xi.
     struct Block
     {
-      double xi;
-      unsigned int begin;       ///< its first dof
-      unsigned int end;         ///< beyond the last
-      unsigned int like;        ///< one in the middle of those with the same surroundings
-      unsigned int n_alike = 1; ///< blocks that answer like it, itself among them
+      double xi;                      ///< [mm]
+      unsigned int begin;             ///< its first dof
+      unsigned int end;               ///< one past its last
+      unsigned int representative;    ///< block with equal surroundings whose columns serve for this one
+      unsigned int n_represented = 1; ///< blocks with equal surroundings, this one included
     };
 
-    /// Displacements near a block by unit forces on it: a matrix for each block from `first` on, a column a force.
+    /// Columns of G_near for unit forces on a block: one matrix for each block of rows, from `first` on.
     struct NearColumns
     {
-      int first; ///< over the number of the block itself
+      int first; ///< number of the first block of rows less that of the loaded block
       std::vector<dealii::FullMatrix<double>> block_matrices;
     };
 
     void find_blocks(double surroundings);
     void find_basis(double begin, double end, double spacing);
-    bool is_like(unsigned int row_block, unsigned int column_block) const;
-    unsigned int stand_in(unsigned int row_block, unsigned int column_block) const;
+    bool is_represented(unsigned int row_block, unsigned int column_block) const;
+    unsigned int source_block(unsigned int row_block, unsigned int column_block) const;
     const std::vector<double> &near_row(unsigned int surface_dof);
     double near_displacement(unsigned int surface_dof, const DofLoads &forces);
     const dealii::FullMatrix<double> *near_block(unsigned int row_block, unsigned int column_block);
@@ -76,13 +74,13 @@ namespace sprag
     std::vector<unsigned int> block_numbers(const DofSelection &whole_blocks) const;
 
     const SolidBody &body;
-    const std::vector<unsigned int> dofs; ///< of the body
+    const std::vector<unsigned int> dofs; ///< of the body, by number on the face
     std::vector<Block> blocks;
-    std::map<unsigned int, NearColumns> known; ///< by the block
-    std::map<unsigned int, std::vector<double>> known_rows;
-    dealii::FullMatrix<double> basis; ///< Z, a row a dof
+    std::map<unsigned int, NearColumns> known;              ///< by block
+    std::map<unsigned int, std::vector<double>> known_rows; ///< of G_near, by dof
+    dealii::FullMatrix<double> basis;                       ///< Z, dofs x attachment modes
 
-    // The last matrix, most of which the next one contains too, and the one before, whose memory the next one takes.
+    // The last result, from which the next one is mostly copied, and the one before, whose memory it reuses.
     DofSelection last_dofs;
     std::shared_ptr<dealii::FullMatrix<double>> last_matrix, spare_matrix;
   };

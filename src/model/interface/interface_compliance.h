@@ -8,16 +8,14 @@
 
 namespace sprag
 {
-  /// Some dofs, increasing. A contact that reaches few of many looks at those alone; entries of others in vectors of all dofs
-  /// mean nothing then.
+  /// Dofs in increasing order. Computations restricted to a selection leave the other entries of full vectors undefined.
   using DofSelection = std::vector<unsigned int>;
 
-  /// Returns the place where a dof stands, or would stand, among increasing ones.
+  /// Returns the index of a dof among increasing ones, or that at which it would be inserted.
   unsigned int find_index(unsigned int dof, const DofSelection &dofs);
 
-  /// Compliance G of the interface of a linear structure: the displacement of each dof by a unit force on each, symmetric. Dofs
-  /// that follow each other make up blocks, and those of different blocks feel nothing of each other: the levers of a pair, say,
-  /// and the support.
+  /// Compliance G of the interface of a linear structure: displacements of the dofs by unit forces on them, symmetric. G is block
+  /// diagonal in consecutive dofs: the two levers of a pair and the support are uncoupled, for example.
   class InterfaceCompliance
   {
   public:
@@ -31,14 +29,14 @@ namespace sprag
         return begin + static_cast<unsigned int>(matrix->m());
       }
 
-      /// Returns the place of its first dof among increasing ones, and that beyond the last.
+      /// Returns the range of its dofs among increasing ones: index of the first and one past the last.
       std::pair<unsigned int, unsigned int> places_among(const DofSelection &dofs) const
       {
         return { find_index(begin, dofs), find_index(end(), dofs) };
       }
     };
 
-    /// Adds a block of the dofs that follow those there are. Blocks may share a matrix.
+    /// Appends a block for the next dofs. Blocks may share a matrix.
     void append(std::shared_ptr<const dealii::FullMatrix<double>> matrix);
     void append(dealii::FullMatrix<double> matrix);
 

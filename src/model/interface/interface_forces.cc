@@ -94,7 +94,7 @@ namespace sprag
                                       const FullMatrix<double> &tangent, const DofSelection &selected,
                                       const Vector<double> &mismatch)
   {
-    // (1 - G df/dz) dz = mismatch on the loaded dofs; the others follow from the change of the forces.
+    // Solve (1 - G df/dz) dz = mismatch on the loaded dofs; elsewhere dz = mismatch + G df.
     Vector<double> result = mismatch;
     if (dofs.empty())
       return result;

@@ -16,13 +16,13 @@ namespace sprag
     std::vector<unsigned int> dofs; ///< increasing
     dealii::Vector<double> values;
     dealii::FullMatrix<double> tangent;
-    bool has_tangent = true; ///< else it was not wanted and is empty
+    bool has_tangent = true; ///< false: it was not requested and is empty
   };
 
-  /// Gives forces further dofs, increasing, where they are 0 so far.
+  /// Adds dofs (increasing) with zero forces.
   void add_dofs(const std::vector<unsigned int> &others, InterfaceForces &forces);
 
-  /// Sums up forces that share dofs, which may come in any order. `dof_places` is room for a number a dof.
+  /// Sums forces on possibly common dofs in any order. `dof_places` is scratch space with one entry per dof of the interface.
   void sum_forces(const std::vector<InterfaceForces> &loaded, std::vector<unsigned int> &dof_places, InterfaceForces &sum);
 
   /// Output requested of a contact. One that does not keep its tangent always finds all of it.
@@ -41,6 +41,7 @@ namespace sprag
     dealii::Vector<double> values;
   };
 
+  /// Returns 0 ... number - 1.
   DofSelection all_dofs(unsigned int number);
 
   /// Returns det(1 - G df/dz) on some dofs.
@@ -51,8 +52,8 @@ namespace sprag
   void add_response(const InterfaceCompliance &compliance, const DofSelection &dofs, const dealii::Vector<double> &forces,
                     const DofSelection &selected, dealii::Vector<double> &displacements);
 
-  /// Returns Newton's correction of z on the selected dofs where mismatch = z_free + G f - z there, by the tangent of the forces
-  /// on `dofs`, which are among them. Throws AnalysisError if the tangent is singular.
+  /// Returns Newton's correction dz = (1 - G df/dz)^-1 (z_free + G f - z) on the selected dofs, the last factor as `mismatch`.
+  /// `tangent` is df/dz on `dofs`, a subset of the selected. Throws AnalysisError if 1 - G df/dz is singular.
   dealii::Vector<double> interface_correction(const InterfaceCompliance &compliance, const DofSelection &dofs,
                                               const dealii::FullMatrix<double> &tangent, const DofSelection &selected,
                                               const dealii::Vector<double> &mismatch);

@@ -14,32 +14,32 @@ namespace sprag
 {
   struct Device;
 
-  /// Constants that a lever, or a mirrored pair, has from the scene it stands in.
+  /// Constants of the scene that a lever or mirrored pair needs beside its own mechanics.
   struct LeverFrame
   {
-    std::vector<Geometry> geometries; ///< of each lever, the cylinder's offset in them
+    std::vector<Geometry> geometries; ///< one per lever; the cylinder's offset is included
     InterfaceLayout layout;
     double rest_inclination;         ///< theta without moment [rad]
-    MomentLaw spring;                ///< rotational, over the turn from there
-    double support_stiffness;        ///< k_f of all levers [N/mm]; counts on a sprung support
-    double support_damping;          ///< c_f of all levers [N s/mm]
-    dealii::Vector<double> lengths;  ///< movement by a unit of each dof [mm]: 1, and an arm for rotations
+    MomentLaw spring;                ///< moment of the rotational spring over the rotation from rest_inclination
+    double support_stiffness;        ///< k_f of a sprung support under all levers [N/mm]
+    double support_damping;          ///< c_f of that support [N s/mm]
+    dealii::Vector<double> lengths;  ///< movement per unit of each dof: 1, or an arm for rotations [mm]
     double sensor_stiffness = 0.;    ///< of each force sensor of a friction plate [N/mm]
-    bool joined             = false; ///< the springs of a pair by a joint that nothing else carries
+    bool joined             = false; ///< the springs of a pair meet in a joint that is not supported otherwise
 
     /// Indentation of the layer beyond which a slide counts as jammed [mm]: half its thickness, where the pressure is half of
     /// its Young's modulus and a run without inertia ends, too.
     double largest_indentation = std::numeric_limits<double>::infinity();
 
-    /// Tells the row of a lever the forces of its sensors [N].
+    /// Writes the sensor forces of a lever [N] to its row.
     std::function<void(std::vector<double> forces, Row &row)> tell_sensors = [](std::vector<double> forces, Row &row)
     { row.sensor_forces = std::move(forces); };
   };
 
-  /// The frame of a scene, with lengths 1 but for the hubs' rotations. `lever_mass` [t], of one lever, moves with a sprung
-  /// support.
+  /// Returns the frame of a device; `lengths` are 1 except for the hubs' rotations. `lever_mass` [t] of one lever moves with a
+  /// sprung support.
   LeverFrame lever_frame(const Device &device, const InterfaceLayout &layout, double lever_mass);
 
-  /// c_f [N s/mm]: Support/Damping of critical of the frame with the lever on k_f.
+  /// Returns c_f = 2 D sqrt(k_f m) [N s/mm], D = Support/Damping and m the mass of frame and lever [t].
   double support_damping(const Support &support, double lever_mass);
 } // namespace sprag

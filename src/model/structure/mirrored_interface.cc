@@ -101,7 +101,7 @@ namespace sprag
     return result;
   }
 
-  FullMatrix<double> MirroredInterface::displacements_by(const DofSelection &both_dofs, const DofSelection &paired) const
+  FullMatrix<double> MirroredInterface::transformation(const DofSelection &both_dofs, const DofSelection &paired) const
   {
     FullMatrix<double> result(paired.size(), both_dofs.size());
     for (unsigned int a = 0; a < paired.size(); ++a)
@@ -123,17 +123,17 @@ namespace sprag
     for (const unsigned int dof : DofSelection(result.dofs))
       if (dof != pair.dofs_per_lever())
         result.dofs.push_back(structure_size() + dof);
-    const auto n  = static_cast<unsigned int>(result.dofs.size());
-    const auto by = displacements_by(result.dofs, paired.dofs);
+    const auto n = static_cast<unsigned int>(result.dofs.size());
+    const auto T = transformation(result.dofs, paired.dofs);
     for (const auto matrix : matrices)
     {
       (result.*matrix).reinit(n, n);
-      (result.*matrix).triple_product(paired.*matrix, by, by, true, false);
+      (result.*matrix).triple_product(paired.*matrix, T, T, true, false);
     }
     const auto transformed = [&](const Vector<double> &row)
     {
       Vector<double> on_structures(n);
-      by.Tvmult(on_structures, row);
+      T.Tvmult(on_structures, row);
       return on_structures;
     };
     for (const auto &delay : paired.delays)
@@ -142,7 +142,7 @@ namespace sprag
     return result;
   }
 
-  /// Returns the places of the dofs of a structure: the first, and beyond the last.
+  /// Returns the range of indices of a structure's dofs in `both`: first and one past the last.
   std::pair<unsigned int, unsigned int> MirroredInterface::range(const LinearisedForces &both, const unsigned int motion) const
   {
     const unsigned int second_begin = find_index(structure_size(), both.dofs);
@@ -178,7 +178,7 @@ namespace sprag
       (result.*matrix).reinit(end - begin, end - begin);
       (result.*matrix).fill(both.*matrix, 0, 0, begin, begin);
     }
-    // A delay of the first lever stands for that and the second lever's, each at its share.
+    // The delay of the first lever represents those of both levers, which are symmetric.
     const auto structure_row = [first = begin, last = end](const Vector<double> &row)
     {
       Vector<double> values(row.begin() + first, row.begin() + last);

@@ -11,13 +11,15 @@
 
 namespace sprag
 {
-  /// Interface of a mirrored pair as those of two structures of one lever each: of the symmetric motion (0), in which the levers
-  /// mirror each other, and of the antisymmetric (1), in which the second does the opposite, each at 1/sqrt(2) of its size for
-  /// both. A sprung support moves with the first alone.
+  /// Transforms between the interface z1, z2 of a mirrored pair and those of two structures of one lever each, the symmetric
+  /// motion zs (0) and the antisymmetric za (1):
+  ///   z1 = (zs + za)/sqrt(2),  z2 = (zs - za)/sqrt(2).
+  /// A sprung support moves with the symmetric motion alone, by z/sqrt(2). With T the matrix of this transformation, forces f of
+  /// the pair act on the structures as T^T f, and matrices A as T^T A T.
   class MirroredInterface
   {
   public:
-    /// `lever_compliance`: layout of either structure.
+    /// `lever_layout`: layout of either structure.
     explicit MirroredInterface(const InterfaceLayout &lever_layout);
 
     /// The layout of the pair.
@@ -26,42 +28,43 @@ namespace sprag
       return pair;
     }
 
-    /// Share of a structure's motion in each lever's: 1/sqrt(2), apart from the sign of the second lever's.
+    /// Returns 1/sqrt(2), the magnitude of the entries of T.
     static double share()
     {
       return std::sqrt(0.5);
     }
 
-    /// Returns the dofs of a structure that dofs of the pair depend on.
+    /// Returns the dofs of a structure on which dofs of the pair depend, increasing.
     DofSelection structure_dofs(const DofSelection &paired) const;
 
     /// Returns the displacements of the pair from those of both structures.
     dealii::Vector<double> displacements(const dealii::Vector<double> &symmetric,
                                          const dealii::Vector<double> &antisymmetric) const;
 
-    /// Returns the state of a dof of the pair by that of the structures' dof, see structure_dof().
+    /// Returns the state of a dof of the pair from those of both structures at its structure_dof().
     DofState state(unsigned int pair_dof, const DofState &symmetric, const DofState &antisymmetric) const;
 
+    /// Returns the number of a pair's dof in either structure.
     unsigned int structure_dof(const unsigned int pair_dof) const
     {
       return is_support(pair_dof) ? pair.dofs_per_lever() : pair_dof % pair.dofs_per_lever();
     }
 
-    /// Returns forces on the pair as those on a structure, without their tangent.
+    /// Returns the forces on a structure, motion 0 or 1, by forces on the pair; without tangent.
     InterfaceForces forces(const InterfaceForces &paired, unsigned int motion) const;
 
-    /// Returns the compliance of the pair. `alike`: whether both structures answer alike, so that levers feel nothing of each
-    /// other.
+    /// Returns the compliance of the pair, with blocks (Gs + Ga)/2 for each lever and (Gs - Ga)/2 between them. `alike`: Gs = Ga,
+    /// so that the levers are uncoupled.
     InterfaceCompliance compliance(const InterfaceCompliance &symmetric, const InterfaceCompliance &antisymmetric,
                                    bool alike) const;
 
-    /// Returns linear forces on both structures, those of the antisymmetric motion counted on from the number of the other's.
+    /// Returns linear forces on both structures; dofs of the antisymmetric motion are numbered after those of the symmetric.
     LinearisedForces on_both(const LinearisedForces &paired) const;
 
-    /// Returns true if forces of on_both() couple the structures by more than round-off, as the levers' forces do not mirror.
+    /// Returns true if forces of on_both() couple the motions by more than round-off: the levers' forces are not symmetric.
     bool couples(const LinearisedForces &on_both) const;
 
-    /// Linear forces on one structure, where forces mirror as the levers do. `both`: on_both() of them.
+    /// Returns linear forces on one structure for symmetric forces. `both`: on_both() of them.
     LinearisedForces on_structure(const LinearisedForces &paired, const LinearisedForces &both, unsigned int motion) const;
 
   private:
@@ -77,7 +80,7 @@ namespace sprag
       return pair.sprung && pair_dof == pair.support();
     }
 
-    dealii::FullMatrix<double> displacements_by(const DofSelection &both_dofs, const DofSelection &paired) const;
+    dealii::FullMatrix<double> transformation(const DofSelection &both_dofs, const DofSelection &paired) const;
     std::pair<unsigned int, unsigned int> range(const LinearisedForces &both, unsigned int motion) const;
     bool acts_on_first_lever(const DofSelection &dofs, const FrictionDelay &delay) const;
   };
