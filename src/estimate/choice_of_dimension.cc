@@ -58,8 +58,8 @@ namespace sprag
       const SolidBody body(solid, mesh);
       StaticLever<3> in_space(body, solid);
       StaticLever<2> in_plane(mesh, plane);
-      const auto rows       = repeated(in_space, places, start, settings);
-      const auto plane_rows = repeated(in_plane, places, start, settings);
+      const auto rows       = solve_at_samples(in_space, places, start, settings);
+      const auto plane_rows = solve_at_samples(in_plane, places, start, settings);
       auto quantities       = scene.accuracy.quantities;
       if (!is_requested(scene, pressure))
         quantities.push_back(pressure); // is told, too

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "estimate/choice.h"
 
-#include "analysis/accuracy/dilation.h"
+#include "analysis/accuracy/step_errors.h"
 #include "analysis/stability/stability.h"
 #include "analysis/transient/transient.h"
 #include "analytic/error_estimate.h"

@@ -77,7 +77,8 @@ namespace sprag
       Mesh mesh;
       make_mesh(scene, mesh);
       StaticLever<2> levers(mesh, scene);
-      return repeated(levers, places, scene.drive.at(0.).x, { scene.analysis.step, scene.analysis.minimum_step, scene.contact });
+      return solve_at_samples(levers, places, scene.drive.at(0.).x,
+                              { scene.analysis.step, scene.analysis.minimum_step, scene.contact });
     }
 
     std::vector<Row> with_closed_form(const Scene &scene, std::vector<Row> rows)
@@ -185,7 +186,7 @@ namespace sprag
         face_size         = size;
         const Scene fine  = with_face_size(scene, size);
         const auto places = drive_samples(scene.drive);
-        const auto turn   = scene.accuracy.is_model_open ? places_behind_reversal(scene.drive, 2. * width) : std::vector<Row>{};
+        const auto turn   = scene.accuracy.is_model_open ? reversal_samples(scene.drive, 2. * width) : std::vector<Row>{};
         auto sampled      = joined(places, turn);
         std::sort(sampled.begin(), sampled.end(), [](const Row &a, const Row &b) { return a[Column::time] < b[Column::time]; });
         if (!turn.empty()) // the closed form alone jumps there

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "estimate/dynamic_accuracy.h"
 
-#include "analysis/accuracy/dilation.h"
+#include "analysis/accuracy/step_errors.h"
 #include "analysis/transient/transient.h"
 #include "analytic/oscillation.h"
 #include "base/text.h"
@@ -166,11 +166,12 @@ namespace sprag
       const auto decay_rate = [&](const SlideStability &slide) { return -eigenvalue_near(slide, measured).real(); };
       if (!(slide_frequency(found) > 0.) || !(eigenvalue_near(found, measured).real() < 0.))
         throw NoEstimate{ "the slide behind the first reversal does not ring down." };
-      const double turn  = scene.drive.reversals().front();
-      const double omega = 2. * M_PI * slide_frequency(found);
-      const auto by_step = [&](const double dt) { return std::abs(algorithmic_slowing(scene.time.spectral_radius, omega * dt)); };
-      const auto slowing = estimate_slowing(rows, turn, turned.window_end, by_step);
-      const double lag   = change_by_frequency(rows, turn, turned.window_end) / largest(rows, Column::P);
+      const double turn          = scene.drive.reversals().front();
+      const double omega         = 2. * M_PI * slide_frequency(found);
+      const auto frequency_error = [&](const double dt)
+      { return std::abs(algorithmic_frequency_error(scene.time.spectral_radius, omega * dt)); };
+      const auto errors = estimate_step_errors(rows, turn, turned.window_end, frequency_error);
+      const double lag  = change_by_frequency(rows, turn, turned.window_end) / largest(rows, Column::P);
       const std::string step =
           scene.time.tolerance > 0. ? "Try a third of the Time/Tolerance." : "Try a Time/Step 0.7 times as large.";
       std::vector<ErrorPart> frequency_parts, decay_parts;
@@ -184,13 +185,13 @@ namespace sprag
         if (!(part.value < too_far))
           throw NoEstimate{ "with another " + part.name + (part.name == "mesh" ? ", or elsewhere between its nodes," : "") +
                             " the slide behind the first reversal has no vibration of this frequency." };
-      const double between_rows = 1. - std::cos(0.5 * omega * slowing.peak_step); // of a peak
-      const double at_overshoot = 2. * by_step(slowing.peak_step) + between_rows;
+      const double between_rows = 1. - std::cos(0.5 * omega * errors.peak_step); // of a peak
+      const double at_overshoot = 2. * frequency_error(errors.peak_step) + between_rows;
       const double faces        = largest(rows, Column::contact_width) / scene.mesh.face_size;
       ErrorEstimate decay{ "decay", "", {}, "No estimate: P does not decay in the window behind the first reversal." };
       if (const double fitted = -turned.growth_rate; fitted > 0.)
       {
-        const double scheme = algorithmic_damping(scene.time.spectral_radius, omega * slowing.peak_step);
+        const double scheme = algorithmic_damping(scene.time.spectral_radius, omega * errors.peak_step);
         decay               = { "decay", "it", with_step(decay_parts, scheme * omega / fitted, step), {} };
         // Steps and passing elements keep the envelope up, to which the decay is fitted; the slide's own decay knows neither.
         decay.parts.push_back({ "fit", std::abs(decay_rate(found) / fitted - 1.), step });
@@ -198,9 +199,9 @@ namespace sprag
       ErrorEstimate overshoot{ "overshoot", "it", with_step(times(frequency_parts, 2.), at_overshoot, step), {} };
       if (is_meshed(scene.analysis.model) && faces < fewest_faces)
         overshoot.parts.push_back({ "turn", std::min(most_by_place, by_place / faces), "Try a smaller Mesh/Face size." });
-      return { { "P", "its peak", with_step(times(frequency_parts, lag), slowing.P / largest(rows, Column::P), step), {} },
+      return { { "P", "its peak", with_step(times(frequency_parts, lag), errors.P / largest(rows, Column::P), step), {} },
                overshoot,
-               { "frequency", "it", with_step(frequency_parts, slowing.frequency, step), {} },
+               { "frequency", "it", with_step(frequency_parts, errors.frequency, step), {} },
                decay };
     }
   } // namespace

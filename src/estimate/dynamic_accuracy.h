@@ -23,11 +23,11 @@ namespace sprag
   ///
   /// The slide behind that reversal is held, and the vibration nearest to the frequency of P checked as vibration_accuracy()
   /// does: that gives the parts of mesh, penalty and modes. The part of the step is what the generalised-alpha method slows it,
-  /// see estimate_slowing(). A vibration that is too slow lags behind, the more the longer it rings, see change_by_frequency().
-  /// The overshoot is wrong as the stiffness is, with the square of the frequency, and a peak may lie between two rows. Under a
-  /// contact of few faces it depends on where between two nodes the drive turns. The decay has the parts of the vibration's, for
-  /// the step the algorithmic damping, and `fit`: how far the envelope's decay is from that of the slide. Of reduced levers the
-  /// step alone is told: what they leave out, only finite elements tell.
+  /// see estimate_step_errors(). A vibration that is too slow lags behind, the more the longer it rings, see
+  /// change_by_frequency(). The overshoot is wrong as the stiffness is, with the square of the frequency, and a peak may lie
+  /// between two rows. Under a contact of few faces it depends on where between two nodes the drive turns. The decay has the
+  /// parts of the vibration's, for the step the algorithmic damping, and `fit`: how far the envelope's decay is from that of the
+  /// slide. Of reduced levers the step alone is told: what they leave out, only finite elements tell.
   ///
   /// Without estimates in words: drives without a reversal, contacts that open, slides that grow on their own.
   std::vector<ErrorEstimate> transient_accuracy(const Scene &scene, const MeshedDynamics &dynamics, const std::vector<Row> &rows,

@@ -115,7 +115,7 @@ namespace sprag
       const OwnPenalties<Levers> own{ levers };
       const auto &penalties = own.penalties;
       levers.use_penalties({ augments(scene) ? penalties.normal : penalties.normal / softer, penalties.tangential / softer });
-      return repeated(levers, samples, start, settings);
+      return solve_at_samples(levers, samples, start, settings);
     }
 
     constexpr double least_reversal_faces = 4.;
@@ -301,7 +301,7 @@ namespace sprag
       for (const auto &displacement : on_other.body_displacements(state.coordinates, state.forces))
         look_at(fields, fields.at(displacement), row, pairs.back().other);
     };
-    result.other  = divided(repeated(on_other, chosen, start, settings, look), result.run);
+    result.other  = divided(solve_at_samples(on_other, chosen, start, settings, look), result.run);
     result.stress = stress_changes(pairs);
     if (result.stress)
       result.pressure_with_stress =
@@ -323,7 +323,7 @@ namespace sprag
     make_mesh(other, mesh);
     const SolidBody other_body(other, mesh);
     StaticLever<3> on_other(other_body, other);
-    result.other = divided(repeated(on_other, chosen, start, settings), result.run);
+    result.other = divided(solve_at_samples(on_other, chosen, start, settings), result.run);
     return result;
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/accuracy/dilation.h"
 #include "analysis/accuracy/slide_samples.h"
+#include "analysis/accuracy/step_errors.h"
 #include "analytic/error_estimate.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
@@ -123,7 +123,7 @@ TEST(ChangeByFrequency, IsTheLagOfADecayingVibration)
   EXPECT_NEAR(share * change_by_frequency(rows, 1., 2.), largest_lag, 0.02 * largest_lag);
 }
 
-TEST(EstimateSlowing, TakesTheLongestStepUpToTheOvershoot)
+TEST(EstimateStepErrors, TakesTheLongestStepUpToTheOvershoot)
 {
   // Friction turns at 1 s in steps of 1e-5 s. |P| is largest at 1.0105 s, many periods of 500 Hz later, as a slow reversal swells
   // the ringing: behind steps of 4e-5 s, in one of 2e-5 s, before those of 8e-5 s.
@@ -140,6 +140,6 @@ TEST(EstimateSlowing, TakesTheLongestStepUpToTheOvershoot)
       rows.back()[Column::P_quasi_static] = sign * 10.;
       rows.back()[Column::time_step]      = dt;
     }
-    EXPECT_DOUBLE_EQ(estimate_slowing(rows, 1., 2., itself).peak_step, 4e-5) << sign;
+    EXPECT_DOUBLE_EQ(estimate_step_errors(rows, 1., 2., itself).peak_step, 4e-5) << sign;
   }
 }

@@ -469,12 +469,12 @@ TEST(Transient, GivesUpWhereHalvingDoesNotHelpAndTellsWhere)
 }
 
 // Central differences and the trapezoidal rule (spectral radius 1): tan(w dt/2) = angle/2 of the undamped oscillator.
-TEST(AlgorithmicSlowing, IsThatOfTheTrapezoidalRule)
+TEST(AlgorithmicFrequencyError, IsThatOfTheTrapezoidalRule)
 {
   for (const double angle : { 0.01, 0.1, 0.5 })
-    EXPECT_NEAR(algorithmic_slowing(1., angle), 1. - 2. * std::atan(0.5 * angle) / angle, 1e-9);
-  EXPECT_DOUBLE_EQ(algorithmic_slowing(0.8, 0.), 0.);
-  EXPECT_GT(algorithmic_slowing(0.8, 0.1), algorithmic_slowing(1., 0.1));
+    EXPECT_NEAR(algorithmic_frequency_error(1., angle), 1. - 2. * std::atan(0.5 * angle) / angle, 1e-9);
+  EXPECT_DOUBLE_EQ(algorithmic_frequency_error(0.8, 0.), 0.);
+  EXPECT_GT(algorithmic_frequency_error(0.8, 0.1), algorithmic_frequency_error(1., 0.1));
 }
 
 TEST(GrowingModes, AlgorithmicDampingIsThatOfTheStep)

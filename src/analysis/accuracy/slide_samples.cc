@@ -19,30 +19,30 @@ namespace sprag
   {
     using Index = std::size_t;
 
-    constexpr double all_slide         = 0.999; ///< share of mu P from which the whole contact is told to slide
-    constexpr double pressed           = 0.02;  ///< of the largest P, from which a row counts
-    constexpr unsigned int most_halves = 6;
-    constexpr Index passage_limit      = 100; ///< rows
+    constexpr double full_sliding      = 0.999; ///< least |F|/(mu P) of full sliding
+    constexpr double least_P           = 0.02;  ///< of sampled rows, over the largest P
+    constexpr unsigned int most_halves = 6;     ///< halvings of a step
+    constexpr Index passage_limit      = 100;   ///< rows
 
-    /// Returns by how much a row lies beside the line over x between two others, 0 where these have the same x.
+    /// Returns the value of a row less the linear interpolation over x between two others; 0 if these have the same x.
     double distance_from_line(const Row &before, const Row &row, const Row &after, const Column column)
     {
-      const double way = after[Column::x] - before[Column::x];
-      if (way == 0.)
+      const double dx = after[Column::x] - before[Column::x];
+      if (dx == 0.)
         return 0.;
-      const double share = (row[Column::x] - before[Column::x]) / way;
+      const double share = (row[Column::x] - before[Column::x]) / dx;
       return row[column] - (1. - share) * before[column] - share * after[column];
     }
 
     bool slides(const Row &row, const double largest_force)
     {
       const double friction = std::abs(row[Column::friction_resultant]);
-      return row[Column::v] != 0. && row[Column::P] > pressed * largest_force &&
-             friction >= all_slide * row[Column::mu] * row[Column::normal_resultant];
+      return row[Column::v] != 0. && row[Column::P] > least_P * largest_force &&
+             friction >= full_sliding * row[Column::mu] * row[Column::normal_resultant];
     }
 
-    /// The sliding rows of the stroke that begins at a row, and the row behind the stroke. Near its beginning
-    /// they depend on the contact's history, until the contact has moved by its own width.
+    /// Returns the rows in full sliding of the stroke that begins at a row, and the first row after the stroke. Rows before the
+    /// contact has moved by its own width depend on its history and are left out.
     std::pair<std::vector<Index>, Index> stroke_from(const std::vector<Row> &rows, const Index begin, const double largest_force)
     {
       const double turned_at = rows[begin > 0 ? begin - 1 : 0][Column::x];
@@ -54,16 +54,17 @@ namespace sprag
       return { result, i };
     }
 
+    /// Adds the rows closest to equally spaced x, and those with the largest P and pressure.
     void choose_evenly(const std::vector<Row> &rows, const std::vector<Index> &stroke, const unsigned int number,
                        std::set<Index> &chosen)
     {
       if (stroke.empty())
         return;
-      const double begin = rows[stroke.front()][Column::x];
-      const double way   = rows[stroke.back()][Column::x] - begin;
+      const double begin  = rows[stroke.front()][Column::x];
+      const double length = rows[stroke.back()][Column::x] - begin;
       for (unsigned int i = 0; i < number; ++i)
       {
-        const double x     = begin + way * (i + 0.5) / number;
+        const double x     = begin + length * (i + 0.5) / number;
         const auto closest = [&](const Index a, const Index b)
         { return std::abs(rows[a][Column::x] - x) < std::abs(rows[b][Column::x] - x); };
         chosen.insert(*std::min_element(stroke.begin(), stroke.end(), closest));
@@ -78,26 +79,27 @@ namespace sprag
       return { row[Column::time], row[Column::x], row[Column::v] };
     }
 
-    DrivePoint half_way(const DrivePoint &from, DrivePoint to)
+    DrivePoint midpoint(const DrivePoint &from, DrivePoint to)
     {
       to.time = 0.5 * (from.time + to.time);
       to.x    = 0.5 * (from.x + to.x);
       return to;
     }
 
-    Equilibrium slid_to(Model &model, const State &from, const DrivePoint &to, const QuasiStaticSettings &settings,
-                        const unsigned int halves = 0)
+    /// Returns the equilibrium at `to`, through halved steps if there is none in a single one.
+    Equilibrium slide_to(Model &model, const State &from, const DrivePoint &to, const QuasiStaticSettings &settings,
+                         const unsigned int halves = 0)
     {
       if (auto next = solve_step(model, from, to, settings))
         return std::move(*next);
       if (halves == most_halves)
         throw AnalysisError("no equilibrium at x = " + mm(to.x));
-      const auto middle = slid_to(model, from, half_way(from.drive, to), settings, halves + 1);
-      return slid_to(model, middle.state, to, settings, halves + 1);
+      const auto middle = slide_to(model, from, midpoint(from.drive, to), settings, halves + 1);
+      return slide_to(model, middle.state, to, settings, halves + 1);
     }
 
-    // A single place may lie well by chance.
-    constexpr double near_peak = 0.5; ///< pressure of the samples that count, over the largest
+    // All samples near the peak are compared: a single one may agree by chance.
+    constexpr double near_peak = 0.5; ///< least pressure of compared samples, over the largest
 
     /// Returns the largest change over all samples, or those with at least a share of the largest value.
     double largest_change(const std::vector<Row> &samples, const std::vector<Row> &other, const Column column,
@@ -129,8 +131,8 @@ namespace sprag
       return a[Column::v] * b[Column::v] > 0.;
     }
 
-    /// Distance of every row from the straight line between its neighbours, over the column's peak.
-    double distance_from_lines(const std::vector<Row> &rows, const Column column)
+    /// Returns the largest error of interpolating a row between its neighbours, over the column's peak.
+    double interpolation_error(const std::vector<Row> &rows, const Column column)
     {
       double result = 0.;
       for (std::size_t i = 1; i + 1 < rows.size(); ++i)
@@ -139,12 +141,13 @@ namespace sprag
       return result / largest(rows, column);
     }
 
-    /// Error of forces and, if asked for, of the loop area, relative, where rows are `step` apart [mm].
-    double estimate_error(const Scene &scene, const double step, const bool wants_loop)
+    /// Returns the relative error of forces and, if `has_loop`, of the loop area with rows `step` apart [mm]. The trapezoidal
+    /// rule has second order, so that its error is 4/3 of the difference to half the step.
+    double estimate_error(const Scene &scene, const double step, const bool has_loop)
     {
       const auto halves  = closed_form_rows(scene, 0.5 * step);
-      const double lines = std::max(distance_from_lines(halves, Column::P), distance_from_lines(halves, Column::Q));
-      if (!wants_loop)
+      const double lines = std::max(interpolation_error(halves, Column::P), interpolation_error(halves, Column::Q));
+      if (!has_loop)
         return lines;
       const double loop = relative_change("loop_area", halves, closed_form_rows(scene, step));
       return std::max(lines, 4. / 3. * loop);
@@ -196,8 +199,8 @@ namespace sprag
     return { rows.begin() + static_cast<std::ptrdiff_t>(turn) - 1, rows.begin() + static_cast<std::ptrdiff_t>(end) };
   }
 
-  std::vector<Row> repeated(Model &model, const std::vector<Row> &samples, const double start,
-                            const QuasiStaticSettings &settings, const StepSink &look)
+  std::vector<Row> solve_at_samples(Model &model, const std::vector<Row> &samples, const double start,
+                                    const QuasiStaticSettings &settings, const StepSink &sink)
   {
     std::vector<Row> result;
     if (samples.empty())
@@ -207,18 +210,18 @@ namespace sprag
     if (first.v < 0.)
     {
       const double speed = std::abs(first.v);
-      state              = slid_to(model, state, { start / speed, start, speed }, settings).state;
+      state              = slide_to(model, state, { start / speed, start, speed }, settings).state;
       state.drive        = { 0., start, first.v };
     }
     for (const Row &sample : samples)
     {
       const DrivePoint point = to_drive_point(sample);
-      // On the way through stick the slip is not that of the drive, and mu depends on its speed.
+      // During the passage through stick the slip speed, on which mu depends, is not that of the drive: take two steps.
       if (drive_direction(point.v) != drive_direction(state.drive.v))
-        state = slid_to(model, state, half_way(state.drive, point), settings).state;
-      auto next = slid_to(model, state, point, settings);
+        state = slide_to(model, state, midpoint(state.drive, point), settings).state;
+      auto next = slide_to(model, state, point, settings);
       result.push_back(observed(model, next.state, next.found));
-      look(next.state, result.back(), next.found);
+      sink(next.state, result.back(), next.found);
       state = std::move(next.state);
     }
     return result;
@@ -256,9 +259,9 @@ namespace sprag
     return result;
   }
 
-  std::vector<Row> places_behind_reversal(const Drive &drive, const double distance)
+  std::vector<Row> reversal_samples(const Drive &drive, const double distance)
   {
-    constexpr unsigned int number = 10; // each twice as far from the reversal as the one before: it is turned soon
+    constexpr unsigned int number = 10; // distances doubled from one to the next
     std::vector<Row> result;
     if (drive.reversals().empty())
       return result;
@@ -288,7 +291,7 @@ namespace sprag
     const auto column     = quantity == "P" ? Column::P : Column::Q;
     const auto has_turned = friction_has_turned(passage);
     double peak = 0., other_peak = 0.;
-    for (std::size_t i = 1; i < passage.size(); ++i) // the first is of the stroke before
+    for (std::size_t i = 1; i < passage.size(); ++i) // row 0 belongs to the previous stroke
       if (has_turned[i])
       {
         peak       = std::max(peak, std::abs(passage[i][column]));
@@ -309,14 +312,14 @@ namespace sprag
     return largest_change(samples, other, columns.at(quantity));
   }
 
-  double largest_row_spacing(const Scene &scene, const double error, const bool wants_loop)
+  double largest_row_spacing(const Scene &scene, const double error, const bool has_loop)
   {
     const double longest = 0.25 * (scene.drive.maximum() - scene.drive.minimum());
     double step          = longest;
-    // The error goes with the square of the step, but for what is coarse.
+    // The error is proportional to step^2 for small steps.
     for (unsigned int i = 0; i < 8; ++i)
     {
-      const double found = estimate_error(scene, step, wants_loop);
+      const double found = estimate_error(scene, step, has_loop);
       if (found <= error)
         return step;
       step *= std::max(0.25, 0.95 * std::sqrt(error / found));

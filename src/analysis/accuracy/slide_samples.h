@@ -12,51 +12,48 @@ namespace sprag
 {
   struct Scene;
 
-  /// Rows of a run without inertia at which its errors are sampled, by increasing time: at most `number` of each of the first two
-  /// strokes, evenly over the way on which the whole contact slides, where P and the pressure are largest, and those of `times`
-  /// [s]. Empty where nothing slides.
+  /// Returns rows of a quasi-static run at which its errors are sampled, by increasing time. For each of the first two strokes
+  /// they are at most `number` rows equally spaced in full sliding, those with the largest P and pressure, and those at `times`
+  /// [s]. Empty without full sliding.
   std::vector<Row> slide_samples(const std::vector<Row> &rows, unsigned int number, const std::vector<double> &times = {});
 
-  /// Returns the rows from the first reversal, its own row included, to the largest P and Q behind it, as long as the contact has
-  /// moved by less than its width: those that a stroke's largest values may come from and slide_samples() leave out. Empty
-  /// without a reversal, or where that takes more rows than a trial run can pay.
+  /// Returns the rows from the first reversal to the largest P and Q behind it, while the contact moves by less than its width.
+  /// slide_samples() leaves these out although a peak may lie there. Empty without a reversal or for more than 100 rows.
   std::vector<Row> passage_rows(const std::vector<Row> &rows);
 
-  /// Repeats a run's samples in another model, which slides from each to the next in a single step, or in parts of it where no
-  /// equilibrium is found: sliding contact depends little on its history. Returns a row for each, and hands the states to `look`.
-  /// `start` is where the run's drive began [mm]. Throws AnalysisError where the model cannot follow.
-  std::vector<Row> repeated(
+  /// Solves another model at the drive points of samples and returns a row for each. It takes a single step between samples, or
+  /// halves it if there is no equilibrium: sliding contact depends little on its history. `sink` receives each state, `start` is
+  /// x at the beginning of the drive [mm]. Throws AnalysisError if there is no equilibrium.
+  std::vector<Row> solve_at_samples(
       Model &model, const std::vector<Row> &samples, double start, const QuasiStaticSettings &settings,
-      const StepSink &look = [](const State &, const Row &, const Evaluation &) {});
+      const StepSink &sink = [](const State &, const Row &, const Evaluation &) {});
 
   /// Returns the times of rows [s].
   std::vector<double> sample_times(const std::vector<Row> &rows);
 
-  /// Returns the rows at one of some times, exactly.
+  /// Returns the rows whose time equals one of `times` [s] exactly.
   std::vector<Row> rows_at(const std::vector<double> &times, const std::vector<Row> &rows);
 
-  /// Returns time, x and v of places in full sliding over the first two strokes of a drive, for trial runs before a run.
+  /// Returns time, x and v of six drive points in the sliding part of the first two strokes, for trial runs before a run.
   std::vector<Row> drive_samples(const Drive &drive);
 
-  /// Returns the same of the first reversal and of places behind it, up to a distance [mm], over which the contact turns: where P
-  /// and Q of the way back are largest. Empty where the drive does not turn or ends before.
-  std::vector<Row> places_behind_reversal(const Drive &drive, double distance);
+  /// Returns time, x and v at the first reversal and behind it up to a distance [mm], over which friction changes its direction.
+  /// Empty without a reversal or if the drive ends before.
+  std::vector<Row> reversal_samples(const Drive &drive, double distance);
 
   /// Returns the work of the drive over samples by the trapezoidal rule [N mm].
   double compute_drive_work(const std::vector<Row> &samples);
 
-  /// Returns by how much a quantity without inertia changes between two models' rows of the same samples: P, Q and contact_width
-  /// by the largest change over the largest value of the first model, largest_pressure likewise where it is at least half of
-  /// that, largest_stress as the pressure which it follows, and loop_area, the work between the samples, by its own change.
-  /// Throws std::out_of_range for other names.
+  /// Returns the relative difference of a quantity between two models' rows at the same samples: max |b_i - a_i| / max |a_i| for
+  /// P, Q and contact_width; the same for largest_pressure, over samples with at least half of the largest; largest_stress as the
+  /// pressure; loop_area by compute_drive_work(). Throws std::out_of_range for other names.
   double relative_change(const std::string &quantity, const std::vector<Row> &samples, const std::vector<Row> &other);
 
-  /// Returns by how much the largest P or Q behind a reversal changes between two models' rows of the same passage through stick,
-  /// from where friction has turned, over the largest value of the first model; 0 for other quantities and without rows.
+  /// Returns the relative difference of the peak of P or Q between two models' rows of the same passage_rows(), once friction
+  /// has changed its direction; 0 for other quantities and without rows.
   double peak_change(const std::string &quantity, const std::vector<Row> &passage, const std::vector<Row> &other);
 
-  /// Returns the largest Analysis/Step, at most a quarter of the drive's way [mm], with which rows represent the closed form of a
-  /// scene without inertia to `error` > 0: P and Q by straight lines between rows, over their peaks, and with `wants_loop` also
-  /// the work of the drive by the trapezoidal rule.
-  double largest_row_spacing(const Scene &scene, double error, bool wants_loop);
+  /// Returns the largest Analysis/Step [mm], at most a quarter of the stroke, at which rows of the closed form have a relative
+  /// error of at most `error` > 0: linear interpolation of P and Q and, if `has_loop`, the loop area by the trapezoidal rule.
+  double largest_row_spacing(const Scene &scene, double error, bool has_loop);
 } // namespace sprag

@@ -388,7 +388,7 @@ namespace sprag
     return size > 0. ? std::max(0., -std::log(size) / angle) : std::numeric_limits<double>::infinity();
   }
 
-  double algorithmic_slowing(const double spectral_radius, const double angle)
+  double algorithmic_frequency_error(const double spectral_radius, const double angle)
   {
     return angle > 0. ? 1. - std::arg(step_root(spectral_radius, angle)) / angle : 0.;
   }

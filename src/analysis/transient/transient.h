@@ -37,8 +37,8 @@ namespace sprag
   /// a step, in the generalised-alpha method. It rises with the angle.
   double algorithmic_damping(double spectral_radius, double angle);
 
-  /// Returns by how much, relatively, the method slows a vibration of `angle` >= 0 radians a step.
-  double algorithmic_slowing(double spectral_radius, double angle);
+  /// Returns the relative decrease of a frequency by that method, 1 - arg A(angle)/angle, for `angle` >= 0 radians per step.
+  double algorithmic_frequency_error(double spectral_radius, double angle);
 
   /// Returns the longest step that damps each mode by less than a tenth of its growth and turns it by 1 rad at most [s]; infinite
   /// without modes.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/accuracy/dilation.h"
+#include "analysis/accuracy/step_errors.h"
 
 #include "results/row_statistics.h"
 
@@ -11,18 +11,18 @@ namespace sprag
 {
   namespace
   {
-    constexpr double rings = 0.1; ///< of the largest ringing, from which a row rings
+    constexpr double least_ringing = 0.1; ///< |P - P_quasi_static| of a ringing row, over its maximum
 
     double row_ringing(const Row &row)
     {
       return row[Column::P] - row[Column::P_quasi_static];
     }
-    /// The time of the last row between two times that rings.
+    /// Returns the time of the last ringing row between two times.
     double ringing_end(const std::vector<Row> &rows, const double begin, const double end)
     {
       const auto size = [&](const Row &row)
       { return row[Column::time] > begin && row[Column::time] <= end ? std::abs(row_ringing(row)) : 0.; };
-      const double least = rings * largest(rows, size);
+      const double least = least_ringing * largest(rows, size);
       double result      = begin;
       for (const Row &row : rows)
         if (size(row) > 0. && size(row) >= least)
@@ -31,20 +31,20 @@ namespace sprag
     }
   } // namespace
 
-  Slowing estimate_slowing(const std::vector<Row> &rows, const double begin, const double end,
-                           const std::function<double(double)> &by_step)
+  StepErrors estimate_step_errors(const std::vector<Row> &rows, const double begin, const double end,
+                                  const std::function<double(double)> &frequency_error)
   {
-    Slowing result;
+    StepErrors result;
     double delay = 0., weights = 0., longest = 0., peak = -std::numeric_limits<double>::infinity();
-    bool has_turned = false; // until then friction changes its direction, and nothing rings
+    bool has_turned = false; // P rings once friction has changed its direction
     for (std::size_t i = 1; i < rows.size(); ++i)
     {
       const double time = rows[i][Column::time], dt = time - rows[i - 1][Column::time];
       const double now = row_ringing(rows[i]), before = row_ringing(rows[i - 1]);
       if (!(time > begin) || time > end || !(dt > 0.) || !std::isfinite(now) || !std::isfinite(before))
         continue;
-      const double slowing = by_step(rows[i][Column::time_step]);
-      delay += slowing * dt;
+      const double error = frequency_error(rows[i][Column::time_step]);
+      delay += error * dt;
       longest    = std::max(longest, rows[i][Column::time_step]);
       result.P   = std::max(result.P, std::abs(now - before) / dt * delay);
       has_turned = has_turned || now * before <= 0.;
@@ -55,7 +55,7 @@ namespace sprag
           peak             = excess;
           result.peak_step = longest;
         }
-        result.frequency += slowing * now * now * dt;
+        result.frequency += error * now * now * dt;
         weights += now * now * dt;
       }
     }
@@ -66,6 +66,6 @@ namespace sprag
 
   double change_by_frequency(const std::vector<Row> &rows, const double begin, const double end)
   {
-    return estimate_slowing(rows, begin, ringing_end(rows, begin, end), [](double) { return 1.; }).P;
+    return estimate_step_errors(rows, begin, ringing_end(rows, begin, end), [](double) { return 1.; }).P;
   }
 } // namespace sprag
