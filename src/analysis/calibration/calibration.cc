@@ -21,9 +21,10 @@ namespace sprag
   {
     constexpr unsigned int positions = 14; ///< of the comparison, over the drive
 
+    /// Returns the thickness of the leaf spring [mm] with the target stiffness [N mm/rad].
     double calibrated_thickness(const Scene &scene, const double target)
     {
-      // A beam's stiffness goes with the third power; beyond a fifth of its length it is none.
+      // The stiffness rises with about thickness^3; a leaf thicker than a fifth of its length is no beam.
       const double thinnest = 1e-3 * scene.spring.leaf.length;
       const double thickest = 0.2 * scene.spring.leaf.length;
       const auto excess     = [&](const double log_thickness)
@@ -42,7 +43,7 @@ namespace sprag
       return std::exp(0.5 * (root.first + root.second));
     }
 
-    /// Added mass that gives the lever the target inertia: at the tip [t] or as inertia of the hub [t mm^2].
+    /// Returns the added mass at the tip [t] or inertia of the hub [t mm^2] that gives the lever the target J [t mm^2].
     double calibrated_mass(Scene scene, const double target)
     {
       const bool at_tip     = scene.calibration.mass == AddedMass::tip;
@@ -58,7 +59,7 @@ namespace sprag
       return (target - without) / per_unit;
     }
 
-    /// Deflections per force times stiffness: E of a bar of the scene's section with the bending stiffness.
+    /// Returns E = 12 E I/(b d^3) of a bar of the scene's section with that bending stiffness; times 1 - nu^2 in plane strain.
     double equivalent_modulus(const Scene &scene, const double bending_stiffness)
     {
       const Lever &lever  = scene.lever;
@@ -67,6 +68,7 @@ namespace sprag
       return strain * 12. * bending_stiffness / (lever.width * std::pow(lever.depth, 3));
     }
 
+    /// Returns the two lowest frequencies [Hz].
     std::vector<double> lowest_frequencies(DynamicModel &model, const HeldSlide &slide, const bool in_contact)
     {
       std::vector<double> result;

@@ -16,13 +16,13 @@ namespace sprag
 {
   namespace
   {
-    constexpr double beyond       = 1.2;  ///< largest P of the indentation over the run's
-    constexpr double smallest     = 0.05; ///< P counted, over the run's largest
-    constexpr double points_drawn = 40.;
-    constexpr double refinement   = 2.; ///< of the face, which a contact as narrow as hard contact is needs
+    constexpr double largest_P_ratio  = 1.2;  ///< of the indentation, over the run's largest P
+    constexpr double smallest_P_ratio = 0.05; ///< of fitted points, over the run's largest P
+    constexpr double drive_steps      = 40.;
+    constexpr double refinement       = 2.; ///< of the faces: hard contact is narrower
 
-    /// Fits the law by least squares of the errors of P, to first order: the stiffness at the largest P, which the ringing after
-    /// a reversal feels, is met best. Requires two or more points with P, local() > 0.
+    /// Fits log P = log k + n log delta with weights P^2: least squares of the errors of P to first order, which favours the
+    /// stiffness at the largest P. Requires two or more points with P, local() > 0.
     ContactLawFit fit_contact_law(const std::vector<Indentation> &points)
     {
       std::vector<double> log_local, log_P, weights;
@@ -48,7 +48,7 @@ namespace sprag
       return fit;
     }
 
-    /// The scene without friction and with a linear spring that leads to the largest P.
+    /// Returns the scene without friction and with a linear rotational spring that leads to 1.2 times the run's P.
     Scene indentation_scene(const Scene &scene, const ContactReference &reference)
     {
       Scene result             = scene;
@@ -58,11 +58,12 @@ namespace sprag
       result.spring.behaviour  = {};
       result.spring.rest_angle = 0.;
       const double P           = closed_form(result, scene.drive.maximum(), 1.).P;
-      result.spring.stiffness *= beyond * reference.P / P;
+      result.spring.stiffness *= largest_P_ratio * reference.P / P;
       result.mesh.face_size /= refinement;
       return result;
     }
 
+    /// Returns E I = E b d^3/12 of the bar [N mm^2], with E/(1 - nu^2) in plane strain.
     double bar_stiffness(const Scene &scene)
     {
       const Lever &lever  = scene.lever;
@@ -99,8 +100,8 @@ namespace sprag
     const auto lever     = make_lever_in_hard_contact(pressed);
 
     FittedContact result{};
-    const double from = std::max(smallest * reference.P, reference.smallest_P);
-    const QuasiStaticSettings settings{ scene.drive.maximum() / points_drawn, scene.analysis.minimum_step, scene.contact };
+    const double from = std::max(smallest_P_ratio * reference.P, reference.smallest_P);
+    const QuasiStaticSettings settings{ scene.drive.maximum() / drive_steps, scene.analysis.minimum_step, scene.contact };
     run_quasi_static(*lever.model, pressed.drive, settings,
                      [&](const State &, const Row &row, const Evaluation &)
                      {

@@ -9,14 +9,15 @@ namespace sprag
 {
   struct Scene;
 
-  /// An indentation without friction: what the reduced models have to lump into their contact.
+  /// A point of the force-approach curve without friction, to which the contact law of the reduced models is fitted.
   struct Indentation
   {
     double P;           ///< [N]
     double approach;    ///< approach of the cylinder to the undeformed lever [mm]
-    double bending;     ///< deflection of the Euler-Bernoulli lever under P at the contact [mm]
-    double penetration; ///< numerical, largest; what hard contact would not have [mm]
+    double bending;     ///< deflection P s^3/(3 E I) of a cantilever under P at the contact [mm]
+    double penetration; ///< largest numerical penetration by the penalty [mm]
 
+    /// Returns the local indentation delta [mm].
     double local() const
     {
       return approach - bending;
@@ -27,26 +28,26 @@ namespace sprag
   struct ContactLawFit
   {
     double stiffness;     ///< [N/mm^n]
-    double exponent;      ///< n, 1 ... 3 as scenes take it; elements wider than the contact tend to less than 1
+    double exponent;      ///< n, limited to 1 ... 3 as in scenes; too coarse elements tend to n < 1
     double largest_error; ///< of P, relative
-    double rms_error;
+    double rms_error;     ///< of P, relative
   };
 
+  /// A contact law with the points that it is fitted to.
   struct FittedContact
   {
     std::vector<Indentation> points;
     ContactLawFit fit;
 
-    /// Returns the largest relative error of P that the penalty leaves: the exponent times the penetration over the local
-    /// indentation.
+    /// Returns the largest relative error of P by the penalty, n penetration/delta.
     double penalty_error() const;
   };
 
-  /// Indents the scene's meshed lever by a cylinder moved along the drive without friction, the rotational spring scaled so that
-  /// P grows to 1.2 times the largest of the run. Points from 5 % of that on. The face is half as
-  /// coarse as the scene's and an automatic penalty as stiff as hard contact.
+  /// Indents the meshed lever by a cylinder that moves along the drive without friction. The rotational spring is scaled for a
+  /// largest P of 1.2 times that of the run; points with less than 5 % of the run's P are left out. The faces are half as long
+  /// as the scene's and an automatic penalty is that of hard contact.
   FittedContact indent(const Scene &scene);
 
-  /// Indents a lever that bends as a beam of that EI [N mm^2] does, instead of the scene's bar.
+  /// Does the same with the bending stiffness EI [N mm^2] in place of that of the scene's bar.
   FittedContact indent(const Scene &scene, double bending_stiffness);
 } // namespace sprag

@@ -19,19 +19,19 @@ namespace sprag
     constexpr double round_off            = 5e-15; ///< of positions, over the size of the scene
     constexpr double growth               = 1.5;
     constexpr double cut                  = 0.25;
-    constexpr double stalled_penetration  = 100.; ///< admitted after all augmentations, over the tolerance
-    constexpr double largest_speed_change = 0.02; ///< in a step, over the drive's peak speed: mu depends on its mean speed
-    constexpr double slow                 = 1e-6; ///< as rest, over the drive's peak speed
+    constexpr double stalled_penetration  = 100.; ///< accepted after all augmentations, over the tolerance
+    constexpr double largest_speed_change = 0.02; ///< per step, over the peak speed: mu is that of the step's mean speed
+    constexpr double slow                 = 1e-6; ///< least speed of the approach to Start, over the peak speed
 
     // The passage through stick after a reversal is about (|F+| + |F-|) / k_t long; its steps are these shares of it.
     constexpr double first_share   = 0.02;
     constexpr double largest_share = 0.125;
-    constexpr double passages      = 3.; ///< after so many the contact slides fully, whichever way it slid more
+    constexpr double passages      = 3.; ///< lengths of passage with short steps; then the contact slides fully
 
-    constexpr unsigned int stick_solutions = 4;    ///< linear ones that balance a state in stick
-    constexpr double displacement_share    = 1e-2; ///< of the penetration, by which x moves to find the stiffness in stick
+    constexpr unsigned int stick_solutions = 4;    ///< Newton corrections for an equilibrium in stick
+    constexpr double displacement_share    = 1e-2; ///< dx of the difference quotient in stick, over the penetration
 
-    /// Returns whether a state that no step led to is an equilibrium, up to round-off.
+    /// Returns whether an initial state is an equilibrium up to round-off.
     bool is_balanced(Model &model, const State &state)
     {
       Step step        = model.begin_step(state, state.drive);
@@ -39,6 +39,7 @@ namespace sprag
       return model.movement(model.correction(found)) <= round_off * model.length_scale();
     }
 
+    /// Effort of a step, and why it failed.
     struct StepCost
     {
       unsigned int iterations    = 0;
@@ -68,7 +69,7 @@ namespace sprag
     {
       while (found && model.penetration(*found) > settings.penetration_tolerance)
       {
-        // If the contact's edge flips between two nodes, the penetration stalls. It is small then, and reported.
+        // The penetration stalls if the contact's edge alternates between two nodes; a small one is accepted and reported.
         if (++cost.augmentations > settings.maximum_augmentations)
           return model.penetration(*found) <= stalled_penetration * settings.penetration_tolerance ? std::move(found)
                                                                                                    : std::nullopt;
@@ -78,7 +79,7 @@ namespace sprag
       return found;
     }
 
-    /// The equilibrium at the end of a step, or none where none was found.
+    /// Returns the equilibrium at the end of a step; none if there is none, with the reason in `cost`.
     std::optional<Equilibrium> solve_step(Model &model, const State &accepted, const DrivePoint &drive,
                                           const QuasiStaticSettings &settings, const bool stick_first, StepCost &cost)
     {
@@ -114,7 +115,7 @@ namespace sprag
       return Equilibrium{ std::move(step.trial), std::move(*found) };
     }
 
-    /// Trapezoidal rule, but across a reversal the friction power jumps and its value at the end of the step stands for it.
+    /// Adds the works of a step by the trapezoidal rule. Friction power jumps at a reversal, after which its end value is used.
     void add_work(const Row &before, const bool reversed, Row &row)
     {
       const double dt             = row[Column::time] - before[Column::time];
@@ -132,20 +133,20 @@ namespace sprag
                           mm(dx) + ". " + cost.remedy);
     }
 
-    /// A drive that goes back at once from where the cylinder was slid forward.
+    /// Returns whether the drive starts backward: the state at Start was reached by sliding forward.
     bool begins_backward(const DrivePoint &point)
     {
       return point.time == 0. && point.x > 0. && drive_direction(point.v) < 0;
     }
 
-    /// Part of the path after a reversal over which the contact goes from sliding one way to sliding the other [mm].
+    /// Part of the path after a reversal on which the contact changes from sliding in one direction to the other [mm].
     struct Passage
     {
       double begin  = 0.;
       double length = 0.;
     };
 
-    /// The friction force on the far side is not known beforehand; that of the near side stands for it.
+    /// Estimates the length by 2 |F|/k_t: the friction force F after the passage is taken as that before it.
     Passage passage_after(const Row &row, const double stick_stiffness)
     {
       if (!(stick_stiffness > 0.))
@@ -153,6 +154,7 @@ namespace sprag
       return { row[Column::x], 2. * std::abs(row.friction_force()) / stick_stiffness };
     }
 
+    /// An accepted step.
     struct Progression
     {
       State state;
@@ -160,7 +162,7 @@ namespace sprag
       Evaluation found{};
     };
 
-    /// One accepted step of at most dx, which is cut back where no equilibrium is found.
+    /// Makes one step of at most dx and reduces dx until there is an equilibrium.
     Progression advance(Model &model, const Drive &drive, const QuasiStaticSettings &settings, const Progression &from,
                         const bool reversed, const bool sticking, double &dx)
     {
@@ -184,8 +186,7 @@ namespace sprag
       return { std::move(state), row, std::move(found) };
     }
 
-    /// The state in which a lever begins at x = 0, and its evaluation where it is one that the cylinder opens there already, off
-    /// the middle of a pair: it is put on that without friction.
+    /// Returns settled() and, if the cylinder already opens the lever, its evaluation.
     std::pair<State, std::optional<Evaluation>> settle(Model &model, const DrivePoint &start, const QuasiStaticSettings &settings)
     {
       State state = model.initial_state(start);
@@ -196,8 +197,8 @@ namespace sprag
       return { std::move(state), std::nullopt };
     }
 
-    /// The state in which the drive begins and the first step [mm]: just touching at x = 0, further on as reached by sliding
-    /// there from x = 0 at the drive's own speed.
+    /// Returns the state at the start of the drive and the length of the first step [mm]. A start at x > 0 is reached by sliding
+    /// from x = 0 at the drive's initial speed.
     std::pair<Progression, double> begin(Model &model, const Drive &drive, const QuasiStaticSettings &settings)
     {
       const DrivePoint start = drive.at(0., Drive::Side::after);
@@ -226,7 +227,7 @@ namespace sprag
       return { std::move(now), rubs ? std::max(first_share * settings.step, settings.minimum_step) : settings.step };
     }
 
-    /// A run on its way, all that it goes on from beside what the model keeps.
+    /// State from which an interrupted run resumes, beside the history in the model.
     struct SolverState
     {
       Progression now;
@@ -242,7 +243,7 @@ namespace sprag
       archive(state, row, dx, passage, reported_stiffness);
     }
 
-    /// Balances a step as if every point in contact sticks to where it was in the accepted state.
+    /// Solves a step with every point in contact stuck at its place in the accepted state.
     Evaluation balance_in_stick(Model &model, Step &step)
     {
       auto found = model.evaluate(step, FrictionMode::stick);
@@ -312,7 +313,7 @@ namespace sprag
 
   double stick_stiffness(Model &model, const State &accepted)
   {
-    // The accepted state itself is not balanced in stick where the multipliers of the augmented Lagrangian are carried over.
+    // With multipliers of the augmented Lagrangian the accepted state is no equilibrium in stick: balance it first.
     Step step         = model.begin_step(accepted, accepted.drive);
     const auto before = balance_in_stick(model, step);
     if (before.penetration == 0.)
