@@ -46,9 +46,11 @@ namespace sprag
   /// contact less closely, as measured.
   double pressure_order(const Scene &scene);
 
-  /// Returns the part of the mesh, from the change on with_compared_mesh() and the order of convergence.
+  /// Returns the part of the mesh, change/(r^order - 1) by Richardson, from the change on with_compared_mesh() with faces r times
+  /// as long; of the coarser of two meshes with a mesh from a file.
   ErrorPart mesh_part(const Scene &scene, double change, double order);
 
-  /// Returns the part of the penalty, from the change with the softer one. Only runs without inertia can do without a penalty.
+  /// Returns the part of the penalty, change/(r - 1) from the change with a penalty softer by r; the error is proportional to
+  /// 1/penalty.
   ErrorPart penalty_part(const Scene &scene, double change);
 } // namespace sprag

@@ -60,6 +60,7 @@ namespace sprag
     drive
   };
 
+  /// A law of mu over speed, and how the contact uses it.
   struct FrictionLaw
   {
     std::variant<CoulombFriction, CorkOnAluminium, StribeckFriction, TabulatedFriction> law = CorkOnAluminium{};

@@ -11,6 +11,7 @@ namespace sprag
   class MomentLaw
   {
   public:
+    /// A point of the moment over the turn.
     struct Sample
     {
       double turn;      ///< from rest [rad]

@@ -84,6 +84,7 @@ namespace sprag
     Plain<N> creep{};                    ///< slip below the regularisation speed [mm]
   };
 
+  /// State of friction at the end of the last step.
   template <class V, int slips>
   struct SlipHistory
   {
@@ -242,8 +243,8 @@ namespace sprag
     return result;
   }
 
-  /// Slip speeds at the end of a step along a direction, from the means of this step and the last: (1 + share) times this one's
-  /// less share times the last one's.
+  /// Returns the share c = dt/(dt + dt_last) of the linear extrapolation to the slip speed at the end of a step from the means of
+  /// this step and the last, w_end = (1 + c) w - c w_last.
   template <class V, int slips>
   SPRAG_PART V extrapolated_share(const SlipHistory<V, slips> &history, const V &along_last, const double dt)
   {
@@ -415,7 +416,7 @@ namespace sprag
     return result;
   }
 
-  /// Force of a unilateral spring; in batches of exponent 1.
+  /// Returns k delta^n of a unilateral spring, delta = max(0, -gap); in batches for n = 1.
   template <class N>
   SPRAG_PART N spring_force(const NormalLaw &law, const N &gap)
   {
@@ -426,13 +427,14 @@ namespace sprag
     return select(value(gap) < 0., force, N{});
   }
 
+  /// Returns k delta^(n + 1)/(n + 1).
   template <class N>
   SPRAG_PART N spring_energy(const NormalLaw &law, const N &gap)
   {
     return -1. / (law.exponent + 1.) * gap * spring_force(law, gap);
   }
 
-  /// Mean of the spring's force over the change of its gap: minus the change of its energy over it.
+  /// Returns the mean force over a change of the gap, -(W_end - W_begin)/(gap_end - gap_begin) (discrete gradient).
   template <class N>
   SPRAG_PART N mean_spring_force(const NormalLaw &law, const Plain<N> &begin, const N &end)
   {

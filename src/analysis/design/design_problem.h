@@ -20,6 +20,7 @@ namespace sprag
   /// A minimisation over the unit cube with inequality constraints; one evaluation returns objective and constraints.
   struct BoxProblem
   {
+    /// Objective and constraints at one point.
     struct Evaluation
     {
       double objective = 0.;

@@ -21,6 +21,7 @@ namespace sprag
   class MeasuredMotion
   {
   public:
+    /// Rows between two turns, in which the cylinder moves in one direction.
     struct Stroke
     {
       std::size_t first; ///< row of the turn that begins it
@@ -28,6 +29,7 @@ namespace sprag
       int direction;     ///< +1 forward, -1 back
     };
 
+    /// Position and velocity of the cylinder.
     struct Place
     {
       double x; ///< [mm]

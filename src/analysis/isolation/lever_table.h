@@ -167,6 +167,7 @@ namespace sprag
       unsigned long steps        = 0;
     };
 
+    /// Largest accelerations of table and base [mm/s^2].
     struct Accelerations
     {
       double table, base;

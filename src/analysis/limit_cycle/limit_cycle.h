@@ -99,6 +99,7 @@ namespace sprag
     double period                = 0.; ///< after which P is the same again [s]; NaN if it never is
   };
 
+  /// Long-term outcome of a motion about a held slide.
   enum class Settling
   {
     slide,     ///< back to the slide, or on its way there
@@ -123,6 +124,7 @@ namespace sprag
     }
   };
 
+  /// Periods and limits of time by which a long-term outcome is decided.
   struct SettlingTimes
   {
     double period;   ///< of the slide's vibration [s]; a window has 20

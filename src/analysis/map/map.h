@@ -62,6 +62,7 @@ namespace sprag
     std::vector<double> interpolated(const std::vector<double> &values) const;
 
   private:
+    /// The quads of one spacing and which of them are split.
     struct Level
     {
       unsigned int spacing;

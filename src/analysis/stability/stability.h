@@ -12,6 +12,7 @@ namespace sprag
 {
   struct Scene;
 
+  /// Stability of a steady slide.
   enum class SlideKind
   {
     stable,

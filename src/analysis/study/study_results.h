@@ -13,6 +13,7 @@
 
 namespace sprag
 {
+  /// End of a study's run.
   enum class RunOutcome
   {
     completed,

@@ -47,6 +47,7 @@ namespace sprag
   /// Warns of vibrations that a fixed step hides as it is longer than longest_step(). Adaptive steps never are.
   Warnings hidden_vibration_warnings(const std::vector<GrowingMode> &modes, const TimeSettings &time);
 
+  /// Settings of a run in time, with the scales to which tolerances refer.
   struct TransientSettings
   {
     TimeSettings time;

@@ -21,6 +21,7 @@ namespace sprag
     Product mass;              ///< M
   };
 
+  /// An eigenpair (lambda, phi) of a pencil, phi^T M phi = 1.
   struct NormalMode
   {
     double value;

@@ -10,6 +10,7 @@ namespace sprag
   // The first rank of a run in three dimensions follows the drive, looks at the contact and writes tables alone. It asks the
   // others to help with bodies and their fields.
 
+  /// Tasks for which the first rank calls the others.
   enum class SharedTask
   {
     end,             ///< the run is over

@@ -33,7 +33,7 @@ namespace sprag
   template <int dim>
   std::vector<int> turning_axes(const ElasticBody<dim> &body);
 
-  /// Returns the displacement of each degree of freedom by a unit of rigid rotation about the pivot [mm].
+  /// Returns the displacement (-eta, xi) of each degree of freedom by a unit of rigid rotation about the pivot [mm].
   template <int dim>
   dealii::Vector<double> rotation_arms(const ElasticBody<dim> &body);
 

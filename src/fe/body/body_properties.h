@@ -41,6 +41,7 @@ namespace sprag
     inline constexpr dealii::types::boundary_id symmetry      = 9; ///< of a half over the width: it does not move along zeta
   }                                                                // namespace boundary_id
 
+  /// Directions of the force of a spring between friction plate and lever.
   enum class ConnectorType
   {
     sensor, ///< carries normal force alone
@@ -56,6 +57,7 @@ namespace sprag
     double stiffness   = 0.; ///< [N/mm], > 0
   };
 
+  /// Elements, materials and widths of a meshed body.
   struct BodyProperties
   {
     unsigned int degree = 2;

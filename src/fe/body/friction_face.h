@@ -46,6 +46,7 @@ namespace sprag
   {
     static constexpr unsigned int held = dealii::numbers::invalid_unsigned_int;
 
+    /// A node of the edge.
     struct Node
     {
       dealii::Point<dim> position; ///< undeformed [mm]

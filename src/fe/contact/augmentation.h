@@ -8,9 +8,10 @@
 namespace sprag
 {
   /// Multipliers of the augmented Lagrangian method on a friction face: continuous and linear between the corners of its cells,
-  /// whatever the degree of the displacements, which keeps the pair stable. A coefficient is the mean traction weighted with its
-  /// hat function (dual basis, lumped): it is never negative where the pressures are not, and a corner that the contact hardly
-  /// reaches does not swing. What of the traction varies within a cell stays with the penalty, which stabilises it.
+  /// for any degree of the displacements, which keeps the pair stable. A coefficient is the mean traction weighted with the
+  /// corner's hat function (lumped dual basis),
+  ///   lambda_c = int t h_c dA / int h_c dA,
+  /// so that pressures >= 0 give multipliers >= 0. The variation of the traction within a cell is left to the penalty.
   template <int dim>
   class FaceMultipliers
   {

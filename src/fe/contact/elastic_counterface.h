@@ -42,6 +42,7 @@ namespace sprag
     double slip(const FacePointState<2> &state);
 
   private:
+    /// The facets of an element at one end of the step.
     struct Side
     {
       PairConfiguration at;

@@ -35,6 +35,7 @@ namespace sprag
     }
 
   private:
+    /// Displacements of the element and pose of the cylinder.
     struct Place
     {
       Nodal displacement;

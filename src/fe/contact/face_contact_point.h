@@ -78,12 +78,14 @@ namespace sprag
   template <int dim>
   struct FaceProperties;
 
+  /// In a plane the counterface is any convex rigid body.
   template <>
   struct FaceProperties<2> : ContactProperties
   {
     Counterface counterface; ///< an elastic one as it is without load
   };
 
+  /// In space the counterface is the cylinder.
   template <>
   struct FaceProperties<3> : ContactProperties
   {

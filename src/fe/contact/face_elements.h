@@ -33,6 +33,7 @@ namespace sprag
   public:
     static constexpr unsigned int max_nodes = dim == 2 ? 3 : 9;
 
+    /// Range of the points of one cell, with the nodes that move them.
     struct Element
     {
       unsigned int begin; ///< points, as in FrictionFace
@@ -42,6 +43,7 @@ namespace sprag
       std::array<unsigned int, max_nodes> nodes;
     };
 
+    /// An integration point: place, weight [mm^(dim - 1)] and shape functions.
     struct Point
     {
       dealii::Point<dim> position; ///< undeformed

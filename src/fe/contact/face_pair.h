@@ -141,6 +141,7 @@ namespace sprag
     double along      = 0.5; ///< 0 ... 1
   };
 
+  /// Gaps and slips between the facets of a lever's face and the closest edges of a cylinder's face.
   class FacePair
   {
   public:
@@ -162,6 +163,7 @@ namespace sprag
     using Vector2 = dealii::Tensor<1, 2>;
     using Nodes   = std::array<Vector2, 3>;
 
+    /// A side of a cell on a face.
     struct Edge
     {
       unsigned int n_nodes = 0;
@@ -169,11 +171,13 @@ namespace sprag
       Nodes positions;                     ///< undeformed
       EdgeCurve undeformed;
     };
+    /// A side on the lever's face.
     struct LeverEdge : Edge
     {
       unsigned int n_facets = 0;
       double width          = 0.;
     };
+    /// A side on the cylinder's face.
     struct CylinderEdge : Edge
     {
       double arc = 0.; ///< where it begins

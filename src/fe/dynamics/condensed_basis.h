@@ -10,8 +10,9 @@
 
 namespace sprag
 {
-  /// Vibration modes of the free lever on its spring, and static shapes for what the modes left out answer to forces on the face:
-  /// a residual compliance (MacNeal 1971, Rubin 1975), so that static deflections are those of the finite elements.
+  /// The lowest vibration modes phi_i (mass 1) of the free lever on its spring, and the residual compliance of all others,
+  ///   G - sum phi_i phi_i^T / omega_i^2   (MacNeal 1971, Rubin 1975),
+  /// with the static compliance G: static deflections are those of the finite elements.
   struct CondensedBasis : ModeShapes, MassSums
   {
     dealii::FullMatrix<double> shapes;          ///< a row a dof, momentum included and support not; a column a mode
@@ -30,6 +31,7 @@ namespace sprag
                           const dealii::FullMatrix<double> &face_matrix, const SensorForces &sensors, unsigned int surface_begin,
                           const std::array<double, 2> &slope_compliances, double spring_stiffness);
 
+  /// Number of modes, masses and cache of a condensed basis.
   struct BasisSettings
   {
     unsigned int modes      = 1;
@@ -45,8 +47,7 @@ namespace sprag
   /// Makes the basis without a cache.
   CondensedBasis make_basis(const ElasticBody<2> &body, const BasisSettings &settings);
 
-  /// Returns the basis that has only the lowest so many modes, at least one; what the others answer statically goes to the
-  /// residual compliance, as if it had been made so.
+  /// Returns the basis with the lowest `modes` >= 1 modes; the static compliance of the others joins the residual compliance.
   CondensedBasis truncated(CondensedBasis basis, unsigned int modes);
 
   /// The basis as the modes of a structure, with damping and support.

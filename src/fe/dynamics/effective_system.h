@@ -17,8 +17,9 @@ namespace sprag
     std::vector<double> factors;                    ///< 2 zeta omega [1/s], > 0
   };
 
-  /// Inverse of a weighted sum of a lever's matrices and of its modal damping, the support left out. Kept as factors; the
-  /// response of all coordinates to a force on a dof is found once.
+  /// Inverse of S + B D B^T without the support: S is a weighted sum of a lever's matrices, kept as factors, and B = M phi, D
+  /// diagonal are its modal damping. By the Woodbury formula it is
+  ///   S^-1 - S^-1 B (D^-1 + B^T S^-1 B)^-1 B^T S^-1.
   class EffectiveSystem
   {
   public:

@@ -16,6 +16,7 @@ namespace sprag
     std::vector<double> rotation;                      ///< of the hub
   };
 
+  /// Mode shapes with the masses and momenta that a condensed lever needs.
   struct LeverModes : ModeShapes, MassSums
   {
     std::vector<std::vector<double>> leaf; ///< vibrations of the leaf spring

@@ -107,6 +107,7 @@ namespace sprag
       std::array<dealii::Vector<double>, 3> modal; ///< phi^T M times each
     };
 
+    /// Factors and compliance of steps of one duration.
     struct Step
     {
       StepWeights weights{};

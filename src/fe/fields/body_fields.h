@@ -64,6 +64,7 @@ namespace sprag
     /// With a part of the body's face.
     BodyFields(const SolidBody &body, const FrictionFace<3> &face);
 
+    /// A node of the pictured elements.
     struct Node
     {
       dealii::Point<3> position; ///< undeformed [mm]

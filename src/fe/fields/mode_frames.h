@@ -17,6 +17,7 @@ namespace sprag
     double frequency   = 0.; ///< Im lambda / 2 pi [Hz]
     double growth_rate = 0.; ///< Re lambda [1/s]
 
+    /// The mode of one lever.
     struct LeverShape
     {
       std::array<dealii::Vector<double>, 2> elastic; ///< displacement of the body in the lever's axes, real and imaginary [mm]

@@ -32,6 +32,7 @@ namespace sprag
     void serialise_progress(Archive &archive);
 
   private:
+    /// A largest stress [MPa] and its place, x and lever.
     struct Peak
     {
       double stress      = 0.;

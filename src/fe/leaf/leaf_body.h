@@ -11,6 +11,7 @@
 
 namespace sprag
 {
+  /// Number of elements of a leaf spring's mesh.
   struct LeafElements
   {
     unsigned int along;

@@ -30,6 +30,7 @@ namespace sprag
     dealii::Vector<double> correction(const dealii::Vector<double> &strain_residual, const DofLoads &change) const;
 
   private:
+    /// A cell with its degrees of freedom and stiffness.
     struct Cell
     {
       dealii::DoFHandler<3>::active_cell_iterator cell;

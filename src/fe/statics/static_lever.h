@@ -23,6 +23,7 @@ namespace sprag
   template <int dim>
   struct LeverParts;
 
+  /// Parts in a plane.
   template <>
   struct LeverParts<2>
   {
@@ -33,6 +34,7 @@ namespace sprag
     using Contact   = FaceContact;
   };
 
+  /// Parts in space.
   template <>
   struct LeverParts<3>
   {
@@ -136,6 +138,7 @@ namespace sprag
   private:
     using History = std::vector<ContactHistory>;
 
+    /// Properties and contact of one lever.
     struct Lever
     {
       Lever(const typename Parts::Body &body, const InterfaceLayout &layout, LeverProperties properties);

@@ -11,6 +11,7 @@ namespace sprag
 {
   // Lever axes: xi along d = (-cos th, sin th) away from the pivot, eta along n = (sin th, cos th) from cylinder to lever.
 
+  /// A point in lever axes [mm].
   struct LeverPoint
   {
     double xi;
@@ -26,6 +27,7 @@ namespace sprag
     N theta, sine, cosine;
   };
 
+  /// Returns the circle with centre (xi, eta) = (a cos th - h sin th, -a sin th - h cos th), a = l - x [mm].
   template <class N>
   PlacedCircle<N> placed_circle(const Geometry &geometry, const N &x, const N &theta)
   {
@@ -80,5 +82,6 @@ namespace sprag
     return std::sqrt(r_1 * r_1 + r_2 * r_2) - circle.radius;
   }
 
+  /// Returns gap and slip of a point with first and second derivatives, see on_circle().
   ContactKinematics<4> moving_circle_contact(const CircleOfPoints &circle, const LeverPoint &point);
 } // namespace sprag

@@ -19,6 +19,7 @@ namespace sprag
   class InterfaceCompliance
   {
   public:
+    /// A block on the diagonal of G, for consecutive dofs.
     struct Block
     {
       unsigned int begin; ///< its first dof

@@ -57,6 +57,7 @@ namespace sprag
     double penetration; ///< size of the contact's deformation [mm]
   };
 
+  /// Result of solve_interface().
   struct InterfaceSolution
   {
     NewtonResult newton;

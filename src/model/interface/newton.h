@@ -10,6 +10,7 @@ namespace sprag
   /// Tolerance over the penetration, see solve_by_newton().
   constexpr double relative_tolerance = 1e-7;
 
+  /// Outcome of Newton's method.
   struct NewtonResult
   {
     bool converged          = false;

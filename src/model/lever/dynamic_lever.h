@@ -37,9 +37,9 @@ namespace sprag
     bool jams;
   };
 
-  /// Returns the share of friction from the last of these points to a fold, at which the branch turns back: there the share's
-  /// slope over the penetration, a straight line near the fold, falls to 0. Infinite where it does not fall. The slopes are those
-  /// between points whose penetrations are a tenth apart, over which elements that come into contact count for little.
+  /// Returns the share s of friction from the last of these points to a fold, at which ds/dp = 0 over the penetration p:
+  ///   (ds/dp)^2 / (2 |d^2s/dp^2|)   of a parabola; infinite if ds/dp does not fall.
+  /// The points used have penetrations at least a tenth apart, which averages over elements that come into contact.
   inline double distance_to_fold(const std::vector<BranchPoint> &branch)
   {
     constexpr double none = std::numeric_limits<double>::infinity(), apart = 0.9;

@@ -34,6 +34,7 @@ namespace sprag
   class SteadySlides
   {
   public:
+    /// The last equilibrium, from which the next one is sought.
     struct Equilibrium
     {
       dealii::Vector<double> displacements;
@@ -93,7 +94,8 @@ namespace sprag
         return solve(drive, 1.);
     }
 
-    /// Slip speed of the deformable lever over that of the rigid one, by equilibria at a distance h [mm] to both sides.
+    /// Returns the slip speed of the deformable lever over that of the rigid one, slip(x - h to x + h)/(2 h w_rigid), with
+    /// w_rigid the rigid slip speed per drive speed and h in mm.
     double speed_ratio(const DrivePoint &drive, const double h)
     {
       const bool before = solve(moved(drive, -h), 1.) != nullptr;

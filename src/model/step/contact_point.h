@@ -35,6 +35,7 @@ namespace sprag
     unsigned int point = 0; ///< index of the point in a face, where only points in contact have a history
   };
 
+  /// Treatment of friction in an evaluation without inertia.
   enum class FrictionMode
   {
     cone, ///< stick or slip as the law decides

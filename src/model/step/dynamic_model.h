@@ -30,12 +30,14 @@ namespace sprag
     std::shared_ptr<const StoredJacobian> tangent; ///< of a step on the way here; null without
   };
 
+  /// Displacement [mm or rad] and velocity of a dof.
   struct DofState
   {
     double position;
     double velocity;
   };
 
+  /// Result of a step in time.
   struct StepOutcome
   {
     std::optional<Motion> motion; ///< none: no solution found

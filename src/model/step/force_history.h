@@ -8,6 +8,7 @@
 
 namespace sprag
 {
+  /// Interface forces at a place of the drive [mm] or an instant [s].
   struct ForcesAtPlace
   {
     DofLoads forces;
@@ -16,21 +17,21 @@ namespace sprag
 
   void serialise(Archive &archive, ForcesAtPlace &forces);
 
-  /// Forces at the last few places of a way, or in the middle of the last steps in time, which tell where the search for the next
-  /// ones best starts.
+  /// Forces at the last few places of the drive, or at the middles of the last steps in time, extrapolated by a polynomial
+  /// (Lagrange) as first guess of the next ones.
   class ForceHistory
   {
   public:
-    /// Forgets what was before, and begins at the forces of a motion that no step led to.
+    /// Starts anew from the forces of an initial motion.
     void begin(const DofLoads &forces);
 
-    /// Takes the mean forces of an accepted step of some duration > 0 [s].
+    /// Adds the mean forces of an accepted step of duration > 0 [s].
     void accept(const DofLoads &forces, double duration);
 
-    /// Writes what they lead to in the next step, which has some duration > 0 [s].
+    /// Sets the first guess of the mean forces in the next step of duration > 0 [s].
     void guess(double duration, DofLoads &result) const;
 
-    /// Takes the forces at a place beyond the last one. Forgets all others where `goes_on` is false.
+    /// Adds the forces at a place beyond the last one; drops all earlier ones if `goes_on` is false.
     void accept_at(const DofLoads &forces, double place, bool goes_on = true);
 
     /// Returns the forces at a place, on the dofs of the last: each along the polynomial through its forces as far back as it has

@@ -6,11 +6,10 @@
 
 namespace sprag
 {
-  /// Solves z = z_free + G f(z) as an equation of forces, f(z_free + G phi) = phi, from a guess of phi, by corrections with a
-  /// kept tangent; where these leave a large share of the unbalance, the tangent is renewed at the place that was reached.
-  /// Converged where what is left would move no point by more than `left_out` says, see solve_by_newton(). `contact_at(z,
-  /// wanted)` returns a InterfaceEvaluation. Not converged where the unbalance does not fall fast: solve_interface() is to be
-  /// tried instead.
+  /// Solves z = z_free + G f(z) as an equation for forces, f(z_free + G phi) = phi, by Newton corrections with a stored Jacobian
+  /// from a guess of phi. The Jacobian is renewed if the residual falls slowly. Converged if the remaining residual moves no
+  /// point by more than `left_out` allows, see solve_by_newton(). `contact_at(z, request)` returns an InterfaceEvaluation. If the
+  /// iteration does not converge, solve_interface() is to be tried.
   template <class Contact>
   class ModifiedNewton
   {
@@ -65,6 +64,7 @@ namespace sprag
     }
 
   private:
+    /// An evaluation with the residual f(z_free + G phi) - phi.
     struct ResidualEvaluation : InterfaceEvaluation
     {
       dealii::Vector<double> difference; ///< f - phi

@@ -11,8 +11,8 @@
 
 namespace sprag
 {
-  /// Derivative of the contact's forces by interface displacements that steps in time take from one to the next: a contact
-  /// wanders little in a step, so that it serves the corrections of several.
+  /// Derivative of the contact's forces by interface displacements, kept over several steps in time, in each of which the contact
+  /// changes little.
   struct StoredJacobian
   {
     std::vector<unsigned int> dofs; ///< increasing
@@ -21,7 +21,7 @@ namespace sprag
 
   void serialise(Archive &archive, std::shared_ptr<const StoredJacobian> &kept);
 
-  /// Factors of 1 - G A of the kept tangent A used last, with the compliance G of steps of one length.
+  /// Factors of 1 - G A, with the stored Jacobian A and the compliance G of steps of one duration.
   class JacobianFactors
   {
   public:

@@ -75,6 +75,7 @@ namespace sprag
   /// Points along the lever and how a mode moves them in lever axes [mm per unit of the mode].
   struct ModeShape
   {
+    /// Displacements of one lever, real and imaginary part.
     struct LeverShape
     {
       std::array<std::vector<double>, 2> along;

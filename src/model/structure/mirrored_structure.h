@@ -10,18 +10,16 @@
 
 namespace sprag
 {
-  /// Both levers of a mirrored pair as two structures of one lever each: of the symmetric motion, in which they mirror each
-  /// other, and of the antisymmetric, in which the second does the opposite, each at 1/sqrt(2) of its size for both. So a pair
-  /// costs twice a lever, not more. A sprung support moves with the first alone. Coordinates and static forces are those of the
-  /// first structure and then those of the second, on a sprung support with a coordinate of the second that stays 0. Structure:
-  /// see ModalStructure.
+  /// Both levers of a mirrored pair as two structures of one lever each, for the symmetric and the antisymmetric motion, see
+  /// MirroredInterface: a pair costs no more than two levers. Coordinates and static forces are those of the first structure,
+  /// then those of the second, whose coordinate of a sprung support stays 0. Structure: see ModalStructure.
   template <class Structure>
   class MirroredStructure
   {
   public:
     static constexpr unsigned int levers = 2;
 
-    /// `alike`: whether both structures answer alike, so that levers feel nothing of each other.
+    /// `alike`: both structures have equal matrices, so that the levers are uncoupled.
     MirroredStructure(std::unique_ptr<Structure> symmetric, std::unique_ptr<Structure> antisymmetric, const bool alike_)
         : parts{ { std::move(symmetric), std::move(antisymmetric) } }
         , alike(alike_)

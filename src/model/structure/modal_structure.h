@@ -28,7 +28,9 @@ namespace sprag
     unsigned int support    = -1u; ///< mode that is the support's, the last; -1u without
   };
 
-  /// Answers of a ModalData to forces at its interface, static or in steps of the generalised-alpha method.
+  /// Response of a ModalData to interface forces f, static or in steps of the generalised-alpha method. With modal coordinates q,
+  /// shapes S and static shapes u of compliance G_r
+  ///   q'' + C q' + omega^2 q = S^T f,   u + relaxation u' = G_r f,   z = S q + u.
   class ModalStructure
   {
   public:
@@ -45,12 +47,13 @@ namespace sprag
     /// The motion at rest without force.
     Motion rest() const;
 
-    /// Makes the compliance that of statics, or of a step.
+    /// Selects statics for the functions that follow.
     void use_statics()
     {
       current = &statics;
     }
 
+    /// Selects steps with these weights.
     void use_step(const StepWeights &weights);
 
     const InterfaceCompliance &compliance() const
@@ -105,6 +108,7 @@ namespace sprag
     }
 
   private:
+    /// Inverse and compliance for steps of one duration.
     struct Step
     {
       StepWeights weights{};
@@ -125,13 +129,13 @@ namespace sprag
     InterfaceCompliance interface_compliance(const dealii::FullMatrix<double> &inverse, double static_share) const;
     dealii::Vector<double> modal_forces(const InterfaceForces &forces) const;
 
-    /// f = K (u_f + relaxation [u] / dt) of the static shapes: weight of the elastic force at the end of the step.
+    /// Returns the weight of u_1 in f = K (u_f + relaxation (u_1 - u_0)/dt) of the static shapes, K their stiffness.
     double static_weight(const StepWeights &w) const
     {
       return w.stiffness() + data.relaxation / w.dt;
     }
 
-    /// The share of static forces at the beginning of a step that is left of them at its end where no others act.
+    /// Returns the share of the static forces at the beginning of a step that remains at its end without interface forces.
     double kept_share(const StepWeights &w) const
     {
       return -(w.alpha_f - data.relaxation / w.dt) / static_weight(w);
