@@ -10,12 +10,11 @@ namespace sprag
 {
   struct Scene;
 
-  /// Returns the row of a rigid lever in ideal contact: what follows from where the drive is and from the contact, 0 for what
-  /// such a lever does not have.
+  /// Returns the row of a rigid lever in ideal contact at a point of the drive; columns that such a lever lacks are 0.
   Row ideal_contact_row(const DrivePoint &point, const ClosedFormState &state, double spring_energy);
 
-  /// Follows the closed form along the scene's drive, in steps of at most Analysis/Step; at every reversal two rows, before and
-  /// after. The rows of a full pair are those of both levers. Works are integrated within each step, see work_between(). Requires
-  /// a drive free of locking().
+  /// Evaluates the closed form along the scene's drive in steps of at most Analysis/Step. A reversal gives two rows, before and
+  /// after. The rows of a full pair hold both levers. Works are integrated within each step by work_between(). Requires a drive
+  /// without locking().
   void run_closed_form(const Scene &scene, const std::function<void(const Row &)> &sink);
 } // namespace sprag

@@ -68,8 +68,7 @@ namespace sprag
         check_models();
       }
 
-      /// A number, with or without a unit, in that of a quantity; not a number where the text is another. None where the unit
-      /// does not fit, which is told.
+      /// Returns a number converted to `unit`; NaN if the text is no number. Reports a unit that does not fit and returns none.
       std::optional<double> number_in(const std::string &unit, const std::string &text, const std::string &what) const
       {
         Rule rule;
@@ -217,8 +216,8 @@ namespace sprag
       }
     };
 
-    /// Reads the texts of the settings into free parameters, demands, aims and check models, and reports what is wrong with them.
-    /// Free are numbers of the lever, its contact and the isolated table; the drive says what is asked of the lever and stays.
+    /// Reads the texts of the settings into free parameters, demands, aims and check models, and reports mistakes. Free can be
+    /// numbers of the lever, its contact and the isolated table, but not of the drive, which is the demand.
     void read_design(DesignSettings &settings, const std::vector<Parameter> &declared, const ReportMistake &report)
     {
       DesignReader{ settings, declared, report }.read();

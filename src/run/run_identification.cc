@@ -43,9 +43,9 @@ namespace sprag
       return formatted("%.2g", found.high - found.value);
     }
 
-    /// Independent values over all, below which residuals follow each other more than those of sensors do.
+    /// Least share of independent values in residuals that are noise of sensors.
     constexpr double least_independent = 0.3;
-    constexpr double least_deviation   = 1e-3; ///< of residuals over the largest force, below which they are round-off
+    constexpr double least_deviation   = 1e-3; ///< smaller residuals, over the largest force, are round-off
 
     /// Returns true if residuals are correlated as those of a model that does not fit the measurement.
     bool is_not_followed(const ForceChannel &channel, const ChannelNoise &noise)
@@ -69,7 +69,7 @@ namespace sprag
       return numbers[0] > 0. && numbers[1] > 0. && sums[0] / numbers[0] < sums[1] / numbers[1];
     }
 
-    /// Puts in front of a remedy what would explain the residuals; a turned sign does so alone.
+    /// Prepends the unknowns that would explain the residuals to a remedy; a wrong sign of Q replaces it.
     std::string another_remedy(const std::string &remedy, const Identification &found, const bool is_turned)
     {
       if (is_turned)
@@ -217,8 +217,8 @@ namespace sprag
       stream << "+- is half of the interval of " << formatted("%.4g", 100. * scene.identification.confidence) << " %\n";
     }
 
-    /// The scene with what was found, without inertia by the closed form, and its friction's table. Returns what keeps the values
-    /// from being a scene, empty where nothing does.
+    /// Writes a quasi-static scene of the closed form with the identified values, and its friction table. Returns why the values
+    /// make no valid scene; empty if they do.
     std::string write_scene(const Scene &scene, const RunOptions &options, const LeverUnknowns &unknowns,
                             const Identification &found)
     {

@@ -87,7 +87,7 @@ namespace sprag
       return rule.kind != Rule::Kind::choice && rule.kind != Rule::Kind::text && rule.kind != Rule::Kind::file;
     }
 
-    /// Number of a value. A parameter that takes words has the index among its values.
+    /// Returns the number of a value; of a parameter with words its index among the values.
     double varied_number(const VariedParameter &varied, const std::size_t index, const bool numeric)
     {
       const auto number = leading_number(varied.values[index]);
@@ -145,7 +145,7 @@ namespace sprag
       }
     }
 
-    /// All that any run tells, in the order in which it is met.
+    /// Returns the summary entries of all runs, each name once, in the order of first occurrence.
     std::vector<Entry> all_entries(const StudyRows &rows)
     {
       std::vector<Entry> all;
@@ -380,9 +380,8 @@ namespace sprag
                        settings_with_units(findings, least->run) + ", most for " + settings_with_units(findings, most->run));
     }
 
-    /// Prints how the runs of a study ended and, where there is a reference, the cheapest settings that meet accuracies: with
-    /// `in_full` for each quantity, else for all at once and for each at one accuracy. Without a reference it prints between
-    /// which values the results lie.
+    /// Prints failed and refused runs and, with a reference, the cheapest settings for each accuracy: with `in_full` of each
+    /// quantity, else of all together and of each at one accuracy. Without a reference it prints the ranges of the results.
     void print_study(std::ostream &stream, const StudyFindings &findings, const bool in_full)
     {
       const auto &measured  = findings.trade.measured;

@@ -35,7 +35,7 @@ namespace sprag
       return cell;
     }
 
-    /// Leaves the direction failed where the analysis fails.
+    /// Sets the values of a direction; they stay those of a failed cell if the analysis fails.
     void set_slide(const SweptSlides &slides, const Direction direction, MapCell &cell)
     {
       // One NaN for all, so that maps compare bit by bit.
@@ -61,8 +61,7 @@ namespace sprag
                                      override_text(second.name, parameter_at(second, site.second)) }));
     }
 
-    /// Returns the parameter, 0 or 1, that alone changes the mesh, so that cells in the order of it are checked faster; none
-    /// where there is no such parameter.
+    /// Returns the parameter, 0 or 1, that alone changes the mesh: cells sorted by it share meshes. None if both or neither do.
     std::optional<unsigned int> find_mesh_parameter(const Scene &scene)
     {
       const bool first = changes_mesh(scene, scene.map.first), second = changes_mesh(scene, scene.map.second);
@@ -71,7 +70,7 @@ namespace sprag
       return first ? 0 : 1;
     }
 
-    /// Exact where both ends are equal.
+    /// Returns a + share (b - a), exactly a for a = b.
     double between_ends(const double a, const double b, const double share)
     {
       return a + share * (b - a);
