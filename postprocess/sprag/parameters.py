@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Reads the full list of parameters that a result holds and that `sprag FILE.prm --print-parameters` prints."""
 
+import math
 import re
 from typing import NamedTuple, Optional
 
@@ -82,6 +83,28 @@ def scene_text(parameters):
     return "\n".join(f"subsection {section}\n" + "\n".join(lines) + "\nend\n" for section, lines in sections.items())
 
 
+def document(parameters):
+    """{section: {name: number or text}} as schema() describes it."""
+    sections: dict[str, dict] = {}
+    for full, parameter in parameters.items():
+        section, _, name = full.partition("/")
+        sections.setdefault(section, {})[name] = plain_value(parameter.text)
+    return sections
+
+
+def parse_document(sections):
+    """{"Section/Name": Parameter} of such a document, for scene_text()."""
+    return {f"{section}/{name}": Parameter(str(value), "1") for section, entries in sections.items() for name, value in entries.items()}
+
+
+def plain_value(text):
+    """Returns the finite number that a text is, or the text."""
+    number = Parameter(text, "1").number
+    if number is None or not math.isfinite(number):
+        return text
+    return int(number) if number.is_integer() else number
+
+
 def differing(listings):
     """Names of what is not the same in all of the parsed lists, in their order. Where output goes makes no difference."""
     names = dict.fromkeys(name for parameters in listings for name in parameters if not name.startswith("Output/"))
@@ -94,12 +117,13 @@ def compared_value(parameter):
 
 
 def schema(parameters):
-    """The JSON schema of {section: {name: value}}, a dictionary."""
+    """The JSON schema of {section: {name: value}}, a dictionary. Its units are annotations."""
     sections: dict[str, dict] = {}
     for full, parameter in parameters.items():
         section, _, name = full.partition("/")
-        unit = f" [{parameter.unit}]" if parameter.unit != "1" else ""
-        sections.setdefault(section, {})[name] = {"description": parameter.meaning + unit, **range_rule(parameter.range)}
+        default = plain_value(parameter.text if parameter.default is None else parameter.default)
+        unit = {} if parameter.unit == "1" else {"unit": parameter.unit}
+        sections.setdefault(section, {})[name] = {"description": parameter.meaning, **unit, "default": default, **range_rule(parameter.range)}
     closed = {name: {"type": "object", "properties": each, "additionalProperties": False} for name, each in sections.items()}
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", "type": "object", "properties": closed, "additionalProperties": False}
 

@@ -3,6 +3,8 @@
 
 import gc
 import importlib.util
+import json
+import operator
 import os
 import shutil
 import subprocess
@@ -17,9 +19,23 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from pictures import SOURCE, FolderTest  # noqa: E402
 from test_plot import make_run  # noqa: E402
 import sprag  # noqa: E402
+from sprag.parameters import document  # noqa: E402
 
 SCENES = Path(os.environ.get("SPRAG_SOURCE", SOURCE)) / "params"
 COARSE = {"Mesh/Face size": 2, "Analysis/Step": 4}
+
+
+def is_accepted(rule, value):
+    """Tells if a value keeps a rule of the schema, by those of its words that sprag writes."""
+    if "anyOf" in rule:
+        return any(is_accepted(each, value) for each in rule["anyOf"])
+    if "const" in rule or "enum" in rule:
+        return value in rule.get("enum", [rule.get("const")])
+    kinds = {"integer": int, "number": (int, float), "string": str}
+    if not any(isinstance(value, kinds[kind]) for kind in ([rule["type"]] if isinstance(rule["type"], str) else rule["type"])):
+        return False
+    limits = {"minimum": operator.ge, "exclusiveMinimum": operator.gt, "maximum": operator.le, "exclusiveMaximum": operator.lt}
+    return all(keeps(value, rule[word]) for word, keeps in limits.items() if word in rule)
 
 
 class PackageTest(FolderTest):
@@ -52,6 +68,27 @@ class PackageTest(FolderTest):
         scene.lever.depth = -1
         with self.assertRaisesRegex(sprag.Refused, "Lever/Depth = -1: must be a number > 0"):
             sprag.run(scene)
+
+    def test_shipped_scenes_keep_the_schema(self):
+        rules = json.loads(self.convert("schema"))["properties"]
+        self.assertEqual(rules["Lever"]["properties"]["Depth"].items() & {"unit": "mm", "default": 20}.items(), {("unit", "mm"), ("default", 20)})
+        for scene in sorted(SCENES.glob("*.prm")):
+            for section, entries in document(sprag.Scene(scene).parameters).items():
+                for name, value in entries.items():
+                    self.assertTrue(is_accepted(rules[section]["properties"][name], value), f"{scene.name}: {section}/{name} = {value}")
+        for name, wrong in (("Levers", 2.5), ("Levers", 0), ("Mass", "heavy"), ("Damper", "spring"), ("Output step", "none")):
+            self.assertFalse(is_accepted(rules["Isolation"]["properties"][name], wrong), name)
+
+    def test_a_scene_goes_through_json(self):
+        scene, written = SCENES / "design-machine.prm", self.folder / "scene.json"
+        written.write_text(self.convert("json", scene), encoding="utf-8")
+        again = self.folder / "scene.prm"
+        again.write_text(self.convert("prm", written), encoding="utf-8")
+        self.assertEqual(sprag.Scene(again).parameters, sprag.Scene(scene).parameters)
+
+    def convert(self, *words):
+        package = {**os.environ, "PYTHONPATH": str(Path(sprag.__path__[0]).parent)}
+        return subprocess.run([sys.executable, "-m", "sprag", *words], capture_output=True, text=True, check=True, env=package).stdout
 
     @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
     def test_types(self):
