@@ -17,7 +17,8 @@
 Units are mm, N, s, t and rad, hence MPa and N mm. A Refused or Failed holds the program's message.
 """
 
+from .dampers import rank_dampers, tell_ranking
 from .program import Failed, Refused, RunFailed, Scene, Section, run, sweep
 from .results import FaceState, NotAResult, Result, read_result as read
 
-__all__ = ["Failed", "FaceState", "NotAResult", "Refused", "Result", "RunFailed", "Scene", "Section", "read", "run", "sweep"]
+__all__ = ["Failed", "FaceState", "NotAResult", "Refused", "Result", "RunFailed", "Scene", "Section", "rank_dampers", "read", "run", "sweep", "tell_ranking"]

@@ -4,6 +4,7 @@
 import gc
 import importlib.util
 import json
+import math
 import operator
 import os
 import shutil
@@ -85,6 +86,32 @@ class PackageTest(FolderTest):
         again = self.folder / "scene.prm"
         again.write_text(self.convert("prm", written), encoding="utf-8")
         self.assertEqual(sprag.Scene(again).parameters, sprag.Scene(scene).parameters)
+
+    def test_dampers_are_ranked(self):
+        mass, stiffness, frequency, amplitude = 0.05, 1.1, 200, 0.05
+        speed, omega = 4 * math.pi * frequency * amplitude, math.sqrt(stiffness / mass)
+        kick = {"motion": "shock", "frequency": frequency, "amplitude": amplitude}
+        changes = {**{f"Isolation/Base {name}": value for name, value in kick.items()}, "Isolation/Duration": 3}
+        dampers, (without, lever) = sprag.rank_dampers(SCENES / "isolation-ground-a.prm", changes, jobs=1)
+        best = {each.damper: each for each in dampers}
+        self.assertEqual([each.transmissibility for each in dampers], sorted(each.transmissibility for each in dampers))
+        # A kick leaves the least acceleration where the damping ratio is 1/2: its square integrates to omega V^2 (1 + 4 zeta^2)/(4 zeta).
+        self.assertAlmostEqual(best["viscous"].strength / (mass * omega), 1, delta=0.05)
+        base = amplitude**2 * (2 * math.pi * frequency) ** 4 / (4 * frequency)
+        self.assertAlmostEqual(best["viscous"].transmissibility / math.sqrt(omega * speed**2 / base), 1, delta=0.01)
+        self.assertAlmostEqual(without.displacement / (speed / omega), 1, delta=0.01)
+        self.assertLess(best["lever"].transmissibility, lever.transmissibility)
+        said = sprag.tell_ranking(dampers, [without, lever])
+        self.assertIn(f"The lever lets through {best['lever'].transmissibility:.3g}, {dampers[0].damper} ", said)
+        # m V^2/2 goes into the spring and friction on the way to the farthest point.
+        within = {each.damper: each for each in sprag.rank_dampers(SCENES / "isolation-ground-a.prm", changes, displacement=20, jobs=1)[0]}
+        energy = mass * speed**2 / 2 - stiffness * 20**2 / 2
+        self.assertAlmostEqual(within["constant friction"].strength / (energy / 20), 1, delta=0.03)
+        self.assertAlmostEqual(within["linear friction"].strength / (2 * energy / 20**2), 1, delta=0.03)
+        for each in within.values():
+            self.assertAlmostEqual(each.displacement / 20, 1, delta=0.01, msg=each.damper)
+        with self.assertRaisesRegex(ValueError, "Base motion must not be none"):
+            sprag.rank_dampers(SCENES / "isolation-free-a.prm")
 
     def convert(self, *words):
         package = {**os.environ, "PYTHONPATH": str(Path(sprag.__path__[0]).parent)}
