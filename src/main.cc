@@ -95,8 +95,6 @@ namespace sprag
 
     bool needs_models(const Arguments &arguments, const Scene &scene)
     {
-      if (arguments.print_parameters)
-        return false;
       if (scene.spring.type == SpringType::leaf || scene.analysis.type == AnalysisType::study)
         return true;
       const bool tells_nothing = arguments.validate && arguments.quiet;
@@ -111,11 +109,6 @@ namespace sprag
 
     void do_without_models(const Arguments &arguments, const Scene &scene, RunLog &log)
     {
-      if (arguments.print_parameters)
-      {
-        std::cout << parameters_text(scene);
-        return;
-      }
       if (arguments.validate)
       {
         require_memory(scene);
@@ -134,9 +127,11 @@ namespace sprag
 
     int run_looked_after(const Arguments &arguments, const std::timespec &since, const int argc, char **argv)
     {
-      if (arguments.file.empty() && arguments.print_parameters && arguments.overrides.empty())
+      if (!arguments.print_parameters.empty())
       {
-        std::cout << default_parameters_text();
+        if (arguments.print_parameters != "prm")
+          become_models(argv);
+        std::cout << printed_parameters(arguments);
         return success;
       }
       const Scene scene            = load_scene(arguments);
@@ -168,7 +163,7 @@ int main(int argc, char **argv)
   try
   {
     require_stack();
-    if (under_mpi() && !arguments.print_parameters)
+    if (under_mpi() && arguments.print_parameters.empty())
       execute_beside("sprag-models", argv);
     return run_looked_after(arguments, since, argc, argv);
   }

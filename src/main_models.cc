@@ -168,9 +168,14 @@ int main(int argc, char **argv)
     trust_scripts();
   const std::timespec since = file_time();
   std::optional<Scene> scene;
-  if (!under_mpi())
+  if (!under_mpi() || !arguments.print_parameters.empty())
     try
     {
+      if (!arguments.print_parameters.empty())
+      {
+        print_for_deal_ii(printed_parameters(arguments), arguments.print_parameters == "json");
+        return success;
+      }
       scene = load_scene(arguments);
     }
     catch (const InputError &error)

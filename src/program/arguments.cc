@@ -29,7 +29,9 @@ namespace sprag
       app.add_option("--output", arguments.folder, "Folder for results; default output/NAME_OF_THE_FILE");
       app.add_flag("--overwrite", arguments.overwrite, "Replace whatever result is in that folder, and begin anew");
       app.add_flag("--validate", arguments.validate, "Check the file and stop");
-      app.add_flag("--print-parameters", arguments.print_parameters, "Print every parameter with its meaning and stop");
+      app.add_flag("--print-parameters{prm}", arguments.print_parameters,
+                   "Print every parameter with its meaning and stop; =xml or =json as dealii::ParameterHandler and parameter_gui")
+          ->check(CLI::IsMember({ "prm", "xml", "json" }));
       auto *const quiet = app.add_flag("--quiet", arguments.quiet, "Print errors only");
       app.add_flag("--verbose", arguments.verbose, "Print every result that is in /summary")->excludes(quiet);
       app.add_flag("--trust-scripts", arguments.trust_scripts,
@@ -106,6 +108,6 @@ namespace sprag
 
   bool is_run(const Arguments &arguments)
   {
-    return !arguments.validate && !arguments.print_parameters;
+    return !arguments.validate && arguments.print_parameters.empty();
   }
 } // namespace sprag

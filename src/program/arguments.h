@@ -23,13 +23,13 @@ namespace sprag
     std::string shipped_scene = "own-device"; ///< scene that it is a copy of
     std::vector<std::string> overrides;
     std::string folder;
-    bool validate         = false;
-    bool print_parameters = false;
-    bool quiet            = false;
-    bool verbose          = false; ///< prints all results
-    bool overwrite        = false;
-    bool trust_scripts    = false; ///< runs scripts of meshes with all rights of the user
-    unsigned int jobs     = 0;     ///< 0: as many as cores
+    std::string print_parameters; ///< form in which to print them, prm, xml or json; empty: not at all
+    bool validate      = false;
+    bool quiet         = false;
+    bool verbose       = false; ///< prints all results
+    bool overwrite     = false;
+    bool trust_scripts = false; ///< runs scripts of meshes with all rights of the user
+    unsigned int jobs  = 0;     ///< 0: as many as cores
   };
 
   /// Reads the command line. Returns the exit status where nothing else is to be done: help and version, which are printed, a

@@ -27,6 +27,12 @@ namespace sprag
     return read_scene(arguments.file, arguments.overrides);
   }
 
+  std::string printed_parameters(const Arguments &arguments)
+  {
+    const bool are_defaults = arguments.file.empty() && arguments.overrides.empty();
+    return are_defaults ? default_parameters_text() : parameters_text(load_scene(arguments));
+  }
+
   namespace
   {
     constexpr std::size_t most_lines = 40, half_line = 200;

@@ -20,6 +20,9 @@ namespace sprag
   /// Reads the scene. Throws InputError, also where no file is named.
   Scene load_scene(const Arguments &arguments);
 
+  /// Returns all parameters of the scene in .prm form, defaults where none is named. Throws InputError.
+  std::string printed_parameters(const Arguments &arguments);
+
   // The program reports its outcome by messages on the standard error, its exit status and the files in the folder.
 
   /// Returns the time by the clock of file systems.

@@ -7,11 +7,13 @@ import json
 import math
 import operator
 import os
+import re
 import shutil
 import subprocess
 import sys
 import unittest
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 
@@ -21,6 +23,7 @@ from pictures import SOURCE, FolderTest  # noqa: E402
 from test_plot import make_run  # noqa: E402
 import sprag  # noqa: E402
 from sprag.parameters import document  # noqa: E402
+from sprag.program import program  # noqa: E402
 
 SCENES = Path(os.environ.get("SPRAG_SOURCE", SOURCE)) / "params"
 COARSE = {"Mesh/Face size": 2, "Analysis/Step": 4}
@@ -112,6 +115,30 @@ class PackageTest(FolderTest):
             self.assertAlmostEqual(each.displacement / 20, 1, delta=0.01, msg=each.damper)
         with self.assertRaisesRegex(ValueError, "Base motion must not be none"):
             sprag.rank_dampers(SCENES / "isolation-free-a.prm")
+
+    def test_parameter_gui_opens_the_xml(self):
+        # Its reader takes sections of parameters with these five elements, and numbers by their patterns.
+        scene, parts = SCENES / "design-machine.prm", ["value", "default_value", "documentation", "pattern", "pattern_description"]
+        root = ElementTree.fromstring(self.call(scene, "--print-parameters=xml"))
+        self.assertEqual(root.tag, "ParameterHandler")
+        found = {}
+        for section in root:
+            for parameter in section:
+                self.assertEqual([part.tag for part in parameter], parts)
+                value, _, _, _, pattern = (part.text or "" for part in parameter)
+                for kind, read in (("[Integer", int), ("[Double", float)):
+                    if pattern.startswith(kind):
+                        read(value)
+                found["/".join(re.sub("_(..)", lambda code: chr(int(code[1], 16)), each.tag) for each in (section, parameter))] = value
+        self.assertEqual(found, {name: parameter.text for name, parameter in sprag.Scene(scene).parameters.items()})
+        printed = json.loads(self.call("--print-parameters=json"))["Lever"]["Depth"]
+        self.assertEqual((printed["value"], printed["pattern_description"]), ("20", "[Double 0...MAX_DOUBLE (inclusive)]"))
+        wrong = subprocess.run([program(), scene, "--set", "Isolation/Levers=1e1", "--print-parameters=xml"], capture_output=True, text=True, check=False)
+        self.assertEqual((wrong.returncode, wrong.stdout), (2, ""))
+        self.assertIn("Levers", wrong.stderr)
+
+    def call(self, *words):
+        return subprocess.run([program(), *words], capture_output=True, text=True, check=True).stdout
 
     def convert(self, *words):
         package = {**os.environ, "PYTHONPATH": str(Path(sprag.__path__[0]).parent)}
