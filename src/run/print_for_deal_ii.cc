@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/error_text.h"
 #include "base/errors.h"
 #include "input/sections.h"
+#include "run/error_text.h"
 #include "run/run.h"
 
 #include <deal.II/base/parameter_handler.h>
