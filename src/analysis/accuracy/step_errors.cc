@@ -11,7 +11,7 @@ namespace sprag
 {
   namespace
   {
-    constexpr double least_ringing = 0.1; ///< |P - P_quasi_static| of a ringing row, over its maximum
+    constexpr double least_row_ringing = 0.1; ///< |P - P_quasi_static| of a ringing row, over its maximum
 
     double row_ringing(const Row &row)
     {
@@ -22,7 +22,7 @@ namespace sprag
     {
       const auto size = [&](const Row &row)
       { return row[Column::time] > begin && row[Column::time] <= end ? std::abs(row_ringing(row)) : 0.; };
-      const double least = least_ringing * largest(rows, size);
+      const double least = least_row_ringing * largest(rows, size);
       double result      = begin;
       for (const Row &row : rows)
         if (size(row) > 0. && size(row) >= least)
