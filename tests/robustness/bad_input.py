@@ -91,10 +91,11 @@ class BadScene(ProgramTest):
         before = tree(self.folder)
         elsewhere = self.folder / "b.prm"
         refused = (
-            (("--new", new), "exists"),
-            (("--new", elsewhere, "--validate"), "--from alone"),
+            (("--new", new), "exists; no file is replaced, name another"),
+            (("--new", elsewhere, "--overwrite"), f"--from alone, not with --overwrite: type 'sprag --new {elsewhere}' and then 'sprag {elsewhere}' with"),
+            (("--new", elsewhere, "model-a"), "--from alone, not with FILE.prm"),
             (("--new", elsewhere, "--from", "modl-a"), "did you mean 'model-a'?"),
-            (("--new", elsewhere, "--from", "../params/model-a"), "no such scene"),
+            (("--new", elsewhere, "--from", "../params/model-a.prm"), "no such scene; did you mean 'model-a'?"),
             (("--new", elsewhere, "--from", "solid-rib-a"), "reads files"),
             (("--new", elsewhere, "--from", "identification-a"), "reads files"),
         )
