@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <ostream>
 
@@ -21,6 +22,13 @@ namespace sprag
   std::string four_digits(const double value)
   {
     return formatted("%.4g", value);
+  }
+
+  double rounded_to(const double value, const bool upward)
+  {
+    constexpr double slack = 1e-6; // of the last digit, for numbers that have four already
+    const double unit      = std::pow(10., std::floor(std::log10(std::abs(value))) - 3.);
+    return value == 0. ? 0. : unit * (upward ? std::ceil(value / unit - slack) : std::floor(value / unit + slack));
   }
 
   std::string with_unit(const double value, const std::string &unit)

@@ -16,6 +16,9 @@ namespace sprag
   /// Returns "23.67".
   std::string four_digits(double value);
 
+  /// Returns the next number of four digits that is not less, or with `upward` = false not more.
+  double rounded_to(double value, bool upward);
+
   /// Returns a number and its unit, "23.67 N"; the number alone where the unit is "1" or empty.
   std::string with_unit(double value, const std::string &unit);
 

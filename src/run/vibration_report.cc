@@ -206,12 +206,12 @@ namespace sprag
       return result;
     }
 
-    /// Returns "14.66 to 18.21 mm, 56.3 to 65 mm".
+    /// Returns "14.66 to 18.21 mm, 56.3 to 65 mm", rounded outwards.
     std::string to_text(const std::vector<UnstableStretch> &stretches)
     {
       std::vector<std::string> texts;
       for (const auto &stretch : stretches)
-        texts.push_back(four_digits(stretch.from) + " to " + with_unit(stretch.to, "mm"));
+        texts.push_back(four_digits(rounded_to(stretch.from, false)) + " to " + with_unit(rounded_to(stretch.to, true), "mm"));
       return boost::algorithm::join(texts, ", ");
     }
 
@@ -288,8 +288,10 @@ namespace sprag
       for (const auto &critical : changes)
       {
         const bool is_friction = range.name == "Friction/Factor" && !std::isnan(critical.mu);
-        stream << ", " << kind_name(critical.above) << " from " << with_unit(critical.value, unit)
-               << (is_friction ? " (mu = " + four_digits(critical.mu) + ")" : "")
+        // The value that is printed must lie on the better side as well.
+        const bool upward = (critical.above < critical.below) == (range.to > range.from);
+        stream << ", " << kind_name(critical.above) << " from " << with_unit(rounded_to(critical.value, upward), unit)
+               << (is_friction ? " (mu = " + four_digits(rounded_to(critical.mu, upward)) + ")" : "")
                << (critical.worse.motion.empty() ? "" : " (" + critical.worse.motion + ")");
         if (is_worst && range.name != "Stability/Position")
           stream << " (worst " << (critical.worse.drive.v < 0. ? "backward" : "forward")

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "report/report.h"
 #include "report/console_summary.h"
+#include "report/summary_lines.h"
 
 #include "scene/closed_form.h"
 #include "scene/scene.h"
 #include "scenes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <sstream>
@@ -154,6 +156,20 @@ TEST(Report, PeaksInTimeLieBetweenRows)
   const auto summary = transient_summary(model_a(), rows);
   EXPECT_NEAR(find_value(summary, "peak_P_forward"), 25., 2e-3);
   EXPECT_GT(find_value(summary, "peak_P_forward"), (*largest_row)[Column::P]);
+}
+
+TEST(SummaryLines, RoundToEitherSide)
+{
+  for (const auto &[value, down, up] : std::vector<std::array<double, 3>>{ { 9.14440261, 9.144, 9.145 },
+                                                                           { 0.51475337, 0.5147, 0.5148 },
+                                                                           { 9.145, 9.145, 9.145 },
+                                                                           { -123456., -123500., -123400. },
+                                                                           { 9.9996, 9.999, 10. },
+                                                                           { 0., 0., 0. } })
+  {
+    EXPECT_DOUBLE_EQ(rounded_to(value, false), down);
+    EXPECT_DOUBLE_EQ(rounded_to(value, true), up);
+  }
 }
 
 TEST(SummaryTable, FindsTheRowWhoseStarStandsForLeast)

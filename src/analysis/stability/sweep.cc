@@ -328,8 +328,8 @@ namespace sprag
         }
         if (!low.slide || !high.slide || low.kind() == high.kind())
           return;
-        result.changes.push_back({ 0.5 * (low.value + high.value), low.kind(), high.kind(),
-                                   is_worse(*high.slide, *low.slide) ? *high.slide : *low.slide,
+        const bool worsens = is_worse(*high.slide, *low.slide);
+        result.changes.push_back({ (worsens ? low : high).value, low.kind(), high.kind(), *(worsens ? high : low).slide,
                                    std::isnan(low.slide->mu) ? high.slide->mu : low.slide->mu });
       }
     };

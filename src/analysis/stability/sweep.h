@@ -32,8 +32,8 @@ namespace sprag
   /// A value of a parameter at which the kind of a slide changes.
   struct CriticalValue
   {
-    double value = 0.;
-    SlideKind below; ///< kind just below the value
+    double value = 0.; ///< on the better side, within the tolerance of the search
+    SlideKind below;   ///< kind just below the change
     SlideKind above;
     CheckedSlide worse; ///< the worse of the slides on both sides
     double mu = 0.;     ///< of the slide below; NaN where there is no equilibrium
