@@ -175,8 +175,7 @@ namespace sprag
         }
       }
 
-      /// Takes the values of a section's material where the section sets none. A material that --set or a study names replaces
-      /// those of the file as well.
+      /// Fills in the values of a section's material that the section does not set; one of --set replaces those of the file too.
       void use_material(const std::string &section, const std::string &names_it)
       {
         const auto named = settings.specified.find(names_it);
@@ -210,7 +209,11 @@ namespace sprag
               resolve(found->second.value);
             parameter.store(found->second.value);
             if (input.scene.chosen.count(found->first) == 0 && filled_in.count(found->first) == 0)
+            {
               input.scene.specified.insert(found->first);
+              if (found->second.place == "--set")
+                input.scene.by_option.insert(found->first);
+            }
             if (!found->second.written.empty())
               input.scene.written.emplace(found->first, found->second.written);
           }
@@ -509,7 +512,12 @@ namespace sprag
     Scene changed(const Scene &scene, const std::vector<std::string> &overrides, const std::map<std::string, std::string> &chosen)
     {
       const auto read = [&](const auto &declared)
-      { return override_settings(scene.name + ".prm", set_values(scene), overrides, declared); };
+      {
+        auto settings = override_settings(scene.name + ".prm", set_values(scene), overrides, declared);
+        for (const auto &name : scene.by_option)
+          settings.specified[name].place = "--set";
+        return settings;
+      };
       Scene result = SceneReader(read, scene.folder, chosen).scene();
       for (const auto &[name, text] : scene.written)
         if (result.specified.count(name) > 0 && result.parameters->at(name) == scene.parameters->at(name))

@@ -43,6 +43,7 @@ namespace sprag
     std::map<std::string, std::vector<std::string>> unused_columns;
 
     std::set<std::string> specified; ///< "Section/Name" of the parameters that were given rather than left at their defaults
+    std::set<std::string> by_option; ///< those of them that --set or a variation gave
 
     /// Parameters that the program has chosen so that an accuracy is met, with what stood in their place.
     std::map<std::string, std::string> chosen;

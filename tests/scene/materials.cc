@@ -77,6 +77,14 @@ TEST(Materials, OfTheCommandLineOrAStudyReplaceThoseOfTheFile)
   EXPECT_EQ(variant(rubber, { "Friction layer/Made of=none" }).layer.poisson_ratio, FrictionLayer().poisson_ratio);
   EXPECT_EQ(with_layer(own, { "Friction layer/Made of=PTFE", "Friction layer/Density=1e-9" }).layer.density, 1e-9);
   EXPECT_EQ(with_layer(own, { "Friction layer/Made of=PTFE" }).layer.young_modulus, 500.);
+  // A modulus of --set stays in each row of a study over materials.
+  const Scene study = with_layer(own, { "Friction layer/Young's modulus=4.5" });
+  for (const Scene &row : { variant(study, { "Friction layer/Made of=PTFE" }),
+                            variant(variant(study, { "Lever/Depth=10" }), { "Friction layer/Made of=PTFE" }) })
+  {
+    EXPECT_EQ(row.layer.young_modulus, 4.5);
+    EXPECT_EQ(row.layer.poisson_ratio, 0.46);
+  }
 }
 
 TEST(Materials, FillTheirOwnSectionAlone)
