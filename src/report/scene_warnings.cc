@@ -8,6 +8,7 @@
 #include "laws/friction.h"
 #include "results/columns.h"
 #include "scene/closed_form.h"
+#include "scene/contact_estimates.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 
@@ -159,6 +160,58 @@ namespace sprag
                                           " times that are needed."));
     }
 
+    bool is_static(const Scene &scene)
+    {
+      return scene.analysis.type == AnalysisType::quasi_static || scene.analysis.type == AnalysisType::slope;
+    }
+
+    /// Returns whether the contact has the stiffness of a law in place of that of layer and mesh.
+    bool has_contact_law(const Scene &scene)
+    {
+      return !is_static(scene) && is_reduced(scene.analysis.model) && scene.contact.type == ContactType::compliant &&
+             !has_mesh(scene);
+    }
+
+    bool is_varied(const Scene &scene, const std::string &parameter)
+    {
+      return scene.analysis.type == AnalysisType::map &&
+             (scene.map.first.name == parameter || scene.map.second.name == parameter);
+    }
+
+    /// Returns whether the contact stiffness was given for this layer: as late as the layer's constants, or beside model A's.
+    bool has_own_contact_law(const Scene &scene)
+    {
+      const FrictionLayer a;
+      const auto &own     = scene.layer;
+      const auto is_later = [&](const std::string &name) { return scene.by_option.count("Friction layer/" + name) > 0; };
+      const bool is_changed =
+          is_later("Made of") || is_later("Young's modulus") || is_later("Poisson's ratio") || is_later("Thickness");
+      const auto &source = is_changed ? scene.by_option : scene.specified;
+      return source.count("Contact/Stiffness") > 0 || is_varied(scene, "Contact/Stiffness") ||
+             (own.young_modulus == a.young_modulus && own.poisson_ratio == a.poisson_ratio && own.thickness == a.thickness);
+    }
+
+    void add_foreign_contact_law(const Scene &scene, Warnings &warnings)
+    {
+      constexpr double largest_ratio = 0.4; // of Poisson, up to which the formula serves
+      if (!has_contact_law(scene) || has_own_contact_law(scene))
+        return;
+      const auto &layer     = scene.layer;
+      Device meshed         = scene;
+      meshed.analysis.model = ModelType::condensed;
+      const auto estimate   = face_law(meshed);
+      const auto text       = [](const double stiffness, const double exponent)
+      { return rounded_text(stiffness) + " N/mm^n with n = " + rounded_text(exponent); };
+      warnings.push_back(make_warning("foreign_contact_law",
+                                      "The layer has E = " + rounded_text(layer.young_modulus) +
+                                          " MPa, nu = " + rounded_text(layer.poisson_ratio) + " and " + mm(layer.thickness) +
+                                          " thickness, but the contact of rigid levers and beams is Contact/Stiffness = " +
+                                          text(scene.contact.stiffness, scene.contact.exponent) + ", which was not given for it" +
+                                          (layer.poisson_ratio <= largest_ratio && estimate.stiffness > 0.
+                                               ? ": such a layer has about " + text(estimate.stiffness, estimate.exponent) + '.'
+                                               : ".")));
+    }
+
     /// Parameter by its full name, and whether the scene uses it.
     struct Dependent
     {
@@ -168,27 +221,20 @@ namespace sprag
 
     std::vector<Dependent> dependents(const Scene &scene)
     {
-      const auto &analysis  = scene.analysis;
-      const bool statics    = analysis.type == AnalysisType::quasi_static || analysis.type == AnalysisType::slope;
-      const bool deformable = analysis.type != AnalysisType::slope && (has_mesh(scene) || analysis.model == ModelType::beam);
-      const bool has_law =
-          !statics && is_reduced(analysis.model) && scene.contact.type == ContactType::compliant && !has_mesh(scene);
-      const bool has_inertia = !statics && analysis.type != AnalysisType::contact_law &&
+      const auto &analysis   = scene.analysis;
+      const bool deformable  = analysis.type != AnalysisType::slope && (has_mesh(scene) || analysis.model == ModelType::beam);
+      const bool has_inertia = !is_static(scene) && analysis.type != AnalysisType::contact_law &&
                                analysis.type != AnalysisType::calibration && analysis.model != ModelType::closed_form &&
                                scene.lever.inertia == InertiaSource::scaled;
-      return {
-        { "Geometry/Cylinder radius", true }, { "Geometry/Interface offset", true },
-        { "Geometry/Pivot distance", true },  { "Rotational spring/Stiffness", scene.spring.type == SpringType::torsional },
-        { "Lever/Length", deformable },       { "Lever/Depth", deformable },
-        { "Lever/Width", deformable },        { "Lever/Moment of inertia", has_inertia },
-        { "Contact/Stiffness", has_law }
-      };
-    }
-
-    bool is_varied(const Scene &scene, const std::string &parameter)
-    {
-      return scene.analysis.type == AnalysisType::map &&
-             (scene.map.first.name == parameter || scene.map.second.name == parameter);
+      return { { "Geometry/Cylinder radius", true },
+               { "Geometry/Interface offset", true },
+               { "Geometry/Pivot distance", true },
+               { "Rotational spring/Stiffness", scene.spring.type == SpringType::torsional },
+               { "Lever/Length", deformable },
+               { "Lever/Depth", deformable },
+               { "Lever/Width", deformable },
+               { "Lever/Moment of inertia", has_inertia },
+               { "Contact/Stiffness", has_contact_law(scene) } };
     }
 
     /// Returns true if the body whose mass follows from densities is not model A's.
@@ -486,8 +532,8 @@ namespace sprag
     // Each run of a study has its own, and a lever that is to be found has none yet.
     if (scene.analysis.type == AnalysisType::study || scene.analysis.type == AnalysisType::design)
       return warnings;
-    for (const auto add : { add_defaults, add_sensitivity, add_leaf, add_plane_stress, add_opening, add_locking, add_shaking,
-                            add_largest_speed, add_implausible_values, add_unused_columns })
+    for (const auto add : { add_defaults, add_foreign_contact_law, add_sensitivity, add_leaf, add_plane_stress, add_opening,
+                            add_locking, add_shaking, add_largest_speed, add_implausible_values, add_unused_columns })
       add(scene, warnings);
     return warnings;
   }
