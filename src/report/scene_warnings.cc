@@ -490,6 +490,30 @@ namespace sprag
       warnings.back().remedy.insert(0, remedy);
     }
 
+    /// A part that a scene has with one choice alone; by default it has none.
+    struct OptionalPart
+    {
+      std::string parameters; ///< beginning of their full names
+      std::string choice, word;
+    };
+
+    /// Warns of parameters of parts that nothing says to be there. Where the choice is given, they may stand for another run.
+    void add_absent_parts(const Scene &scene, Warnings &warnings)
+    {
+      static const std::vector<OptionalPart> parts = {
+        { "Leaf spring/", "Rotational spring/Type", "leaf" }, { "Friction plate/", "Friction plate/Type", "on sensors" },
+        { "Lever frame/", "Lever/Outline", "frame" },         { "Support/", "Support/Type", "sprung" },
+        { "Cylinder/Made of", "Cylinder/Type", "solid" },     { "Cylinder/Young's modulus", "Cylinder/Type", "solid" }
+      };
+      std::string found;
+      for (const auto &[parameters, choice, word] : parts)
+        for (const auto &name : scene.specified)
+          if (name.rfind(parameters, 0) == 0 && scene.specified.count(choice) == 0)
+            found += (found.empty() ? "" : " ") + name + " counts only with " + choice + " = " + word + '.';
+      if (!found.empty())
+        warnings.push_back(make_warning("absent_part", found));
+    }
+
     /// Columns that a run writes, be it of a pair or in three dimensions, cannot be misspelt.
     bool is_written_by_sprag(const std::string &column)
     {
@@ -532,8 +556,9 @@ namespace sprag
     // Each run of a study has its own, and a lever that is to be found has none yet.
     if (scene.analysis.type == AnalysisType::study || scene.analysis.type == AnalysisType::design)
       return warnings;
-    for (const auto add : { add_defaults, add_foreign_contact_law, add_sensitivity, add_leaf, add_plane_stress, add_opening,
-                            add_locking, add_shaking, add_largest_speed, add_implausible_values, add_unused_columns })
+    for (const auto add :
+         { add_defaults, add_foreign_contact_law, add_sensitivity, add_leaf, add_plane_stress, add_opening, add_locking,
+           add_shaking, add_largest_speed, add_implausible_values, add_absent_parts, add_unused_columns })
       add(scene, warnings);
     return warnings;
   }

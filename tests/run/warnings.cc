@@ -416,7 +416,11 @@ TEST(SceneWarnings, ValuesOfAnotherUnitNameIt)
   expect_meant("Lever/Density", "2700 kg/m3, which is 2.7e-09 t/mm3", [](Scene &scene) { scene.lever.density = 2700.; });
   expect_meant("Lever/Density", "2.7 g/cm3, which is 2.7e-09 t/mm3", [](Scene &scene) { scene.lever.density = 2.7; });
   expect_meant("Leaf spring/Young's modulus", "2.06e+11 Pa, which is 206000 MPa",
-               [](Scene &scene) { scene.spring.leaf.young_modulus = 2.06e11; });
+               [](Scene &scene)
+               {
+                 scene.specified                 = { "Rotational spring/Type" };
+                 scene.spring.leaf.young_modulus = 2.06e11;
+               });
   expect_meant("Lever/Young's modulus", "70 GPa, which is 70000 MPa", [](Scene &scene) { scene.lever.young_modulus = 70.; });
   expect_meant("Lever/Depth", "0.02 m, which is 20 mm", [](Scene &scene) { scene.lever.depth = 0.02; });
   expect_meant("Lever/Moment of inertia", "0.00645 kg m2, which is 6.45 t mm2",
@@ -431,6 +435,21 @@ TEST(SceneWarnings, ValuesOfAnotherUnitNameIt)
   stiff.layer.young_modulus = 2e4;
   stiff.specified           = { "Lever/Young's modulus", "Friction layer/Young's modulus" };
   EXPECT_EQ(names(scene_warnings(stiff)), Names{});
+}
+
+TEST(SceneWarnings, PartsThatAreNotThere)
+{
+  Scene scene      = model_a();
+  scene.specified  = { "Cylinder/Tilt", "Friction plate/Made of", "Leaf spring/Length" };
+  const auto found = scene_warnings(scene);
+  ASSERT_EQ(names(found), Names{ "absent_part" });
+  EXPECT_EQ(found[0].found,
+            "Leaf spring/Length counts only with Rotational spring/Type = leaf. Friction plate/Made of counts only "
+            "with Friction plate/Type = on sensors.");
+  scene.specified.insert({ "Rotational spring/Type", "Friction plate/Type" });
+  EXPECT_EQ(names(scene_warnings(scene)), Names{});
+  scene.specified.insert("Cylinder/Made of");
+  EXPECT_EQ(names(scene_warnings(scene)), Names{ "absent_part" });
 }
 
 TEST(SceneWarnings, ColumnsThatNobodyWrites)
