@@ -9,6 +9,7 @@
 #include "levers/prepared_scene.h"
 #include "program/resources.h"
 #include "report/report.h"
+#include "report/warnings.h"
 #include "run/run.h"
 #include "scene/closed_form.h"
 #include "scene/contact_estimates.h"
@@ -197,6 +198,7 @@ namespace sprag
   {
     const Scene scene = make_scene(check.lever, { "Analysis/Type=stability", "Analysis/Model=" + model_name(check.check_model),
                                                   "Stability/Position=auto", "Stability/Critical=none" });
+    check.warnings    = scene_warnings(scene);
     require_memory(scene);
     auto &maker                 = *in_memory.dynamics;
     const auto out              = slides_along(scene, Direction::forward, maker);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/design/design_problem.h"
+#include "results/warning.h"
 #include "run/in_memory.h"
 
 #include <string>
@@ -20,6 +21,7 @@ namespace sprag
     DesignQuantities found;         ///< NaN of what the check model does not tell
     DesignQuantities overshoot;     ///< of those that are larger in time: over the value of the slides
     std::string failure;            ///< why it tells nothing; empty: it does
+    Warnings warnings;              ///< of the lever in this model
     double cpu_seconds = 0.;
 
     /// Returns the largest violation of the demands on what the check model tells; minus infinity without such.

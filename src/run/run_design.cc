@@ -426,6 +426,21 @@ namespace sprag
       }
     };
 
+    /// Adds what the last check model has to say of its scene, and whether the table judged another lever before it.
+    void add_warnings(const DesignSettings &design, const DesignFindings &findings, Warnings &warnings)
+    {
+      if (findings.checks.empty())
+        return;
+      const auto &last = findings.checks.back();
+      append(warnings, last.warnings);
+      const auto by_table = [](const ModelCheck &check) { return check.check_model == CheckModel::table; };
+      const auto judged   = std::find_if(findings.checks.rbegin(), findings.checks.rend(), by_table);
+      if (judged != findings.checks.rend() && judged->lever.parameters != last.lever.parameters)
+        warnings.push_back(make_warning("judged_another_lever", "The judge table passed " + lever_text(design, judged->lever) +
+                                                                    "; the judge " + model_name(last.check_model) +
+                                                                    " then led to another lever, which table has not seen."));
+    }
+
     void write_scene(const Scene &scene, const RunOptions &options, const Proposal &lever, const std::string &name)
     {
       auto changes = design_overrides(scene, lever);
@@ -465,6 +480,7 @@ namespace sprag
           write_scenes(scene, options, findings);
           if (!options.quiet)
             print_design(std::cout, design, findings);
+          add_warnings(design, findings, warnings);
           writer.finish(status, { design_summary(design, findings), {}, design_groups(design, findings) }, warnings);
         });
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/stability/stability.h"
 #include "analytic/isolation.h"
+#include "base/append.h"
 #include "base/errors.h"
 #include "input/read.h"
 #include "levers/prepared_scene.h"
@@ -30,10 +31,11 @@ namespace
     return (folder.path / "output").string();
   }
 
-  void run_in(const TemporaryFolder &folder, const Scene &scene)
+  Warnings run_in(const TemporaryFolder &folder, const Scene &scene)
   {
     Warnings warnings;
     run_design(scene, { read_output(folder), true }, warnings);
+    return warnings;
   }
 
   Scene best_scene(const TemporaryFolder &folder, const std::vector<std::string> &changes = {})
@@ -102,9 +104,11 @@ TEST(RunDesign, AJudgeCorrectsTheClosedForm)
 {
   const TemporaryFolder folder;
   // A thin lever bends, so that it damps less than the closed form says.
-  run_in(folder, design(folder, { "Lever/Depth=6", "Design/Free=Rotational spring/Stiffness = 1e4 ... 2e5", "Design/Judges=beam",
-                                  "Design/Demands=largest force >= 20", "Design/Aim=minimise largest force",
-                                  "Design/Judge in time=off" }));
+  const auto warnings = run_in(folder, design(folder, { "Lever/Depth=6", "Design/Free=Rotational spring/Stiffness = 1e4 ... 2e5",
+                                                        "Design/Judges=beam", "Design/Demands=largest force >= 20",
+                                                        "Design/Aim=minimise largest force", "Design/Judge in time=off" }));
+  // The beam has the moment of inertia of model A.
+  EXPECT_EQ(count_text(warnings), "1 warning: defaults_of_model_a");
   const Scene best = best_scene(folder, { "Analysis/Type=stability", "Analysis/Model=beam" });
   EXPECT_GT(lever_quantities(best)[DesignQuantity::largest_force], 20.2);
   DynamicsMaker maker(false);
@@ -116,9 +120,14 @@ TEST(RunDesign, AJudgeCorrectsTheClosedForm)
 TEST(RunDesign, TheTableInTimeCorrectsTheHarmonicBalanceSlow)
 {
   const TemporaryFolder folder;
-  run_in(folder, design(folder, { "Isolation/Base amplitude=5", "Isolation/Base frequency=0.75", "Isolation/Duration=100",
-                                  "Design/Free=Rotational spring/Stiffness = 1e4 ... 4e5", "Design/Judges=table",
-                                  "Design/Demands=transmissibility = 3 +- 0.01", "Design/Aim=minimise largest force" }));
+  const std::vector<std::string> table = { "Isolation/Base amplitude=5",
+                                           "Isolation/Base frequency=0.75",
+                                           "Isolation/Duration=100",
+                                           "Design/Free=Rotational spring/Stiffness = 1e4 ... 4e5",
+                                           "Design/Aim=minimise largest force",
+                                           "Design/Evaluations=200" };
+  const auto design_with = [&](const std::vector<std::string> &changes) { return design(folder, joined(table, changes)); };
+  EXPECT_TRUE(run_in(folder, design_with({ "Design/Judges=table", "Design/Demands=transmissibility = 3 +- 0.01" })).empty());
   const auto fundamental = [&](const Scene &lever)
   {
     IsolationFindings found;
@@ -133,6 +142,11 @@ TEST(RunDesign, TheTableInTimeCorrectsTheHarmonicBalanceSlow)
   DesignQuantities by_one_harmonic;
   add_table_quantities(best, asking, by_one_harmonic);
   EXPECT_GT(by_one_harmonic[DesignQuantity::transmissibility], 3.1);
+  // A beam that bends leads to another lever than the one that the table passed.
+  const auto warnings =
+      run_in(folder, design_with({ "Design/Judges=table, beam", "Design/Demands=transmissibility <= 5; largest force >= 27",
+                                   "Lever/Depth=6", "Lever/Moment of inertia=6.45", "Design/Judge in time=off" }));
+  EXPECT_EQ(count_text(warnings), "1 warning: judged_another_lever");
 }
 
 TEST(RunDesign, ThinnestStableLeverIsAtTheEdgeOfStability)
