@@ -149,10 +149,10 @@ namespace sprag
   {
   }
 
-  Scene DesignChecks::make_scene(const Proposal &lever, const std::vector<std::string> &changes) const
+  Scene DesignChecks::make_scene(const ModelCheck &check) const
   {
     const std::vector<std::string> without_fields = { "Output/Fields=none" };
-    return prepared(variant(design, joined(joined(changes, without_fields), design_overrides(design, lever))));
+    return prepared(variant(design, joined(joined(check.changes, without_fields), design_overrides(design, check.lever))));
   }
 
   ModelCheck DesignChecks::check(const CheckModel by, const Proposal &lever, const bool in_time)
@@ -184,8 +184,9 @@ namespace sprag
 
   void DesignChecks::check_table(ModelCheck &check) const
   {
-    const Scene scene = make_scene(check.lever, { "Analysis/Type=isolation", "Analysis/Model=closed form",
-                                                  "Isolation/Base motion=harmonic", "Isolation/End=steady state" });
+    check.changes     = { "Analysis/Type=isolation", "Analysis/Model=closed form", "Isolation/Base motion=harmonic",
+                          "Isolation/End=steady state" };
+    const Scene scene = make_scene(check);
     IsolationFindings found;
     run_isolation(scene, found, {});
     check.found[Q::transmissibility]   = found.fundamental;
@@ -196,8 +197,9 @@ namespace sprag
 
   void DesignChecks::check_slides(ModelCheck &check)
   {
-    const Scene scene = make_scene(check.lever, { "Analysis/Type=stability", "Analysis/Model=" + model_name(check.check_model),
-                                                  "Stability/Position=auto", "Stability/Critical=none" });
+    check.changes     = { "Analysis/Type=stability", "Analysis/Model=" + model_name(check.check_model), "Stability/Position=auto",
+                          "Stability/Critical=none" };
+    const Scene scene = make_scene(check);
     check.warnings    = scene_warnings(scene);
     require_memory(scene);
     auto &maker                 = *in_memory.dynamics;
@@ -218,7 +220,8 @@ namespace sprag
 
   void DesignChecks::follow_in_time(ModelCheck &check)
   {
-    const Scene scene = make_scene(check.lever, { "Analysis/Type=transient", "Analysis/Model=" + model_name(check.check_model) });
+    check.changes     = { "Analysis/Type=transient", "Analysis/Model=" + model_name(check.check_model) };
+    const Scene scene = make_scene(check);
     require_memory(scene);
     Warnings warnings;
     carry_out(scene, make_options(in_memory), warnings);

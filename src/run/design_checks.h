@@ -16,12 +16,13 @@ namespace sprag
   {
     CheckModel check_model = CheckModel::beam;
     unsigned int round     = 1;
-    bool in_time           = false; ///< whether the drive was followed in time
-    Proposal lever;                 ///< with what was expected of it
-    DesignQuantities found;         ///< NaN of what the check model does not tell
-    DesignQuantities overshoot;     ///< of those that are larger in time: over the value of the slides
-    std::string failure;            ///< why it tells nothing; empty: it does
-    Warnings warnings;              ///< of the lever in this model
+    bool in_time           = false;   ///< whether the drive was followed in time
+    Proposal lever;                   ///< with what was expected of it
+    DesignQuantities found;           ///< NaN of what the check model does not tell
+    DesignQuantities overshoot;       ///< of those that are larger in time: over the value of the slides
+    std::string failure;              ///< why it tells nothing; empty: it does
+    Warnings warnings;                ///< of the lever in this model
+    std::vector<std::string> changes; ///< of the design's scene, "Section/Name=value", for what was computed last
     double cpu_seconds = 0.;
 
     /// Returns the largest violation of the demands on what the check model tells; minus infinity without such.
@@ -52,7 +53,7 @@ namespace sprag
     const Scene design;
     InMemory in_memory = run_in_memory();
 
-    Scene make_scene(const Proposal &lever, const std::vector<std::string> &changes) const;
+    Scene make_scene(const ModelCheck &check) const;
     void check_table(ModelCheck &check) const;
     void check_slides(ModelCheck &check);
     void follow_in_time(ModelCheck &check);

@@ -441,12 +441,25 @@ namespace sprag
                                                                     " then led to another lever, which table has not seen."));
     }
 
-    void write_scene(const Scene &scene, const RunOptions &options, const Proposal &lever, const std::string &name)
+    /// Names the command that gives the values printed of a lever: by the closed form and by the last model that judged it.
+    std::string command_text(const std::vector<ModelCheck> &checks, const Proposal &lever, const std::string &name)
+    {
+      std::string text = "# By the closed form: sprag " + name + ".prm";
+      if (checks.empty() || checks.back().lever.parameters != lever.parameters)
+        return text;
+      text += "; by the judge " + model_name(checks.back().check_model) + " with";
+      for (const auto &change : checks.back().changes)
+        text += " --set '" + change + '\'';
+      return text;
+    }
+
+    void write_scene(const Scene &scene, const RunOptions &options, const DesignFindings &findings, const Proposal &lever,
+                     const std::string &name)
     {
       auto changes = design_overrides(scene, lever);
       changes.insert(changes.end(), { "Analysis/Type=quasi-static", "Analysis/Model=closed form" });
       std::ofstream file(options.folder + '/' + name + ".prm");
-      file << specified_parameters_text(variant(scene, changes));
+      file << command_text(findings.checks, lever, name) << '\n' << specified_parameters_text(variant(scene, changes));
       if (!file)
         throw AnalysisError("cannot write " + name + ".prm");
     }
@@ -455,9 +468,9 @@ namespace sprag
     void write_scenes(const Scene &scene, const RunOptions &options, const DesignFindings &findings)
     {
       if (findings.found && findings.found->lever.rule.violation < 0.)
-        write_scene(scene, options, findings.found->lever, findings.unmet.empty() ? "design-best" : "design-nearest");
+        write_scene(scene, options, findings, findings.found->lever, findings.unmet.empty() ? "design-best" : "design-nearest");
       for (std::size_t i = 0; i < findings.front.size(); ++i)
-        write_scene(scene, options, findings.front[i], "design-front-" + std::to_string(i + 1));
+        write_scene(scene, options, findings, findings.front[i], "design-front-" + std::to_string(i + 1));
     }
   } // namespace
 

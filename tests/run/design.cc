@@ -13,6 +13,7 @@
 #include "support/temporary_folder.h"
 
 #include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 
 using namespace sprag;
@@ -109,6 +110,12 @@ TEST(RunDesign, AJudgeCorrectsTheClosedForm)
                                                         "Design/Aim=minimise largest force", "Design/Judge in time=off" }));
   // The beam has the moment of inertia of model A.
   EXPECT_EQ(count_text(warnings), "1 warning: defaults_of_model_a");
+  std::ifstream file(read_output(folder) + "/design-best.prm");
+  std::string first_line;
+  std::getline(file, first_line);
+  EXPECT_EQ(first_line,
+            "# By the closed form: sprag design-best.prm; by the judge beam with --set 'Analysis/Type=stability' --set "
+            "'Analysis/Model=beam' --set 'Stability/Position=auto' --set 'Stability/Critical=none'");
   const Scene best = best_scene(folder, { "Analysis/Type=stability", "Analysis/Model=beam" });
   EXPECT_GT(lever_quantities(best)[DesignQuantity::largest_force], 20.2);
   DynamicsMaker maker(false);
