@@ -48,8 +48,8 @@ def parse(listing):
             section.append(line[len("subsection ") :].strip())
         elif line == "end":
             section = section[:-1]
-        elif line.startswith("set "):
-            name, _, value = line[len("set ") :].partition("=")
+        elif line.startswith(("set ", "#set ")):  # a comment where the parameter was left at its default
+            name, _, value = line.partition("set ")[2].partition("=")
             units = re.findall(r"\[([^\[\]]+)\](?=[:;])", comment)
             text, default = parse_value(value), re.search(r"#(?:\s*given as .*;)?\s*default:(.*)$", value)
             apart = default and different(text, default[1].strip())
@@ -57,7 +57,7 @@ def parse(listing):
             parts = COMMENT.fullmatch(comment)
             meaning, rule = (parts[1], parts[2]) if parts else (comment, "")
             found["/".join((*section, name.strip()))] = Parameter(text, unit, default[1].strip() if default and apart else None, meaning, rule)
-        comment = f"{comment} {line[1:].strip()}".strip() if line.startswith("#") else ""
+        comment = f"{comment} {line[1:].strip()}".strip() if line.startswith("#") and not line.startswith("#set ") else ""
     return found
 
 

@@ -121,6 +121,7 @@ namespace sprag
       const Parameter &parameter;
       std::string value;
       std::string written; ///< with a unit; empty where it had none
+      bool is_open;        ///< whether the line is a comment
     };
 
     template <class Length>
@@ -144,7 +145,7 @@ namespace sprag
           text << '\n';
         for (const auto &line : split_lines(documentation(parameter)))
           text << "  # " << line << '\n';
-        text << "  set " << std::setw(name) << parameter.name << " = ";
+        text << (entry.is_open ? "  #set " : "  set ") << std::setw(name) << parameter.name << " = ";
         const std::string by_default = escaped(parameter.default_value);
         const std::string written    = entry.written.empty() ? "" : "given as " + escaped(entry.written);
         const std::string usual      = entry.value == by_default ? "" : "default: " + by_default;
@@ -505,7 +506,7 @@ namespace sprag
   }
 
   std::string parameters_text(const std::vector<Parameter> &declared, const ParameterValues &specified,
-                              const ParameterValues &written)
+                              const ParameterValues &written, const std::set<std::string> &open)
   {
     std::vector<std::string> sections;
     std::map<std::string, std::vector<Entry>> entries;
@@ -517,7 +518,7 @@ namespace sprag
         sections.push_back(parameter.section);
       entries[parameter.section].push_back({ parameter,
                                              escaped(value == specified.end() ? parameter.default_value : value->second),
-                                             text == written.end() ? "" : text->second });
+                                             text == written.end() ? "" : text->second, open.count(full_name(parameter)) > 0 });
     }
     std::ostringstream text;
     text << "# Listing of Parameters\n# ---------------------\n";

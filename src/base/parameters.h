@@ -143,7 +143,8 @@ namespace sprag
   void add_mistake(Settings &settings, const std::vector<Parameter> &declared, const std::string &name, const std::string &rule);
 
   /// Writes every parameter with its documentation as a comment, in .prm form: the given values, defaults elsewhere. What was
-  /// written with a unit is a comment behind its value. The text can be read back.
+  /// written with a unit is a comment behind its value, and the line of a parameter in `open` is one as a whole, "#set NAME =
+  /// ...". The text can be read back.
   std::string parameters_text(const std::vector<Parameter> &declared, const ParameterValues &specified,
-                              const ParameterValues &written = {});
+                              const ParameterValues &written = {}, const std::set<std::string> &open = {});
 } // namespace sprag

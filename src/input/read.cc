@@ -504,11 +504,6 @@ namespace sprag
       }
     };
 
-    std::string text_with_defaults(const std::vector<Parameter> &parameters, const Scene &defaults)
-    {
-      return parameters_text(parameters, { { time_tolerance, number_text(defaults.time.tolerance) } });
-    }
-
     Scene changed(const Scene &scene, const std::vector<std::string> &overrides, const std::map<std::string, std::string> &chosen)
     {
       const auto read = [&](const auto &declared)
@@ -554,10 +549,20 @@ namespace sprag
     SceneSettings defaults;
     if (!scene.parameters)
       return {};
-    auto values = *scene.parameters;
+    const auto parameters = scene_parameters(defaults);
+    auto values           = *scene.parameters;
     for (const auto &[name, before] : scene.chosen)
       values[name] = before;
-    return parameters_text(scene_parameters(defaults), values, scene.written);
+    std::set<std::string> open; // an auto that was chosen no longer counts as specified
+    for (const auto &parameter : parameters)
+    {
+      const auto name    = full_name(parameter);
+      const bool is_auto = values[name] == "auto";
+      const bool is_read = scene.specified.count(name) > 0 || (is_auto && scene.chosen.count(name) > 0);
+      if (!is_read || (is_auto && parameter.default_value == "auto"))
+        open.insert(name);
+    }
+    return parameters_text(parameters, values, scene.written, open);
   }
 
   std::string specified_parameters_text(const Scene &scene)
@@ -570,15 +575,9 @@ namespace sprag
     return parameters_text(specified, *scene.parameters, scene.written);
   }
 
-  std::string override_text(const std::string &parameter, const double value)
-  {
-    return parameter + "=" + number_text(value);
-  }
-
   std::string default_parameters_text()
   {
-    SceneSettings defaults;
-    return text_with_defaults(scene_parameters(defaults), defaults.scene);
+    return parameters_text(SceneReader([](const auto &) { return Settings(); }, {}).scene());
   }
 
   std::string help_text(const std::string &name)
@@ -595,6 +594,6 @@ namespace sprag
     }
     if (found.empty())
       throw InputError("--help " + name + ": there is no such section or parameter" + did_you_mean(nearest(name, names)));
-    return text_with_defaults(found, defaults.scene);
+    return parameters_text(found, { { time_tolerance, number_text(defaults.scene.time.tolerance) } });
   }
 } // namespace sprag

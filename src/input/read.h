@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include <string>
-#include <vector>
+#include "base/text.h"
 
 namespace sprag
 {
@@ -21,16 +20,19 @@ namespace sprag
   Scene with_chosen(const Scene &scene, const std::vector<std::string> &overrides);
 
   /// Returns the text "Section/Name=value" for a number.
-  std::string override_text(const std::string &parameter, double value);
+  inline std::string override_text(const std::string &parameter, const double value)
+  {
+    return parameter + '=' + number_text(value);
+  }
 
-  /// Writes every parameter as it was read, before any was chosen, with its documentation, in .prm form; empty for a scene that
-  /// was not read.
+  /// Writes every parameter as it was read, before any was chosen, with its documentation, in .prm form, and as comments those
+  /// that were left open; empty for a scene that was not read.
   std::string parameters_text(const Scene &scene);
 
   /// Writes the parameters that were given, in the same form. It is read back as the same scene, but for what the program chose.
   std::string specified_parameters_text(const Scene &scene);
 
-  /// Writes every parameter with its default and documentation, in .prm form.
+  /// Writes every parameter with its default and documentation, in .prm form, as comments.
   std::string default_parameters_text();
 
   /// Writes the parameters of a section, or the one "Section/Name", with their defaults and documentation; capitals do not

@@ -275,6 +275,9 @@ TEST(Parameters, PrintedTextReadsBackHereAndInDealII)
   EXPECT_TRUE(again.mistakes.empty()) << again.mistakes[0];
   EXPECT_EQ(again.specified.size(), declared().size());
   EXPECT_EQ(parameters_text(declared(), to_values(again.specified)), text);
+  const auto partly = read(parameters_text(declared(), to_values(specified), {}, { "Geometry/Cylinder radius" })).specified;
+  EXPECT_EQ(partly.size(), declared().size() - 1);
+  EXPECT_EQ(partly.count("Geometry/Cylinder radius"), 0u);
 
   dealii::ParameterHandler handler;
   for (const auto &parameter : declared())

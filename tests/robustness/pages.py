@@ -43,9 +43,9 @@ def choices():
     for line in sprag("--print-parameters").stdout.splitlines():
         if line.startswith("subsection "):
             section = line.split(" ", 1)[1]
-        elif line.strip().startswith("#"):
+        elif line.strip().startswith("# "):
             comment += line.strip()[1:]
-        elif match := re.match(r"\s+set (.+?)\s+= ", line):
+        elif match := re.match(r"\s+#set (.+?)\s+= ", line):
             words = re.search(r": one of ([^:]*?)\.$", comment.strip())
             found[f"{section}/{match[1]}"] = [word.strip() for word in words[1].split("|")] if words else []
             comment = ""

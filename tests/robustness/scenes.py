@@ -137,7 +137,7 @@ def program_columns():
 
 
 def parameter(text, section, name):
-    found = re.search(rf"^subsection {section}\n(?:(?!end$).*\n)*?\s*set {name}\s*=([^#\n]*)", text, re.MULTILINE)
+    found = re.search(rf"^subsection {section}\n(?:(?!end$).*\n)*?\s*#?set {name}\s*=([^#\n]*)", text, re.MULTILINE)
     return found.group(1).strip()
 
 

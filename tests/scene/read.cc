@@ -97,9 +97,15 @@ TEST(ReadScene, PrintedParametersGiveTheSameScene)
   const Scene scene = read_scene((scenes() / "model-b.prm").string(), { "Friction/Law=Coulomb", "Contact/Penalty=500" });
   const Scene again = read_scene(written(parameters_text(scene)));
   EXPECT_EQ(parameters_text(again), parameters_text(scene));
+  EXPECT_EQ(again.specified, scene.specified);
   EXPECT_EQ(again.geometry.cylinder_radius, 21.1);
   EXPECT_EQ(again.contact.penalty, 500.);
-  EXPECT_TRUE(mistakes(default_parameters_text()).empty());
+  EXPECT_TRUE(read_scene(written(default_parameters_text())).specified.empty());
+  // The text of a scene stays where the program chooses, or where an auto that is the default is given.
+  const Scene open = make_scene({ "Analysis/Model=auto", "Accuracy/Target=0.01", "Mesh/Face size=auto" });
+  EXPECT_EQ(parameters_text(with_chosen(open, { "Analysis/Model=finite element", "Mesh/Face size=0.5", "Mesh/Degree=1" })),
+            parameters_text(open));
+  EXPECT_EQ(parameters_text(make_scene({ "Analysis/Model=auto", "Accuracy/Target=0.01" })), parameters_text(open));
 }
 
 TEST(ReadScene, PrintedParametersKeepTheTimeSteps)
