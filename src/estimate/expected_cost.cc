@@ -26,13 +26,14 @@ namespace sprag
   {
     // CPU times are those measured where slowness() = 1 [s].
     constexpr double start                     = 0.2;
-    constexpr double static_step_iterations    = 9.;    ///< Newton iterations
-    constexpr double transient_step_iterations = 2.5;   ///< Newton iterations
-    constexpr double reversal_steps            = 20.;   ///< without inertia, through stick
-    constexpr double usual_tolerance           = 5e-3;  ///< Time/Tolerance at which meshed levers take twice a beam's steps
-    constexpr double table_steps               = 6000.; ///< of levers under a table in a second of motion at that tolerance
-    constexpr double elastic_cylinder          = 2.;    ///< a step with one over a step without
-    constexpr double second_lever              = 2.2;   ///< the same
+    constexpr double study_row                 = 1.5e-3; ///< reading its scene
+    constexpr double static_step_iterations    = 9.;     ///< Newton iterations
+    constexpr double transient_step_iterations = 2.5;    ///< Newton iterations
+    constexpr double reversal_steps            = 20.;    ///< without inertia, through stick
+    constexpr double usual_tolerance           = 5e-3;   ///< Time/Tolerance at which meshed levers take twice a beam's steps
+    constexpr double table_steps               = 6000.;  ///< of levers under a table in a second of motion at that tolerance
+    constexpr double elastic_cylinder          = 2.;     ///< a step with one over a step without
+    constexpr double second_lever              = 2.2;    ///< the same
 
     double parts(const Scene &scene)
     {
@@ -121,7 +122,14 @@ namespace sprag
       double slides = 1., meshes = 1.;
     };
 
-    HeldWork held_work(const Scene &scene)
+    /// Slides that a verdict in a search or a map takes: as it may or may not look inside the ranges, the mean of both by ratio.
+    double searched_slides(const Scene &scene)
+    {
+      return std::sqrt(static_cast<double>(least_slides(scene)) * least_slides(scene, false));
+    }
+
+    /// A run of a study leaves out for which damping and stick its verdict holds.
+    HeldWork held_work(const Scene &scene, const bool in_study)
     {
       HeldWork work;
       if (scene.analysis.type != AnalysisType::stability)
@@ -129,51 +137,21 @@ namespace sprag
       constexpr double damping_values = 7., stick_limits = 2.;
       const double verdict = least_slides(scene);
       work.slides          = verdict;
-      if (scene.stability.ranges == "none" && scene.stability.damping)
+      if (scene.stability.ranges == "none" && scene.stability.damping && !in_study)
         work.slides += (damping_values + stick_limits) * verdict;
       if (scene.stability.roles)
         work.slides += 6.;
       for (const auto &range : critical_searches(scene).value_or(std::vector<ParameterRange>()))
       {
         const double values = range.points + expected_values_between;
-        work.slides += values * (range.name == "Stability/Position" ? 1. : verdict);
+        work.slides += values * (range.name == "Stability/Position" ? 1. : searched_slides(scene));
         if (is_meshed(scene.analysis.model) && changes_mesh(scene, range))
           work.meshes += values;
       }
       return work;
     }
 
-    void add_run(const std::function<Scene()> &make_run_scene, ExpectedCost &sum)
-    {
-      try
-      {
-        const auto run = expected_cost(make_run_scene());
-        sum.cpu_seconds += std::max(0., run.cpu_seconds - start);
-        sum.bytes   = std::max(sum.bytes, run.bytes);
-        sum.unknown = sum.unknown.empty() ? run.unknown : sum.unknown;
-      }
-      catch (const InputError &)
-      {
-        return; // a row that says so
-      }
-    }
-
-    constexpr std::size_t most_estimates = 100; ///< of a study's runs; they stand for the others
-
-    ExpectedCost expected_study_cost(const Scene &study)
-    {
-      ExpectedCost sum{ start, 0., {} };
-      const auto points        = make_study_points(study.study);
-      const std::size_t stride = 1 + points.size() / most_estimates;
-      for (std::size_t i = 0; i < points.size(); i += stride)
-        add_run([&] { return scene_at(study, points[i]); }, sum);
-      sum.cpu_seconds = start + static_cast<double>(stride) * (sum.cpu_seconds - start);
-      if (!study.study.reference_values.empty())
-        add_run([&] { return reference_scene(study); }, sum);
-      return sum;
-    }
-
-    double estimate_seconds(const Scene &scene, const StepsTaken &taken = {})
+    double estimate_seconds(const Scene &scene, const bool in_study, const StepsTaken &taken = {})
     {
       const auto sum = [&](const Times &times, const double number)
       { return start + times.once + number * times.each * parts(scene); };
@@ -189,38 +167,74 @@ namespace sprag
       case AnalysisType::stability:
       {
         const auto times = slide_times(scene);
-        const auto work  = held_work(scene);
+        const auto work  = held_work(scene, in_study);
         return sum({ work.meshes * times.once, times.each }, work.slides);
       }
       case AnalysisType::map: // both ways, in models that are kept from cell to cell
-        return sum({ 0., 0.2 * slide_times(scene).each * std::max(2., static_cast<double>(least_slides(scene))) },
+        return sum({ 0., 0.2 * slide_times(scene).each * std::max(2., searched_slides(scene)) },
                    scene.map.first.points * scene.map.second.points);
       default:
         return std::numeric_limits<double>::quiet_NaN();
       }
     }
+
+    ExpectedCost run_cost(const Scene &scene, const bool in_study)
+    {
+      if (follows_formulas(scene))
+        return formula_cost(scene);
+      ExpectedCost cost{ 0., expected_memory(scene), {} };
+      if (needs_mesh(scene) && !scene.mesh.file.empty())
+        cost.unknown = "the mesh is from a file.";
+      try
+      {
+        cost.cpu_seconds = slowness() * estimate_seconds(scene, in_study);
+      }
+      catch (const AnalysisError &error)
+      {
+        cost.unknown = error.what();
+      }
+      if (std::isnan(cost.cpu_seconds) && cost.unknown.empty())
+        cost.unknown = "it depends on what the run finds.";
+      return cost;
+    }
+
+    void add_run(const std::function<Scene()> &make_run_scene, ExpectedCost &sum)
+    {
+      try
+      {
+        const Scene scene      = make_run_scene();
+        const auto run         = run_cost(scene, true);
+        const double own_start = follows_formulas(scene) ? formula_start_seconds : start;
+        sum.cpu_seconds += run.cpu_seconds + slowness() * (study_row - own_start);
+        sum.bytes   = std::max(sum.bytes, run.bytes);
+        sum.unknown = sum.unknown.empty() ? run.unknown : sum.unknown;
+      }
+      catch (const InputError &)
+      {
+        return; // a row that says so
+      }
+    }
+
+    constexpr std::size_t most_estimates = 100; ///< of a study's runs; they stand for the others
+
+    ExpectedCost expected_study_cost(const Scene &study)
+    {
+      const double begin = slowness() * start;
+      ExpectedCost sum{ begin, 0., {} };
+      const auto points        = make_study_points(study.study);
+      const std::size_t stride = 1 + points.size() / most_estimates;
+      for (std::size_t i = 0; i < points.size(); i += stride)
+        add_run([&] { return scene_at(study, points[i]); }, sum);
+      sum.cpu_seconds = begin + static_cast<double>(stride) * (sum.cpu_seconds - begin);
+      if (!study.study.reference_values.empty())
+        add_run([&] { return reference_scene(study); }, sum);
+      return sum;
+    }
   } // namespace
 
   ExpectedCost expected_cost(const Scene &scene)
   {
-    if (follows_formulas(scene))
-      return formula_cost(scene);
-    if (scene.analysis.type == AnalysisType::study)
-      return expected_study_cost(scene);
-    ExpectedCost cost{ 0., expected_memory(scene), {} };
-    if (needs_mesh(scene) && !scene.mesh.file.empty())
-      cost.unknown = "the mesh is from a file.";
-    try
-    {
-      cost.cpu_seconds = slowness() * estimate_seconds(scene);
-    }
-    catch (const AnalysisError &error)
-    {
-      cost.unknown = error.what();
-    }
-    if (std::isnan(cost.cpu_seconds) && cost.unknown.empty())
-      cost.unknown = "it depends on what the run finds.";
-    return cost;
+    return scene.analysis.type == AnalysisType::study ? expected_study_cost(scene) : run_cost(scene, false);
   }
 
   double counted_work(const Scene &scene, const std::vector<Entry> &summary)
@@ -234,6 +248,6 @@ namespace sprag
     StepsTaken taken;
     if (found != summary.end())
       taken = std::get<double>(found->value) / (in_time ? transient_step_iterations : static_step_iterations);
-    return estimate_seconds(scene, taken);
+    return estimate_seconds(scene, true, taken);
   }
 } // namespace sprag

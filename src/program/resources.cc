@@ -24,9 +24,8 @@ namespace sprag
 {
   namespace
   {
-    constexpr double formula_start_seconds = 0.03;   ///< [s]
-    constexpr double formula_row_seconds   = 4e-6;   ///< [s]
-    constexpr double usual_calculation     = 3.3e-3; ///< that slowness() refers to [s]
+    constexpr double formula_row_seconds = 4e-6;   ///< [s]
+    constexpr double usual_calculation   = 3.3e-3; ///< that slowness() refers to [s]
 
     /// Sines, roots and divisions that wait for each other.
     double calculated()

@@ -19,6 +19,8 @@ namespace sprag
     std::string unknown;     ///< why the time cannot be told, a sentence; else empty
   };
 
+  constexpr double formula_start_seconds = 0.03; ///< CPU time of a start without models where slowness() is 1 [s]
+
   /// Estimates the cost of what follows_formulas().
   ExpectedCost formula_cost(const Scene &scene);
 

@@ -8,6 +8,7 @@
 #include "scene/scene.h"
 #include "support/params_folder.h"
 
+#include <cmath>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <tuple>
@@ -82,6 +83,34 @@ TEST(Choice, BudgetIsKept)
       choose(asked("model-a", { "Accuracy/Target=1e-5", "Accuracy/Budget=" + std::to_string(budget) }));
   EXPECT_LE(spent + more, 1.5 * budget);
   EXPECT_NE(choice.limit.find("Accuracy/Budget"), std::string::npos);
+}
+
+// A run of a study starts no program and leaves out for which damping its verdict holds. A start takes 0.2 s, the slide of a row
+// 1 ms and its scene as much again: 1000 rows cost some 13 starts on any machine.
+TEST(ExpectedCost, RowsOfAStudyDoNotStart)
+{
+  const auto cost = [](std::vector<std::string> changes)
+  {
+    changes.insert(changes.end(), { "Stability/Critical=none", "Stability/Roles=off" });
+    return expected_cost(asked("stability-a", changes)).cpu_seconds;
+  };
+  const double rows =
+      cost({ "Analysis/Type=study", "Study/Type=stability", "Study/Vary=Lever/Modal damping = 0.01 ... 0.02 : 1000" });
+  EXPECT_GT(rows, 7. * cost({}));
+  EXPECT_LT(rows, 25. * cost({}));
+}
+
+// A search looks at 5 slides of each value where the ends of its ranges flutter, else at 19.
+TEST(ExpectedCost, SearchesMayLookInsideRangesOrNot)
+{
+  const std::string ranges = "Stability/Ranges=Contact/Damping 0.01 0.1; Friction/Factor 0.8 1.2";
+  const auto slides        = [&](const std::string &critical)
+  {
+    const double without = expected_cost(asked("stability-a", { ranges, "Stability/Critical=none" })).cpu_seconds;
+    return expected_cost(asked("stability-a", { ranges, "Stability/Critical=" + critical })).cpu_seconds / without;
+  };
+  // A search tries 57 values; beside it there are a start and 25 slides of 1 ms.
+  EXPECT_NEAR(slides("Lever/Depth 4 6"), 1. + 57. * std::sqrt(5. * 19.) / 225., 0.3);
 }
 
 TEST(Choice, ABeamServesWhereCoarse)

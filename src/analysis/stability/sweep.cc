@@ -422,11 +422,11 @@ namespace sprag
     return result;
   }
 
-  unsigned int least_slides(const Scene &scene)
+  unsigned int least_slides(const Scene &scene, const bool inside)
   {
     auto sets = combined_ends(scene).size();
     for (const auto &range : constant_ranges(scene))
-      sets += values_inside(scene, range).size();
+      sets += inside ? values_inside(scene, range).size() : 0;
     const auto n = static_cast<unsigned int>(sets * held_directions(scene).size());
     return n * (looks_over_stroke(scene) ? points_along(scene) : 1);
   }

@@ -99,8 +99,9 @@ namespace sprag
   /// Returns the names of Stability/Ranges without influence: both ends give identical slides.
   std::vector<std::string> ranges_without_effect(const Scene &scene, const SweptSlides &swept);
 
-  /// Returns the number of slides of a sweep if all are stable at the ends of the ranges, without those near peaks of growth.
-  unsigned int least_slides(const Scene &scene);
+  /// Returns the number of slides of a sweep without those near peaks of growth. `inside`: all are stable at the ends of the
+  /// ranges, so that those inside are checked as well.
+  unsigned int least_slides(const Scene &scene, bool inside = true);
 
   /// Returns whether values inside the range need meshes of their own.
   bool changes_mesh(const Scene &scene, const ParameterRange &range);
