@@ -35,7 +35,7 @@ namespace sprag
 
   /// Returns the value that a word stands for; throws std::out_of_range for another word.
   template <class T>
-  T value_for(const Choices<T> &choices, const std::string &word)
+  const T &value_for(const Choices<T> &choices, const std::string &word)
   {
     const auto found = std::find_if(choices.begin(), choices.end(), [&](const auto &choice) { return choice.first == word; });
     if (found == choices.end())

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/pages.h"
 #include "results/columns.h"
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace sprag
 {
-  /// A row of a table on a page that is built into the program, which takes names, units and meanings from there. These are
-  /// params/warnings.md and, of postprocess/, results.md, summary.md, summary-of-analyses.md and modes-maps-studies.md.
+  /// A row of a table on a page that is built into the program, which takes names, units and meanings from there.
   struct PageRow
   {
-    std::map<std::string, std::string> cells; ///< by the heads of their columns: "unit", "printed", "meaning", "effect" ...
-    std::string word;                         ///< that `*` in the row's name stands for, and in its cells; empty without one
+    PageCells cells;
+    std::string word; ///< that `*` in the row's name stands for, and in its cells; empty without one
   };
 
   /// Finds the row for a name among tables of one `kind`, "entry", "column", "fact" or "warning", as the heading of their first

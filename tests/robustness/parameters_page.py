@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""The page params/parameters.md is made of the program's declarations: --write writes it, without arguments it is compared. Run with
-/usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+"""The page params/parameters.md has names, defaults, units and values of the program's declarations: --write writes them, without
+arguments they are compared. Meanings are those of the page that the program was built with. Run with /usr/bin/python3; environment:
+SPRAG, the program, and SPRAG_SOURCE, the sources."""
 
 import sys
 from itertools import groupby
@@ -14,14 +15,14 @@ PAGE = SOURCE / "params" / "parameters.md"
 INTRODUCTION = """# Every parameter
 
 `sprag --print-parameters` prints the same as a scene, `sprag --help Lever` a section and `sprag --help Lever/Depth` one of them.
-`tests/robustness/parameters_page.py --write` makes this page of the program's declarations.
+The program takes meanings from here; `tests/robustness/parameters_page.py --write` makes the other columns of its declarations.
 """
 
 
 def row(name, parameter):
     default = parameter.text if parameter.default is None else parameter.default
     choices = parameter.range.removeprefix("one of ").replace(" | ", ", ")
-    cells = [name, default, "" if parameter.unit == "1" else parameter.unit, choices, parameter.meaning.removesuffix(".")]
+    cells = [f"`{name}`", default, "" if parameter.unit == "1" else parameter.unit, choices, parameter.meaning.removesuffix(".")]
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
 
 
@@ -29,7 +30,7 @@ def page():
     declared = parse(sprag("--print-parameters").stdout)
     lines = [INTRODUCTION]
     for section, names in groupby(declared, key=lambda full: full.split("/")[0]):
-        lines += [f"## {section}", "", "| name | default | unit | values | meaning |", "|---|---|---|---|---|"]
+        lines += [f"## {section}", "", "| parameter | default | unit | values | meaning |", "|---|---|---|---|---|"]
         lines += [*(row(full.split("/")[1], declared[full]) for full in names), ""]
     return "\n".join(lines).rstrip("\n") + "\n"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "input/materials.h"
+#include "input/section.h"
 
 #include "input/sections.h"
 #include "scene/messages.h"
