@@ -296,10 +296,8 @@ namespace sprag
                                     [](const Oscillation &each) { return std::isfinite(each.passing_frequency); });
     if (found == oscillations.end())
       return {};
-    return { make_warning("element_passing", "After the reversal at x = " + mm(found->x) + " P rings at " +
-                                                 rounded_text(found->frequency) + " Hz, and elements of " + mm(face_size) +
-                                                 ", or halves of them, pass at " + rounded_text(found->passing_frequency) +
-                                                 " Hz.") };
+    return { make_warning("element_passing", { mm(found->x), rounded_text(found->frequency), mm(face_size),
+                                               rounded_text(found->passing_frequency) }) };
   }
 
   std::vector<Oscillation> oscillations(const std::vector<Row> &rows, const Drive &drive, const double face_size)

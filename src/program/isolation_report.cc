@@ -75,9 +75,7 @@ namespace sprag
     {
       if (!is_harmonic(scene) || found.is_steady)
         return {};
-      return { make_warning("no_steady_state", "After " + rounded_text(found.time) +
-                                                   " s the motion does not repeat within Isolation/Periodic tolerance = " +
-                                                   rounded_text(scene.isolation.periodic_tolerance) + ".") };
+      return { make_warning("no_steady_state", { rounded_text(found.time), rounded_text(scene.isolation.periodic_tolerance) }) };
     }
   } // namespace
 

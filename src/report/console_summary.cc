@@ -137,8 +137,7 @@ namespace sprag
     }
     if (missed.empty())
       return {};
-    auto warning   = make_warning("target_missed",
-                                  "The run tells errors of " + missed + ", where " + percent(asked.target) + " was asked for.");
+    auto warning   = make_warning("target_missed", { missed, percent(asked.target) });
     warning.remedy = remedy;
     return { warning };
   }

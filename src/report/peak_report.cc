@@ -79,8 +79,7 @@ namespace sprag
     std::string times_the_size(const Scene &scene, const double elements)
     {
       return rounded_text(elements) + " times " +
-             (scene.mesh.file.empty() ? "Mesh/Face size" : "the longest side on the friction face, " + mm(scene.mesh.face_size)) +
-             ".";
+             (scene.mesh.file.empty() ? "Mesh/Face size" : "the longest side on the friction face, " + mm(scene.mesh.face_size));
     }
 
     std::string remedy(const Scene &scene, const double width)
@@ -198,11 +197,10 @@ namespace sprag
       return {};
     const double elements   = width / face_size;
     const std::string error = rounded_text(std::ceil(100. * expected_pressure_error(elements, scene.mesh.degree))) + " %";
-    auto warning            = make_warning(
-                   "coarse_contact",
-                   (is_at_peak ? "Where its pressure is largest, at x = " + mm((*peak.row)[Column::x]) + ", the contact is "
-                               : "Over more than " + rounded_text(100. * admitted_share) + " % of its way the contact is at most ") +
-                       mm(width) + " wide, " + times_the_size(scene, elements));
+    auto warning =
+        make_warning("coarse_contact", { is_at_peak ? "Where its pressure is largest, at x = " + mm((*peak.row)[Column::x]) + ","
+                                                    : "Over more than " + rounded_text(100. * admitted_share) + " % of its way",
+                                         (is_at_peak ? "" : "at most ") + mm(width), times_the_size(scene, elements) });
     warning.effect = is_at_peak ? "The largest pressure may be wrong by " + error + "; P, Q and theta are not."
                                 : "Where it is as narrow as that the pressure may be wrong by " + error +
                                       " or more; the largest of the run, P, Q and theta are not.";

@@ -335,7 +335,7 @@ namespace sprag
         }
     if (worst.empty())
       return {};
-    return { make_warning("far_from_closed_form", worst + " is " + percent(largest) + " of its peak off the closed form.") };
+    return { make_warning("far_from_closed_form", { worst, percent(largest) }) };
   }
 
   void check_deviation(const Scene &scene, const std::vector<Entry> &summary)

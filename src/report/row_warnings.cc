@@ -72,17 +72,13 @@ namespace sprag
         return;
       const double penetration = (*deepest)[Column::penetration];
       if (thickness > 0. && penetration > largest_layer_penetration * thickness)
-        warnings.push_back(make_warning("overlap_of_layer", "Cylinder and friction face overlap by " + mm(penetration) + ' ' +
-                                                                place(*deepest) + ", " + per_cent(penetration / thickness) +
-                                                                " of the layer's thickness; admitted are " +
-                                                                per_cent(largest_layer_penetration) + '.'));
+        warnings.push_back(make_warning("overlap_of_layer", { mm(penetration), place(*deepest), per_cent(penetration / thickness),
+                                                              per_cent(largest_layer_penetration) }));
       const double at_peak  = peak[Column::penetration];
       const double approach = at_peak + peak[Column::indentation];
       if (at_peak > largest_approach_penetration * approach)
-        warnings.push_back(make_warning("soft_penalty", "The overlap of " + mm(at_peak) + ' ' + place(peak) +
-                                                            ", where P is largest, is " + per_cent(at_peak / approach) +
-                                                            " of the approach of cylinder and lever; admitted are " +
-                                                            per_cent(largest_approach_penetration) + '.'));
+        warnings.push_back(make_warning(
+            "soft_penalty", { mm(at_peak), place(peak), per_cent(at_peak / approach), per_cent(largest_approach_penetration) }));
     }
 
     void add_tangential(const Row &peak, Warnings &warnings)
@@ -91,12 +87,9 @@ namespace sprag
       const double width = peak[Column::contact_width];
       if (!(slip > largest_elastic_slip * width))
         return;
-      const std::string share = per_cent(slip / width);
-      warnings.push_back(make_warning(
-          "soft_tangential_penalty",
-          "The elastic slip of " + mm(slip) + ' ' + place(peak) + " is " + share + " of the contact's width, over " +
-              "which a point of the lever slips while it is touched; admitted are " + per_cent(largest_elastic_slip) + '.',
-          { rounded_text(std::ceil(100. * slip / width)) }));
+      warnings.push_back(
+          make_warning("soft_tangential_penalty", { mm(slip), place(peak), per_cent(slip / width), per_cent(largest_elastic_slip),
+                                                    rounded_text(std::ceil(100. * slip / width)) }));
     }
 
     double peak_over_mean(const Scene &scene, const Row &row)
@@ -126,13 +119,10 @@ namespace sprag
         }
       if (worst == nullptr || static_cast<double>(peaked) <= admitted_peak_share * static_cast<double>(pressed))
         return;
-      warnings.push_back(make_warning(
-          "stiff_penalty",
-          "Contact/Penalty = " + rounded_text(*scene.contact.penalty) + " N/mm3 lets single points carry the pressure in " +
-              per_cent(static_cast<double>(peaked) / static_cast<double>(pressed)) + " of the rows: " + place(*worst) +
-              " the largest pressure is " + rounded_text(peak_over_mean(scene, *worst)) +
-              " times the mean over the contact; a smooth contact has no more than " + rounded_text(admitted) + '.',
-          { mm((*worst)[Column::contact_width] / 4.) }));
+      warnings.push_back(make_warning("stiff_penalty", { rounded_text(*scene.contact.penalty),
+                                                         per_cent(static_cast<double>(peaked) / static_cast<double>(pressed)),
+                                                         place(*worst), rounded_text(peak_over_mean(scene, *worst)),
+                                                         rounded_text(admitted), mm((*worst)[Column::contact_width] / 4.) }));
     }
 
     double finite(const double value)
@@ -160,10 +150,8 @@ namespace sprag
       const double s = (*worst)[Column::s];
       const double arm =
           std::isfinite(s) ? s : kinematics(scene.geometry, std::min((*worst)[Column::x], scene.drive.maximum())).s;
-      warnings.push_back(make_warning(
-          "large_deflection", "The lever bends by about " + mm(ratio * arm) + ' ' + place(*worst) + ", " + per_cent(ratio) +
-                                  " of the distance from the pivot; linear theory is meant for no more than " +
-                                  per_cent(largest_deflection) + '.'));
+      warnings.push_back(
+          make_warning("large_deflection", { mm(ratio * arm), place(*worst), per_cent(ratio), per_cent(largest_deflection) }));
     }
 
     void add_strain(const Scene &scene, const std::vector<Row> &rows, Warnings &warnings)
@@ -175,9 +163,7 @@ namespace sprag
       const double strain = (*worst)[Column::indentation] / thickness;
       if (strain > largest_strain)
         warnings.push_back(make_warning(
-            "large_strain", "The friction layer is compressed by " + mm((*worst)[Column::indentation]) + ' ' + place(*worst) +
-                                ", " + per_cent(strain) + " of its thickness; linear theory is meant for no more than " +
-                                per_cent(largest_strain) + '.'));
+            "large_strain", { mm((*worst)[Column::indentation]), place(*worst), per_cent(strain), per_cent(largest_strain) }));
     }
 
     void add_pressure(const Scene &scene, const std::vector<Row> &rows, const Row &peak, Warnings &warnings)
@@ -190,12 +176,11 @@ namespace sprag
       const double pressure = pressed != nullptr ? (*pressed)[Column::largest_pressure] : layer_pressure(scene, peak[Column::P]);
       if (pressure <= *strength)
         return;
-      const std::string source = scene.layer.strength ? "Friction layer/Strength" : "0.04 E, at which the cells of cork buckle";
-      warnings.push_back(make_warning("pressure_beyond_strength",
-                                      "The largest pressure on the friction layer is " + rounded_text(pressure) + " MPa" +
-                                          (pressed != nullptr ? "" : " (by an elastic foundation)") +
-                                          ", under P = " + rounded_text(location_row[Column::P]) + " N " + place(location_row) +
-                                          "; the layer gives way from " + rounded_text(*strength) + " MPa (" + source + ")."));
+      warnings.push_back(
+          make_warning("pressure_beyond_strength",
+                       { rounded_text(pressure) + (pressed != nullptr ? " MPa" : " MPa (by an elastic foundation)"),
+                         rounded_text(location_row[Column::P]), place(location_row), rounded_text(*strength),
+                         scene.layer.strength ? "Friction layer/Strength" : "0.04 E, at which the cells of cork buckle" }));
     }
 
     /// Quasi-static alone: in time Analysis/Maximum energy residual looks at the whole ledger. The springs of the penalties,
@@ -215,10 +200,8 @@ namespace sprag
       if (!(open > largest_open_energy * work))
         return;
       const Row *longest = find_largest_row(rows, [](const Row &row) { return std::abs(row[Column::step]); });
-      warnings.push_back(make_warning("long_steps", "Work of the drive, work of friction and stored energy differ by " +
-                                                        per_cent(open / work) + " of the largest work, with steps of up to " +
-                                                        mm(std::abs((*longest)[Column::step])) + "; admitted are " +
-                                                        per_cent(largest_open_energy) + '.'));
+      warnings.push_back(make_warning(
+          "long_steps", { per_cent(open / work), mm(std::abs((*longest)[Column::step])), per_cent(largest_open_energy) }));
     }
 
     /// A sensor that only presses needs a preload where the plate would pull it.
@@ -236,8 +219,7 @@ namespace sprag
           lowest = &row;
       if (lowest == nullptr || !(pull(*lowest) > least * largest(rows, [](const Row &row) { return row[Column::P]; })))
         return;
-      warnings.push_back(make_warning("sensor_in_tension", "A force sensor is pulled by " + rounded_text(pull(*lowest)) + " N " +
-                                                               place(*lowest) + '.'));
+      warnings.push_back(make_warning("sensor_in_tension", { rounded_text(pull(*lowest)), place(*lowest) }));
     }
 
     /// Beyond its last row a table is constant.
@@ -252,9 +234,8 @@ namespace sprag
       // Speeds of a drive that is a table too have round-off.
       if (fastest == nullptr || std::abs((*fastest)[column]) <= (1. + 1e-6) * last)
         return;
-      warnings.push_back(make_warning(
-          "speed_beyond_table", "The speed that friction depends on is " + rounded_text(std::abs((*fastest)[column])) + " mm/s " +
-                                    place(*fastest) + "; Friction/Table ends at " + rounded_text(last) + " mm/s."));
+      warnings.push_back(make_warning("speed_beyond_table",
+                                      { rounded_text(std::abs((*fastest)[column])), place(*fastest), rounded_text(last) }));
     }
 
     /// The layer's shear k_t delays what friction does to the slip: where mu falls by |mu'| a speed, |mu'| P / k_t [s] feeds a
@@ -269,10 +250,7 @@ namespace sprag
       const double shear  = slope * slide[Column::P] / contact_reference(scene).tangential;
       const double memory = friction.memory_length / speed;
       if (shear > memory)
-        warnings.push_back(make_warning(
-            "runaway_slip", "Friction falls so fast with speed " + place(slide) +
-                                " that slip runs away sooner than mu follows: mu' P / k_t is " + rounded_text(1e3 * shear) +
-                                " ms, Friction/Memory length over the speed " + rounded_text(1e3 * memory) + " ms."));
+        warnings.push_back(make_warning("runaway_slip", { place(slide), rounded_text(1e3 * shear), rounded_text(1e3 * memory) }));
     }
   } // namespace
 
@@ -326,9 +304,7 @@ namespace sprag
 
   Warnings beam_warnings(const Scene &scene, const double frequency, const double growth_rate)
   {
-    return { make_warning("beyond_the_beam", "A mode of " + rounded_text(frequency) + " Hz grows by " +
-                                                 rounded_text(growth_rate) + " 1/s. Up to " +
-                                                 rounded_text(highest_beam_frequency(scene)) +
-                                                 " Hz waves are longer than six depths of the lever.") };
+    return { make_warning("beyond_the_beam",
+                          { rounded_text(frequency), rounded_text(growth_rate), rounded_text(highest_beam_frequency(scene)) }) };
   }
 } // namespace sprag

@@ -89,13 +89,9 @@ namespace sprag
       const auto found = drive_amplification(scene);
       if (found.value <= largest_amplification)
         return;
-      warnings.push_back(
-          make_warning("near_locking",
-                       "Moving back at x = " + mm(found.x) + " the friction coefficient " + rounded_text(found.mu) +
-                           " is close to s/e = " + rounded_text(found.s / scene.geometry.interface_offset) +
-                           ", at which a rigid lever locks: dP/dmu mu/P = mu e/(s - mu e) = " + rounded_text(found.value) +
-                           ", more than " + rounded_text(largest_amplification) + ".",
-                       { rounded_text(found.value) }));
+      warnings.push_back(make_warning(
+          "near_locking", { mm(found.x), rounded_text(found.mu), rounded_text(found.s / scene.geometry.interface_offset),
+                            rounded_text(found.value), rounded_text(largest_amplification), rounded_text(found.value) }));
     }
 
     /// Returns the strain at the surface in the clamp of a beam: M = a EI/L (1 + b c/L) turn with the clamp c behind the pivot.
@@ -119,10 +115,8 @@ namespace sprag
       if (strain <= largest_leaf_strain)
         return;
       warnings.push_back(make_warning(
-          "leaf_beyond_yield", "Turned by " + rounded_text(turn) + " rad at x = " + mm(x) + " a leaf of " + mm(leaf.thickness) +
-                                   " thickness and " + mm(leaf.length) + " length is strained by " + rounded_text(100. * strain) +
-                                   " % in its clamp (" + rounded_text(strain * leaf.young_modulus) + " MPa); more than " +
-                                   rounded_text(100. * largest_leaf_strain) + " % few spring steels bear for long."));
+          "leaf_beyond_yield", { rounded_text(turn), mm(x), mm(leaf.thickness), mm(leaf.length), rounded_text(100. * strain),
+                                 rounded_text(strain * leaf.young_modulus), rounded_text(100. * largest_leaf_strain) }));
     }
 
     void add_plane_stress(const Scene &scene, Warnings &warnings)
@@ -133,12 +127,9 @@ namespace sprag
           nu <= largest_plane_stress_ratio)
         return;
       const double ratio = (1. - nu) * (1. - nu) / (1. - 2. * nu);
-      warnings.push_back(make_warning(
-          "plane_stress_of_layer",
-          "Friction layer/Poisson's ratio = " + rounded_text(nu) + " with Friction layer/Plane = stress; above " +
-              rounded_text(largest_plane_stress_ratio) +
-              " a layer held between two faces, much wider than thick, is more than twice as stiff as plane stress says.",
-          { mm(layer.thickness), mm(scene.lever.width), rounded_text(ratio) }));
+      warnings.push_back(
+          make_warning("plane_stress_of_layer", { rounded_text(nu), rounded_text(largest_plane_stress_ratio), mm(layer.thickness),
+                                                  mm(scene.lever.width), rounded_text(ratio) }));
     }
 
     /// Points that lie beside the cylinder do not feel it.
@@ -153,11 +144,8 @@ namespace sprag
       const double sagitta = spacing * spacing / (8. * scene.geometry.cylinder_radius);
       if (opening >= least_opening * sagitta)
         return;
-      warnings.push_back(make_warning("contact_between_points",
-                                      "The cylinder opens the lever by no more than " + mm(opening) + " (at x = " + mm(x) +
-                                          "), but between the points at which the friction face feels it, every " + mm(spacing) +
-                                          ", its circle rises by " + mm(sagitta) + "; at least " + rounded_text(least_opening) +
-                                          " times that are needed."));
+      warnings.push_back(
+          make_warning("contact_between_points", { mm(opening), mm(x), mm(spacing), mm(sagitta), rounded_text(least_opening) }));
     }
 
     bool is_static(const Scene &scene)
@@ -202,14 +190,12 @@ namespace sprag
       const auto estimate   = face_law(meshed);
       const auto text       = [](const double stiffness, const double exponent)
       { return rounded_text(stiffness) + " N/mm^n with n = " + rounded_text(exponent); };
-      warnings.push_back(make_warning("foreign_contact_law",
-                                      "The layer has E = " + rounded_text(layer.young_modulus) +
-                                          " MPa, nu = " + rounded_text(layer.poisson_ratio) + " and " + mm(layer.thickness) +
-                                          " thickness, but the contact of rigid levers and beams is Contact/Stiffness = " +
-                                          text(scene.contact.stiffness, scene.contact.exponent) + ", which was not given for it" +
-                                          (layer.poisson_ratio <= largest_ratio && estimate.stiffness > 0.
-                                               ? ": such a layer has about " + text(estimate.stiffness, estimate.exponent) + '.'
-                                               : ".")));
+      const bool is_estimated = layer.poisson_ratio <= largest_ratio && estimate.stiffness > 0.;
+      warnings.push_back(make_warning(
+          "foreign_contact_law",
+          { rounded_text(layer.young_modulus), rounded_text(layer.poisson_ratio), mm(layer.thickness),
+            text(scene.contact.stiffness, scene.contact.exponent),
+            is_estimated ? ": such a layer has about " + text(estimate.stiffness, estimate.exponent) : std::string() }));
     }
 
     /// Parameter by its full name, and whether the scene uses it.
@@ -265,10 +251,7 @@ namespace sprag
           list += (list.empty() ? "" : ", ") + name + " = " + find_parameter(parameters, name)->default_value;
       if (list.empty())
         return;
-      warnings.push_back(
-          make_warning("defaults_of_model_a", std::string(is_other_device ? "The geometry or spring" : "The lever") +
-                                                  " is of another device than model A, but the scene does not give " + list +
-                                                  ": what it does not give is model A's."));
+      warnings.push_back(make_warning("defaults_of_model_a", { is_other_device ? "The geometry or spring" : "The lever", list }));
     }
 
     void add_locking(const Scene &scene, Warnings &warnings)
@@ -276,8 +259,7 @@ namespace sprag
       const auto found = follows_drive(scene) && scene.analysis.model != ModelType::closed_form ? locking(scene) : std::nullopt;
       if (found)
         warnings.push_back(make_warning(
-            "locks", "Moving back at x = " + mm(found->x) + " a rigid lever locks: s = " + mm(found->s) + " <= mu e = " +
-                         mm(found->mu * scene.geometry.interface_offset) + " with mu = " + rounded_text(found->mu) + "."));
+            "locks", { mm(found->x), mm(found->s), mm(found->mu * scene.geometry.interface_offset), rounded_text(found->mu) }));
     }
 
     struct Shaking
@@ -342,11 +324,8 @@ namespace sprag
       const auto found = find_shaking(scene.drive);
       if (!found.is_known())
         return;
-      warnings.push_back(make_warning("shaking_drive", "The speed of Drive/Table goes up and down again from row to row, " +
-                                                           std::to_string(found.turns) + " times, by up to " +
-                                                           rounded_text(found.largest) + " mm/s; its largest is " +
-                                                           rounded_text(scene.drive.peak_speed()) +
-                                                           " mm/s. So do positions of coarse resolution or with noise."));
+      warnings.push_back(make_warning(
+          "shaking_drive", { std::to_string(found.turns), rounded_text(found.largest), rounded_text(scene.drive.peak_speed()) }));
     }
 
     /// A slide is held at the largest speed. Near its ends such a drive is slower, where a mu that depends on speed is another.
@@ -356,9 +335,7 @@ namespace sprag
       const bool is_varied = profile == DriveProfile::harmonic || profile == DriveProfile::table;
       if (!is_varied || !looks_over_stroke(scene) || std::holds_alternative<CoulombFriction>(scene.friction.law))
         return;
-      warnings.push_back(make_warning(
-          "largest_speed_alone", "Slides are held at the largest speed of the drive, " + rounded_text(scene.drive.peak_speed()) +
-                                     " mm/s, at every x. The drive passes most of its way more slowly, where mu is another."));
+      warnings.push_back(make_warning("largest_speed_alone", { rounded_text(scene.drive.peak_speed()) }));
     }
 
     /// A value, what it can be with room, and units that are used by mistake in place of its own.
@@ -486,7 +463,7 @@ namespace sprag
       }
       if (found.empty())
         return;
-      warnings.push_back(make_warning("implausible_values", found));
+      warnings.push_back(make_warning("implausible_values", { found }));
       warnings.back().remedy.insert(0, remedy);
     }
 
@@ -511,7 +488,7 @@ namespace sprag
           if (name.rfind(parameters, 0) == 0 && scene.specified.count(choice) == 0)
             found += (found.empty() ? "" : " ") + name + " counts only with " + choice + " = " + word + '.';
       if (!found.empty())
-        warnings.push_back(make_warning("absent_part", found));
+        warnings.push_back(make_warning("absent_part", { found }));
     }
 
     /// Columns that a run writes, be it of a pair or in three dimensions, cannot be misspelt.
@@ -537,7 +514,7 @@ namespace sprag
           found += (found.empty() ? "" : " ") + std::string("Of ") + parameter + " these columns are not used: " + names + '.';
       }
       if (!found.empty())
-        warnings.push_back(make_warning("unused_columns", found));
+        warnings.push_back(make_warning("unused_columns", { found }));
     }
   } // namespace
 
@@ -545,9 +522,7 @@ namespace sprag
   {
     if (parameters.empty())
       return {};
-    return { make_warning("without_effect",
-                          "What Stability/Ranges and Stability/Critical vary changes nothing, to the last digit: " +
-                              boost::algorithm::join(parameters, ", ") + '.') };
+    return { make_warning("without_effect", { boost::algorithm::join(parameters, ", ") }) };
   }
 
   Warnings scene_warnings(const Scene &scene)

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "results/warning.h"
 
+#include "base/pages.h"
 #include "base/system/coloured.h"
-#include "results/page_tables.h"
 
-#include <boost/algorithm/string/replace.hpp>
-
-#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 #include <unistd.h>
@@ -35,18 +32,21 @@ namespace sprag
     }
   } // namespace
 
-  Warning make_warning(const std::string &name, const std::string &found, const std::vector<std::string> &values)
+  Warning make_warning(const std::string &name, const std::vector<std::string> &values)
   {
-    const auto row = page_row("warning", "", name);
-    if (!row)
-      throw std::logic_error("no warning '" + name + "' in params/warnings.md");
-    std::string text = row->cells.at("effect") + '\n' + row->cells.at("remedy");
-    if (std::count(text.begin(), text.end(), '*') != static_cast<std::ptrdiff_t>(values.size()))
-      throw std::logic_error("warning '" + name + "' has another number of values in params/warnings.md");
-    for (const auto &value : values)
-      boost::replace_first(text, "*", value);
-    const auto end = text.find('\n');
-    return { name, found, text.substr(0, end), text.substr(end + 1) };
+    const auto &cells = value_for(page_table("warning").rows, name);
+    std::size_t next  = 0;
+    const auto filled = [&](const std::string &column)
+    {
+      std::string text;
+      for (const char c : cells.at(column))
+        text += c == '*' ? values.at(next++) : std::string(1, c);
+      return text;
+    };
+    const Warning result{ name, filled("found"), filled("effect"), filled("remedy") };
+    if (next != values.size())
+      throw std::logic_error("warning '" + name + "' has fewer values in params/warnings.md");
+    return result;
   }
 
   std::string to_text(const Warnings &warnings)

@@ -19,9 +19,9 @@ namespace sprag
 
   using Warnings = std::vector<Warning>;
 
-  /// Returns the warning `name` with effect and remedy of its row in params/warnings.md, where each `*` becomes the next of
-  /// `values`. Throws std::logic_error where the page has no such row or another number of them.
-  Warning make_warning(const std::string &name, const std::string &found, const std::vector<std::string> &values = {});
+  /// Returns the warning `name` with the texts of its row in params/warnings.md, where each `*` becomes the next of `values`.
+  /// Throws std::logic_error where the page has no such row or another number of them.
+  Warning make_warning(const std::string &name, const std::vector<std::string> &values = {});
 
   /// Writes warnings for people, a paragraph each in lines of at most 100 characters; empty without warnings.
   std::string to_text(const Warnings &warnings);

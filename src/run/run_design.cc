@@ -436,9 +436,8 @@ namespace sprag
       const auto by_table = [](const ModelCheck &check) { return check.check_model == CheckModel::table; };
       const auto judged   = std::find_if(findings.checks.rbegin(), findings.checks.rend(), by_table);
       if (judged != findings.checks.rend() && judged->lever.parameters != last.lever.parameters)
-        warnings.push_back(make_warning("judged_another_lever", "The judge table passed " + lever_text(design, judged->lever) +
-                                                                    "; the judge " + model_name(last.check_model) +
-                                                                    " then led to another lever, which table has not seen."));
+        warnings.push_back(
+            make_warning("judged_another_lever", { lever_text(design, judged->lever), model_name(last.check_model) }));
     }
 
     /// Names the command that gives the values printed of a lever: by the closed form and by the last model that judged it.

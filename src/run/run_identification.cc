@@ -182,20 +182,17 @@ namespace sprag
                                  formatted("%.0f", noise.effective_rows()) + " independent ones");
       if (!not_followed.empty())
       {
-        auto warning   = make_warning("model_does_not_follow", boost::algorithm::join(not_followed, ", ") + ".");
+        auto warning   = make_warning("model_does_not_follow", { boost::algorithm::join(not_followed, ", ") });
         warning.remedy = another_remedy(warning.remedy, found, is_sign_turned(scene, fit, found));
         warnings.push_back(warning);
       }
       const auto &indistinct = found.knowledge.indistinct;
       if (!indistinct.empty())
-        warnings.push_back(make_warning("indistinct_unknowns", boost::algorithm::join(indistinct, " ")));
+        warnings.push_back(make_warning("indistinct_unknowns", { boost::algorithm::join(indistinct, " ") }));
       if (found.window_is_full)
-        warnings.push_back(make_warning(
-            "long_vibration",
-            "Residuals are larger than noise up to a quarter of a stroke behind a turn, the most that is left out."));
+        warnings.push_back(make_warning("long_vibration"));
       if (!found.converged)
-        warnings.push_back(
-            make_warning("not_converged", "The fit still changes after " + std::to_string(found.rounds) + " rounds."));
+        warnings.push_back(make_warning("not_converged", { std::to_string(found.rounds) }));
       return warnings;
     }
 

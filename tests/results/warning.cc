@@ -19,20 +19,22 @@ TEST(WarningText, CountsAndNames)
   EXPECT_EQ(count_text({ soft, { "narrow", "", "", "" } }), "2 warnings: soft, narrow");
 }
 
-TEST(WarningsPage, HoldsEffectAndRemedy)
+TEST(WarningsPage, HoldsTextsThatTakeTheValuesInTurn)
 {
-  const auto vibration = make_warning("hidden_vibration", "Found.", { "3", "0.1" });
+  const auto vibration = make_warning("hidden_vibration", { "5 mm", "4*", "2", "0.2", "0.1", "3", "0.1" });
   EXPECT_EQ(vibration.name, "hidden_vibration");
-  EXPECT_EQ(vibration.found, "Found.");
+  EXPECT_EQ(vibration.found,
+            "The slide at x = 5 mm vibrates by itself at 4* Hz, growing by 2 1/s, and Time/Step = 0.2 s damps that by "
+            "more than a tenth of its growth: steps of up to 0.1 s do not.");
   EXPECT_EQ(vibration.effect, "P, Q and their peaks lack that vibration: the run models none above 3 Hz.");
   EXPECT_EQ(vibration.remedy, "Leave Time/Step out, so that steps adapt, or give one of 0.1 s or less.");
 }
 
 TEST(WarningsPage, UnknownNamesAndOtherNumbersOfValuesAreErrors)
 {
-  EXPECT_THROW(make_warning("no_such_warning", "Found."), std::logic_error);
-  EXPECT_THROW(make_warning("hidden_vibration", "Found.", { "3" }), std::logic_error);
-  EXPECT_THROW(make_warning("locks", "Found.", { "3" }), std::logic_error);
+  EXPECT_THROW(make_warning("no_such_warning"), std::logic_error);
+  EXPECT_THROW(make_warning("hidden_vibration", { "3" }), std::logic_error);
+  EXPECT_THROW(make_warning("locks", { "1", "2", "3", "4", "5" }), std::logic_error);
 }
 
 TEST(WarningText, NothingWithoutWarnings)

@@ -410,11 +410,8 @@ namespace sprag
                                           return longest_step(a, time.spectral_radius) < longest_step(b, time.spectral_radius);
                                         });
     const double limit = longest_step(*worst, time.spectral_radius);
-    return { make_warning(
-        "hidden_vibration",
-        "The slide at x = " + mm(worst->x) + " vibrates by itself at " + rounded_text(worst->frequency) + " Hz, growing by " +
-            rounded_text(worst->growth_rate) + " 1/s, and Time/Step = " + rounded_text(time.step) +
-            " s damps that by more than a tenth of its growth: steps of up to " + rounded_text(limit) + " s do not.",
-        { rounded_text(largest_angle / (2. * M_PI * time.step)), rounded_text(limit) }) };
+    return { make_warning("hidden_vibration", { mm(worst->x), rounded_text(worst->frequency), rounded_text(worst->growth_rate),
+                                                rounded_text(time.step), rounded_text(limit),
+                                                rounded_text(largest_angle / (2. * M_PI * time.step)), rounded_text(limit) }) };
   }
 } // namespace sprag
