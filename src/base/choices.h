@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/text.h"
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>
@@ -42,4 +44,25 @@ namespace sprag
       throw std::out_of_range("'" + word + "' is none of the choices");
     return found->second;
   }
+
+  /// Returns the names and values of an enumeration from 0 on, whose names stand in a text with commas between.
+  template <class T>
+  Choices<T> numbered_choices(const std::string &names)
+  {
+    Choices<T> result;
+    for (const auto &name : split(names, ','))
+      result.emplace_back(name, static_cast<T>(result.size()));
+    return result;
+  }
 } // namespace sprag
+
+/// Defines an enumeration, and enumerators(Enumeration()), which returns its names with their values.
+#define SPRAG_ENUMERATION(Enumeration, ...)                                                                                      \
+  enum class Enumeration : std::size_t                                                                                           \
+  {                                                                                                                              \
+    __VA_ARGS__                                                                                                                  \
+  };                                                                                                                             \
+  inline Choices<Enumeration> enumerators(Enumeration)                                                                           \
+  {                                                                                                                              \
+    return numbered_choices<Enumeration>(#__VA_ARGS__);                                                                          \
+  }

@@ -5,6 +5,8 @@
 #include "results/page_tables.h"
 #include "scene/drive.h"
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,13 +14,7 @@ namespace sprag
 {
   const std::vector<ColumnInfo> &all_columns()
   {
-    static const auto columns =
-        page_columns("", "time x v theta s P F Q normal_resultant friction_resultant v_rel mu centre_offset contact_width "
-                         "largest_pressure largest_pressure_xi penetration indentation cone_violation elastic_slip "
-                         "friction_power friction_work drive_work spring_energy elastic_energy layer_energy kinetic_energy "
-                         "support_energy contact_energy damping_work algorithmic_work energy_residual theta_rate "
-                         "support_displacement Q_support P_quasi_static Q_quasi_static creep P_closed_form Q_closed_form "
-                         "theta_closed_form step time_step rejected_steps active_points iterations augmentations");
+    static const auto columns = page_columns("", boost::algorithm::join(words_in(enumerators(Column())), " "));
     return columns;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/choices.h"
 #include "scene/apparatus.h"
 
 #include <array>
@@ -16,59 +17,14 @@ namespace sprag
 
   // One table for all fidelities. A model that cannot supply a quantity leaves NaN.
 
-  enum class Column : std::size_t
-  {
-    time,
-    x,
-    v,
-    theta,
-    s,
-    P,
-    F,
-    Q,
-    normal_resultant,
-    friction_resultant,
-    v_rel,
-    mu,
-    centre_offset,
-    contact_width,
-    largest_pressure,
-    largest_pressure_xi,
-    penetration,
-    indentation,
-    cone_violation,
-    elastic_slip,
-    friction_power,
-    friction_work,
-    drive_work,
-    spring_energy,
-    elastic_energy,
-    layer_energy,
-    kinetic_energy,
-    support_energy,
-    contact_energy,
-    damping_work,
-    algorithmic_work,
-    energy_residual,
-    theta_rate,
-    support_displacement,
-    Q_support,
-    P_quasi_static,
-    Q_quasi_static,
-    creep,
-    P_closed_form,
-    Q_closed_form,
-    theta_closed_form,
-    step,
-    time_step,
-    rejected_steps,
-    active_points,
-    iterations,
-    augmentations,
-    count
-  };
+  SPRAG_ENUMERATION(Column, time, x, v, theta, s, P, F, Q, normal_resultant, friction_resultant, v_rel, mu, centre_offset,
+                    contact_width, largest_pressure, largest_pressure_xi, penetration, indentation, cone_violation, elastic_slip,
+                    friction_power, friction_work, drive_work, spring_energy, elastic_energy, layer_energy, kinetic_energy,
+                    support_energy, contact_energy, damping_work, algorithmic_work, energy_residual, theta_rate,
+                    support_displacement, Q_support, P_quasi_static, Q_quasi_static, creep, P_closed_form, Q_closed_form,
+                    theta_closed_form, step, time_step, rejected_steps, active_points, iterations, augmentations)
 
-  inline constexpr std::size_t n_columns = static_cast<std::size_t>(Column::count);
+  inline constexpr std::size_t n_columns = static_cast<std::size_t>(Column::augmentations) + 1;
 
   struct ColumnInfo
   {

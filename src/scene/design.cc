@@ -1,46 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/design.h"
 
-#include <algorithm>
+#include "base/pages.h"
+
+#include <boost/algorithm/string/replace.hpp>
 
 namespace sprag
 {
+  namespace
+  {
+    std::vector<DesignQuantityInfo> quantities_on_page()
+    {
+      std::vector<DesignQuantityInfo> all;
+      for (const auto &[identifier, quantity] : enumerators(DesignQuantity()))
+      {
+        if (quantity == DesignQuantity::parameter)
+          break;
+        const auto name   = boost::algorithm::replace_all_copy(identifier, "_", " ");
+        const auto &cells = value_for(page_table("quantity").rows, name);
+        all.push_back({ quantity, name, cells.at("unit"), cells.at("definition") });
+      }
+      return all;
+    }
+  } // namespace
+
   const std::vector<DesignQuantityInfo> &design_quantities()
   {
-    using Q                                          = DesignQuantity;
-    static const std::vector<DesignQuantityInfo> all = {
-      { Q::damping_slope, "damping slope", "N/mm", "c = (C_Q forward - C_Q backward)/2 of one lever at x = 0" },
-      { Q::restoring_slope, "restoring slope", "N/mm", "k_e = (C_Q forward + C_Q backward)/2 of one lever at x = 0" },
-      { Q::forward_slope, "forward slope", "N/mm", "C_Q at x = 0, moving forward" },
-      { Q::backward_slope, "backward slope", "N/mm", "C_Q at x = 0, moving back; negative where Q resists" },
-      { Q::friction_ratio, "friction ratio", "1", "gamma = n c/K with Isolation/Levers and Isolation/Stiffness" },
-      { Q::slope_ratio, "slope ratio", "1", "C_Q forward over -C_Q backward; infinite where that is not positive" },
-      { Q::force_ratio, "force ratio", "1", "Q forward over -Q backward at the end of the stroke, likewise" },
-      { Q::nonlinearity, "nonlinearity", "1",
-        "largest distance of Q from the best line through 0 over the largest Q of that way, the worse of both ways" },
-      { Q::largest_force, "largest force", "N", "largest Q on the stroke whatever its sign, both ways" },
-      { Q::largest_normal_force, "largest normal force", "N", "largest P on the stroke, both ways" },
-      { Q::largest_pressure, "largest pressure", "MPa",
-        "on the friction layer under the largest P, as of an elastic foundation between rigid bodies" },
-      { Q::loop_area, "loop area", "N mm", "what friction takes in one stroke out and back at the drive's peak speed" },
-      { Q::jamming_margin, "jamming margin", "1", "least s - mu e over s on the way back; 0: the lever locks" },
-      { Q::reach, "reach", "mm", "x at which the cylinder touches the pivot" },
-      { Q::inclination, "inclination", "deg", "theta_0" },
-      { Q::lever_length, "lever length", "mm", "from the pivot to the contact at x = 0: s" },
-      { Q::transmissibility, "transmissibility", "1",
-        "first harmonic of the table over the base at Isolation/Base frequency and Base amplitude, the largest of several" },
-      { Q::relative_amplitude, "relative amplitude", "mm", "of the table over the base there" },
-      { Q::residual_offset, "residual offset", "mm", "how far from z = 0 the isolated table ends, from a run in time" },
-      { Q::growth_rate, "growth rate", "1/s",
-        "largest Re lambda of the slides at all x judged, both ways; infinite where there is no unique slide" },
-    };
+    static const auto all = quantities_on_page();
     return all;
   }
 
   const DesignQuantityInfo &design_quantity_info(const DesignQuantity quantity)
   {
-    const auto &all = design_quantities();
-    return *std::find_if(all.begin(), all.end(), [&](const auto &info) { return info.quantity == quantity; });
+    return design_quantities().at(static_cast<std::size_t>(quantity));
   }
 
   std::optional<DesignQuantity> find_design_quantity(const std::string &name)

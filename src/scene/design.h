@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/choices.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <optional>
@@ -11,31 +13,11 @@ namespace sprag
 {
   // Settings of a design: demands on the lever, its free parameters and its aims.
 
-  /// Quantity of a demand or an aim; names, units and definitions are in design_quantities().
-  enum class DesignQuantity
-  {
-    damping_slope,
-    restoring_slope,
-    forward_slope,
-    backward_slope,
-    friction_ratio,
-    slope_ratio,
-    force_ratio,
-    nonlinearity,
-    largest_force,
-    largest_normal_force,
-    largest_pressure,
-    loop_area,
-    jamming_margin,
-    reach,
-    inclination,
-    lever_length,
-    transmissibility,
-    relative_amplitude,
-    residual_offset,
-    growth_rate,
-    parameter ///< one of the free parameters
-  };
+  /// Quantity of a demand or an aim: those of params/design.md, and `parameter` for one of the free parameters.
+  SPRAG_ENUMERATION(DesignQuantity, damping_slope, restoring_slope, forward_slope, backward_slope, friction_ratio, slope_ratio,
+                    force_ratio, nonlinearity, largest_force, largest_normal_force, largest_pressure, loop_area, jamming_margin,
+                    reach, inclination, lever_length, transmissibility, relative_amplitude, residual_offset, growth_rate,
+                    parameter)
 
   /// A parameter that is free between two bounds, by its --set name.
   struct FreeParameter
@@ -114,7 +96,7 @@ namespace sprag
     std::string definition;
   };
 
-  /// Lists all quantities but those of free parameters, in the order in which they are reported.
+  /// Lists all quantities but `parameter` in the order of the enumeration, with units and definitions of params/design.md.
   const std::vector<DesignQuantityInfo> &design_quantities();
 
   const DesignQuantityInfo &design_quantity_info(DesignQuantity quantity);
