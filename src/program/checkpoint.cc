@@ -242,14 +242,8 @@ namespace sprag
 
   void Checkpoint::end_steps(const ProgressSerialiser &progress)
   {
-    const bool is_long = row_log.size() > 0;
-    if (is_kept && is_long)
+    if (is_kept && (goes_on || is_written))
       try_to([&] { write(progress); });
-  }
-
-  void Checkpoint::write_records()
-  {
-    try_to([&] { write_rows(); });
   }
 
   void Checkpoint::try_to(const std::function<void()> &write)
@@ -266,22 +260,16 @@ namespace sprag
     }
   }
 
-  void Checkpoint::write_rows()
-  {
-    if (records)
-      records(row_log);
-    row_log.write();
-  }
-
   void Checkpoint::write(const ProgressSerialiser &progress)
   {
     const auto begin = Clock::now();
-    write_rows();
+    row_log.write();
     Archive archive, whole;
     serialise_all(progress, archive);
     Content content{ parameters, key(), row_log.size(), archive.bytes() };
     whole(content);
     replace(folder + '/' + checkpoint_name, folder + '/' + next_checkpoint_name, sealed(whole.bytes()));
+    is_written     = true;
     const auto end = Clock::now();
     next           = end + std::chrono::duration_cast<Clock::duration>(interval);
     if (interval.count() > 0.)

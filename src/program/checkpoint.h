@@ -88,14 +88,13 @@ namespace sprag
       return Archive(std::move(rows_found));
     }
 
-    /// Sets what adds to the results log of rows all that the run has recorded since its last call.
-    void set_records(std::function<void(RowLog &)> add_records)
+    /// Keeps a record of the run, to be handed over by recorded() in the order of the calls.
+    template <class... Items>
+    void keep(Items &...items)
     {
-      records = std::move(add_records);
+      if (is_kept)
+        try_to([&] { row_log.append(items...); });
     }
-
-    /// Writes what was recorded, where a run cannot keep that much until the next checkpoint.
-    void write_records();
 
     /// Adds something to the progress, to be serialised after that of the analysis. To be called before the analysis begins.
     void add_part(ProgressSerialiser part)
@@ -126,12 +125,6 @@ namespace sprag
     /// a step on.
     void finish(const std::string &status) const;
 
-    /// Returns whether there is a checkpoint at all.
-    bool keeps() const
-    {
-      return is_kept;
-    }
-
   private:
     using Clock = std::chrono::steady_clock;
 
@@ -141,11 +134,11 @@ namespace sprag
     const std::string parameters, own_scene_key;
     const std::chrono::duration<double> interval;
     RowLog row_log;
-    std::function<void(RowLog &)> records;
     std::vector<ProgressSerialiser> parts;
     bool goes_on = false;
     std::string progress_found, rows_found;
     Clock::time_point next;
+    bool is_written = false; ///< by this run
     bool has_failed = false;
     bool is_needed  = false; ///< whatever becomes of the run
 
@@ -154,7 +147,6 @@ namespace sprag
     void remove() const;
     void serialise_all(const ProgressSerialiser &progress, Archive &archive) const;
     void try_to(const std::function<void()> &write);
-    void write_rows();
     void write(const ProgressSerialiser &progress);
   };
 } // namespace sprag

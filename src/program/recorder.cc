@@ -28,18 +28,6 @@ namespace sprag
     return length + std::abs(drive.at(drive.duration()).x - x);
   }
 
-  namespace
-  {
-    enum class RecordKind : std::uint64_t
-    {
-      row,
-      face
-    };
-
-    /// In memory until they are in a results log.
-    constexpr std::size_t most_face_bytes = 64 * 1024 * 1024;
-  } // namespace
-
   Recorder::Recorder(const Scene &scene_, const RunOptions &options, PhaseTimer &timer, const FacePoints &points,
                      Checkpoint *const checkpoint_)
       : stress(no_stress_peaks("the model has no mesh"))
@@ -49,36 +37,17 @@ namespace sprag
       , progress(std::cerr, progress_style(quiet), path_length(scene.drive))
       , checkpoint(checkpoint_)
   {
-    if (checkpoint == nullptr)
-      return;
-    if (checkpoint->resumes())
+    if (checkpoint != nullptr && checkpoint->resumes())
       take_over();
-    checkpoint->set_records([this](RowLog &row_log) { add_records(row_log); });
-  }
-
-  void Recorder::add_records(RowLog &row_log)
-  {
-    auto face = RecordKind::face, row = RecordKind::row;
-    // Whatever append() throws, it has what it was given.
-    for (;;)
-      if (faces_kept < faces_to_keep.size() && faces_to_keep[faces_kept].first == rows_kept)
-        row_log.append(face, faces_to_keep[faces_kept++].second);
-      else if (rows_kept < rows.size())
-        row_log.append(row, rows[rows_kept++]);
-      else
-        break;
-    faces_to_keep.clear();
-    faces_kept         = 0;
-    face_bytes_to_keep = 0;
   }
 
   void Recorder::take_over()
   {
     for (Archive records = checkpoint->recorded(); !records.at_end();)
     {
-      RecordKind kind{};
-      records(kind);
-      if (kind == RecordKind::row)
+      bool is_face = false;
+      records(is_face);
+      if (!is_face)
       {
         Row row;
         records(row);
@@ -86,15 +55,11 @@ namespace sprag
       }
       else
       {
-        std::string bytes;
         FaceState face;
-        records(bytes);
-        Archive face_archive(std::move(bytes));
-        face_archive(face);
+        records(face);
         writer.append(face);
       }
     }
-    rows_kept  = rows.size();
     taken_over = rows.size() - 1;
     progress.begin_at(travel);
     if (!quiet)
@@ -116,23 +81,18 @@ namespace sprag
     Row row = incomplete;
     add_closed_form(scene, row);
     add(row);
+    if (bool is_face = false; checkpoint != nullptr)
+      checkpoint->keep(is_face, row);
     const double iterations = row[Column::iterations];
     progress.update(travel, { row[Column::x], row[Column::P], row[Column::Q],
                               std::isnan(iterations) ? 0u : static_cast<unsigned int>(iterations) });
   }
 
-  void Recorder::record(const FaceState &face)
+  void Recorder::record(FaceState face)
   {
     writer.append(face);
-    if (checkpoint == nullptr || !checkpoint->keeps())
-      return;
-    Archive archive;
-    FaceState copy = face;
-    archive(copy);
-    faces_to_keep.emplace_back(rows.size(), archive.bytes());
-    face_bytes_to_keep += archive.bytes().size();
-    if (face_bytes_to_keep > most_face_bytes)
-      checkpoint->write_records();
+    if (bool is_face = true; checkpoint != nullptr)
+      checkpoint->keep(is_face, face);
   }
 
   std::vector<Entry> Recorder::finish(const std::string &status, std::vector<Entry> meta, Warnings &warnings)

@@ -25,7 +25,7 @@ namespace sprag
 
     void record(const Row &row);
 
-    void record(const FaceState &face);
+    void record(FaceState face);
 
     std::vector<Entry> stress;           ///< peaks for the summary, see StressPeaks; NaN of a model without a mesh
     std::vector<ErrorEstimate> accuracy; ///< that the run tells of its results
@@ -56,14 +56,9 @@ namespace sprag
 
     Checkpoint *const checkpoint; ///< null without
     std::size_t taken_over = 0;
-    std::size_t rows_kept  = 0;                                     ///< in the checkpoint's results log
-    std::vector<std::pair<std::size_t, std::string>> faces_to_keep; ///< as bytes, with the number of rows before them
-    std::size_t faces_kept         = 0;                             ///< of these
-    std::size_t face_bytes_to_keep = 0;
 
     void add(Row row);
     void take_over();
-    void add_records(RowLog &row_log);
   };
 
   /// Returns the length of the drive's path [mm].

@@ -35,23 +35,13 @@ namespace sprag
       {
         if (checkpoint.resumes())
           take_over(options.quiet);
-        checkpoint.set_records(
-            [this](RowLog &row_log)
-            {
-              // Whatever append() throws, it has what it was given.
-              while (kept < to_keep.size())
-                row_log.append(to_keep[kept++]);
-              to_keep.clear();
-              kept = 0;
-            });
       }
 
       void record(const IsolatedTable &table, const bool is_before)
       {
         auto row = isolation_row(scene.isolation, table, is_before);
         checkpoint.hand_on([&] { writer.append(row); });
-        if (checkpoint.keeps())
-          to_keep.push_back(std::move(row));
+        checkpoint.keep(row);
         ProgressFields fields;
         fields.z = table.state().z;
         progress.update(table.state().time, fields);
@@ -69,8 +59,6 @@ namespace sprag
       Checkpoint &checkpoint;
       ResultWriter writer;
       Progress progress;
-      std::vector<std::vector<double>> to_keep; ///< rows for the checkpoint's results log
-      std::size_t kept = 0;                     ///< of these, there already
 
       void take_over(const bool quiet)
       {
