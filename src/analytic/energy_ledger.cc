@@ -31,17 +31,9 @@ namespace sprag
     }
   } // namespace
 
-  void serialise(Archive &archive, LedgerReport &report)
-  {
-    auto &[residual, largest_work, time, term] = report;
-    archive(residual, largest_work, time, term);
-  }
+  SPRAG_SERIALISE(LedgerReport, residual, largest_work, time, term)
 
-  void serialise(Archive &archive, EnergyLedger &ledger)
-  {
-    auto &[start, now, sum, largest_change, found] = ledger;
-    archive(start, now, sum, largest_change, found);
-  }
+  SPRAG_SERIALISE(EnergyLedger, start, now, sum, largest_change, found)
 
   double EnergyLedger::residual() const
   {

@@ -124,11 +124,7 @@ namespace sprag
       double largest_residual = 0.;
     };
 
-    void serialise(Archive &archive, SolverState &solver)
-    {
-      auto &[rows, ended, stops, has_ended, instants, periods, sections, turns, square, energy, residual] = solver;
-      archive(rows, ended, stops, has_ended, instants, periods, sections, turns, square, energy, residual);
-    }
+    SPRAG_SERIALISE(SolverState, rows, ended, stops, has_ended, instants, periods, sections, turns, square, energy, residual)
 
     /// Appends an item and drops the first one if there are more than `largest_size`.
     template <class Item>

@@ -49,9 +49,5 @@ namespace sprag
       begin_segment();
   }
 
-  void serialise(Archive &archive, StepClock &clock)
-  {
-    auto &[ends, largest, nominal_step, segment, begin, count, passed] = clock;
-    archive(ends, largest, nominal_step, segment, begin, count, passed);
-  }
+  SPRAG_SERIALISE(StepClock, ends, largest, nominal_step, segment, begin, count, passed)
 } // namespace sprag

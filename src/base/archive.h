@@ -13,7 +13,7 @@ namespace sprag
 {
   /// Plain data as bytes, to the last bit, for the same build of the program to read again. What can be copied byte by byte
   /// (numbers, structures of numbers) is kept whole; any other type says what there is to keep in one function, which serves
-  /// writing and reading alike:
+  /// writing and reading alike, see SPRAG_SERIALISE:
   ///   void serialise(Archive &archive, Thing &thing) { archive(thing.name, thing.values); }
   class Archive
   {
@@ -119,3 +119,11 @@ namespace sprag
   /// Returns the bytes that were sealed; none where they are not as they were.
   std::optional<std::string> unsealed(const std::string &bytes);
 } // namespace sprag
+
+/// Defines serialise() of a structure by the names of all its members in their order; the compiler misses one that is left out.
+#define SPRAG_SERIALISE(Structure, ...)                                                                                          \
+  void serialise(Archive &archive, Structure &structure)                                                                         \
+  {                                                                                                                              \
+    auto &[__VA_ARGS__] = structure;                                                                                             \
+    archive(__VA_ARGS__);                                                                                                        \
+  }

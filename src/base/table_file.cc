@@ -24,10 +24,7 @@
 
 namespace sprag
 {
-  static void serialise(Archive &archive, NamedColumn &column)
-  {
-    archive(column.name, column.unit, column.values);
-  }
+  SPRAG_SERIALISE(NamedColumn, name, unit, values)
 
   namespace
   {
@@ -52,10 +49,7 @@ namespace sprag
       Names mistakes;
     };
 
-    void serialise(Archive &archive, Content &content)
-    {
-      archive(content.columns, content.chosen, content.mistakes);
-    }
+    SPRAG_SERIALISE(Content, columns, chosen, mistakes)
 
     std::string lower(const std::string &text)
     {

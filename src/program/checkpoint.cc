@@ -63,11 +63,7 @@ namespace sprag
       std::string progress;
     };
 
-    void serialise(Archive &archive, Content &content)
-    {
-      auto &[parameters, key, rows, progress] = content;
-      archive(parameters, key, rows, progress);
-    }
+    SPRAG_SERIALISE(Content, parameters, key, rows, progress)
 
     /// Returns what the checkpoint in a folder holds; none where there is none, it is not as it was written, or another build of
     /// the program wrote other fields.

@@ -408,11 +408,7 @@ namespace sprag
     reserve.rename(path);
   }
 
-  void serialise(Archive &archive, Row &row)
-  {
-    auto &[sensor_forces, across, values, second_values] = row;
-    archive(sensor_forces, across, values, second_values);
-  }
+  SPRAG_SERIALISE(Row, sensor_forces, across, values, second_values)
 
   void serialise(Archive &archive, FaceState &face)
   {

@@ -152,17 +152,9 @@ namespace sprag
     written.push_back(kept.row[Column::time]);
   }
 
-  void serialise(Archive &archive, FieldSource &source)
-  {
-    auto &[coordinates, forces, face_force] = source;
-    archive(coordinates, forces, face_force);
-  }
+  SPRAG_SERIALISE(FieldSource, coordinates, forces, face_force)
 
-  void serialise(Archive &archive, FieldRecorder::Kept &kept)
-  {
-    auto &[row, face, direction, source] = kept;
-    archive(row, face, direction, source);
-  }
+  SPRAG_SERIALISE(FieldRecorder::Kept, row, face, direction, source)
 
   void serialise(Archive &archive, FieldRecorder::Best &best)
   {

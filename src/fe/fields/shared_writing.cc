@@ -28,10 +28,7 @@ namespace sprag
       std::vector<DatasetRows> datasets;
     };
 
-    void serialise(Archive &archive, Plan &plan)
-    {
-      archive(plan.path, plan.datasets);
-    }
+    SPRAG_SERIALISE(Plan, path, datasets)
 
     /// Returns where the rows of a rank begin, at a chunk: the rank behind the last has none.
     std::size_t first_row(const std::size_t rows, const unsigned int rank, const unsigned int ranks)

@@ -54,10 +54,7 @@ namespace sprag
       std::string mesh;                             ///< in gmsh's format 2.2
     };
 
-    void serialise(Archive &archive, Answer &answer)
-    {
-      archive(answer.mistakes, answer.materials, answer.boundaries, answer.mesh);
-    }
+    SPRAG_SERIALISE(Answer, mistakes, materials, boundaries, mesh)
 
     /// Elements of a dimension by their types, those of one entity or all.
     struct GmshElements

@@ -81,13 +81,7 @@ namespace sprag
     return result;
   }
 
-  void serialise(Archive &archive, ForcesAtPlace &forces)
-  {
-    archive(forces.forces, forces.place);
-  }
+  SPRAG_SERIALISE(ForcesAtPlace, forces, place)
 
-  void serialise(Archive &archive, ForceHistory &history)
-  {
-    archive(history.places, history.time);
-  }
+  SPRAG_SERIALISE(ForceHistory, places, time)
 } // namespace sprag

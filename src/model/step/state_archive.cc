@@ -28,33 +28,13 @@ namespace sprag
         archive(matrix(i, j));
   }
 
-  void serialise(Archive &archive, Kinematic &coordinates)
-  {
-    auto &[position, velocity, acceleration] = coordinates;
-    archive(position, velocity, acceleration);
-  }
+  SPRAG_SERIALISE(Kinematic, position, velocity, acceleration)
 
-  void serialise(Archive &archive, DofLoads &loads)
-  {
-    auto &[dofs, values] = loads;
-    archive(dofs, values);
-  }
+  SPRAG_SERIALISE(DofLoads, dofs, values)
 
-  void serialise(Archive &archive, InterfaceForces &forces)
-  {
-    auto &[dofs, values, tangent, has_tangent] = forces;
-    archive(dofs, values, tangent, has_tangent);
-  }
+  SPRAG_SERIALISE(InterfaceForces, dofs, values, tangent, has_tangent)
 
-  void serialise(Archive &archive, Motion &motion)
-  {
-    auto &[drive, coordinates, face_force, contact, forces, tangent] = motion;
-    archive(drive, coordinates, face_force, contact, forces, tangent);
-  }
+  SPRAG_SERIALISE(Motion, drive, coordinates, face_force, contact, forces, tangent)
 
-  void serialise(Archive &archive, State &state)
-  {
-    auto &[drive, coordinates, contact, forces] = state;
-    archive(drive, coordinates, contact, forces);
-  }
+  SPRAG_SERIALISE(State, drive, coordinates, contact, forces)
 } // namespace sprag
