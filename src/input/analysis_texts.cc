@@ -27,10 +27,6 @@ namespace sprag
              (free_sections.count(parameter.section) > 0 || full_name(parameter) == free_friction);
     }
 
-    const Choices<CheckModel> check_model_words = { { "table", CheckModel::table },
-                                                    { "beam", CheckModel::beam },
-                                                    { "condensed", CheckModel::condensed } };
-
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
     /// Reads all texts; a mistake is reported against the parameter that is being read.
@@ -191,8 +187,9 @@ namespace sprag
         const auto listed = split(settings.checks, ',');
         if (listed == std::vector<std::string>{ "none" })
           return;
-        const auto names = words_in(check_model_words);
-        for (const auto &[word, check_model] : check_model_words)
+        const auto models = enumerators(CheckModel());
+        const auto names  = words_in(models);
+        for (const auto &[word, check_model] : models)
           if (std::find(listed.begin(), listed.end(), word) != listed.end())
             settings.check_models.push_back(check_model);
         for (const auto &word : listed)

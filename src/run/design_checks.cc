@@ -130,11 +130,6 @@ namespace sprag
     }
   } // namespace
 
-  std::string model_name(const CheckModel check_model)
-  {
-    return std::vector<std::string>{ "table", "beam", "condensed" }.at(static_cast<std::size_t>(check_model));
-  }
-
   double ModelCheck::violation(const std::vector<Demand> &demands) const
   {
     double largest = -infinite;

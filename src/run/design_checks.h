@@ -34,7 +34,10 @@ namespace sprag
     }
   };
 
-  std::string model_name(CheckModel check_model);
+  inline std::string model_name(const CheckModel check_model)
+  {
+    return word_for(enumerators(check_model), check_model);
+  }
 
   /// Computes levers of a design again by dearer models. Forces come from steady slides at Design/Positions both ways, and one
   /// near x = 0 for the slopes; in time from the drive followed once.

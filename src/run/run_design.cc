@@ -170,8 +170,7 @@ namespace sprag
         values.push_back(lever.quantities[info.quantity]);
       double largest = -std::numeric_limits<double>::infinity();
       for (const double violation : lever.violations)
-        if (!std::isnan(violation))
-          largest = std::max(largest, violation);
+        largest = std::fmax(largest, violation); // passes over NaN
       values.push_back(lever.violations.empty() ? 0. : largest);
       return values;
     }

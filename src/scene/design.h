@@ -57,13 +57,9 @@ namespace sprag
     std::string text;
   };
 
-  /// Model that computes a proposed lever again. Each is dearer than the one before it.
-  enum class CheckModel
-  {
-    table, ///< the isolated table in time on levers of the closed form
-    beam,
-    condensed
-  };
+  /// Model that computes a proposed lever again: the isolated table in time on levers of the closed form, or a lever. Each is
+  /// dearer than the one before it.
+  SPRAG_ENUMERATION(CheckModel, table, beam, condensed)
 
   struct DesignSettings
   {
