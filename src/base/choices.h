@@ -62,7 +62,8 @@ namespace sprag
   {                                                                                                                              \
     __VA_ARGS__                                                                                                                  \
   };                                                                                                                             \
-  inline Choices<Enumeration> enumerators(Enumeration)                                                                           \
+  inline const Choices<Enumeration> &enumerators(Enumeration)                                                                    \
   {                                                                                                                              \
-    return numbered_choices<Enumeration>(#__VA_ARGS__);                                                                          \
+    static const auto all = numbered_choices<Enumeration>(#__VA_ARGS__);                                                         \
+    return all;                                                                                                                  \
   }

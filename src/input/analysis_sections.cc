@@ -32,18 +32,12 @@ namespace sprag
 
     void base_motion(Section section, IsolationSettings &settings)
     {
-      section.choice("Base motion", settings.base,
-                     { { "none", BaseMotionType::none },
-                       { "harmonic", BaseMotionType::harmonic },
-                       { "sweep", BaseMotionType::sweep },
-                       { "shock", BaseMotionType::shock },
-                       { "random", BaseMotionType::random },
-                       { "record", BaseMotionType::record } });
+      section.choice("Base motion", settings.base);
       section.length("Base amplitude", settings.base_amplitude);
       section.number("Base frequency", settings.base_frequency, above(0.), "Hz");
       section.number("Final frequency", settings.final_frequency, above(0.), "Hz");
-      section.choice("Sweep", settings.sweep, { { "linear", SweepForm::linear }, { "logarithmic", SweepForm::logarithmic } });
-      section.choice("Shock", settings.shock, { { "half sine", ShockForm::half_sine }, { "step", ShockForm::step } });
+      section.choice("Sweep", settings.sweep);
+      section.choice("Shock", settings.shock);
       section.choice("Base spectrum", settings.spectrum,
                      { { "Kanai-Tajimi", BaseSpectrum::kanai_tajimi }, { "table", BaseSpectrum::table } });
       section.number("Base acceleration", settings.rms_acceleration, above(0.), "mm/s2");
@@ -68,8 +62,7 @@ namespace sprag
       section.number("Initial displacement", settings.initial_displacement, any_number(), "mm");
       section.number("Initial velocity", settings.initial_velocity, any_number(), "mm/s");
       section.number("Duration", settings.duration, above(0.), "s");
-      section.choice("End", settings.end,
-                     { { "duration", IsolationEnd::duration }, { "steady state", IsolationEnd::steady_state } });
+      section.choice("End", settings.end);
       section.number("Periodic tolerance", settings.periodic_tolerance, { 0., 0.1, false, true });
       section.number("Tolerance", settings.tolerance, { 1e-14, 1e-3 });
       section.number_or_auto("Output step", settings.output_step, above(0.), "s");

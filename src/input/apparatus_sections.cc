@@ -9,7 +9,7 @@ namespace sprag
   {
     void spring(Section section, RotationalSpring &settings)
     {
-      section.choice("Type", settings.type, { { "torsional", SpringType::torsional }, { "leaf", SpringType::leaf } });
+      section.choice("Type", settings.type);
       section.number("Stiffness", settings.stiffness, above(0.), "N mm/rad");
       section.number("Rest angle", settings.rest_angle, { -0.5, 0. }, "rad");
     }
@@ -23,7 +23,7 @@ namespace sprag
       add_plane(section, settings);
       section.choice("Joint", settings.end,
                      { { "clamped", LeafEnd::clamped }, { "pinned", LeafEnd::pinned }, { "guided", LeafEnd::guided } });
-      section.choice("Axial", settings.axial, { { "free", LeafAxial::free }, { "held", LeafAxial::held } });
+      section.choice("Axial", settings.axial);
       section.number("Clamp distance", settings.clamp_distance, at_least(0.), "mm");
       section.number("Sagitta", settings.sagitta, any_number(), "mm");
       section.length("Room", settings.room);
@@ -41,7 +41,7 @@ namespace sprag
 
     void friction_plate(Section section, FrictionPlate &settings)
     {
-      section.choice("Type", settings.type, { { "none", PlateType::none }, { "on sensors", PlateType::on_sensors } });
+      section.choice("Type", settings.type);
       section.length("Begin", settings.begin);
       section.length("End", settings.end);
       section.length("Thickness", settings.thickness);
@@ -58,7 +58,7 @@ namespace sprag
 
     void cylinder(Section section, Cylinder &settings)
     {
-      section.choice("Type", settings.type, { { "rigid", CylinderType::rigid }, { "solid", CylinderType::solid } });
+      section.choice("Type", settings.type);
       section.length("Inner radius", settings.inner_radius);
       add_material(section, settings);
       add_plane(section, settings);
@@ -75,8 +75,8 @@ namespace sprag
 
     void mirrored_pair(Section section, MirroredPair &settings)
     {
-      section.choice("Type", settings.type, { { "half", PairType::half }, { "full", PairType::full } });
-      section.choice("Joint", settings.joint, { { "free", SpringJoint::free }, { "held", SpringJoint::held } });
+      section.choice("Type", settings.type);
+      section.choice("Joint", settings.joint);
       section.number("Joint mass", settings.joint_mass, at_least(0.), "t");
       section.number("Cylinder offset", settings.cylinder_offset, any_number(), "mm");
       section.number("Friction ratio", settings.friction_ratio, above(0.));
@@ -86,7 +86,7 @@ namespace sprag
     {
       section.number_or_auto("Stiffness", settings.stiffness, above(0.), "N mm/rad");
       section.number_or_auto("Moment of inertia", settings.moment_of_inertia, above(0.), "t mm2");
-      section.choice("Mass", settings.mass, { { "hub", AddedMass::hub }, { "tip", AddedMass::tip } });
+      section.choice("Mass", settings.mass);
     }
   } // namespace
 

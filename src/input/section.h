@@ -28,6 +28,7 @@ namespace sprag
     const std::string name;
     std::string choice_needed = {};
     std::string word_needed   = {};
+    const PageTable &page     = page_table("parameter", "## " + name);
 
     /// Returns the section for parameters that count only with a choice in it.
     Section only_with(const std::string &entry, const std::string &word) const
@@ -85,11 +86,21 @@ namespace sprag
           [&value, choices](const auto &text) { value = value_for(choices, text); });
     }
 
+    /// Adds a choice among all values of an enumeration, whose words are their names with blanks.
+    template <typename T>
+    void choice(const std::string &entry, T &value)
+    {
+      Choices<T> choices = enumerators(T());
+      for (auto &[word, chosen] : choices)
+        std::replace(word.begin(), word.end(), '_', ' ');
+      choice(entry, value, choices);
+    }
+
     /// Throws std::out_of_range where the page has no such parameter.
     void add(const std::string &entry, const std::string &value, const Rule &rule,
              const std::function<void(const std::string &)> &store)
     {
-      const auto &cells = value_for(page_table("parameter", "## " + name).rows, entry);
+      const auto &cells = value_for(page.rows, entry);
       parameters.push_back({ name, entry, value, rule, cells.at("meaning"), store, choice_needed, word_needed });
     }
   };
@@ -109,6 +120,6 @@ namespace sprag
   template <class Part>
   void add_plane(Section &section, Part &part)
   {
-    section.choice("Plane", part.plane, { { "stress", PlaneState::stress }, { "strain", PlaneState::strain } });
+    section.choice("Plane", part.plane);
   }
 } // namespace sprag

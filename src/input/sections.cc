@@ -36,13 +36,12 @@ namespace sprag
                        { "finite element", ModelType::finite_element } });
       section.choice("Dimension", input.dimension, { { "auto", std::nullopt }, { "2", 2u }, { "3", 3u } });
       add_plane(section, settings);
-      section.choice("Solution", settings.solution, { { "automatic", Solution::automatic }, { "general", Solution::general } });
+      section.choice("Solution", settings.solution);
       section.length("Step", settings.step);
       section.length("Minimum step", settings.minimum_step);
       section.number("Maximum deviation", settings.maximum_deviation, at_least(0.));
       section.number("Maximum energy residual", settings.maximum_residual, at_least(0.));
-      section.choice("Warnings", settings.warnings,
-                     { { "report", WarningTreatment::report }, { "error", WarningTreatment::error } });
+      section.choice("Warnings", settings.warnings);
     }
 
     void geometry(Section section, Geometry &settings)
@@ -55,9 +54,7 @@ namespace sprag
 
     void drive(Section section, DriveSettings &settings)
     {
-      section.choice(
-          "Profile", settings.profile,
-          { { "triangle", DriveProfile::triangle }, { "harmonic", DriveProfile::harmonic }, { "table", DriveProfile::table } });
+      section.choice("Profile", settings.profile);
       section.number("Start", settings.start, at_least(0.), "mm");
       section.length("Stroke", settings.stroke);
       section.number("Speed", settings.speed, above(0.), "mm/s");
@@ -91,7 +88,7 @@ namespace sprag
 
     void lever(Section section, Lever &settings)
     {
-      section.choice("Outline", settings.outline, { { "bar", LeverOutline::bar }, { "frame", LeverOutline::frame } });
+      section.choice("Outline", settings.outline);
       section.length("Length", settings.length);
       section.length("Depth", settings.depth);
       section.length("Width", settings.width);
@@ -99,8 +96,7 @@ namespace sprag
       section.choice("Material", settings.material,
                      { { "linear", MaterialModel::linear }, { "neo-Hookean", MaterialModel::neo_hookean } });
       section.number("Moment of inertia", settings.moment_of_inertia, above(0.), "t mm2");
-      section.choice("Inertia", settings.inertia,
-                     { { "scaled", InertiaSource::scaled }, { "as built", InertiaSource::as_built } });
+      section.choice("Inertia", settings.inertia);
       section.number("Hub inertia", settings.hub_inertia, at_least(0.), "t mm2");
       section.number("Tip mass", settings.tip_mass, at_least(0.), "t");
       section.number_or_auto("Neutral axis offset", settings.neutral_axis_offset, any_number(), "mm");
@@ -120,7 +116,7 @@ namespace sprag
 
     void support(Section section, Support &settings)
     {
-      section.choice("Type", settings.type, { { "rigid", SupportType::rigid }, { "sprung", SupportType::sprung } });
+      section.choice("Type", settings.type);
       section.number("Mass", settings.mass, above(0.), "t");
       section.number("Stiffness", settings.stiffness, above(0.), "N/mm");
       section.number("Damping", settings.damping, { 0., 1., true, false });
@@ -137,7 +133,7 @@ namespace sprag
       section.number_or_auto("Tangential penalty", settings.tangential_penalty, above(0.), "N/mm3");
       section.length("Penetration tolerance", settings.penetration_tolerance);
       section.integer("Maximum augmentations", settings.maximum_augmentations, { 1., 1000. });
-      section.choice("Type", settings.type, { { "compliant", ContactType::compliant }, { "ideal", ContactType::ideal } });
+      section.choice("Type", settings.type);
       section.number("Stiffness", settings.stiffness, above(0.), "N/mm^n");
       section.number("Exponent", settings.exponent, { 1., 3. });
       section.number("Damping", settings.damping, { 0., 1., true, false });
@@ -170,17 +166,13 @@ namespace sprag
 
     void output(Section section, OutputSettings &settings)
     {
-      section.choice("Fields", settings.fields,
-                     { { "none", FieldOutput::none },
-                       { "turning points", FieldOutput::turning_points },
-                       { "interval", FieldOutput::interval } });
+      section.choice("Fields", settings.fields);
       section.length("Field interval", settings.field_interval);
     }
 
     void slope(Section section, SlopeSettings &settings, double &maximum_inclination)
     {
-      section.choice("Sweep", settings.sweep,
-                     { { "coefficient", SlopeSweep::coefficient }, { "inclination", SlopeSweep::inclination } });
+      section.choice("Sweep", settings.sweep);
       section.integer("Number of points", settings.n_points, { 2., 1e6 });
       section.number("Maximum coefficient", settings.maximum_coefficient, above(0.));
       section.number("Maximum inclination", maximum_inclination, between(0., 90.), "deg");
@@ -190,13 +182,10 @@ namespace sprag
     void stability(Section section, StabilitySettings &settings)
     {
       section.number_or_auto("Position", settings.position, at_least(0.), "mm");
-      section.choice("Direction", settings.direction,
-                     { { "forward", Direction::forward }, { "backward", Direction::backward }, { "both", Direction::both } });
+      section.choice("Direction", settings.direction);
       section.integer("Modes", settings.modes, { 1., 1000. });
       section.choice("Damping", settings.damping, { { "on", true }, { "off", false } });
-      section.choice(
-          "Contact", settings.contact,
-          { { "open", HeldContact::open }, { "frictionless", HeldContact::frictionless }, { "stuck", HeldContact::stuck } });
+      section.choice("Contact", settings.contact);
       section.text("Critical", settings.critical);
       section.text("Ranges", settings.ranges);
       section.choice("Roles", settings.roles, { { "on", true }, { "off", false } });
@@ -221,7 +210,7 @@ namespace sprag
     {
       section.choice("Type", settings.type, run_types);
       section.text("Vary", settings.vary);
-      section.choice("Combine", settings.combine, { { "grid", Combination::grid }, { "list", Combination::list } });
+      section.choice("Combine", settings.combine);
       section.text("Reference", settings.reference);
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/choices.h"
 #include "scene/plane_state.h"
 
 #include <string>
@@ -45,18 +46,11 @@ namespace sprag
     return model == ModelType::rigid || model == ModelType::beam;
   }
 
-  enum class Solution
-  {
-    automatic, ///< factorise once where the material is linear
-    general    ///< assemble and factorise in every Newton iteration
-  };
+  /// Factorises once where the material is linear (automatic), or in every Newton iteration (general).
+  SPRAG_ENUMERATION(Solution, automatic, general)
 
   /// Says whether warnings end a run with an error.
-  enum class WarningTreatment
-  {
-    report, ///< print and store them
-    error   ///< and fail
-  };
+  SPRAG_ENUMERATION(WarningTreatment, report, error)
 
   struct AnalysisSettings
   {

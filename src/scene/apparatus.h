@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/choices.h"
 #include "laws/moment_law.h"
 #include "scene/plane_state.h"
 
@@ -13,11 +14,8 @@ namespace sprag
   // Parts of the apparatus (Fig. 4 of the paper), each a choice of the scene. Lever axes: xi along the lever from the pivot, eta
   // from the friction interface into the lever.
 
-  enum class SpringType
-  {
-    torsional, ///< one number at the hub
-    leaf       ///< a meshed leaf spring
-  };
+  /// A spring is one number at the hub (torsional) or a meshed leaf spring.
+  SPRAG_ENUMERATION(SpringType, torsional, leaf)
 
   /// Support of a leaf spring at its far end, the spring joint. Along the spring it is free or held, see LeafSpring::axial.
   enum class LeafEnd
@@ -28,11 +26,7 @@ namespace sprag
     loose    ///< nothing does: of a pair's leaf springs where both swing together; no choice of a scene
   };
 
-  enum class LeafAxial
-  {
-    free,
-    held
-  };
+  SPRAG_ENUMERATION(LeafAxial, free, held)
 
   /// A leaf spring behind the pivot: clamped in the hub, from there along -xi to the spring joint, which the pivot frame carries.
   struct LeafSpring
@@ -93,11 +87,8 @@ namespace sprag
     return (leaf.is_linear() ? MomentLaw(spring.stiffness) : leaf).at_rest_at(spring.rest_angle);
   }
 
-  enum class LeverOutline
-  {
-    bar,  ///< of constant depth, on a rigid hub
-    frame ///< two parts: 2b around the pivot, 2a along the face, with a web and pockets
-  };
+  /// The outline is a bar of constant depth on a rigid hub or a frame of two parts, see LeverFrameShape.
+  SPRAG_ENUMERATION(LeverOutline, bar, frame)
 
   /// Lever frame of two parts: the arm 2a along the friction face, of flanges and a thinner web between them, and the root 2b
   /// that carries it on the pivot. In the plane a web is a region of smaller width.
@@ -111,11 +102,7 @@ namespace sprag
     double root          = 30.; ///< length of the root 2b along xi, in front of the pivot [mm], > 0
   };
 
-  enum class PlateType
-  {
-    none,
-    on_sensors ///< the friction layer on a plate of its own
-  };
+  SPRAG_ENUMERATION(PlateType, none, on_sensors)
 
   /// Friction plate (3) with its cork sheet, held to the lever through spacers by force sensors, which carry normal force alone,
   /// and by a linear guide, which carries the tangential one.
@@ -138,18 +125,12 @@ namespace sprag
     double guide_stiffness = 1e6;                          ///< along the plate [N/mm]
   };
 
-  enum class PairType
-  {
-    half, ///< one lever, which the mirror plane y = 0 makes two
-    full  ///< both
-  };
+  /// One lever stands for both (half), which the mirror plane y = 0 makes two, or both are there (full).
+  SPRAG_ENUMERATION(PairType, half, full)
 
-  /// Carrier of the spring joint of a mirrored pair.
-  enum class SpringJoint
-  {
-    free, ///< the two springs alone: they take up what both levers open, and let them swing together
-    held  ///< the pivot frame: each lever has a spring of its own
-  };
+  /// The spring joint of a mirrored pair is free, carried by the two springs alone, which take up what both levers open and let
+  /// them swing together; or held by the pivot frame, so that each lever has a spring of its own.
+  SPRAG_ENUMERATION(SpringJoint, free, held)
 
   /// Two levers that hold the cylinder between them, the second one the mirror image of the first across y = 0.
   struct MirroredPair
@@ -161,11 +142,8 @@ namespace sprag
     double friction_ratio  = 1.; ///< mu of the second lever over that of the first, > 0
   };
 
-  enum class CylinderType
-  {
-    rigid,
-    solid ///< elastic, on a rigid core or shaft of the inner radius
-  };
+  /// The cylinder is rigid or solid: elastic, on a rigid core or shaft of the inner radius.
+  SPRAG_ENUMERATION(CylinderType, rigid, solid)
 
   struct Cylinder
   {

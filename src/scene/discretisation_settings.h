@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/choices.h"
+
 #include <optional>
 #include <string>
 
 namespace sprag
 {
-  enum class ContactType
-  {
-    compliant,
-    ideal ///< rigid lever always in contact, theta from the drive
-  };
+  /// With ideal contact a rigid lever always touches, theta follows from the drive.
+  SPRAG_ENUMERATION(ContactType, compliant, ideal)
 
   enum class Enforcement
   {
@@ -62,12 +61,9 @@ namespace sprag
     double growth_across         = 1.2; ///< of an element over the one beside it, from the edges to the middle, >= 1
   };
 
-  enum class FieldOutput
-  {
-    none,
-    turning_points, ///< at every reversal and at the end
-    interval        ///< at every `field_interval` of travel too
-  };
+  /// Fields are written at every reversal and at the end (turning points), at every `field_interval` of travel too (interval), or
+  /// not.
+  SPRAG_ENUMERATION(FieldOutput, none, turning_points, interval)
 
   struct OutputSettings
   {

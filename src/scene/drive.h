@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/choices.h"
+
 #include <cmath>
 #include <memory>
 #include <string>
@@ -8,12 +10,9 @@
 
 namespace sprag
 {
-  enum class DriveProfile
-  {
-    triangle, ///< constant speed, reversals instantaneous or of a given duration
-    harmonic, ///< x = start + (stroke - start)/2 (1 - cos(omega t)), peak speed given
-    table     ///< x over t from a file, monotone cubic (PCHIP)
-  };
+  /// The drive has constant speed, with reversals instantaneous or of a given duration (triangle), is x = start + (stroke -
+  /// start)/2 (1 - cos(omega t)) with a given peak speed (harmonic), or x over t from a file, monotone cubic (table, PCHIP).
+  SPRAG_ENUMERATION(DriveProfile, triangle, harmonic, table)
 
   /// Motion of the drive at an instant. The sign of v, that of a zero included, is the direction of motion: at a turning point
   /// of the stroke that ends or begins there, in a rest of the motion that led to it, in a rest at the beginning forward, see

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/choices.h"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,27 +24,14 @@ namespace sprag
     none
   };
 
-  enum class BaseMotionType
-  {
-    none,
-    harmonic,
-    sweep,  ///< harmonic of a frequency that changes
-    shock,  ///< one pulse
-    random, ///< acceleration of a given spectrum
-    record  ///< acceleration from a file
-  };
+  /// The base rests, moves by a sine of one frequency or of one that changes (sweep), by one pulse (shock), or has the
+  /// acceleration of a given spectrum (random) or of a file (record).
+  SPRAG_ENUMERATION(BaseMotionType, none, harmonic, sweep, shock, random, record)
 
-  enum class SweepForm
-  {
-    linear,
-    logarithmic
-  };
+  SPRAG_ENUMERATION(SweepForm, linear, logarithmic)
 
-  enum class ShockForm
-  {
-    half_sine, ///< of acceleration, half a period long
-    step       ///< of displacement, along half a cosine
-  };
+  /// A shock is half a period of a sine of acceleration, or a step of displacement along half a cosine.
+  SPRAG_ENUMERATION(ShockForm, half_sine, step)
 
   enum class BaseSpectrum
   {
@@ -60,11 +49,8 @@ namespace sprag
     g
   };
 
-  enum class IsolationEnd
-  {
-    duration,
-    steady_state ///< once periods repeat, at the latest after the duration
-  };
+  /// A run ends with its duration, or once periods repeat, at the latest after the duration.
+  SPRAG_ENUMERATION(IsolationEnd, duration, steady_state)
 
   /// Values over an increasing quantity, joined by lines.
   struct Samples

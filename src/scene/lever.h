@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/choices.h"
 #include "scene/apparatus.h"
 
 #include <optional>
@@ -23,11 +24,8 @@ namespace sprag
     st_venant_kirchhoff ///< of leaf springs
   };
 
-  enum class InertiaSource
-  {
-    scaled,  ///< densities scaled so that the moment of inertia is met
-    as_built ///< densities as they are; the moment of inertia follows
-  };
+  /// Densities are scaled so that the moment of inertia is met, or as they are (as built), and the moment follows.
+  SPRAG_ENUMERATION(InertiaSource, scaled, as_built)
 
   struct Lever
   {
@@ -59,11 +57,8 @@ namespace sprag
     std::optional<double> strength; ///< pressure at which its cells give way [MPa]; none: 0.04 times its Young's modulus
   };
 
-  enum class SupportType
-  {
-    rigid,
-    sprung ///< the pivot frame moves along x
-  };
+  /// The pivot frame stands (rigid) or moves along x (sprung).
+  SPRAG_ENUMERATION(SupportType, rigid, sprung)
 
   /// Pivot frame between lever and force sensor. Mass, stiffness and damping count only when sprung.
   struct Support

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/choices.h"
+
 namespace sprag
 {
   /// Behaviour of a part of a plane model out of the plane.
-  enum class PlaneState
-  {
-    stress, ///< it may contract and bears no stress there
-    strain  ///< it may not contract
-  };
+  SPRAG_ENUMERATION(PlaneState, stress, strain)
 } // namespace sprag

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/choices.h"
 #include "scene/analysis_settings.h"
 
 #include <optional>
@@ -9,11 +10,8 @@
 
 namespace sprag
 {
-  enum class SlopeSweep
-  {
-    coefficient, ///< C_Q over mu at the scene's geometry (Fig. 10)
-    inclination  ///< C_Q over th0 for a list of e/R at the scene's mu (Fig. 11)
-  };
+  /// A curve is C_Q over mu at the scene's geometry (Fig. 10), or over th0 for a list of e/R at the scene's mu (Fig. 11).
+  SPRAG_ENUMERATION(SlopeSweep, coefficient, inclination)
 
   struct SlopeSettings
   {
@@ -31,12 +29,9 @@ namespace sprag
     std::vector<std::string> values;
   };
 
-  /// Combination of the values of several parameters.
-  enum class Combination
-  {
-    grid, ///< each value of one with each of the others
-    list  ///< the first values of all, then the second ones, ...
-  };
+  /// Values of several parameters combine to a grid, each with each of the others, or as a list: the first of all, the second of
+  /// all ...
+  SPRAG_ENUMERATION(Combination, grid, list)
 
   /// Runs of one analysis of the scene at other values of its parameters.
   struct StudySettings
@@ -51,11 +46,8 @@ namespace sprag
     std::vector<VariedParameter> reference_values; ///< one value each
   };
 
-  enum class AddedMass
-  {
-    hub, ///< Lever/Hub inertia
-    tip  ///< Lever/Tip mass
-  };
+  /// Added mass is Lever/Hub inertia or Lever/Tip mass.
+  SPRAG_ENUMERATION(AddedMass, hub, tip)
 
   /// Targets that a calibration gives the meshed parts.
   struct CalibrationSettings

@@ -1,25 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/choices.h"
+
 #include <optional>
 #include <string>
 
 namespace sprag
 {
-  enum class Direction
-  {
-    forward,
-    backward,
-    both ///< a single slide is the one backward then
-  };
+  /// A single slide of both directions is the one backward.
+  SPRAG_ENUMERATION(Direction, forward, backward, both)
 
   /// Contact between cylinder and lever in undamped modes.
-  enum class HeldContact
-  {
-    open,
-    frictionless,
-    stuck
-  };
+  SPRAG_ENUMERATION(HeldContact, open, frictionless, stuck)
 
   /// Linearised vibration about a steady slide held at one x.
   struct StabilitySettings
