@@ -54,6 +54,16 @@ namespace sprag
       result.emplace_back(name, static_cast<T>(result.size()));
     return result;
   }
+
+  /// Returns the values of an enumeration by its names as words, with blanks for underscores.
+  template <class T>
+  Choices<T> enumerator_words()
+  {
+    Choices<T> words = enumerators(T());
+    for (auto &[word, value] : words)
+      std::replace(word.begin(), word.end(), '_', ' ');
+    return words;
+  }
 } // namespace sprag
 
 /// Defines an enumeration, and enumerators(Enumeration()), which returns its names with their values.

@@ -90,10 +90,7 @@ namespace sprag
     template <typename T>
     void choice(const std::string &entry, T &value)
     {
-      Choices<T> choices = enumerators(T());
-      for (auto &[word, chosen] : choices)
-        std::replace(word.begin(), word.end(), '_', ' ');
-      choice(entry, value, choices);
+      choice(entry, value, enumerator_words<T>());
     }
 
     /// Throws std::out_of_range where the page has no such parameter.

@@ -9,31 +9,24 @@ namespace sprag
 {
   namespace
   {
-    const Choices<AnalysisType> run_types = { { "quasi-static", AnalysisType::quasi_static },
-                                              { "slope", AnalysisType::slope },
-                                              { "transient", AnalysisType::transient },
-                                              { "contact law", AnalysisType::contact_law },
-                                              { "modal", AnalysisType::modal },
-                                              { "stability", AnalysisType::stability },
-                                              { "sprag slip", AnalysisType::sprag_slip },
-                                              { "calibration", AnalysisType::calibration },
-                                              { "isolation", AnalysisType::isolation } };
-    const auto all_types                  = joined(run_types, { { "map", AnalysisType::map },
-                                                                { "identification", AnalysisType::identification },
-                                                                { "design", AnalysisType::design },
-                                                                { "study", AnalysisType::study } });
+    Choices<AnalysisType> make_types()
+    {
+      auto types          = enumerator_words<AnalysisType>();
+      types.front().first = "quasi-static";
+      return types;
+    }
+
+    const auto all_types = make_types();
+    const Choices<AnalysisType> run_types(all_types.begin(), all_types.begin() + static_cast<int>(AnalysisType::map));
 
     void analysis(Section section, SceneSettings &input)
     {
       AnalysisSettings &settings = input.scene.analysis;
       section.choice("Type", settings.type, all_types);
-      section.choice("Model", input.model,
-                     { { "auto", std::nullopt },
-                       { "closed form", ModelType::closed_form },
-                       { "rigid", ModelType::rigid },
-                       { "beam", ModelType::beam },
-                       { "condensed", ModelType::condensed },
-                       { "finite element", ModelType::finite_element } });
+      Choices<std::optional<ModelType>> models = { { "auto", std::nullopt } };
+      for (const auto &model : enumerator_words<ModelType>())
+        models.push_back(model);
+      section.choice("Model", input.model, models);
       section.choice("Dimension", input.dimension, { { "auto", std::nullopt }, { "2", 2u }, { "3", 3u } });
       add_plane(section, settings);
       section.choice("Solution", settings.solution);

@@ -9,31 +9,13 @@
 
 namespace sprag
 {
-  enum class AnalysisType
-  {
-    quasi_static,
-    slope,
-    transient,
-    contact_law,    ///< indentation by finite elements, from which the contact law of the reduced models is fitted
-    modal,          ///< undamped modes of the lever at one x, out of contact or in it
-    stability,      ///< eigenvalues of the steady slide, what feeds them, and where it loses stability or jams
-    map,            ///< the same over a grid of two parameters
-    sprag_slip,     ///< the steady slide perturbed, in time, against its eigenvalue; limit cycles
-    calibration,    ///< leaf thickness and added mass for a given k and J; constants of the reduced models for a mesh
-    isolation,      ///< a table on a spring and a damper over a base that moves
-    identification, ///< friction, spring and geometry from a measured stroke
-    design,         ///< the lever that meets demands, and the best of them by an aim
-    study           ///< any of these but map and design, run after run at other values of the parameters
-  };
+  /// Names what a run finds; a study runs any of those before the map at other values of the parameters.
+  SPRAG_ENUMERATION(AnalysisType, quasi_static, slope, transient, contact_law, modal, stability, sprag_slip, calibration,
+                    isolation, map, identification, design, study)
 
-  enum class ModelType
-  {
-    closed_form,
-    rigid,     ///< rotation of a rigid lever
-    beam,      ///< Hermite beam elements
-    condensed, ///< vibration modes and static face shapes of the finite elements
-    finite_element
-  };
+  /// The lever is massless and ideal (closed form), a rigid one that turns, of Hermite beam elements, of vibration modes and
+  /// static face shapes of the finite elements (condensed), or of finite elements.
+  SPRAG_ENUMERATION(ModelType, closed_form, rigid, beam, condensed, finite_element)
 
   inline bool is_meshed(const ModelType model)
   {

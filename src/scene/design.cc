@@ -3,8 +3,6 @@
 
 #include "base/pages.h"
 
-#include <boost/algorithm/string/replace.hpp>
-
 namespace sprag
 {
   namespace
@@ -12,11 +10,10 @@ namespace sprag
     std::vector<DesignQuantityInfo> quantities_on_page()
     {
       std::vector<DesignQuantityInfo> all;
-      for (const auto &[identifier, quantity] : enumerators(DesignQuantity()))
+      for (const auto &[name, quantity] : enumerator_words<DesignQuantity>())
       {
         if (quantity == DesignQuantity::parameter)
           break;
-        const auto name   = boost::algorithm::replace_all_copy(identifier, "_", " ");
         const auto &cells = value_for(page_table("quantity").rows, name);
         all.push_back({ quantity, name, cells.at("unit"), cells.at("definition") });
       }

@@ -28,3 +28,14 @@ TEST(Choices, WhatIsNoneOfThemIsRefused)
   EXPECT_THROW(word_for(colours, Colour::blue), std::out_of_range);
   EXPECT_THROW(value_for(colours, "blue"), std::out_of_range);
 }
+
+namespace
+{
+  SPRAG_ENUMERATION(Shade, dark_red, blue)
+}
+
+TEST(Choices, AnEnumerationNamesItsValues)
+{
+  EXPECT_EQ(enumerators(Shade()), (Choices<Shade>{ { "dark_red", Shade::dark_red }, { "blue", Shade::blue } }));
+  EXPECT_EQ(words_in(enumerator_words<Shade>()), (std::vector<std::string>{ "dark red", "blue" }));
+}
