@@ -185,7 +185,8 @@ TEST(SummaryTable, FindsTheRowWhoseStarStandsForLeast)
   std::vector<Entry> entries = { { "peak_P_forward", 2. }, { "critical_x_1", 3., "mm", "own" }, { "own", 1., "s", "own" } };
   describe_summary(AnalysisType::stability, entries);
   EXPECT_EQ(entries[0].description, "");
-  EXPECT_EQ(entries[1].unit + entries[1].description, "mmvalue at which the verdict changes along the parameter; own");
+  EXPECT_EQ(entries[1].unit + entries[1].description,
+            "mmvalue at which the verdict changes along the parameter, on the better side; printed rounded to it; own");
   EXPECT_EQ(entries[2].unit + entries[2].description, "sown");
 
   // Headlines are what `!` marks and what an analysis describes itself.
