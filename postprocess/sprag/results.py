@@ -11,7 +11,7 @@ from typing import NamedTuple, Optional
 import h5py
 import numpy as np
 
-from .parameters import parse_value
+from .parameters import parse
 
 KNOWN = ("table", "face", "summary", "meta")
 WAYS = {"forward": 1, "backward": -1}
@@ -146,16 +146,13 @@ class Result:
         """Tells if a column exists and holds at least one number."""
         return column in self.table and bool(np.isfinite(self.table[column]).any())
 
+    @cached_property
+    def _parsed_parameters(self):
+        return parse(self.parameters)
+
     def parameter(self, section, name):
         """The text of a parameter as used; KeyError if there is none."""
-        found = re.search(
-            rf"^subsection {re.escape(section)}\n(?:(?!end$).*\n)*?\s*set {re.escape(name)}\s*=([^#\n]*)",
-            self.parameters,
-            re.MULTILINE,
-        )
-        if not found:
-            raise KeyError(f"{section}/{name}")
-        return parse_value(found.group(1))
+        return self._parsed_parameters[f"{section}/{name}"].text
 
     @cached_property
     def ways(self):
