@@ -10,8 +10,8 @@ _sprag()
     while read -r line; do
       case $line in
         'subsection '*) section=${line#subsection } ;;
-        'set '*)
-          name=${line#set }
+        'set '* | '#set '*)
+          name=${line#*set }
           name=${name%%=*}
           name=$section/${name%"${name##*[![:space:]]}"}
           [[ $name != "${word//\\/}"* ]] || COMPREPLY+=("$(printf %q "$name")=")
