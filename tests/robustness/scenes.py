@@ -131,9 +131,9 @@ SWEEPS = {
 
 
 def program_columns():
-    """Names of the columns that every table has, in the order of src/results/columns.cc."""
-    text = (SOURCE / "src/results/columns.cc").read_text(encoding="utf-8").partition("add_sensors")[0]
-    return " ".join(re.findall(r'"([\w ]+)"', text)).split()
+    """Names of the columns that every table has, in the order of src/results/columns.h."""
+    text = (SOURCE / "src/results/columns.h").read_text(encoding="utf-8")
+    return re.search(r"SPRAG_ENUMERATION\(Column,([^)]*)\)", text)[1].replace(",", " ").split()
 
 
 def parameter(text, section, name):
