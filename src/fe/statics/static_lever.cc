@@ -204,18 +204,18 @@ namespace sprag
   template <int dim>
   DofSelection StaticLever<dim>::find_candidates(const Step &step)
   {
-    const auto end       = interface_displacements(step.trial.coordinates);
-    const double begin_x = step.start.x - support_displacement(step.displacements);
-    const double x       = step.trial.drive.x - support_displacement(end);
-    DofSelection result  = step.forces.dofs;
+    const auto end              = interface_displacements(step.trial.coordinates);
+    const double begin_relative = step.start.x - support_displacement(step.displacements);
+    const double relative       = step.trial.drive.x - support_displacement(end);
+    DofSelection result         = step.forces.dofs;
     for (unsigned int i = 0; i < layout.levers; ++i)
     {
       auto &[properties, contact] = levers[i];
       const double rest = properties.spring.rest, theta = rest + end[layout.rotation(i)];
-      const double travel =
-          properties.centre(x, theta).xi - properties.centre(begin_x, rest + step.displacements[layout.rotation(i)]).xi;
+      const double travel = properties.centre(relative, theta).xi -
+                            properties.centre(begin_relative, rest + step.displacements[layout.rotation(i)]).xi;
       DofSelection lever_dofs;
-      for (const unsigned int dof : contact.candidate_dofs(x, { { theta } }, travel))
+      for (const unsigned int dof : contact.candidate_dofs(relative, { { theta } }, travel))
         lever_dofs.push_back(joined_dof(layout, i, dof));
       result = united(result, lever_dofs);
     }
