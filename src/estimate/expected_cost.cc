@@ -143,7 +143,7 @@ namespace sprag
         work.slides += 6.;
       for (const auto &range : critical_searches(scene).value_or(std::vector<ParameterRange>()))
       {
-        const double values = range.points + expected_values_between;
+        const double values = range.points + expected_values_between(scene);
         work.slides += values * (range.name == "Stability/Position" ? 1. : searched_slides(scene));
         if (is_meshed(scene.analysis.model) && changes_mesh(scene, range))
           work.meshes += values;

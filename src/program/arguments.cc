@@ -65,10 +65,11 @@ namespace sprag
     {
       namespace fs           = std::filesystem;
       const auto &name       = arguments.shipped_scene;
-      const fs::path shipped = shipped_file("params/" + name + ".prm");
+      const fs::path folder  = fs::path(shipped_file("params/own-device.prm")).parent_path();
+      const fs::path shipped = folder / (name + ".prm");
       std::error_code error;
       std::vector<std::string> names;
-      for (const auto &entry : fs::directory_iterator(shipped.parent_path(), error))
+      for (const auto &entry : fs::directory_iterator(folder, error))
         if (entry.path().extension() == ".prm")
           names.push_back(entry.path().stem());
       if (std::find(names.begin(), names.end(), name) == names.end())

@@ -61,13 +61,13 @@ namespace sprag
       const auto ranges = critical_searches(scene).value_or(std::vector<ParameterRange>());
       double expected   = 0.;
       for (const auto &range : ranges)
-        expected += range.points + expected_values_between;
+        expected += range.points + expected_values_between(scene);
       Progress progress(std::cerr, progress_style(quiet || is_reduced(scene.analysis.model)), std::max(1., expected));
       double begun = 0.;
       std::vector<CriticalSearch> result;
       for (const auto &range : ranges)
       {
-        const double own = range.points + expected_values_between; // where it takes more the bar waits for the end
+        const double own = range.points + expected_values_between(scene); // where it takes more the bar waits for the end
         double done      = 0.;
         const auto tried = [&] { progress.update(begun + std::min(++done, own - 0.5), {}); };
         // Meshes that serve for one value alone are not worth a place in the cache.

@@ -13,6 +13,7 @@ import h5py
 from runs import ROOT, add_program, print_row
 
 ALONE = {"Stability/Critical": "none", "Stability/Roles": "off"}
+RANGES = "Contact/Damping 0.01 0.1; Friction/Factor 0.8 1.2"
 CASES = [
     ("model-a", {}),
     ("model-a", {"Mesh/Face size": 1}),
@@ -37,6 +38,9 @@ CASES = [
     ("modal-a", {}),
     ("stability-a", {}),
     ("stability-a", {"Analysis/Model": "condensed", **ALONE}),
+    ("stability-a", {"Stability/Critical": "Lever/Depth 4 6", "Stability/Ranges": RANGES}),
+    ("stability-a", {"Stability/Critical": "Lever/Depth 15 25", "Stability/Ranges": RANGES}),
+    ("stability-a", {"Analysis/Type": "study", "Study/Type": "stability", "Study/Vary": "Lever/Depth = 5 ... 20 : 1000", **ALONE}),
     ("pair-stability-a", {}),
     ("map-offset-inclination", {}),
     ("map-friction-depth-a", {}),

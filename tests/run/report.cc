@@ -186,7 +186,7 @@ TEST(SummaryTable, FindsTheRowWhoseStarStandsForLeast)
   describe_summary(AnalysisType::stability, entries);
   EXPECT_EQ(entries[0].description, "");
   EXPECT_EQ(entries[1].unit + entries[1].description,
-            "mmvalue at which the verdict changes along the parameter, on the better side; printed rounded to it; own");
+            "mmvalue at which the verdict changes along the parameter, on the better side; own");
   EXPECT_EQ(entries[2].unit + entries[2].description, "sown");
 
   // Headlines are what `!` marks and what an analysis describes itself.

@@ -431,6 +431,11 @@ namespace sprag
     return n * (looks_over_stroke(scene) ? points_along(scene) : 1);
   }
 
+  unsigned int expected_values_between(const Scene &scene)
+  {
+    return is_reduced(scene.analysis.model) && !looks_over_stroke(scene) ? 40 : 8; // each mode of single slides is followed
+  }
+
   bool changes_mesh(const Scene &scene, const ParameterRange &range)
   {
     // Values inside the range, where a scene is admissible sooner than at its ends.

@@ -53,8 +53,8 @@ namespace sprag
     bool has_effect          = true;   ///< whether any two of the values tried differ in their growth
   };
 
-  /// Values that a search is expected to try beside the points of its range.
-  constexpr unsigned int expected_values_between = 8;
+  /// Returns the values that a search is expected to try beside the points of its range.
+  unsigned int expected_values_between(const Scene &scene);
 
   /// Limits of search_kinds().
   struct SearchEffort
