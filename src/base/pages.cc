@@ -3,7 +3,6 @@
 
 #include "base/text.h"
 
-#include <boost/algorithm/string/erase.hpp>
 #include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
@@ -36,7 +35,7 @@ namespace sprag
           continue;
         }
         for (auto &cell : cells)
-          boost::erase_all(cell, "`");
+          cell.erase(std::remove(cell.begin(), cell.end(), '`'), cell.end());
         auto &row = tables.back().rows.emplace_back(cells[1], PageCells()).second;
         for (std::size_t i = 2; i < std::min(cells.size(), heads.size()); ++i)
           row[heads[i]] = cells[i];

@@ -65,9 +65,12 @@ namespace sprag
   std::vector<std::string> split(const std::string &text, const char delimiter)
   {
     std::vector<std::string> parts;
-    std::istringstream rest(text.substr(0, text.find_last_not_of(' ') + 1));
-    for (std::string part; std::getline(rest, part, delimiter);)
-      parts.push_back(boost::algorithm::trim_copy_if(part, [](const char c) { return c == ' '; }));
+    const auto end = text.find_last_not_of(' ') + 1;
+    for (std::size_t begin = 0, stop = 0; begin < end; begin = stop + 1)
+    {
+      stop = std::min(text.find(delimiter, begin), end);
+      parts.push_back(boost::algorithm::trim_copy_if(text.substr(begin, stop - begin), [](const char c) { return c == ' '; }));
+    }
     return parts;
   }
 

@@ -242,6 +242,7 @@ namespace sprag
   {
     Scene &scene = settings.scene;
     std::vector<Parameter> all;
+    all.reserve(256); // more than there are, so that none moves
     analysis({ all, "Analysis" }, settings);
     geometry({ all, "Geometry" }, scene.geometry);
     drive({ all, "Drive" }, settings.drive);
