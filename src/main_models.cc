@@ -173,7 +173,7 @@ int main(int argc, char **argv)
     {
       if (!arguments.print_parameters.empty())
       {
-        print_for_deal_ii(printed_parameters(arguments), arguments.print_parameters == "json");
+        print_xml(printed_parameters(arguments));
         return success;
       }
       scene = load_scene(arguments);

@@ -30,8 +30,8 @@ namespace sprag
       app.add_flag("--overwrite", arguments.overwrite, "Replace whatever result is in that folder, and begin anew");
       app.add_flag("--validate", arguments.validate, "Check the file and stop");
       app.add_flag("--print-parameters{prm}", arguments.print_parameters,
-                   "Print every parameter with its meaning and stop; =xml or =json as dealii::ParameterHandler and parameter_gui")
-          ->check(CLI::IsMember({ "prm", "xml", "json" }));
+                   "Print every parameter with its meaning and stop; =xml for parameter_gui of deal.II")
+          ->check(CLI::IsMember({ "prm", "xml" }));
       auto *const quiet = app.add_flag("--quiet", arguments.quiet, "Print errors only");
       app.add_flag("--verbose", arguments.verbose, "Print every result that is in /summary")->excludes(quiet);
       app.add_flag("--trust-scripts", arguments.trust_scripts,

@@ -23,7 +23,7 @@ namespace sprag
     std::string shipped_scene = "own-device"; ///< scene that it is a copy of
     std::vector<std::string> overrides;
     std::string folder;
-    std::string print_parameters; ///< form in which to print them, prm, xml or json; empty: not at all
+    std::string print_parameters; ///< form in which to print them, prm or xml; empty: not at all
     bool validate      = false;
     bool quiet         = false;
     bool verbose       = false; ///< prints all results

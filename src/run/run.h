@@ -21,9 +21,8 @@ namespace sprag
   void print_expectations(const Scene &scene, unsigned int processes, const std::string &folder);
 
   /// Prints all parameters, whose values stand in a text in .prm form, as dealii::ParameterHandler does in XML, which its
-  /// parameter_gui edits, or JSON. A bound counts as admissible there. Throws InputError for integers that it does not read, as
-  /// 1e1.
-  void print_for_deal_ii(const std::string &text, bool as_json);
+  /// parameter_gui edits. A bound counts as admissible there. Throws InputError for integers that it does not read, as 1e1.
+  void print_xml(const std::string &text);
 
   /// Carries out the scene's analysis with its model and writes results into the folder. Throws InputError, before anything is
   /// written, for meshes and folders that cannot serve; AnalysisError when the analysis fails or deviates from the closed form by

@@ -46,7 +46,7 @@ namespace sprag
     }
   } // namespace
 
-  void print_for_deal_ii(const std::string &text, const bool as_json)
+  void print_xml(const std::string &text)
   {
     using dealii::ParameterHandler;
     SceneSettings defaults;
@@ -65,8 +65,7 @@ namespace sprag
     {
       throw InputError("--print-parameters: " + error_message(error));
     }
-    const auto form = as_json ? ParameterHandler::JSON : ParameterHandler::XML;
-    handler.print_parameters(std::cout,
-                             static_cast<ParameterHandler::OutputStyle>(form | ParameterHandler::KeepDeclarationOrder));
+    handler.print_parameters(
+        std::cout, static_cast<ParameterHandler::OutputStyle>(ParameterHandler::XML | ParameterHandler::KeepDeclarationOrder));
   }
 } // namespace sprag
