@@ -177,12 +177,12 @@ int main(int argc, char **argv)
         return success;
       }
       scene = load_scene(arguments);
+      set_up_mpi_for_one();
     }
     catch (const InputError &error)
     {
       return tell(error);
     }
-  set_up_mpi();
   RunLog log(argc, argv);
   int no_arguments = 1;
   std::optional<dealii::Utilities::MPI::MPI_InitFinalize> mpi;

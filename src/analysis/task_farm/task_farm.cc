@@ -11,6 +11,7 @@
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -69,27 +70,34 @@ namespace sprag
     }
   } // namespace
 
-  /// Numbers that all ranks count up without waiting for each other.
+  /// Numbers in memory that the ranks of a node share. Between nodes the process that owned them would have to call MPI for each
+  /// access, and a rank that works on a piece does not.
   class TaskFarm::Counters
   {
   public:
-    enum Name : MPI_Aint
+    struct Values
     {
-      group, ///< the next one to be taken
-      done,  ///< pieces
-      stop,  ///< > 0: no more are begun
-      count
+      std::atomic<std::size_t> group{ 0 }; ///< the next one of this node to be taken
+      std::atomic<std::size_t> done{ 0 };  ///< pieces
+      std::atomic<bool> stop{ false };     ///< no more are begun
     };
+    static_assert(std::atomic<std::size_t>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
     Counters()
         : exceptions(std::uncaught_exceptions())
     {
-      const int ierr =
-          MPI_Win_allocate(count * sizeof(long), sizeof(long), MPI_INFO_NULL, MPI_COMM_WORLD, static_cast<void *>(&own), &window);
+      int ierr = MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
       AssertThrowMPI(ierr);
-      std::fill_n(own, static_cast<long>(count), 0L);
+      const bool is_first = dealii::Utilities::MPI::this_mpi_process(node) == 0;
+      void *memory        = nullptr;
+      ierr =
+          MPI_Win_allocate_shared(is_first ? sizeof(Values) : 0, 1, MPI_INFO_NULL, node, static_cast<void *>(&memory), &window);
+      AssertThrowMPI(ierr);
+      MPI_Aint size = 0;
+      int unit      = 0;
+      MPI_Win_shared_query(window, 0, &size, &unit, static_cast<void *>(&memory));
+      values = is_first ? new (memory) Values : static_cast<Values *>(memory);
       MPI_Barrier(MPI_COMM_WORLD);
-      MPI_Win_lock_all(MPI_MODE_NOCHECK, window);
     }
 
     /// Not while a rank is lost: the others would wait for it.
@@ -97,29 +105,34 @@ namespace sprag
     {
       if (std::uncaught_exceptions() > exceptions)
         return;
-      MPI_Win_unlock_all(window);
       MPI_Win_free(&window);
+      MPI_Comm_free(&node);
     }
 
     Counters &operator=(Counters &&) = delete;
 
-    /// Returns what the counter was before.
-    std::size_t add(const Name name, const long amount) const
+    Values *operator->() const
     {
-      long before = 0;
-      MPI_Fetch_and_op(&amount, &before, MPI_LONG, 0, name, MPI_SUM, window);
-      MPI_Win_flush(0, window);
-      return static_cast<std::size_t>(before);
+      return values;
     }
 
-    std::size_t value(const Name name) const
+    /// Deals groups out to the ranks in turn and returns those of this node.
+    std::vector<std::vector<std::size_t>> deal(const std::vector<std::vector<std::size_t>> &groups) const
     {
-      return add(name, 0);
+      const auto rank       = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+      const auto first_rank = broadcast(node, rank);
+      const auto nodes      = gather(MPI_COMM_WORLD, first_rank);
+      std::vector<std::vector<std::size_t>> result;
+      for (std::size_t i = 0; i < groups.size(); ++i)
+        if (nodes[i % nodes.size()] == first_rank)
+          result.push_back(groups[i]);
+      return result;
     }
 
   private:
     const int exceptions;
-    long *own = nullptr;
+    MPI_Comm node  = MPI_COMM_NULL;
+    Values *values = nullptr;
     MPI_Win window{};
   };
 
@@ -235,21 +248,22 @@ namespace sprag
                            const std::function<std::string(std::size_t)> &work,
                            const std::function<void(const std::string &)> &learn)
   {
-    std::size_t total = 0;
-    for (const auto &group : groups)
-      total += group.size();
     Batch batch(*this);
     std::string failure;
     {
-      Counters counters;
+      const Counters counters;
+      const auto groups_here = counters.deal(groups);
+      std::size_t total      = 0;
+      for (const auto &group : groups_here)
+        total += group.size();
       try
       {
-        work_on(groups, work, total, counters, batch);
+        work_on(groups_here, work, total, counters, batch);
       }
       catch (const AnalysisError &error)
       {
-        failure = error.what();
-        counters.add(Counters::stop, 1);
+        failure        = error.what();
+        counters->stop = true;
       }
       wait_for_others(total, counters);
     }
@@ -261,10 +275,10 @@ namespace sprag
   }
 
   void TaskFarm::work_on(const std::vector<std::vector<std::size_t>> &groups, const std::function<std::string(std::size_t)> &work,
-                         const std::size_t total, Counters &counters, Batch &batch) const
+                         const std::size_t total, const Counters &counters, Batch &batch) const
   {
-    const auto stopped = [&] { return interrupted() || counters.value(Counters::stop) > 0; };
-    for (std::size_t next = 0; !stopped() && (next = counters.add(Counters::group, 1)) < groups.size();)
+    const auto stopped = [&] { return interrupted() || counters->stop; };
+    for (std::size_t next = 0; !stopped() && (next = counters->group++) < groups.size();)
       for (std::size_t i = 0; i < groups[next].size() && !stopped(); ++i)
       {
         const auto line = work(groups[next][i]);
@@ -272,23 +286,19 @@ namespace sprag
         if (interrupted())
           break;
         batch.add(line);
-        const auto done = counters.add(Counters::done, 1) + 1;
-        report(done, total);
+        report(++counters->done, total);
       }
     batch.write();
     if (interrupted())
       throw AnalysisError("interrupted; what is finished is kept: start the same " + words.analysis + " again to go on");
   }
 
-  /// Without the calls of MPI that keep a core busy.
+  /// Waits for the ranks of this node without the calls of MPI that keep a core busy.
   void TaskFarm::wait_for_others(const std::size_t total, const Counters &counters) const
   {
-    for (std::size_t done = 0; (done = counters.value(Counters::done)) < total && counters.value(Counters::stop) == 0;)
-    {
-      report(done, total);
-      std::this_thread::sleep_for(pause);
-    }
-    report(counters.value(Counters::done), total);
+    for (; counters->done < total && !counters->stop; std::this_thread::sleep_for(pause))
+      report(counters->done, total);
+    report(counters->done, total);
   }
 
   bool is_first_rank()

@@ -88,7 +88,7 @@ namespace sprag
     archive(items...);
   }
 
-  /// Shows on the standard error how far ranks have come.
+  /// Shows on the standard error how far the ranks of the first node have come.
   struct FarmProgress
   {
     const ProgressStyle style;
@@ -125,8 +125,9 @@ namespace sprag
     }
 
     /// Does the pieces in `groups`, whose indices `work` takes and whose lines it returns, and hands the lines of all ranks to
-    /// `learn`. A rank takes one group after another, as soon as it is free. Throws AnalysisError on all ranks when one was asked
-    /// to end, the check fails or the results log cannot be written; what was finished until then is learned.
+    /// `learn`. Groups are dealt out to the nodes; a rank takes one after another of its node's, as soon as it is free. Throws
+    /// AnalysisError on all ranks when one was asked to end, the check fails or the results log cannot be written; what was
+    /// finished until then is learned.
     void carry_out(const std::vector<std::vector<std::size_t>> &groups, const std::function<std::string(std::size_t)> &work,
                    const std::function<void(const std::string &)> &learn);
 
@@ -153,7 +154,7 @@ namespace sprag
     void check_inputs() const;
     void report(std::size_t done, std::size_t total) const;
     void work_on(const std::vector<std::vector<std::size_t>> &groups, const std::function<std::string(std::size_t)> &work,
-                 std::size_t total, Counters &counters, Batch &batch) const;
+                 std::size_t total, const Counters &counters, Batch &batch) const;
     void wait_for_others(std::size_t total, const Counters &counters) const;
   };
 

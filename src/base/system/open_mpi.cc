@@ -71,16 +71,11 @@ namespace sprag
     return false;
   }
 
-  void set_up_mpi()
+  void set_up_mpi_for_one()
   {
-    using Settings               = std::vector<std::pair<const char *, const char *>>;
-    const Settings for_one       = { { "OMPI_MCA_ess_singleton_isolated", "1" },
-                                     { "OMPI_MCA_pml", "ob1" },
-                                     { "OMPI_MCA_btl", "self" },
-                                     { "OMPI_MCA_orte_create_session_dirs", "0" },
-                                     { "HWLOC_SYNTHETIC", "core:1 pu:1" } };
-    const Settings between_nodes = { { "OMPI_MCA_osc", "^rdma" } };
-    for (const auto &[name, value] : under_mpi() ? between_nodes : for_one)
+    for (const auto &[name, value] : { std::pair{ "OMPI_MCA_ess_singleton_isolated", "1" }, std::pair{ "OMPI_MCA_pml", "ob1" },
+                                       std::pair{ "OMPI_MCA_btl", "self" }, std::pair{ "OMPI_MCA_orte_create_session_dirs", "0" },
+                                       std::pair{ "HWLOC_SYNTHETIC", "core:1 pu:1" } })
       ::setenv(name, value, 0);
   }
 

@@ -11,10 +11,9 @@ namespace sprag
   /// Returns whether mpirun has started the process.
   bool under_mpi();
 
-  /// Sets up MPI as far as the environment does not say otherwise. For one process: no daemon beside the program, no folder for
-  /// its sessions, no network and no devices looked for. For several: counters that all of them see do not take the component
-  /// `rdma` of Open MPI 4.1, which ends with MPI_ERR_WIN between nodes on TCP. To be called before MPI is initialised.
-  void set_up_mpi();
+  /// Sets up MPI for one process, as far as the environment does not say otherwise: no daemon beside the program, no folder for
+  /// its sessions, no network and no devices looked for. To be called before MPI is initialised.
+  void set_up_mpi_for_one();
 
   /// Returns whether `processes` ranks can be had: not under MPI already, not for one process, not without mpirun on the PATH.
   bool works_on_all_cores(unsigned int processes);
