@@ -11,7 +11,7 @@ COMMENT = re.compile(r"(.*?)(?: \[[^\[\]]*\])?[:;] ((?:auto or )?an? (?:number|i
 
 
 class Parameter(NamedTuple):
-    """The text of a value as used, its unit, "1" where it has none, its default's text where it was set apart from it, what it means,
+    """The text of a value as used, its unit, "1" where it has none, its default's text where a scene sets it apart from it, what it means,
     and the range of values: "a number > 0", "one of a | b"; empty where the meaning tells it."""
 
     text: str
@@ -52,7 +52,7 @@ def parse(listing):
             name, _, value = line.partition("set ")[2].partition("=")
             units = re.findall(r"\[([^\[\]]+)\](?=[:;])", comment)
             text, default = parse_value(value), re.search(r"#(?:\s*given as .*;)?\s*default:(.*)$", value)
-            apart = default and different(text, default[1].strip())
+            apart = default and line.startswith("set ") and different(text, default[1].strip())
             unit = units[-1] if units and units[-1] != "-" else "1"
             parts = COMMENT.fullmatch(comment)
             meaning, rule = (parts[1], parts[2]) if parts else (comment, "")

@@ -90,6 +90,11 @@ class PackageTest(FolderTest):
         again.write_text(self.convert("prm", written), encoding="utf-8")
         self.assertEqual(sprag.Scene(again).parameters, sprag.Scene(scene).parameters)
 
+    def test_what_a_material_sets_is_not_written(self):
+        text = str(sprag.Scene(SCENES / "own-device.prm"))
+        self.assertIn("set Made of = steel", text)
+        self.assertNotIn("Young's modulus", text)
+
     def test_dampers_are_ranked(self):
         mass, stiffness, frequency, amplitude = 0.05, 1.1, 200, 0.05
         speed, omega = 4 * math.pi * frequency * amplitude, math.sqrt(stiffness / mass)
