@@ -45,12 +45,12 @@ namespace sprag
     return found->second;
   }
 
-  /// Returns the names and values of an enumeration from 0 on, whose names stand in a text with commas between.
+  /// Returns the names of an enumeration of SPRAG_ENUMERATION with their values.
   template <class T>
-  Choices<T> numbered_choices(const std::string &names)
+  Choices<T> enumerators()
   {
     Choices<T> result;
-    for (const auto &name : split(names, ','))
+    for (const auto &name : split(enumerator_list(T()), ','))
       result.emplace_back(name, static_cast<T>(result.size()));
     return result;
   }
@@ -59,21 +59,21 @@ namespace sprag
   template <class T>
   Choices<T> enumerator_words()
   {
-    Choices<T> words = enumerators(T());
+    Choices<T> words = enumerators<T>();
     for (auto &[word, value] : words)
       std::replace(word.begin(), word.end(), '_', ' ');
     return words;
   }
 } // namespace sprag
 
-/// Defines an enumeration, and enumerators(Enumeration()), which returns its names with their values.
+/// Defines an enumeration, and enumerator_list(Enumeration()), which returns its names with commas between. Files that do not ask
+/// for enumerators() compile no more than that.
 #define SPRAG_ENUMERATION(Enumeration, ...)                                                                                      \
   enum class Enumeration : std::size_t                                                                                           \
   {                                                                                                                              \
     __VA_ARGS__                                                                                                                  \
   };                                                                                                                             \
-  inline const Choices<Enumeration> &enumerators(Enumeration)                                                                    \
+  constexpr const char *enumerator_list(Enumeration)                                                                             \
   {                                                                                                                              \
-    static const auto all = numbered_choices<Enumeration>(#__VA_ARGS__);                                                         \
-    return all;                                                                                                                  \
+    return #__VA_ARGS__;                                                                                                         \
   }

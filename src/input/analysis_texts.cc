@@ -187,7 +187,7 @@ namespace sprag
         const auto listed = split(settings.checks, ',');
         if (listed == std::vector<std::string>{ "none" })
           return;
-        const auto &models = enumerators(CheckModel());
+        const auto models = enumerators<CheckModel>();
         const auto names   = words_in(models);
         for (const auto &[word, check_model] : models)
           if (std::find(listed.begin(), listed.end(), word) != listed.end())

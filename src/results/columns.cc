@@ -14,7 +14,7 @@ namespace sprag
 {
   const std::vector<ColumnInfo> &all_columns()
   {
-    static const auto columns = page_columns("", boost::algorithm::join(words_in(enumerators(Column())), " "));
+    static const auto columns = page_columns("", boost::algorithm::join(words_in(enumerators<Column>()), " "));
     return columns;
   }
 

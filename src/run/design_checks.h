@@ -36,7 +36,7 @@ namespace sprag
 
   inline std::string model_name(const CheckModel check_model)
   {
-    return word_for(enumerators(check_model), check_model);
+    return word_for(enumerators<CheckModel>(), check_model);
   }
 
   /// Computes levers of a design again by dearer models. Forces come from steady slides at Design/Positions both ways, and one

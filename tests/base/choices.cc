@@ -36,6 +36,6 @@ namespace
 
 TEST(Choices, AnEnumerationNamesItsValues)
 {
-  EXPECT_EQ(enumerators(Shade()), (Choices<Shade>{ { "dark_red", Shade::dark_red }, { "blue", Shade::blue } }));
+  EXPECT_EQ(enumerators<Shade>(), (Choices<Shade>{ { "dark_red", Shade::dark_red }, { "blue", Shade::blue } }));
   EXPECT_EQ(words_in(enumerator_words<Shade>()), (std::vector<std::string>{ "dark red", "blue" }));
 }

@@ -120,6 +120,12 @@ class Ranks(RanksTest):
         # More rows than one process writes together, see hdf5::rows_together.
         self.assertGreater(len(fields[1]["fields-0000.h5 fields/stress"]), 8192)
         self.assertGreater(len(fields[1]["fields.xdmf numbers"]), 2)
+        # Without the elastic part a face stays a plane.
+        frame = {name: fields[1][f"fields-0000.h5 face/{name}"] for name in ("displacement", "elastic_displacement")}
+        mesh = {name: fields[1][f"fields-mesh.h5 face/{name}"] for name in ("nodes", "lever")}
+        turned = (mesh["nodes"] + frame["displacement"] - frame["elastic_displacement"])[mesh["lever"] == 1]
+        apart = np.linalg.svd(turned - turned.mean(axis=0), compute_uv=False)[2] / np.sqrt(len(turned))
+        self.assertLess(apart, 1e-5)
         for name, alone in tables[1].items():
             self.assertEqual(len(alone), len(tables[2][name]))
             apart = np.nanmax(np.abs(alone - tables[2][name])) / np.nanmax(np.abs(alone))
