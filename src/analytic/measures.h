@@ -25,6 +25,7 @@ namespace sprag
   /// Travel behind a reversal that is left out [mm]: friction turns there.
   constexpr double left_out_behind_reversal = 0.5;
 
+  /// Holds the largest relative differences of a curve from the reference [-].
   struct StrokeErrors
   {
     double P; ///< largest difference on any stroke, over the largest |P| of the reference on it

@@ -11,6 +11,7 @@
 
 namespace sprag
 {
+  /// Classifies the vibration after a reversal by its lasting amplitude and its envelope.
   enum class Verdict
   {
     unknown,  ///< fewer than two rows in the window

@@ -33,6 +33,7 @@ namespace sprag
   /// Returns the places strictly between 0 and 1 where the polynomial changes its sign, increasing, to round-off.
   std::vector<double> sign_changes(const StepPolynomial &polynomial);
 
+  /// Encloses a sign change, as fractions of the step from 0 to 1.
   struct Bracket
   {
     double from, to;

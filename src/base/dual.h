@@ -21,6 +21,7 @@ namespace sprag
     T d[n]{};
   };
 
+  /// Strips all levels of Dual from a number type.
   template <class N>
   struct PlainType
   {

@@ -44,6 +44,7 @@ namespace sprag
   /// A rule that the text of a parameter's value must keep.
   struct Rule
   {
+    /// Says which values are valid.
     enum class Kind
     {
       number,

@@ -6,6 +6,7 @@
 
 namespace sprag
 {
+  /// Holds a column of a table file.
   struct NamedColumn
   {
     std::string name;
@@ -16,6 +17,7 @@ namespace sprag
   /// A column may be called any of these; capitals do not count. Messages name the first one.
   using ColumnNames = std::vector<std::string>;
 
+  /// Holds the requested columns of a table file and the names of the others.
   struct NamedColumns
   {
     std::vector<NamedColumn> columns; ///< those asked for, in their order; one that the file lacks has neither name nor values

@@ -23,6 +23,7 @@ namespace sprag
     double smoothing = 0.;
   };
 
+  /// Selects the friction law (Friction/Law).
   enum class FrictionChoice
   {
     coulomb,

@@ -21,6 +21,7 @@ namespace sprag
     Comparable found = {};
   };
 
+  /// Says where a run writes its results, what it prints and which processes share it.
   struct RunOptions
   {
     std::string folder; ///< for results; made if it does not exist

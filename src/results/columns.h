@@ -26,6 +26,7 @@ namespace sprag
 
   inline constexpr std::size_t n_columns = static_cast<std::size_t>(Column::augmentations) + 1;
 
+  /// Describes a column of the result table.
   struct ColumnInfo
   {
     std::string name;

@@ -62,6 +62,7 @@ namespace sprag
     }
 
   private:
+    /// Keeps a state until its fields are computed.
     struct Kept
     {
       Row row;
@@ -71,6 +72,7 @@ namespace sprag
     };
     friend void serialise(Archive &archive, Kept &kept);
 
+    /// Selects the estimate by which the state of the largest stress is sought.
     enum class Estimate
     {
       force,
@@ -102,6 +104,7 @@ namespace sprag
     std::optional<double> turned; ///< travel at a turning point whose state behind it is awaited
     std::vector<double> written;  ///< times of the frames
 
+    /// Keeps the state in which an estimate is largest.
     struct Best
     {
       double value = 0.;
@@ -112,7 +115,7 @@ namespace sprag
   };
 
   /// Returns the body of a meshed model in time for its fields.
-  inline BodyFields shown_body(const Scene &scene, const Dynamics &dynamics)
+  inline BodyFields field_body(const Scene &scene, const Dynamics &dynamics)
   {
     if (dynamics.lever)
       return BodyFields(*dynamics.lever->body);

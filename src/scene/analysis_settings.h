@@ -9,12 +9,12 @@
 
 namespace sprag
 {
-  /// Names what a run finds; a study runs any of those before the map at other values of the parameters.
+  /// Selects the analysis of a run. A study repeats any of those before the map with other values of parameters.
   SPRAG_ENUMERATION(AnalysisType, quasi_static, slope, transient, contact_law, modal, stability, sprag_slip, calibration,
                     isolation, map, identification, design, study)
 
-  /// The lever is massless and ideal (closed form), a rigid one that turns, of Hermite beam elements, of vibration modes and
-  /// static face shapes of the finite elements (condensed), or of finite elements.
+  /// Selects the model of the lever: massless with ideal contact (closed form), a rigid body, Hermite beam elements, vibration
+  /// modes and constraint modes of the finite elements (condensed), or finite elements.
   SPRAG_ENUMERATION(ModelType, closed_form, rigid, beam, condensed, finite_element)
 
   inline bool is_meshed(const ModelType model)
@@ -22,7 +22,7 @@ namespace sprag
     return model == ModelType::condensed || model == ModelType::finite_element;
   }
 
-  /// Returns whether the model has a few coordinates and no mesh, so that it is checked in no time.
+  /// Returns whether the model has few coordinates and no mesh, so that it is cheap.
   inline bool is_reduced(const ModelType model)
   {
     return model == ModelType::rigid || model == ModelType::beam;
@@ -34,6 +34,7 @@ namespace sprag
   /// Says whether warnings end a run with an error.
   SPRAG_ENUMERATION(WarningTreatment, report, error)
 
+  /// Selects the analysis, the model of the lever and the limits of a run (section Analysis).
   struct AnalysisSettings
   {
     AnalysisType type         = AnalysisType::quasi_static;
@@ -48,15 +49,15 @@ namespace sprag
     WarningTreatment warnings = WarningTreatment::report;
   };
 
-  /// Asks for an accuracy or a cost, from which the settings follow that a file leaves open.
+  /// Holds the section Accuracy: a target or a budget, from which the program chooses the settings that a file leaves open.
   struct AccuracySettings
   {
-    double target          = 0.;         ///< relative error wanted [-]; 0: nothing follows from it
+    double target          = 0.;         ///< relative error [-]; 0: chooses nothing
     std::string quantity   = "auto";     ///< names of quantities of /accuracy, separated by commas
     double budget          = 0.;         ///< CPU time that a run may take [s]; 0: any
     bool is_model_open     = false;      ///< Analysis/Model = auto
     bool is_dimension_open = false;      ///< Analysis/Dimension = auto
-    std::vector<std::string> quantities; ///< those meant
+    std::vector<std::string> quantities; ///< that `quantity` stands for
 
     bool is_asked_for() const
     {

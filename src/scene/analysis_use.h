@@ -10,16 +10,16 @@ namespace sprag
 {
   struct Scene;
 
-  /// Returns whether an analysis looks at the slide held at one x.
+  /// Returns whether an analysis examines steady sliding frozen at one x.
   bool holds_slide(AnalysisType type);
 
   /// Returns whether an analysis takes a model of Analysis/Model, of one lever or a pair, along the drive or held at one x of it.
   bool runs_model(AnalysisType type);
 
-  /// Returns whether an analysis has pieces that several processes share.
+  /// Returns whether an analysis distributes its parts over several processes.
   bool works_in_parallel(AnalysisType type);
 
-  /// Returns whether several processes share the body of an analysis, which is in three dimensions or may turn out to be.
+  /// Returns whether several processes share one body: in three dimensions, or where the program chooses the dimension.
   bool shares_body(const Scene &scene);
 
   /// Returns whether the table of an isolation system works against levers of a model in time.
@@ -34,19 +34,18 @@ namespace sprag
   /// Returns whether anything of the scene is meshed, apart from a leaf spring and the levers of a design.
   bool needs_mesh(const Scene &scene);
 
-  /// Returns whether formulas give the results and no model is made: of the slope's sweep, an isolation system without such
-  /// levers, the closed form, and in time the ideal contact of a rigid lever.
+  /// Returns whether formulas give the results without a model: for slope curves, the closed form, isolation systems without
+  /// levers of a model, and a rigid lever in ideal contact in time.
   bool follows_formulas(const Scene &scene);
 
-  // The quantities whose errors are told in /accuracy and may be asked for in Accuracy/Quantity, by their names.
+  // Names of the quantities in /accuracy, with estimated errors, that Accuracy/Quantity can refer to.
 
-  /// Returns those that an analysis tells; none where it tells none.
+  /// Returns those of an analysis; empty if it estimates no errors.
   std::vector<std::string> accuracy_quantities(AnalysisType type);
 
-  /// Returns those that a text of Accuracy/Quantity means: those that it names, or with auto those that an analysis is mostly
-  /// asked for.
+  /// Returns those that a text of Accuracy/Quantity names, or with auto the main ones of an analysis.
   std::vector<std::string> quantities_meant(const std::string &text, AnalysisType type);
 
-  /// Returns whether a parameter, "Mesh/Face size", was left open: not given, or as auto.
+  /// Returns whether a parameter such as "Mesh/Face size" is not given, or given as auto.
   bool is_open(const Scene &scene, const std::string &parameter);
 } // namespace sprag

@@ -9,7 +9,7 @@
 
 namespace sprag
 {
-  /// Motion of the base at an instant.
+  /// Holds the motion of the base at an instant.
   struct BasePoint
   {
     double x;    ///< displacement [mm]

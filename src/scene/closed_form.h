@@ -31,6 +31,7 @@ namespace sprag
   /// Returns mu at x while moving at v, by the speed that the scene's law refers to.
   FrictionValue sliding_friction(const Device &device, double x, double v);
 
+  /// Holds contact, sliding speed and forces of the closed form at one position of the drive.
   struct ClosedFormState
   {
     Kinematics contact;
@@ -71,6 +72,7 @@ namespace sprag
   /// Finds the first instant of the drive at which the lever locks, to 0.1 mm; none if the whole drive is free of it.
   std::optional<Locking> locking(const Device &device);
 
+  /// Holds the work of the drive and the part that friction dissipates.
   struct Work
   {
     double drive    = 0.; ///< integral of Q dx [N mm]

@@ -12,12 +12,14 @@ namespace sprag
   // Dampers of an isolation system act alike on both sides of z = 0. y = |z| is the way from there; `away` is +1 while it grows
   // and -1 while it shrinks. The force against the sign of z is the resistance.
 
+  /// Holds the force of a damper against the motion away from z = 0, and its dissipation.
   struct Resistance
   {
     double force;      ///< [N]
     double dissipated; ///< power [N mm/s]
   };
 
+  /// Describes a damper by functions of displacement and speed.
   struct Damper
   {
     /// Returns the resistance at y >= 0 and a speed |z'| >= 0 [mm/s]. A little beyond these bounds, where trial steps end, it

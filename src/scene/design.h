@@ -13,13 +13,13 @@ namespace sprag
 {
   // Settings of a design: demands on the lever, its free parameters and its aims.
 
-  /// Quantity of a demand or an aim: those of params/design.md, and `parameter` for one of the free parameters.
+  /// Names a quantity of a demand or an aim, as in params/design.md; `parameter` stands for a free parameter.
   SPRAG_ENUMERATION(DesignQuantity, damping_slope, restoring_slope, forward_slope, backward_slope, friction_ratio, slope_ratio,
                     force_ratio, nonlinearity, largest_force, largest_normal_force, largest_pressure, loop_area, jamming_margin,
                     reach, inclination, lever_length, transmissibility, relative_amplitude, residual_offset, growth_rate,
                     parameter)
 
-  /// A parameter that is free between two bounds, by its --set name.
+  /// Names a free parameter as in --set, and its bounds.
   struct FreeParameter
   {
     std::string name;
@@ -28,12 +28,14 @@ namespace sprag
     std::string unit;
   };
 
+  /// Refers to a quantity or to one of the free parameters.
   struct DesignTerm
   {
     DesignQuantity quantity = DesignQuantity::damping_slope;
-    std::size_t parameter   = 0; ///< place among the free ones, of DesignQuantity::parameter
+    std::size_t parameter   = 0; ///< index of the free parameter, for DesignQuantity::parameter
   };
 
+  /// Compares a value with the target of a demand.
   enum class DemandKind
   {
     at_most,
@@ -41,15 +43,17 @@ namespace sprag
     equal ///< within a tolerance
   };
 
+  /// Constrains a quantity of the designed lever.
   struct Demand
   {
     DesignTerm term;
     DemandKind kind  = DemandKind::at_most;
     double target    = 0.;
     double tolerance = 0.; ///< of `equal`, > 0
-    std::string text;      ///< as it was given, single-spaced
+    std::string text;      ///< as in the file, single-spaced
   };
 
+  /// Names a quantity to be minimised or maximised.
   struct DesignAim
   {
     DesignTerm term;
@@ -57,10 +61,11 @@ namespace sprag
     std::string text;
   };
 
-  /// Model that computes a proposed lever again: the isolated table in time on levers of the closed form, or a lever. Each is
-  /// dearer than the one before it.
+  /// Selects the model that checks a proposed lever, in order of cost: the isolated table in time on levers of the closed form, a
+  /// beam or a condensed lever.
   SPRAG_ENUMERATION(CheckModel, table, beam, condensed)
 
+  /// Holds the section Design: free parameters, demands, aims and the effort of the search.
   struct DesignSettings
   {
     std::string free    = "Rotational spring/Stiffness = 1e4 ... 2e5";
@@ -84,6 +89,7 @@ namespace sprag
 
   // The quantities that a design can demand or aim at. Forces and slopes are of one lever.
 
+  /// Describes a quantity that designs can use.
   struct DesignQuantityInfo
   {
     DesignQuantity quantity;
@@ -99,11 +105,11 @@ namespace sprag
 
   std::optional<DesignQuantity> find_design_quantity(const std::string &name);
 
-  /// Returns whether a design demands or aims at a quantity that `is_meant` accepts.
+  /// Returns whether a design demands or aims at a quantity that `accepts` returns true for.
   template <class Condition>
-  bool asks_for(const DesignSettings &design, const Condition &is_meant)
+  bool asks_for(const DesignSettings &design, const Condition &accepts)
   {
-    const auto is_it = [&](const auto &asked) { return is_meant(asked.term.quantity); };
+    const auto is_it = [&](const auto &use) { return accepts(use.term.quantity); };
     return std::any_of(design.demanded.begin(), design.demanded.end(), is_it) ||
            std::any_of(design.aims.begin(), design.aims.end(), is_it);
   }
@@ -111,6 +117,6 @@ namespace sprag
   /// Returns whether a design demands or aims at this quantity.
   bool asks_for(const DesignSettings &design, DesignQuantity quantity);
 
-  /// Returns whether a quantity is of the table on its levers, not of a lever alone.
+  /// Returns whether a quantity describes the isolated table rather than a lever.
   bool is_table_quantity(DesignQuantity quantity);
 } // namespace sprag

@@ -8,15 +8,17 @@
 
 namespace sprag
 {
-  /// With ideal contact a rigid lever always touches, theta follows from the drive.
+  /// Selects the contact of a rigid lever. With ideal contact it always touches, and theta follows from the drive.
   SPRAG_ENUMERATION(ContactType, compliant, ideal)
 
+  /// Selects how the contact of meshed levers is enforced.
   enum class Enforcement
   {
     penalty,
     augmented_lagrangian
   };
 
+  /// Holds the section Contact: enforcement for meshed levers, contact law for reduced ones.
   struct ContactSettings
   {
     Enforcement enforcement = Enforcement::penalty;
@@ -29,16 +31,16 @@ namespace sprag
     ContactType type = ContactType::compliant;
     double stiffness = 2000.;                   ///< k [N/mm^n], > 0
     double exponent  = 1.;                      ///< n, >= 1
-    double damping   = 0.02;                    ///< of critical, of the lever's inertia on the contact, see contact_time()
+    double damping   = 0.02;                    ///< ratio to critical damping of the lever on the contact stiffness
     std::optional<double> tangential_stiffness; ///< in stick [N/mm]; none: from the layer's shear
   };
 
   /// Time integration by the generalised-alpha method.
   struct TimeSettings
   {
-    double step      = 5e-5; ///< first step, or every step [s], > 0
-    double tolerance = 5e-3; ///< of the adaptive step: error of P aimed at, over its largest quasi-static value; 0: fixed step
-    double spectral_radius = 0.8; ///< at infinite frequency, 0 ... 1
+    double step            = 5e-5; ///< first step, or every step [s], > 0
+    double tolerance       = 5e-3; ///< of the adaptive step: error of P over its largest quasi-static value; 0: fixed step
+    double spectral_radius = 0.8;  ///< at infinite frequency, 0 ... 1
   };
 
   /// Basis of the condensed model.
@@ -48,23 +50,24 @@ namespace sprag
     std::string cache;       ///< folder of stored bases; empty: the user's cache folder
   };
 
+  /// Holds the section Mesh: element sizes and degree of the lever.
   struct MeshSettings
   {
     double face_size        = 0.5; ///< element length along the friction face [mm], > 0
     double faces_in_contact = 0.;  ///< least number of faces across the contact, see face_grading(), >= 0
     unsigned int degree     = 2;   ///< 1 or 2
     std::string file;              ///< user's .geo or .msh; empty: the built-in lever
-    unsigned int halvings = 0;     ///< of the sides of the file's elements; no parameter, but of a mesh to compare with
+    unsigned int halvings = 0;     ///< of the sides of the file's elements; set by the program for comparisons
 
     // In three dimensions.
     unsigned int elements_across = 10;  ///< over the width, > 0
     double growth_across         = 1.2; ///< of an element over the one beside it, from the edges to the middle, >= 1
   };
 
-  /// Fields are written at every reversal and at the end (turning points), at every `field_interval` of travel too (interval), or
-  /// not.
+  /// Selects when fields are written: never, at reversals and at the end, or also at every `field_interval` of travel.
   SPRAG_ENUMERATION(FieldOutput, none, turning_points, interval)
 
+  /// Says at which instants fields are written for ParaView.
   struct OutputSettings
   {
     FieldOutput fields    = FieldOutput::turning_points;

@@ -85,6 +85,7 @@ namespace sprag
     /// samples of a table if there are at most 2000.
     const std::vector<double> &kinks() const;
 
+    /// Selects the limit from before or from after an instant.
     enum class Side
     {
       before,

@@ -24,6 +24,7 @@ namespace sprag
     lag                  ///< of all forces behind x [s]
   };
 
+  /// Names the force that a column of a measurement holds.
   enum class MeasuredForce
   {
     normal, ///< P
@@ -31,6 +32,7 @@ namespace sprag
     sensors ///< sum of the friction plate's force sensors, which is P without inertia
   };
 
+  /// Holds a measured force over the rows of a measurement.
   struct ForceChannel
   {
     MeasuredForce force;
@@ -50,12 +52,14 @@ namespace sprag
     }
   };
 
+  /// Selects the loss function of the residuals.
   enum class IdentificationLoss
   {
     squares,
     huber ///< squares up to 1.345 standard deviations, lines beyond
   };
 
+  /// Holds the section Identification: the measurement, the unknowns and the method of the fit.
   struct IdentificationSettings
   {
     std::string table;

@@ -12,9 +12,10 @@ namespace sprag
   // A table on a restoring spring and a damper, whose base moves: Fig. 2 of the paper. z is its displacement relative to the
   // base.
 
+  /// Selects the damper between table and base.
   enum class DamperType
   {
-    lever,             ///< inclined levers of the scene: a mirrored pair for each sign of z
+    lever,             ///< the levers of the scene: a mirrored pair for each sign of z
     constant_friction, ///< F0 against the motion
     linear_friction,   ///< c |z| against the motion
     beucke,            ///< viscous, constant and linear friction together
@@ -24,15 +25,17 @@ namespace sprag
     none
   };
 
-  /// The base rests, moves by a sine of one frequency or of one that changes (sweep), by one pulse (shock), or has the
-  /// acceleration of a given spectrum (random) or of a file (record).
+  /// Selects the motion of the base: none, a sine, a sine of changing frequency (sweep), one pulse (shock), an acceleration of
+  /// given spectrum (random) or one from a file (record).
   SPRAG_ENUMERATION(BaseMotionType, none, harmonic, sweep, shock, random, record)
 
+  /// Selects how the frequency of a sweep changes with time.
   SPRAG_ENUMERATION(SweepForm, linear, logarithmic)
 
-  /// A shock is half a period of a sine of acceleration, or a step of displacement along half a cosine.
+  /// Selects the shock: half a sine of acceleration, or a step of displacement along half a cosine.
   SPRAG_ENUMERATION(ShockForm, half_sine, step)
 
+  /// Selects the spectrum of a random base motion.
   enum class BaseSpectrum
   {
     kanai_tajimi,
@@ -49,23 +52,24 @@ namespace sprag
     g
   };
 
-  /// A run ends with its duration, or once periods repeat, at the latest after the duration.
+  /// Says when a run ends: after its duration, or earlier once periods repeat.
   SPRAG_ENUMERATION(IsolationEnd, duration, steady_state)
 
-  /// Values over an increasing quantity, joined by lines.
+  /// Holds a piecewise linear function by its samples.
   struct Samples
   {
-    std::vector<double> at;
+    std::vector<double> at; ///< increasing
     std::vector<double> values;
   };
 
-  /// The loop of a damper: Q over |z| [N, mm], both from the same |z| = 0 to the same largest.
+  /// Holds the loop of a damper: Q over |z| [N, mm] on the outward and the return stroke, both from 0 to the same largest |z|.
   struct DamperLoop
   {
     Samples out;
     Samples back;
   };
 
+  /// Holds the section Isolation: table, damper, motion of the base and time integration.
   struct IsolationSettings
   {
     double mass         = 0.05; ///< of the table [t], > 0

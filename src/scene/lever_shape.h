@@ -30,7 +30,7 @@ namespace sprag
   double sensors_across(const Device &device);
 
   /// Returns whether lever, cylinder and motion are the same on both sides of the middle of the width, so that one half is
-  /// enough: an axis that its shaft lets yield then stays as it is. Modes need not be the same.
+  /// enough: the axis of a cylinder on an elastic shaft then does not turn. Vibration modes need not be symmetric.
   bool is_symmetric_across(const Device &device);
 
   /// Returns the planes between the elements across the width of three dimensions, from its middle, growing from both edges to

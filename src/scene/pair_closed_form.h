@@ -18,6 +18,7 @@ namespace sprag
   /// Returns the inclinations of both levers at x, with or without contact [rad].
   std::array<double, 2> pair_inclinations(const Device &device, double x);
 
+  /// Holds the state of one lever of a pair by the closed form.
   struct PairedLever
   {
     ClosedFormState state;       ///< without contact of its theta alone, the rest 0

@@ -5,6 +5,6 @@
 
 namespace sprag
 {
-  /// Behaviour of a part of a plane model out of the plane.
+  /// Selects plane stress or plane strain for a part of a plane model.
   SPRAG_ENUMERATION(PlaneState, stress, strain)
 } // namespace sprag

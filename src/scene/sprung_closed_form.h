@@ -19,6 +19,7 @@ namespace sprag
     {
     }
 
+    /// Holds lever and pivot frame at the last position.
     struct State
     {
       ClosedFormState lever;      ///< at x - u

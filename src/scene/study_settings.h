@@ -10,30 +10,32 @@
 
 namespace sprag
 {
-  /// A curve is C_Q over mu at the scene's geometry (Fig. 10), or over th0 for a list of e/R at the scene's mu (Fig. 11).
+  /// Selects the abscissa of a slope curve: C_Q over mu at the scene's geometry (Fig. 10), or over th0 at the scene's mu for
+  /// several e/R (Fig. 11).
   SPRAG_ENUMERATION(SlopeSweep, coefficient, inclination)
 
+  /// Selects the curves of the representative slope C_Q that an analysis `slope` computes.
   struct SlopeSettings
   {
     SlopeSweep sweep                  = SlopeSweep::coefficient;
-    unsigned int n_points             = 121;
-    double maximum_coefficient        = 1.2;
-    double maximum_inclination        = 1.0471975511965976; ///< [rad]
-    std::vector<double> offset_ratios = { 0., 0.2, 0.4, 0.6, 0.8 };
+    unsigned int n_points             = 121;                        ///< of each curve
+    double maximum_coefficient        = 1.2;                        ///< largest mu of a curve over mu
+    double maximum_inclination        = 1.0471975511965976;         ///< largest th0 of a curve over th0 [rad]
+    std::vector<double> offset_ratios = { 0., 0.2, 0.4, 0.6, 0.8 }; ///< e/R, a curve each
   };
 
-  /// A parameter by its --set name and the values that it takes, as texts.
+  /// Names a parameter as in --set, and its values as texts.
   struct VariedParameter
   {
     std::string name;
     std::vector<std::string> values;
   };
 
-  /// Values of several parameters combine to a grid, each with each of the others, or as a list: the first of all, the second of
-  /// all ...
+  /// Says how the values of several parameters combine: to a grid of all combinations, or to a list of the first values, the
+  /// second values, ...
   SPRAG_ENUMERATION(Combination, grid, list)
 
-  /// Runs of one analysis of the scene at other values of its parameters.
+  /// Holds the section Study: one analysis, repeated with other values of parameters.
   struct StudySettings
   {
     AnalysisType type   = AnalysisType::quasi_static; ///< of each run
@@ -46,10 +48,10 @@ namespace sprag
     std::vector<VariedParameter> reference_values; ///< one value each
   };
 
-  /// Added mass is Lever/Hub inertia or Lever/Tip mass.
+  /// Selects the mass that a calibration adjusts: Lever/Hub inertia or Lever/Tip mass.
   SPRAG_ENUMERATION(AddedMass, hub, tip)
 
-  /// Targets that a calibration gives the meshed parts.
+  /// Holds the section Calibration: target values for the meshed parts.
   struct CalibrationSettings
   {
     std::optional<double> stiffness;         ///< k [N mm/rad] by the leaf spring's thickness; none: the leaf as it is

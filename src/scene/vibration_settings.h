@@ -8,26 +8,27 @@
 
 namespace sprag
 {
-  /// A single slide of both directions is the one backward.
+  /// Selects the directions of steady sliding. Analyses of a single slide take `both` as backward.
   SPRAG_ENUMERATION(Direction, forward, backward, both)
 
-  /// Contact between cylinder and lever in undamped modes.
+  /// Selects the contact between cylinder and lever for undamped modes.
   SPRAG_ENUMERATION(HeldContact, open, frictionless, stuck)
 
-  /// Linearised vibration about a steady slide held at one x.
+  /// Holds the section Stability: vibration linearised about steady sliding frozen at one x (a held slide).
   struct StabilitySettings
   {
-    std::optional<double> position; ///< x [mm]; none: the whole stroke for a verdict, the drive's largest for a single slide
+    std::optional<double>
+        position; ///< x [mm]; none: the whole stroke for a verdict, the largest x of the drive for a single slide
     Direction direction  = Direction::both;
     unsigned int modes   = 10;                        ///< reported, lowest first, > 0
     bool damping         = true;                      ///< false: no damping of lever, support and contact
     HeldContact contact  = HeldContact::frictionless; ///< of modal analyses
     std::string critical = "auto";                    ///< parameters searched for critical values, see critical_searches()
-    bool roles           = true;                      ///< whether flexure, inertia ... are left out in turn
+    bool roles           = true;                      ///< whether the slide is repeated without flexure, without inertia ...
     std::string ranges   = "none";                    ///< parameters over which a verdict is the worst, see uncertain_ranges()
   };
 
-  /// A parameter by its --set name, over a range.
+  /// Names a parameter as in --set, and its range.
   struct ParameterRange
   {
     std::string name;
@@ -36,6 +37,7 @@ namespace sprag
     unsigned int points = 2; ///< ends included
   };
 
+  /// Selects the two parameters of a stability map and the refinement of its boundaries.
   struct MapSettings
   {
     ParameterRange first{ "Friction/Factor", 0.5, 2., 33 };
@@ -44,14 +46,14 @@ namespace sprag
     unsigned int bisections = 3; ///< of each edge that a boundary crosses
   };
 
-  /// Perturbation of a held slide in time, and its limit cycles up and down the stroke.
+  /// Holds the section Sprag-slip: growth of a perturbation in time, and limit cycles along the stroke.
   struct SpragSlipSettings
   {
     double initial                = 1e-6; ///< amplitude over the mean penetration, > 0
-    double final                  = 1e-3; ///< up to which growth is fitted; a stable slide begins there
+    double final                  = 1e-3; ///< up to which growth is fitted; the perturbation of a stable slide begins there
     unsigned int steps_per_period = 128;
-    double longest_growth         = 2.;  ///< [s]
-    double settling               = 0.3; ///< at each x, before the cycle is told [s]
+    double longest_growth         = 2.;  ///< time limit of the growth [s]
+    double settling               = 0.3; ///< time at each x before the cycle is measured [s]
     unsigned int continuation     = 14;  ///< intervals up and down the stroke; 0: none
     std::optional<double> turn;          ///< x at which the continuation turns; none: the drive's smallest
   };

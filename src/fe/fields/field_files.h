@@ -67,6 +67,7 @@ namespace sprag
     void serialise_progress(Archive &archive);
 
   private:
+    /// Collects what the index file (XDMF) of one mesh says.
     struct Index
     {
       std::string path;

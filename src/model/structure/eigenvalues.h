@@ -10,6 +10,7 @@
 
 namespace sprag
 {
+  /// Holds an eigenvalue and its right eigenvector.
   struct Eigenpair
   {
     std::complex<double> value; ///< imaginary part >= 0; of a complex pair the one with the positive one stands for both
