@@ -45,7 +45,7 @@ namespace sprag
 
     std::string describe_end(const WorkEnd &end)
     {
-      const bool by_user = end.asked || end.signal == SIGINT || end.signal == SIGTERM || end.signal == SIGHUP;
+      const bool by_user = end.requested || end.signal == SIGINT || end.signal == SIGTERM || end.signal == SIGHUP;
       if (by_user)
         return interruption;
       if (end.signal == SIGKILL)

@@ -38,7 +38,7 @@ namespace sprag
     namespace MPI = dealii::Utilities::MPI;
 
     /// Processes of another program or scene than the first's would wait for what never comes, or give other results.
-    void require_alike_processes(const Scene &scene, const std::string &folder)
+    void require_equal_arguments(const Scene &scene, const std::string &folder)
     {
       Fingerprint run_fingerprint;
       run_fingerprint.add(program_fingerprint());
@@ -73,7 +73,7 @@ namespace sprag
       }
       const std::string folder = result_folder(arguments, scene);
       if (!rank.is_alone)
-        require_alike_processes(scene, folder);
+        require_equal_arguments(scene, folder);
       const auto claim = [&]
       {
         claim_folder(folder, scene, arguments.overwrite);

@@ -243,12 +243,12 @@ namespace sprag
       /// A step of the error asked for; returns its duration.
       double accepted_step(const double until, Values &end)
       {
-        const double room = step_end(until) - now.time;
-        for (double duration = std::min({ next_step, longest_step, room });;)
+        const double remaining = step_end(until) - now.time;
+        for (double duration = std::min({ next_step, longest_step, remaining });;)
         {
           double error        = 0.;
           end                 = tried(duration, error);
-          const bool is_whole = duration == room;
+          const bool is_whole = duration == remaining;
           const double factor = std::clamp(0.9 * std::pow(std::max(error, 1e-30) / tolerance, -0.125), 0.2, 4.);
           if (error <= tolerance)
           {
@@ -285,14 +285,14 @@ namespace sprag
         // In a short step z hardly changes, and round-off of the difference would turn its rate.
         const bool is_short = h < 1e-2 * longest_step;
         auto rate           = is_short ? cubic({ now.rate, a0 * h, 0. }, { end[1], a1 * h, 0. }) : differentiate(z);
-        auto room           = z;
+        auto clearance      = z;
         for (double &c : rate)
           c *= direction;
-        for (double &c : room)
+        for (double &c : clearance)
           c *= -side;
         for (double &c : z)
           c *= side;
-        room[0] += system.damper.reach;
+        clearance[0] += system.damper.reach;
 
         double first       = duration;
         const auto look_at = [&](const StepPolynomial &polynomial, const auto &value, const TableEvent what)
@@ -312,7 +312,7 @@ namespace sprag
             z, [this](const Values &v) { return side * v[0]; }, TableEvent::centre);
         if (std::isfinite(system.damper.reach))
           look_at(
-              room, [this](const Values &v) { return system.damper.reach - side * v[0]; }, TableEvent::end);
+              clearance, [this](const Values &v) { return system.damper.reach - side * v[0]; }, TableEvent::end);
         if (event != TableEvent::none)
           end = stepped(first);
         return first;

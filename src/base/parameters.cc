@@ -47,8 +47,8 @@ namespace sprag
     std::optional<std::string> number_violation(const Rule &rule, const std::string &value)
     {
       const auto number = leading_number(value);
-      if (const auto meant = with_decimal_point(value); meant && rule.kind != Rule::Kind::integer)
-        return "must be " + description(rule) + " with a decimal point: did you mean '" + *meant + "'?";
+      if (const auto match = with_decimal_point(value); match && rule.kind != Rule::Kind::integer)
+        return "must be " + description(rule) + " with a decimal point: did you mean '" + *match + "'?";
       if (number && !number->rest.empty())
         return "must be " + description(rule) + " and nothing else";
       const bool whole = rule.kind != Rule::Kind::integer || (number && number->value == std::floor(number->value));
@@ -269,11 +269,11 @@ namespace sprag
       {
         if (section)
           mistake(place, "subsection " + name, "subsection " + *section + " must be closed by a line 'end' before it");
-        const auto meant = section_meant(name);
-        section_known    = meant.has_value();
-        if (!section_known || *meant != name)
-          mistake(place, "subsection " + name, "no such subsection" + did_you_mean(meant));
-        section       = meant.value_or(name);
+        const auto match = closest_section(name);
+        section_known    = match.has_value();
+        if (!section_known || *match != name)
+          mistake(place, "subsection " + name, "no such subsection" + did_you_mean(match));
+        section       = match.value_or(name);
         section_place = place;
       }
 
@@ -314,11 +314,11 @@ namespace sprag
         const std::string written_section = single_spaced(text.substr(0, slash));
         const std::string name            = single_spaced(text.substr(slash + 1, equals - slash - 1));
         const std::string value           = trim(text.substr(equals + 1));
-        const auto meant                  = section_meant(written_section);
-        if (!meant || *meant != written_section)
-          mistake("--set", written_section + "/" + name + " = " + value, "no such section" + did_you_mean(meant));
-        if (meant)
-          assign("--set", *meant + "/" + name, value, true);
+        const auto match                  = closest_section(written_section);
+        if (!match || *match != written_section)
+          mistake("--set", written_section + "/" + name + " = " + value, "no such section" + did_you_mean(match));
+        if (match)
+          assign("--set", *match + "/" + name, value, true);
       }
 
       void assign(const std::string &place, const std::string &name, const std::string &value, const bool again_allowed)
@@ -348,25 +348,25 @@ namespace sprag
         const auto slash       = name.find('/');
         const std::string own  = slash == std::string::npos ? "" : name.substr(0, slash);
         const std::string last = slash == std::string::npos ? name : name.substr(slash + 1);
-        std::optional<std::string> meant;
+        std::optional<std::string> match;
         std::vector<std::string> names;
         for (const auto &parameter : declared)
         {
           if (parameter.name == last)
-            meant = full_name(parameter);
+            match = full_name(parameter);
           if (parameter.section == own)
             names.push_back(parameter.name);
         }
-        if (const auto near = nearest(last, names); near && !meant)
+        if (const auto near = nearest(last, names); near && !match)
         {
-          meant = near;
+          match = near;
           settings.doubtful.insert(own + "/" + *near);
         }
         mistake(place, name + " = " + value,
-                (own.empty() ? "must stand inside a subsection" : "no such parameter") + did_you_mean(meant));
+                (own.empty() ? "must stand inside a subsection" : "no such parameter") + did_you_mean(match));
       }
 
-      std::optional<std::string> section_meant(const std::string &name) const
+      std::optional<std::string> closest_section(const std::string &name) const
       {
         std::vector<std::string> sections;
         for (const auto &parameter : declared)
@@ -459,8 +459,8 @@ namespace sprag
 
   const Parameter *find_parameter(const std::vector<Parameter> &declared, const std::string &name)
   {
-    const auto meant = [&](const Parameter &parameter) { return full_name(parameter) == name; };
-    const auto found = std::find_if(declared.begin(), declared.end(), meant);
+    const auto has_name = [&](const Parameter &parameter) { return full_name(parameter) == name; };
+    const auto found    = std::find_if(declared.begin(), declared.end(), has_name);
     return found == declared.end() ? nullptr : &*found;
   }
 

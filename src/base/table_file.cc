@@ -241,7 +241,7 @@ namespace sprag
       void tell_width(const Names &cells, const std::string &line)
       {
         const auto pointed = with_points(line);
-        if (const auto meant = split_cells(pointed); pointed != line && meant.size() == columns.size() && are_numbers(meant))
+        if (const auto retry = split_cells(pointed); pointed != line && retry.size() == columns.size() && are_numbers(retry))
           tell_decimal_comma(line);
         else
           mistake(named ? "has " + std::to_string(cells.size()) + " cells, the header " + std::to_string(columns.size())
@@ -360,8 +360,8 @@ namespace sprag
     }
 
     /// A damaged file may keep HDF5 busy for ever [s], or ask for all the memory there is [bytes].
-    constexpr double file_patience  = 20.;
-    constexpr std::size_t file_room = std::size_t(1) << 30;
+    constexpr double file_patience    = 20.;
+    constexpr std::size_t file_memory = std::size_t(1) << 30;
 
     /// A stranger's file may crash the library or name other files: it is read in a process without rights.
     Content read_hdf5(const std::string &path, const Choose &choose)
@@ -371,7 +371,7 @@ namespace sprag
       const auto bytes = std::filesystem::file_size(path);
       const auto work  = [&]
       {
-        limit_growth(file_room + 20 * bytes);
+        limit_growth(file_memory + 20 * bytes);
         confine({ path });
         auto content = read_open_hdf5(path, choose);
         Archive archive;

@@ -137,8 +137,8 @@ namespace sprag
       return std::nullopt;
     std::string pointed        = trim(text);
     pointed[pointed.find(',')] = '.';
-    const auto meant           = leading_number(pointed);
-    return trim(pointed.substr(0, pointed.size() - meant->rest.size()));
+    const auto number          = leading_number(pointed);
+    return trim(pointed.substr(0, pointed.size() - number->rest.size()));
   }
 
   std::optional<std::string> nearest(const std::string &name, const std::vector<std::string> &candidates)

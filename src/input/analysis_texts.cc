@@ -174,12 +174,12 @@ namespace sprag
 
       void read_aim(const std::string &text)
       {
-        const auto blank      = text.find(' ');
-        const std::string way = text.substr(0, blank);
-        if (blank == std::string::npos || (way != "minimise" && way != "maximise"))
+        const auto blank        = text.find(' ');
+        const std::string sense = text.substr(0, blank);
+        if (blank == std::string::npos || (sense != "minimise" && sense != "maximise"))
           return mistake("must be minimise QUANTITY or maximise QUANTITY");
         if (const auto term = parse_term(text.substr(blank + 1)))
-          settings.aims.push_back({ *term, way == "maximise", text });
+          settings.aims.push_back({ *term, sense == "maximise", text });
       }
 
       void read_models()

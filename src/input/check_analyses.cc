@@ -94,7 +94,7 @@ namespace sprag
                  { "Analysis/Type", "Analysis/Model" }, "must be compliant where a model corrects the closed form");
     }
 
-    void way(const Scene &scene, Rules &rules)
+    void check_measured_range(const Scene &scene, Rules &rules)
     {
       const auto &measured = scene.identification.measured;
       if (measured.rows() == 0)
@@ -108,8 +108,8 @@ namespace sprag
                    "Geometry/Pivot height" },
                  "x = " + mm(most) + " must stay below " + mm(reach) + ", where the cylinder reaches the pivot");
       rules.need(most - least > 0., "Identification/Table", {}, "x must change");
-      const double room = 0.01 * (scene.drive.maximum() - scene.drive.minimum());
-      rules.need(!identifies_by_model(scene) || most <= scene.drive.maximum() + room, "Drive/Stroke",
+      const double tolerance = 0.01 * (scene.drive.maximum() - scene.drive.minimum());
+      rules.need(!identifies_by_model(scene) || most <= scene.drive.maximum() + tolerance, "Drive/Stroke",
                  { "Analysis/Type", "Analysis/Model", "Drive/Profile" },
                  "must reach the largest x measured, " + mm(most) + ", where a model corrects the closed form");
       if (has_x)
@@ -151,6 +151,6 @@ namespace sprag
   {
     apparatus(scene, rules);
     if (rules.broken.empty())
-      way(scene, rules);
+      check_measured_range(scene, rules);
   }
 } // namespace sprag

@@ -183,7 +183,7 @@ namespace sprag
                        mm(plate.sensor_width) + " each lies on its side of the middle and on the plate");
     }
 
-    bool are_alike(const MirroredPair &pair)
+    bool are_equal_levers(const MirroredPair &pair)
     {
       return pair.cylinder_offset == 0. && pair.friction_ratio == 1.;
     }
@@ -208,7 +208,7 @@ namespace sprag
     void vibration(const Scene &scene, Rules &rules)
     {
       const auto &pair = scene.pair;
-      rules.need(scene.analysis.model != ModelType::finite_element || are_alike(pair),
+      rules.need(scene.analysis.model != ModelType::finite_element || are_equal_levers(pair),
                  pair.cylinder_offset != 0. ? "Mirrored pair/Cylinder offset" : "Mirrored pair/Friction ratio",
                  { "Mirrored pair/Type", "Analysis/Type", "Analysis/Model" },
                  "must leave the levers alike where a slide is held with finite elements; Analysis/Model = condensed takes "

@@ -37,17 +37,17 @@ namespace sprag
       { return std::vector<double>(all.begin(), all.begin() + largest + 1); };
       const auto after = [&](const std::vector<double> &all) { return std::vector<double>(all.rbegin(), all.rend() - begin); };
       DamperLoop loop{ { until(x), until(forces) }, { after(x), after(forces) } };
-      for (const auto &[way, samples] :
+      for (const auto &[stroke, samples] :
            { std::make_pair("on the way out: ", loop.out), std::make_pair("on the way back: ", loop.back) })
       {
         if (samples.at.size() < 4)
-          throw InputError(std::string(way) + "must have at least 4 rows, has " + std::to_string(samples.at.size()) +
+          throw InputError(std::string(stroke) + "must have at least 4 rows, has " + std::to_string(samples.at.size()) +
                            ": x grows from 0 to its largest value and falls to 0 again");
         for (std::size_t i = 1; i < samples.at.size(); ++i)
           if (!(samples.at[i] > samples.at[i - 1]))
-            throw InputError(std::string(way) + "x = " + number_text(samples.at[i]) + " mm does not change steadily");
+            throw InputError(std::string(stroke) + "x = " + number_text(samples.at[i]) + " mm does not change steadily");
         if (samples.at.front() != 0.)
-          throw InputError(std::string(way) + "x = " + number_text(samples.at.front()) + " mm: must be 0 at the end");
+          throw InputError(std::string(stroke) + "x = " + number_text(samples.at.front()) + " mm: must be 0 at the end");
       }
       return loop;
     }

@@ -397,21 +397,21 @@ namespace sprag
         const auto numeric = [](const Parameter &p)
         { return p.rule.kind == Rule::Kind::number || p.rule.kind == Rule::Kind::number_or_auto; };
         std::vector<std::string> names;
-        const Parameter *meant = nullptr;
+        const Parameter *parameter_found = nullptr;
         for (const auto &candidate : parameters)
           if (numeric(candidate))
           {
             names.push_back(full_name(candidate));
             if (names.back() == range.name)
-              meant = &candidate;
+              parameter_found = &candidate;
           }
-        if (meant == nullptr)
+        if (parameter_found == nullptr)
           return report(parameter, range.name + " is no parameter with a number" + did_you_mean(nearest(range.name, names)));
-        if (!counts(*meant))
-          return report(parameter, range.name + " counts only with " + meant->choice + " = " + meant->chosen +
-                                       (meant->section == "Friction" ? "; Friction/Factor multiplies any law" : ""));
+        if (!counts(*parameter_found))
+          return report(parameter, range.name + " counts only with " + parameter_found->choice + " = " + parameter_found->chosen +
+                                       (parameter_found->section == "Friction" ? "; Friction/Factor multiplies any law" : ""));
         for (const double value : { range.from, range.to })
-          if (const auto broken = violation(meant->rule, number_text(value)))
+          if (const auto broken = violation(parameter_found->rule, number_text(value)))
             return report(parameter, range.name + " = " + number_text(value) + " " + *broken);
         if (range.from == range.to)
           report(parameter, range.name + " must have a range, not " + number_text(range.from) + " alone");

@@ -44,7 +44,7 @@ namespace sprag
     }
 
     /// The content of a file must neither flood the terminal nor reach it as control characters.
-    std::string shown(const std::string &message)
+    std::string terminal_text(const std::string &message)
     {
       std::istringstream lines(message);
       std::string text;
@@ -65,13 +65,13 @@ namespace sprag
 
   int tell(const InputError &error)
   {
-    std::cerr << coloured(shown(error.what()), STDERR_FILENO, error_colour) << '\n';
+    std::cerr << coloured(terminal_text(error.what()), STDERR_FILENO, error_colour) << '\n';
     return bad_input;
   }
 
   int tell(const std::string &failure)
   {
-    std::cerr << coloured("sprag: " + shown(failure), STDERR_FILENO, error_colour) << '\n';
+    std::cerr << coloured("sprag: " + terminal_text(failure), STDERR_FILENO, error_colour) << '\n';
     return analysis_failed;
   }
 

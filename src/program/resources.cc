@@ -227,7 +227,7 @@ namespace sprag
 
     // Files with factors have these sizes and limits.
     constexpr double kept_in_files       = 0.9; ///< of the factors: some are in memory while they are found
-    constexpr double file_room           = 1.1; ///< free on the disk, over their size
+    constexpr double disk_share          = 1.1; ///< free on the disk, over their size
     constexpr std::size_t longest_folder = 240; ///< that the solver takes
 
     /// Bytes free where a folder is or would be made; none where files would take memory themselves.
@@ -327,7 +327,7 @@ namespace sprag
     FactorFiles result{ (std::filesystem::path(folder) / ".sprag-factors").string(), needed, available, 0.,
                         solid_factor_bytes(scene) };
     result.memory_with_files = needed - kept_in_files * result.bytes;
-    const bool fits          = result.memory_with_files <= available.bytes && file_room * result.bytes <= free_on_disk(folder) &&
+    const bool fits          = result.memory_with_files <= available.bytes && disk_share * result.bytes <= free_on_disk(folder) &&
                       result.folder.size() < longest_folder;
     return fits ? std::optional(result) : std::nullopt;
   }

@@ -97,40 +97,40 @@ namespace sprag
   public:
     Tee(std::ostream &stream_, std::shared_ptr<Record> into)
         : stream(stream_)
-        , shown(stream.rdbuf(this))
+        , terminal(stream.rdbuf(this))
         , record(std::move(into))
     {
     }
 
     ~Tee() override
     {
-      stream.rdbuf(shown);
+      stream.rdbuf(terminal);
     }
 
   protected:
     int_type overflow(const int_type c) override
     {
       if (traits_type::eq_int_type(c, traits_type::eof()))
-        return shown->pubsync() == 0 ? traits_type::not_eof(c) : c;
+        return terminal->pubsync() == 0 ? traits_type::not_eof(c) : c;
       record->take(traits_type::to_char_type(c));
-      return shown->sputc(traits_type::to_char_type(c));
+      return terminal->sputc(traits_type::to_char_type(c));
     }
 
     std::streamsize xsputn(const char *const text, const std::streamsize size) override
     {
       for (std::streamsize i = 0; i < size; ++i)
         record->take(text[i]);
-      return shown->sputn(text, size);
+      return terminal->sputn(text, size);
     }
 
     int sync() override
     {
-      return shown->pubsync();
+      return terminal->pubsync();
     }
 
   private:
     std::ostream &stream;
-    std::streambuf *const shown;
+    std::streambuf *const terminal;
     const std::shared_ptr<Record> record;
   };
 

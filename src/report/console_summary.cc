@@ -120,15 +120,15 @@ namespace sprag
     }
   }
 
-  Warnings target_warnings(const AccuracySettings &asked, const std::vector<ErrorEstimate> &estimates)
+  Warnings target_warnings(const AccuracySettings &accuracy, const std::vector<ErrorEstimate> &estimates)
   {
     std::string missed, remedy;
     for (const auto &estimate : estimates)
     {
-      const bool is_asked =
-          std::find(asked.quantities.begin(), asked.quantities.end(), estimate.quantity) != asked.quantities.end();
+      const bool is_requested =
+          std::find(accuracy.quantities.begin(), accuracy.quantities.end(), estimate.quantity) != accuracy.quantities.end();
       const bool is_unknown = estimate.parts.empty();
-      if (!(asked.target > 0.) || !is_asked || !(is_unknown || total_error(estimate) > asked.target))
+      if (!(accuracy.target > 0.) || !is_requested || !(is_unknown || total_error(estimate) > accuracy.target))
         continue;
       missed +=
           (missed.empty() ? "" : ", ") + estimate.quantity + ' ' + (is_unknown ? "unknown" : percent(total_error(estimate)));
@@ -137,7 +137,7 @@ namespace sprag
     }
     if (missed.empty())
       return {};
-    auto warning   = make_warning("target_missed", { missed, percent(asked.target) });
+    auto warning   = make_warning("target_missed", { missed, percent(accuracy.target) });
     warning.remedy = remedy;
     return { warning };
   }

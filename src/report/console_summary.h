@@ -22,7 +22,7 @@ namespace sprag
   void print_accuracy(std::ostream &stream, const std::vector<ErrorEstimate> &estimates);
 
   /// Warns where the error that a run tells of a quantity is larger than the target that the scene gives.
-  Warnings target_warnings(const AccuracySettings &asked, const std::vector<ErrorEstimate> &estimates);
+  Warnings target_warnings(const AccuracySettings &accuracy, const std::vector<ErrorEstimate> &estimates);
 
   /// Returns the group /answer: the lines of a summary's entries that have one in the tables of the pages, see SummaryRow, each
   /// label once with all its entries behind it. Entries that are unknown (NaN) leave no trace. All else is in /summary.

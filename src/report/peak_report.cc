@@ -60,18 +60,18 @@ namespace sprag
     /// Width below which a share of the way in contact lies [mm]; 0 without a way.
     double width_over_share(const std::vector<Row> &rows, const double share)
     {
-      std::vector<std::pair<double, double>> width_and_way;
+      std::vector<std::pair<double, double>> width_and_travel;
       double whole = 0.;
       for (std::size_t i = 1; i < rows.size(); ++i)
         if (const double width = rows[i][Column::contact_width]; width > 0.)
         {
-          width_and_way.push_back({ width, std::abs(rows[i][Column::x] - rows[i - 1][Column::x]) });
-          whole += width_and_way.back().second;
+          width_and_travel.push_back({ width, std::abs(rows[i][Column::x] - rows[i - 1][Column::x]) });
+          whole += width_and_travel.back().second;
         }
-      std::sort(width_and_way.begin(), width_and_way.end());
+      std::sort(width_and_travel.begin(), width_and_travel.end());
       double sum = 0.;
-      for (const auto &[width, way] : width_and_way)
-        if (sum += way; sum > share * whole)
+      for (const auto &[width, travel] : width_and_travel)
+        if (sum += travel; sum > share * whole)
           return width;
       return 0.;
     }

@@ -122,15 +122,15 @@ namespace sprag
       return scene.spring.rest_angle == 0. && (count_levers(scene) == 1 || scene.pair.cylinder_offset == 0.);
     }
 
-    void add_stroke(const Scene &scene, const Rows &turned, const Rows &settled, const std::string &way,
+    void add_stroke(const Scene &scene, const Rows &turned, const Rows &settled, const std::string &name,
                     std::vector<Entry> &entries)
     {
-      append<Entry>(entries, { { "peak_P_" + way, peak(turned, Column::P) }, { "peak_Q_" + way, peak(turned, Column::Q) } });
+      append<Entry>(entries, { { "peak_P_" + name, peak(turned, Column::P) }, { "peak_Q_" + name, peak(turned, Column::Q) } });
       if (begins_closed(scene))
-        entries.push_back({ "slope_" + way, slope_at_zero(settled, scene.geometry.cylinder_radius) });
-      append<Entry>(entries, { { "deviation_P_" + way, deviation(settled, Column::P, Column::P_closed_form) },
-                               { "deviation_Q_" + way, deviation(settled, Column::Q, Column::Q_closed_form) },
-                               { "deviation_theta_" + way, deviation(settled, Column::theta, Column::theta_closed_form) } });
+        entries.push_back({ "slope_" + name, slope_at_zero(settled, scene.geometry.cylinder_radius) });
+      append<Entry>(entries, { { "deviation_P_" + name, deviation(settled, Column::P, Column::P_closed_form) },
+                               { "deviation_Q_" + name, deviation(settled, Column::Q, Column::Q_closed_form) },
+                               { "deviation_theta_" + name, deviation(settled, Column::theta, Column::theta_closed_form) } });
     }
 
     /// Adds tilt and skew of an axis on a compliant shaft, at the largest P.
@@ -199,10 +199,10 @@ namespace sprag
 
     void add_peaks(const std::vector<Row> &rows, std::vector<Entry> &entries)
     {
-      for (const auto &[direction, way] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
-        append<Entry>(entries, { { "peak_P_" + way, peak(rows, Column::P, direction) },
-                                 { "peak_Q_" + way, peak(rows, Column::Q, direction) },
-                                 { "peak_Q_support_" + way, peak(rows, Column::Q_support, direction) } });
+      for (const auto &[direction, name] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
+        append<Entry>(entries, { { "peak_P_" + name, peak(rows, Column::P, direction) },
+                                 { "peak_Q_" + name, peak(rows, Column::Q, direction) },
+                                 { "peak_Q_support_" + name, peak(rows, Column::Q_support, direction) } });
     }
 
     std::string contact_text(const Scene &scene)
@@ -258,15 +258,15 @@ namespace sprag
     std::vector<Entry> entries;
     if (rows.empty())
       return entries;
-    for (const auto &[direction, way] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
+    for (const auto &[direction, name] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
       if (!stroke(rows, direction, 0.).empty())
       {
-        add_stroke(scene, turned_rows(rows, direction), stroke(rows, direction, settling), way, entries);
+        add_stroke(scene, turned_rows(rows, direction), stroke(rows, direction, settling), name, entries);
         if (!begins_closed(scene))
           continue;
         const double mu = sliding_friction(scene, 0., direction * scene.drive.peak_speed()).coefficient;
         entries.push_back(
-            { "representative_slope_" + way, representative_slope(scene.geometry, scene.spring.stiffness, mu, direction) });
+            { "representative_slope_" + name, representative_slope(scene.geometry, scene.spring.stiffness, mu, direction) });
       }
 
     const Row &last         = rows.back();

@@ -52,7 +52,7 @@ namespace sprag
       return rounded_text(std::round(1000. * share) / 10.) + " %";
     }
 
-    std::string way(const Row &row)
+    std::string direction_text(const Row &row)
     {
       return row[Column::v] < 0. ? "backward" : "forward";
     }
@@ -60,7 +60,7 @@ namespace sprag
     /// "at x = 65 mm backward".
     std::string place(const Row &row)
     {
-      return "at x = " + mm(row[Column::x]) + ' ' + way(row);
+      return "at x = " + mm(row[Column::x]) + ' ' + direction_text(row);
     }
 
     /// The rows have penetration of a mesh and compression of the layer both.

@@ -241,13 +241,13 @@ namespace sprag
       const unsigned int differs = (own.cylinder_radius != a.cylinder_radius) + (own.interface_offset != a.interface_offset) +
                                    (own.pivot_distance != a.pivot_distance) + own_spring;
       const bool is_other_device = differs >= other_device_differences;
-      const auto is_asked_for    = [&](const std::string &name)
+      const auto is_doubtful     = [&](const std::string &name)
       { return is_other_device || (name == "Lever/Moment of inertia" && has_other_lever(scene)); };
       SceneSettings defaults;
       const auto parameters = scene_parameters(defaults);
       std::string list;
       for (const auto &[name, counts] : dependents(scene))
-        if (counts && is_asked_for(name) && scene.specified.count(name) == 0 && !is_varied(scene, name))
+        if (counts && is_doubtful(name) && scene.specified.count(name) == 0 && !is_varied(scene, name))
           list += (list.empty() ? "" : ", ") + name + " = " + find_parameter(parameters, name)->default_value;
       if (list.empty())
         return;
@@ -430,7 +430,7 @@ namespace sprag
     }
 
     /// "2700 kg/m3, which is 2.7e-09 t/mm3", of the first unit in which the value is plausible; empty where it is in none.
-    std::string meant(const CheckedValue &checked)
+    std::string likely_reading(const CheckedValue &checked)
     {
       try
       {
@@ -458,7 +458,7 @@ namespace sprag
         found += (found.empty() ? "" : " ") + checked.parameter + " = " + rounded_text(checked.value) + ' ' + checked.unit +
                  " is " + (is_small ? "less" : "more") + " than " + rounded_text(is_small ? checked.low : checked.high) + ' ' +
                  checked.unit + ": " + checked.known + '.';
-        if (const auto likely = meant(checked); !likely.empty())
+        if (const auto likely = likely_reading(checked); !likely.empty())
           remedy += checked.parameter + " may be meant as " + likely + ". ";
       }
       if (found.empty())

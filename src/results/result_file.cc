@@ -28,7 +28,7 @@ namespace sprag
     // Chunks and descriptions that a flush or the entries of /summary and /meta bring along with the numbers themselves.
     constexpr std::size_t overhead = 256 * 1024;
 
-    void clear_the_way(const std::string &path)
+    void remove_old_file(const std::string &path)
     {
       std::error_code ignored;
       if (std::filesystem::is_regular_file(path, ignored))
@@ -40,7 +40,7 @@ namespace sprag
     {
       try
       {
-        clear_the_way(path);
+        remove_old_file(path);
         return hdf5::create_file(path);
       }
       catch (const AnalysisError &error)

@@ -115,7 +115,7 @@ namespace sprag
   };
 
   /// Returns the body of a meshed model in time for its fields.
-  inline BodyFields field_body(const Scene &scene, const Dynamics &dynamics)
+  inline BodyFields shown_body(const Scene &scene, const Dynamics &dynamics)
   {
     if (dynamics.lever)
       return BodyFields(*dynamics.lever->body);

@@ -37,8 +37,8 @@ namespace sprag
     {
       std::optional<Found> found; ///< by the closed form; of the last round with its corrections
       std::vector<StoppingDemand> stopping;
-      bool each_left_out = false;  ///< whether `stopping` is known
-      std::vector<Proposal> front; ///< of two aims
+      bool tried_without_each = false; ///< whether `stopping` is known
+      std::vector<Proposal> front;     ///< of two aims
       std::vector<ModelCheck> checks;
       std::string unmet;            ///< why there is no lever, sentences; empty: there is one
       std::size_t evaluations = 0;  ///< of the closed form
@@ -219,7 +219,7 @@ namespace sprag
       text += ". ";
       if (findings.stopping.empty() && !(findings.found->lever.rule.violation < 0.))
         text += "Every lever breaks the rule that " + findings.found->lever.rule.text + ". ";
-      else if (findings.stopping.empty() && findings.each_left_out)
+      else if (findings.stopping.empty() && findings.tried_without_each)
         text += "No single one stops it: two or more exclude others. ";
       for (const auto &[index, attainable, lever] : findings.stopping)
       {
@@ -322,8 +322,8 @@ namespace sprag
       {
         if (findings.found->meets_all)
           return;
-        findings.each_left_out = !problem.dear;
-        if (findings.each_left_out)
+        findings.tried_without_each = !problem.expensive_model;
+        if (findings.tried_without_each)
           search([&] { findings.stopping = stopping_demands(problem); });
         findings.unmet = unmet_text(design, findings);
         throw AnalysisError(findings.unmet);
@@ -368,11 +368,11 @@ namespace sprag
       /// From now on the closed form is corrected by what the check model found above it.
       void learn(const ModelCheck &check)
       {
-        problem.room = correction_margin;
+        problem.margin = correction_margin;
         for (const auto &[quantity, name, unit, definition] : design_quantities())
           if (quantity != DesignQuantity::growth_rate && !std::isnan(check.found[quantity]))
             problem.correct(quantity, problem.uncorrected(quantity, check.lever.quantities[quantity]), in_time(quantity, check));
-        if (misses_growth(check) || problem.dear)
+        if (misses_growth(check) || problem.expensive_model)
           learn_growth(check);
       }
 
@@ -395,13 +395,13 @@ namespace sprag
           if (std::isfinite(beam_rate) && std::isfinite(check.found[DesignQuantity::growth_rate]))
             problem.correct(DesignQuantity::growth_rate, beam_rate, check.found[DesignQuantity::growth_rate]);
         }
-        problem.dear = [this](const Scene &lever, DesignQuantities &quantities)
+        problem.expensive_model = [this](const Scene &lever, DesignQuantities &quantities)
         { quantities[DesignQuantity::growth_rate] = checks.beam_growth(lever); };
       }
 
       void propose_again()
       {
-        search([&] { findings.found = problem.dear ? best_stable_lever() : best_lever(problem); });
+        search([&] { findings.found = problem.expensive_model ? best_stable_lever() : best_lever(problem); });
         require_lever();
       }
 
@@ -412,10 +412,10 @@ namespace sprag
         std::optional<Proposal> near;
         if (!std::isnan(findings.found->lever.quantities[DesignQuantity::growth_rate]))
           near = findings.found->lever;
-        DesignProblem::Dear dear;
-        std::swap(dear, problem.dear);
+        DesignProblem::ExpensiveModel expensive_model;
+        std::swap(expensive_model, problem.expensive_model);
         auto found = best_lever(problem);
-        std::swap(dear, problem.dear);
+        std::swap(expensive_model, problem.expensive_model);
         if (!found.meets_all)
           return found;
         found.lever          = problem.at(problem.search_point(found.lever.parameters));

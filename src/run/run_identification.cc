@@ -62,9 +62,9 @@ namespace sprag
       for (const auto &value : found.used)
         if (channels[value.channel].force == MeasuredForce::drive)
         {
-          const std::size_t way = fit.motion.strokes()[value.stroke].direction > 0 ? 0 : 1;
-          sums[way] += value.value;
-          ++numbers[way];
+          const std::size_t direction = fit.motion.strokes()[value.stroke].direction > 0 ? 0 : 1;
+          sums[direction] += value.value;
+          ++numbers[direction];
         }
       return numbers[0] > 0. && numbers[1] > 0. && sums[0] / numbers[0] < sums[1] / numbers[1];
     }
@@ -114,9 +114,9 @@ namespace sprag
         const auto slide    = is_known ? fit.slide(found.lever, found.correction, row, stroke) : std::nullopt;
         for (std::size_t channel = 0; channel < measured.channels.size(); ++channel)
         {
-          const double shown = slide ? fit.shown(found.lever, *slide, channel) : unknown;
-          const double value = measured.channels[channel].values[row];
-          values.insert(values.end(), { value, shown, value - shown });
+          const double computed_force = slide ? fit.computed_force(found.lever, *slide, channel) : unknown;
+          const double value          = measured.channels[channel].values[row];
+          values.insert(values.end(), { value, computed_force, value - computed_force });
         }
         result.push_back(values);
       }
@@ -140,7 +140,7 @@ namespace sprag
                                 { "values_" + word, found.noise[i].rows },
                                 { "effective_values_" + word, found.noise[i].effective_rows() } });
       }
-      const auto &known = found.knowledge;
+      const auto &known = found.uncertainty;
       append<Entry>(result, { { "reversal_window", found.window },
                               { "degrees_of_freedom", known.freedom },
                               { "rounds", static_cast<double>(found.rounds) },
@@ -153,7 +153,7 @@ namespace sprag
     std::vector<Group> identification_groups(const Identification &found)
     {
       const auto n         = found.found.size();
-      const auto &known    = found.knowledge;
+      const auto &known    = found.uncertainty;
       const auto value     = [](const FoundNumber &one) { return one.value; };
       const auto deviation = [](const FoundNumber &one) { return one.deviation; };
       const auto scale     = [](const FoundNumber &one) { return one.number.scale; };
@@ -186,7 +186,7 @@ namespace sprag
         warning.remedy = another_remedy(warning.remedy, found, is_sign_turned(scene, fit, found));
         warnings.push_back(warning);
       }
-      const auto &indistinct = found.knowledge.indistinct;
+      const auto &indistinct = found.uncertainty.indistinct;
       if (!indistinct.empty())
         warnings.push_back(make_warning("indistinct_unknowns", { boost::algorithm::join(indistinct, " ") }));
       if (found.window_is_full)
@@ -209,7 +209,7 @@ namespace sprag
       summary_line(stream, "left out",
                    mm(found.window) + " behind the beginning and each reversal" +
                        (scene.identification.window ? "" : ", from the data"));
-      for (const auto &sentence : found.knowledge.weak)
+      for (const auto &sentence : found.uncertainty.weak)
         summary_line(stream, "", sentence);
       stream << "+- is half of the interval of " << formatted("%.4g", 100. * scene.identification.confidence) << " %\n";
     }

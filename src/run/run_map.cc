@@ -114,10 +114,10 @@ namespace sprag
                                          { "grid_cells_judged", static_cast<double>(on_grid) },
                                          { "cells_judged", static_cast<double>(checked) },
                                          { "boundary_points", static_cast<double>(map.boundary.size()) } };
-      for (const std::string way : { "forward", "backward" })
-        append<Entry>(summary, { { "unstable_" + way, find_share(group, "kind_" + way, { 1., 2. }) },
-                                 { "jammed_" + way, find_share(group, "kind_" + way, { 3. }) },
-                                 { "not_judged_" + way, find_share(group, "kind_" + way, { 4., 5. }) } });
+      for (const std::string direction : { "forward", "backward" })
+        append<Entry>(summary, { { "unstable_" + direction, find_share(group, "kind_" + direction, { 1., 2. }) },
+                                 { "jammed_" + direction, find_share(group, "kind_" + direction, { 3. }) },
+                                 { "not_judged_" + direction, find_share(group, "kind_" + direction, { 4., 5. }) } });
       return summary;
     }
 

@@ -37,12 +37,12 @@ namespace sprag
       unsigned long steps = 0;
     };
 
-    void add_branch(const std::vector<ContinuationPoint> &points, const std::string &way,
+    void add_branch(const std::vector<ContinuationPoint> &points, const std::string &direction,
                     const Settled ContinuationPoint::*branch, std::vector<Dataset> &datasets)
     {
       const auto add = [&](const std::string &name, const std::function<double(const Settled &)> &value)
       {
-        datasets.push_back(make_dataset(points, page_column("continuation", name + '_' + way),
+        datasets.push_back(make_dataset(points, page_column("continuation", name + '_' + direction),
                                         [&](const ContinuationPoint &point)
                                         { return point.holds() ? value(point.*branch) : unknown; }));
       };
@@ -136,7 +136,7 @@ namespace sprag
 
     constexpr double most_growth_rows    = 20000.; ///< written of the growth
     constexpr unsigned int approach_rows = 16;     ///< a period, from the growth to the vibration it leads to
-    constexpr double shown_periods       = 50.;    ///< of that vibration
+    constexpr double written_periods     = 50.;    ///< of that vibration
 
     /// Writes some of the rows as they come and keeps the last ones.
     struct Rows
@@ -247,7 +247,7 @@ namespace sprag
         if (found.slide.kind == SlideKind::stable)
           run.begin(model.perturbed(slide, watched_mode(found.slide), Continuation::large_kick * slide.penetration));
         rows.begin(std::max(1u, settings.steps_per_period / approach_rows),
-                   static_cast<std::size_t>(shown_periods * settings.steps_per_period));
+                   static_cast<std::size_t>(written_periods * settings.steps_per_period));
         found.settled       = settle(run, slide, times, std::ref(rows));
         found.settled_begin = rows.write_last();
         report();

@@ -30,7 +30,7 @@ namespace sprag
     constexpr double shortest_share = 0.25;
     constexpr double least_longest  = 0.5;
 
-    constexpr double room_behind  = 4.;  ///< shortest faces beyond the last place of the contact's centre
+    constexpr double faces_beyond = 4.;  ///< shortest faces beyond the last place of the contact's centre
     constexpr unsigned int places = 256; ///< of the drive that are looked at
 
     double needed_length(const Device &device, const double x)
@@ -92,9 +92,9 @@ namespace sprag
 
   std::optional<FaceGrading> face_grading(const Device &device)
   {
-    const double size = device.mesh.face_size;
-    const double from = device.drive.minimum();
-    const double way  = device.drive.maximum() - from;
+    const double size   = device.mesh.face_size;
+    const double from   = device.drive.minimum();
+    const double travel = device.drive.maximum() - from;
     if (!(device.mesh.faces_in_contact > 0.) || !device.mesh.file.empty() || device.lever.outline != LeverOutline::bar)
       return {};
     const double longest  = std::min(size, needed_length(device, device.drive.maximum()));
@@ -103,8 +103,8 @@ namespace sprag
       return {};
     double x = from;
     for (unsigned int i = 1; i <= places && needed_length(device, x) < longest; ++i)
-      x = from + way * i / places;
-    const double end = kinematics(device.geometry, from).s + room_behind * shortest;
+      x = from + travel * i / places;
+    const double end = kinematics(device.geometry, from).s + faces_beyond * shortest;
     return FaceGrading{ kinematics(device.geometry, x).s, end, longest, shortest };
   }
 

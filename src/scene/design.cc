@@ -42,7 +42,7 @@ namespace sprag
 
   bool asks_for(const DesignSettings &design, const DesignQuantity quantity)
   {
-    return asks_for(design, [quantity](const DesignQuantity asked) { return asked == quantity; });
+    return asks_for(design, [quantity](const DesignQuantity used) { return used == quantity; });
   }
 
   bool is_table_quantity(const DesignQuantity quantity)

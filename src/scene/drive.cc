@@ -147,10 +147,11 @@ namespace sprag
     protected:
       DrivePoint point(const std::size_t piece, const double time, Drive::Side) const override
       {
-        const double way  = row[piece].to - row[piece].from;
-        const bool ends   = time == times[piece + 1] && row[piece].part == 1.;
-        const auto shares = shape(ends ? 1. : (time - times[piece]) / duration);
-        return { time, row[piece].from + way * shares.x, way / duration * shares.v, way / duration / duration * shares.a };
+        const double travel = row[piece].to - row[piece].from;
+        const bool ends     = time == times[piece + 1] && row[piece].part == 1.;
+        const auto shares   = shape(ends ? 1. : (time - times[piece]) / duration);
+        return { time, row[piece].from + travel * shares.x, travel / duration * shares.v,
+                 travel / duration / duration * shares.a };
       }
 
     private:
@@ -276,9 +277,9 @@ namespace sprag
       {
         const bool from_rest      = first && begins_at_rest(stroke.from);
         const double distance     = peak_speed * reversal_duration;
-        const double way          = (stroke.to - stroke.from) * stroke.part;
-        const double v            = std::copysign(peak_speed, way);
-        const double steady       = (std::abs(way) - ramp_distance(from_rest, first, last) * distance) / peak_speed;
+        const double travel       = (stroke.to - stroke.from) * stroke.part;
+        const double v            = std::copysign(peak_speed, travel);
+        const double steady       = (std::abs(travel) - ramp_distance(from_rest, first, last) * distance) / peak_speed;
         const double ramp_before  = first ? (from_rest ? reversal_duration : 0.) : reversal_duration / 2.;
         const double steady_begin = times.back() + ramp_before;
         const double end          = steady_begin + std::max(0., steady) + (last ? 0. : reversal_duration / 2.);
@@ -295,7 +296,7 @@ namespace sprag
           kinks.push_back(end);
         }
         times.push_back(end);
-        positions.push_back(stroke.part == 1. ? stroke.to : stroke.from + way);
+        positions.push_back(stroke.part == 1. ? stroke.to : stroke.from + travel);
       }
 
       /// v = V S(tau).

@@ -113,12 +113,12 @@ namespace sprag
 
   std::array<double, 2> contact_range(const Scene &scene)
   {
-    const double room = 0.1 * scene.geometry.cylinder_radius + 4. * scene.layer.thickness;
-    const bool stays  = holds_slide(scene.analysis.type) && scene.analysis.type != AnalysisType::sprag_slip && // which wanders
+    const double margin = 0.1 * scene.geometry.cylinder_radius + 4. * scene.layer.thickness;
+    const bool stays    = holds_slide(scene.analysis.type) && scene.analysis.type != AnalysisType::sprag_slip && // which wanders
                        !looks_over_stroke(scene);
     const double held_at = kinematics(scene.geometry, held_drive(scene).x).s;
-    const auto way       = stays ? std::array<double, 2>{ { held_at, held_at } } : swept_contact(scene);
-    return { { way[0] - room, way[1] + room } };
+    const auto swept     = stays ? std::array<double, 2>{ { held_at, held_at } } : swept_contact(scene);
+    return { { swept[0] - margin, swept[1] + margin } };
   }
 
   std::optional<std::vector<ParameterRange>> critical_searches(const Scene &scene)

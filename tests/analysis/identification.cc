@@ -248,11 +248,11 @@ TEST(Identification, NamesWhatOneDirectionCannotTellApart)
   Scene scene                   = guess(truth, { Unknown::friction_constant, Unknown::inclination });
   auto stroke                   = measured(compute_rows(truth), { 0.2, 0. }, 1);
   scene.identification.measured = stroke;
-  EXPECT_TRUE(identified(scene).knowledge.indistinct.empty());
+  EXPECT_TRUE(identified(scene).uncertainty.indistinct.empty());
   stroke.channels.erase(stroke.channels.begin()); // Q alone
   scene.identification.measured = way_out(stroke);
   const auto found              = identified(scene);
-  EXPECT_TRUE(contains(found.knowledge.indistinct, "mu and th0 apart"));
+  EXPECT_TRUE(contains(found.uncertainty.indistinct, "mu and th0 apart"));
   EXPECT_TRUE(holds(number(found, "mu"), 0.73));
 }
 
@@ -262,7 +262,7 @@ TEST(Identification, NamesALawOfFrictionThatOneSpeedCannotTell)
   Scene scene                   = guess(truth, { Unknown::friction_polynomial, Unknown::stiffness });
   scene.identification.measured = measured(compute_rows(with_friction_by_drive_speed(truth)), { 0.1, 0. }, 1);
   scene.friction.speed          = FrictionSpeed::drive;
-  EXPECT_TRUE(contains(identified(scene).knowledge.indistinct, "mu_0, mu_1 and mu_2 apart"));
+  EXPECT_TRUE(contains(identified(scene).uncertainty.indistinct, "mu_0, mu_1 and mu_2 apart"));
 }
 
 TEST(Identification, HubersLossBearsOutliers)

@@ -377,8 +377,8 @@ TEST(Isolation, ALoopOfLinearFrictionIsLinearFriction)
   scene.isolation.damper               = DamperType::loop;
   for (double y = 0.; y <= 40.; y += 8.)
   {
-    for (auto *way : { &scene.isolation.loop.out, &scene.isolation.loop.back })
-      way->at.push_back(y);
+    for (auto *travel : { &scene.isolation.loop.out, &scene.isolation.loop.back })
+      travel->at.push_back(y);
     scene.isolation.loop.out.values.push_back(0.5 * y);
     scene.isolation.loop.back.values.push_back(-0.5 * y);
   }

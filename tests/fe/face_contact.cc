@@ -163,7 +163,7 @@ TEST(FaceContact, FindsAllPointsInReach)
       const auto displacements = pressed(*bar, properties.layout, 1e-3, 0., 3.);
       const FaceConfiguration at{ &displacements, theta, x, cylinder_centre(cylinder_below_bar(), x, theta) };
       RigidCounterface counterface((*bar).friction_face(), face, properties);
-      counterface.enter({ at, at }, false);
+      counterface.set_places({ at, at }, false);
       const auto near = counterface.near_end();
       ASSERT_FALSE(near.empty());
       double inside  = 1e9;

@@ -140,9 +140,9 @@ namespace sprag
       return std::isnan(violation) ? most_counted : std::clamp(violation, -most_counted, most_counted);
     }
 
-    double demand_margin(const Demand &demand, const double room)
+    double demand_margin(const Demand &demand, const double margin)
     {
-      return demand.kind == DemandKind::equal ? std::min(room, 0.25 * demand.tolerance / demand_scale(demand)) : room;
+      return demand.kind == DemandKind::equal ? std::min(margin, 0.25 * demand.tolerance / demand_scale(demand)) : margin;
     }
   } // namespace
 
@@ -166,9 +166,9 @@ namespace sprag
       return hardest;
     take(-sliding_speed(g, end, 1.), "the cylinder must slide along the lever on the whole stroke");
     take(-least_margin(scene), "the lever must not jam on the way back");
-    constexpr double room = 2.; // as a scene with a lever of some length needs it
+    constexpr double margin = 2.; // as a scene with a lever of some length needs it
     if (has_length)
-      take((kinematics(g, scene.drive.minimum()).s + room - scene.lever.length) / l,
+      take((kinematics(g, scene.drive.minimum()).s + margin - scene.lever.length) / l,
            "Lever/Length must reach 2 mm beyond the contact");
     return hardest;
   }
@@ -260,7 +260,7 @@ namespace sprag
 
   bool DesignProblem::is_expensive() const
   {
-    return dear ||
+    return expensive_model ||
            asks_for(base.design, [](const Q quantity) { return is_table_quantity(quantity) && quantity != Q::friction_ratio; });
   }
 
@@ -286,8 +286,8 @@ namespace sprag
     {
       result.quantities = lever_quantities(scene);
       add_table_quantities(scene, base.design, result.quantities);
-      if (dear)
-        dear(scene, result.quantities);
+      if (expensive_model)
+        expensive_model(scene, result.quantities);
       for (const auto &[quantity, name, unit, definition] : design_quantities())
         result.quantities[quantity] =
             or_else(factors[quantity], 1.) * result.quantities[quantity] + or_else(differences[quantity], 0.);
@@ -324,21 +324,21 @@ namespace sprag
     BoxProblem problem;
     std::vector<std::size_t> counting;
     for (std::size_t i = 0; i < base.design.demanded.size(); ++i)
-      if (i != omitted && (dear || base.design.demanded[i].term.quantity != DesignQuantity::growth_rate))
+      if (i != omitted && (expensive_model || base.design.demanded[i].term.quantity != DesignQuantity::growth_rate))
         counting.push_back(i);
     problem.dimension     = free.size();
     problem.n_constraints = 1 + counting.size() + (limit ? 1 : 0);
     problem.evaluate      = [this, aim, limit, counting](const std::vector<double> &place)
     {
-      constexpr double least_room = 1e-6; // of the rules, which are strict
-      const auto lever            = at(place);
-      BoxProblem::Evaluation result{ most_counted, { counted(lever.rule.violation + least_room) } };
+      constexpr double strict_margin = 1e-6; // of the rules, which are strict
+      const auto lever               = at(place);
+      BoxProblem::Evaluation result{ most_counted, { counted(lever.rule.violation + strict_margin) } };
       const bool is_possible = lever.rule.violation < 0.;
       // A lever that breaks a rule violates every demand, by more the more it breaks it, so that the search leads back to
       // possible ones.
       const auto take = [&](const Demand &demand)
       {
-        const double missed = demand_violation(demand, term_value(demand.term, lever)) + demand_margin(demand, room);
+        const double missed = demand_violation(demand, term_value(demand.term, lever)) + demand_margin(demand, margin);
         result.constraints.push_back(is_possible ? counted(missed) : counted(1. + lever.rule.violation));
       };
       for (const auto i : counting)

@@ -108,7 +108,7 @@ namespace sprag
   {
   public:
     /// Adds expensive quantities that the closed form does not give, such as growth rates, to those of a lever's scene.
-    using Dear = std::function<void(const Scene &, DesignQuantities &)>;
+    using ExpensiveModel = std::function<void(const Scene &, DesignQuantities &)>;
 
     explicit DesignProblem(const Scene &scene);
 
@@ -121,10 +121,10 @@ namespace sprag
 
     /// Safety margin of the demands, over their targets; at most a quarter of a demand's tolerance. It is larger while
     /// corrections are known to first order only.
-    double room = 1e-7;
+    double margin = 1e-7;
 
     /// Called for every lever evaluated from now on; empty: growth rates stay unknown.
-    Dear dear;
+    ExpensiveModel expensive_model;
 
     /// Returns the lever at a point of the unit cube of bounds.
     Proposal at(const std::vector<double> &place) const;
@@ -135,7 +135,7 @@ namespace sprag
     /// Returns the scene with the lever's parameters, unchecked.
     const Scene &scene_at(const std::vector<double> &parameters) const;
 
-    /// Returns whether an evaluation takes about 1 ms, with the isolated table or `dear`; else it takes 10 us.
+    /// Returns whether an evaluation takes about 1 ms, with the isolated table or `expensive_model`; else it takes 10 us.
     bool is_expensive() const;
 
     const DesignSettings &settings() const
@@ -144,7 +144,7 @@ namespace sprag
     }
 
     /// Returns the minimisation for an aim (none: any lever that meets the demands). `omitted`: index of a demand to leave out;
-    /// `limit`: an additional demand. Demands of growth rates count only with `dear`.
+    /// `limit`: an additional demand. Demands of growth rates count only with `expensive_model`.
     BoxProblem box(const std::optional<DesignAim> &aim, const std::optional<std::size_t> &omitted = {},
                    const std::optional<Demand> &limit = {}) const;
 

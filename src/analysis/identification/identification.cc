@@ -177,17 +177,17 @@ namespace sprag
       const std::size_t sought = found.used.empty() ? 0 : jacobian.size() / found.used.size();
       const auto basis         = singular_values(jacobian, sought).left;
       /// Returns the value that a channel shows of a lever, over its deviation; NaN where the lever has no slide.
-      const auto shown = [&](const Candidate &candidate, const UsedValue &value)
+      const auto computed_force = [&](const Candidate &candidate, const UsedValue &value)
       {
         const auto slide   = fit.slide(candidate.lever, found.correction, value.row, value.stroke);
         const bool is_Q    = channels[value.channel].force == MeasuredForce::drive;
-        const double force = slide ? fit.shown(candidate.lever, *slide, value.channel) : std::nan("");
+        const double force = slide ? fit.computed_force(candidate.lever, *slide, value.channel) : std::nan("");
         return (candidate.scales_Q && is_Q ? (1. + candidate.by) * force : force) / deviations[value.channel];
       };
       const Candidate own{ {}, found.lever, 1. };
       std::vector<double> residuals;
       for (const auto &value : found.used)
-        residuals.push_back(value.value / deviations[value.channel] - shown(own, value));
+        residuals.push_back(value.value / deviations[value.channel] - computed_force(own, value));
       const double noise   = noise_squares(found.used, residuals, channels.size());
       residuals            = beside(basis, residuals);
       const double squares = product(residuals, residuals) - noise;
@@ -196,7 +196,7 @@ namespace sprag
       {
         std::vector<double> change;
         for (const auto &value : found.used)
-          change.push_back((shown(candidate, value) - shown(own, value)) / candidate.by);
+          change.push_back((computed_force(candidate, value) - computed_force(own, value)) / candidate.by);
         change              = beside(basis, change);
         const double length = product(change, change), along = product(change, residuals);
         candidate.unknown.change = along / length;
@@ -370,12 +370,12 @@ namespace sprag
             jacobian([&](const auto &at) { return fit.residuals(at, result.used, deviations, result.correction); }, scaled);
         result.more         = more_unknowns(scene, fit, result, deviations, slopes);
         const auto &numbers = unknowns.numbers();
-        result.knowledge    = knowledge(slopes, result.used, result.noise, numbers, settings.confidence);
+        result.uncertainty  = uncertainty(slopes, result.used, result.noise, numbers, settings.confidence);
         const auto values   = fit.in_units(scaled);
         for (std::size_t i = 0; i < numbers.size(); ++i)
         {
-          const double deviation = numbers[i].scale * result.knowledge.deviations[i];
-          const double half      = result.knowledge.quantile * deviation;
+          const double deviation = numbers[i].scale * result.uncertainty.deviations[i];
+          const double half      = result.uncertainty.quantile * deviation;
           result.found.push_back({ numbers[i], values[i], deviation, values[i] - half, values[i] + half });
         }
       }

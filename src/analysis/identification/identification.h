@@ -166,7 +166,7 @@ namespace sprag
                                        std::size_t stroke) const;
 
     /// Returns the value of a channel under these forces, offset included [N].
-    double shown(const IdentifiedLever &lever, const SlidingForces &slide, std::size_t channel) const;
+    double computed_force(const IdentifiedLever &lever, const SlidingForces &slide, std::size_t channel) const;
 
     /// Returns sqrt(weight) (measured - computed)/deviation of each value; 1e6 where the lever has no slide. Empty `weights` are
     /// all 1. `deviations` are those of the channels [N].
@@ -206,7 +206,7 @@ namespace sprag
                                            const std::vector<double> &deviations, IdentificationLoss loss, std::size_t unknowns);
 
   /// Uncertainty of the scaled unknowns.
-  struct Knowledge
+  struct Uncertainty
   {
     std::vector<double> deviations;      ///< standard deviations
     std::vector<double> correlation;     ///< of i and j at i * unknowns + j
@@ -219,8 +219,8 @@ namespace sprag
 
   /// Returns the uncertainty from the Jacobian of residuals in deviations of `noise`, without weights. `confidence` is between 0
   /// and 1.
-  Knowledge knowledge(const std::vector<double> &jacobian, const std::vector<UsedValue> &values,
-                      const std::vector<ChannelNoise> &noise, const std::vector<UnknownNumber> &unknowns, double confidence);
+  Uncertainty uncertainty(const std::vector<double> &jacobian, const std::vector<UsedValue> &values,
+                          const std::vector<ChannelNoise> &noise, const std::vector<UnknownNumber> &unknowns, double confidence);
 
   /// An identified number with its confidence interval, in its unit.
   struct FoundNumber
@@ -245,7 +245,7 @@ namespace sprag
   {
     std::vector<FoundNumber> found;
     std::vector<ChannelNoise> noise; ///< of the channels of the measurement
-    Knowledge knowledge;
+    Uncertainty uncertainty;
     IdentifiedLever lever;
     ModelCorrection correction;
     std::vector<UsedValue> used;

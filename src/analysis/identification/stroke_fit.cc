@@ -160,7 +160,7 @@ namespace sprag
     }
 
     /// Adds a sentence for each right singular vector along which the confidence interval is too wide.
-    void add_indistinct(const std::vector<double> &covariances, const std::vector<UnknownNumber> &unknowns, Knowledge &found)
+    void add_indistinct(const std::vector<double> &covariances, const std::vector<UnknownNumber> &unknowns, Uncertainty &found)
     {
       const auto n = unknowns.size();
       for (std::size_t direction = n; direction-- > 0;)
@@ -179,7 +179,7 @@ namespace sprag
     }
 
     /// Adds a sentence for each pair of strongly correlated unknowns.
-    void add_weak(const std::vector<UnknownNumber> &unknowns, Knowledge &found)
+    void add_weak(const std::vector<UnknownNumber> &unknowns, Uncertainty &found)
     {
       const auto n = unknowns.size();
       for (std::size_t i = 0; i < n; ++i)
@@ -254,7 +254,7 @@ namespace sprag
     return SlidingForces{ state.P + model.P, state.Q + model.Q };
   }
 
-  double StrokeFit::shown(const IdentifiedLever &lever, const SlidingForces &slide, const std::size_t channel) const
+  double StrokeFit::computed_force(const IdentifiedLever &lever, const SlidingForces &slide, const std::size_t channel) const
   {
     const bool is_Q = scene.identification.measured.channels[channel].force == MeasuredForce::drive;
     return (is_Q ? slide.Q : slide.P) + lever.offsets[channel];
@@ -283,7 +283,7 @@ namespace sprag
         if (i == 0 || row != values[i - 1].row)
           row_slide = slide(lever, correction, row, stroke);
         if (row_slide)
-          result[i] = (value - shown(lever, *row_slide, channel)) / deviations[channel];
+          result[i] = (value - computed_force(lever, *row_slide, channel)) / deviations[channel];
         if (!weights.empty())
           result[i] *= std::sqrt(weights[i]);
       }
@@ -345,10 +345,11 @@ namespace sprag
     return result;
   }
 
-  Knowledge knowledge(const std::vector<double> &jacobian, const std::vector<UsedValue> &values,
-                      const std::vector<ChannelNoise> &noise, const std::vector<UnknownNumber> &unknowns, const double confidence)
+  Uncertainty uncertainty(const std::vector<double> &jacobian, const std::vector<UsedValue> &values,
+                          const std::vector<ChannelNoise> &noise, const std::vector<UnknownNumber> &unknowns,
+                          const double confidence)
   {
-    Knowledge result;
+    Uncertainty result;
     const auto n           = unknowns.size();
     result.singular        = singular_values(jacobian, n);
     const auto covariances = covariance(result.singular, values, noise);

@@ -20,7 +20,7 @@ namespace sprag
     constexpr double first_step_limit      = 20.; ///< the longest step over Time/Step
     constexpr double error_aimed_at        = 0.4;
     constexpr double largest_growth        = 2.;   ///< of a step over the last
-    constexpr double way_share             = 0.1;  ///< to which the table's way is met, of the error that a step may have
+    constexpr double travel_share          = 0.1;  ///< accuracy of the table's travel, of the error that a step may have
     constexpr double balanced              = 1e-8; ///< what may be left of the forces where there is no such error
 
     /// Behind its rest no lever follows the cylinder so far: there the place of the cylinder does not matter [mm].
@@ -62,7 +62,7 @@ namespace sprag
       , longest_step(adapts() ? std::min(first_step_limit * settings.time.step,
                                          find_shortest_period(m, K, base_excitation) / steps_per_period)
                               : settings.time.step)
-      , way_tolerance(way_share * settings.force_scale / settings.contact_stiffness * settings.local_tolerance())
+      , travel_tolerance(travel_share * settings.force_scale / settings.contact_stiffness * settings.local_tolerance())
       , sides{ { { outward, 1, {}, {}, {} }, { inward, -1, {}, {}, {} } } }
   {
     if (scene.analysis.model == ModelType::finite_element || scene.analysis.dimension == 3)
@@ -122,13 +122,13 @@ namespace sprag
     return x < separated ? DrivePoint{ time, separated, 0., 0. } : DrivePoint{ time, x, side.sign * rate, 0. };
   }
 
-  /// Steps both levers to the table's place z + table_way. A lever out of contact keeps its result of the trial before if
+  /// Steps both levers to the table's place z + table_travel. A lever out of contact keeps its result of the trial before if
   /// both trials end at the same place.
-  std::optional<LeverTable::Trial> LeverTable::tried(const double h, const double table_way, std::optional<Trial> before)
+  std::optional<LeverTable::Trial> LeverTable::tried(const double h, const double table_travel, std::optional<Trial> before)
   {
     auto weights        = generalised_alpha(settings.time.spectral_radius, h);
     weights.wants_error = adapts();
-    const double z = now.z + table_way, rate = 2. * (table_way - solver.way_owed) / h - now.rate;
+    const double z = now.z + table_travel, rate = 2. * (table_travel - solver.travel_defect) / h - now.rate;
     Trial trial{ z, rate, 0., 0., {} };
     for (unsigned int i = 0; i < sides.size(); ++i)
     {
@@ -145,47 +145,48 @@ namespace sprag
         side.motion.forces = before->levers[i].motion->forces;
       else
         side.forces.guess(h, side.motion.forces);
-      outcome          = side.model.step(side.motion, to, weights);
-      const double way = to.x - side.motion.drive.x;
+      outcome             = side.model.step(side.motion, to, weights);
+      const double travel = to.x - side.motion.drive.x;
       if (!outcome.motion)
         return {};
-      trial.force += way != 0. ? side.sign * levers * outcome.work.drive / way : side_force(side, *outcome.motion);
+      trial.force += travel != 0. ? side.sign * levers * outcome.work.drive / travel : side_force(side, *outcome.motion);
     }
     const double base_change = base_at(now.time + h).v - base().v;
     trial.residual           = m * (rate - now.rate + base_change) / h + 0.5 * K * (z + now.z) + trial.force;
     return trial;
   }
 
-  /// The way on which the force goes on as in the last two steps.
-  double LeverTable::predicted_way(const double h) const
+  /// Extrapolates the force of the last two steps and returns the travel that it leads to [mm].
+  double LeverTable::predicted_travel(const double h) const
   {
     const double share      = solver.last_step > 0. ? (h + solver.last_step) / (solver.last_step + solver.step_before) : 0.;
     const double mean_force = solver.step_force + share * (solver.step_force - solver.previous_step_force);
     const double change     = base_at(now.time + h).v - base().v;
-    return (m * (2. * (now.rate + solver.way_owed / h) - change) / h - K * now.z - mean_force) / (2. * m / (h * h) + 0.5 * K);
+    return (m * (2. * (now.rate + solver.travel_defect / h) - change) / h - K * now.z - mean_force) /
+           (2. * m / (h * h) + 0.5 * K);
   }
 
-  /// Newton's method for the table's way; the levers' tangent comes from the last two tried.
+  /// Applies Newton's method to the table's travel; the levers' tangent comes from the last two tried.
   std::optional<LeverTable::Trial> LeverTable::solved(const double h)
   {
     const double inertia = 2. * m / (h * h);
-    double way           = predicted_way(h);
-    double last_way = 0., last = 0.;
+    double travel        = predicted_travel(h);
+    double last_travel = 0., last = 0.;
     std::optional<Trial> trial;
     for (unsigned int i = 0; i < most_iterations; ++i)
     {
       ++solver.iterations;
-      trial = tried(h, way, std::move(trial));
+      trial = tried(h, travel, std::move(trial));
       if (!trial)
         return {};
       const double scale = std::abs(K * trial->z) + std::abs(trial->force) + std::abs(m * base().a) + settings.force_scale;
-      if (std::abs(trial->residual) <= std::max(balanced * scale, way_tolerance * inertia))
+      if (std::abs(trial->residual) <= std::max(balanced * scale, travel_tolerance * inertia))
         return trial;
-      if (i > 0 && way != last_way)
-        solver.tangent = (trial->residual - last) / (way - last_way) - inertia - 0.5 * K;
-      last     = trial->residual;
-      last_way = way;
-      way -= trial->residual / std::max(inertia + 0.5 * K + solver.tangent, 0.5 * inertia);
+      if (i > 0 && travel != last_travel)
+        solver.tangent = (trial->residual - last) / (travel - last_travel) - inertia - 0.5 * K;
+      last        = trial->residual;
+      last_travel = travel;
+      travel -= trial->residual / std::max(inertia + 0.5 * K + solver.tangent, 0.5 * inertia);
     }
     return {};
   }
@@ -276,10 +277,10 @@ namespace sprag
     const auto base_before = base();
     const double a_before = acceleration(), t = now.time;
     accept_levers(trial, h);
-    // The way was met to within a tolerance: the rate follows from the forces, and what the way lacks the next step adds.
+    // The travel is accurate to a tolerance. The rate follows from the forces, and the next step adds the missing travel.
     const double mean_force    = 0.5 * K * (trial.z + now.z) + trial.force;
     const double rate          = now.rate - (base_at(t + h).v - base_before.v) - mean_force * h / m;
-    solver.way_owed            = 0.5 * h * (rate - trial.rate);
+    solver.travel_defect       = 0.5 * h * (rate - trial.rate);
     solver.previous_step_force = solver.step_force;
     solver.step_force          = trial.force;
     solver.step_before         = solver.steps > 0 ? solver.last_step : h;
@@ -293,7 +294,7 @@ namespace sprag
     now.base_work -= mean_force * h * 0.5 * (base_before.v + base_behind.v);
     add_integrals(h, { a_before, base_before.a }, { acceleration(), base_behind.a });
     if (std::abs(now.z) > largest_z)
-      throw AnalysisError(beyond_the_way());
+      throw AnalysisError(stroke_exceeded());
   }
 
   void LeverTable::accept_levers(Trial &trial, const double h)
@@ -325,7 +326,7 @@ namespace sprag
   }
 
   /// Says how far the table goes on levers of the closed form, which takes no time to find.
-  std::string LeverTable::beyond_the_way() const
+  std::string LeverTable::stroke_exceeded() const
   {
     IsolationFindings by_closed_form;
     try
@@ -334,7 +335,7 @@ namespace sprag
     }
     catch (const AnalysisError &)
     {
-      // The run stops where a lever's way ends; findings until then are filled in.
+      // The run stops at the end of a lever's stroke and fills in the findings until then.
     }
     const double needed = std::ceil(1.1 * std::max(std::abs(now.z), by_closed_form.largest_displacement));
     return "At t = " + rounded_text(now.time) + " s, z = " + mm(now.z) + ": the levers are made for a way of " + mm(largest_z) +

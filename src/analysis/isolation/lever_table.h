@@ -72,13 +72,13 @@ namespace sprag
   };
 
   /// A table on levers in time: a model of a lever for z > 0 and one for z < 0, each standing for Isolation/Levers of them. The
-  /// end of the table's way is one more unknown of their implicit step: m [z'] = h (-K <z> - f) - m [x_b'] with [z] = h <z'>, < >
-  /// the mean and [ ] the change over the step of h, where f is the force that the levers' steps to that end have, so that the
-  /// work that leaves the table is the one that the levers take.
+  /// end of the table's travel is one more unknown of their implicit step: m [z'] = h (-K <z> - f) - m [x_b'] with [z] = h <z'>,
+  /// < > the mean and [ ] the change over the step of h, where f is the force that the levers' steps to that end have, so that
+  /// the work that leaves the table is the one that the levers take.
   ///
-  /// Where Time/Tolerance is given the way is that which the forces of the last steps lead to, and is corrected only where it is
-  /// further from the end of that equation than a tenth of the error that a step may have. What it lacks is added to the next way
-  /// and the rate z' is that of the forces, so that no momentum is lost.
+  /// Where Time/Tolerance is given the travel is extrapolated from the forces of the last steps, and corrected only where it is
+  /// further from the end of that equation than a tenth of the error that a step may have. What it lacks is added to the next
+  /// travel and the rate z' is that of the forces, so that no momentum is lost.
   ///
   /// Steps begin with Time/Step and are as long as the error of levers in contact allows, see StepGrid; a 200th of the shortest
   /// period of table and base at most.
@@ -116,7 +116,7 @@ namespace sprag
     double damper_energy() const override;
     double energy() const override;
 
-    /// Returns the mean number of ways tried in a step.
+    /// Returns the mean number of iterations of a step.
     double iterations_a_step() const
     {
       return solver.steps > 0 ? static_cast<double>(solver.iterations) / static_cast<double>(solver.steps) : 0.;
@@ -140,7 +140,7 @@ namespace sprag
       StoredEnergy stored;
     };
 
-    /// A step of both levers to an end of the table's way.
+    /// A step of both levers to a trial position of the table.
     struct Trial
     {
       double z, rate;
@@ -159,7 +159,7 @@ namespace sprag
       double step_before         = 0.;
       double step_force          = 0.; ///< means over them [N]
       double previous_step_force = 0.;
-      double way_owed            = 0.; ///< that the way until now lacks of what follows from the rates [mm]
+      double travel_defect       = 0.; ///< integral of the rates less the travel until now [mm]
       double tangent             = 0.; ///< of the levers' force by z [N/mm]
       double force               = 0.;
       std::size_t piece          = 0; ///< of the motion of the base
@@ -179,7 +179,7 @@ namespace sprag
     const BaseMotion base_excitation;
     const double largest_z;
     const double longest_step;
-    const double way_tolerance; ///< to which a step's way is met [mm]
+    const double travel_tolerance; ///< of a step [mm]
     std::array<Side, 2> sides;
     SolverState solver;
 
@@ -195,8 +195,8 @@ namespace sprag
     std::size_t piece_before(double time) const;
     BasePoint base_at(double time) const;
     DrivePoint drive_point(const Side &side, double time, double z, double rate) const;
-    double predicted_way(double h) const;
-    std::optional<Trial> tried(double h, double table_way, std::optional<Trial> before);
+    double predicted_travel(double h) const;
+    std::optional<Trial> tried(double h, double table_travel, std::optional<Trial> before);
     std::optional<Trial> solved(double h);
     double trial_error(const Trial &trial) const;
     TableEvent take_step();
@@ -204,7 +204,7 @@ namespace sprag
     void accept(double h, Trial &trial);
     void accept_levers(Trial &trial, double h);
     void add_integrals(double h, const Accelerations &before, const Accelerations &behind);
-    std::string beyond_the_way() const;
+    std::string stroke_exceeded() const;
   };
 
   void serialise(Archive &archive, LeverTable &table);

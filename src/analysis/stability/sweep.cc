@@ -36,7 +36,7 @@ namespace sprag
     }
 
     /// Returns whether two slides do the same to the last digit; slides that jam never do.
-    bool is_alike(const CheckedSlide &a, const CheckedSlide &b)
+    bool are_equal(const CheckedSlide &a, const CheckedSlide &b)
     {
       return a.growth_rate == b.growth_rate && a.P == b.P;
     }
@@ -228,7 +228,7 @@ namespace sprag
       CriticalSearch found(const double tolerance)
       {
         const auto is_as_first = [&](const Tried &tried)
-        { return tried.slide && all.front().slide && is_alike(*tried.slide, *all.front().slide); };
+        { return tried.slide && all.front().slide && are_equal(*tried.slide, *all.front().slide); };
         result.has_effect = all.size() < 2 || !std::all_of(all.begin(), all.end(), is_as_first);
         for (std::size_t i = 1; i < all.size() && tolerance > 0.; ++i)
           narrow(all[i - 1], all[i], tolerance * std::abs(result.range.to - result.range.from));
@@ -401,22 +401,22 @@ namespace sprag
 
   std::vector<std::string> ranges_without_effect(const Scene &scene, const SweptSlides &swept)
   {
-    const auto all    = constant_ranges(scene);
-    const auto n_ways = held_directions(scene).size();
+    const auto all          = constant_ranges(scene);
+    const auto n_directions = held_directions(scene).size();
     // The scene's own constants stand before those of the corners.
     const auto worst = [&](const std::size_t corner, const std::size_t way) -> const std::optional<CheckedSlide> &
-    { return swept.ways[(1 + corner) * n_ways + way].along.worst; };
+    { return swept.ways[(1 + corner) * n_directions + way].along.worst; };
     std::vector<std::string> result;
     for (std::size_t i = 0; i < all.size(); ++i)
     {
-      bool all_alike = true;
+      bool all_equal = true;
       for (std::size_t corner = 0; corner < std::size_t(1) << all.size(); ++corner)
-        for (std::size_t way = 0; way < n_ways; ++way)
+        for (std::size_t way = 0; way < n_directions; ++way)
         {
           const auto &here = worst(corner, way), &other_end = worst(corner ^ std::size_t(1) << i, way);
-          all_alike = all_alike && here && other_end && is_alike(*here, *other_end);
+          all_equal = all_equal && here && other_end && are_equal(*here, *other_end);
         }
-      if (all_alike)
+      if (all_equal)
         result.push_back(all[i].name);
     }
     return result;

@@ -41,7 +41,7 @@ namespace sprag
     }
 
     /// Returns true if a run has sizes of at most those of another and equal other settings.
-    bool is_as_fine(const StudySettings &study, const StudyPoint &run, const StudyPoint &other)
+    bool is_as_refined(const StudySettings &study, const StudyPoint &run, const StudyPoint &other)
     {
       for (std::size_t i = 0; i < run.size(); ++i)
       {
@@ -61,7 +61,7 @@ namespace sprag
       std::vector<double> lasting = errors;
       for (std::size_t row = 0; row < rows.size(); ++row)
         for (std::size_t finer = 0; finer < rows.size(); ++finer)
-          if (is_as_fine(study, rows[finer], rows[row]) && !std::isnan(lasting[row]) && !(errors[finer] <= lasting[row]))
+          if (is_as_refined(study, rows[finer], rows[row]) && !std::isnan(lasting[row]) && !(errors[finer] <= lasting[row]))
             lasting[row] = errors[finer];
       return lasting;
     }

@@ -10,15 +10,15 @@ namespace sprag
 {
   namespace
   {
-    volatile std::sig_atomic_t asked = 0;
+    volatile std::sig_atomic_t requested = 0;
 
-    extern "C" void ask(int)
+    extern "C" void request_end(int)
     {
-      asked = 1;
+      requested = 1;
     }
 
     /// An address sanitizer keeps its own handlers, which tell more.
-    void leave_crashes_to_the_system()
+    void restore_crash_signals()
     {
 #ifndef __SANITIZE_ADDRESS__
       for (const int signal : { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT })
@@ -30,17 +30,17 @@ namespace sprag
   void catch_interrupts()
   {
     for (const int signal : { SIGINT, SIGTERM, SIGUSR1 })
-      std::signal(signal, ask);
-    if (std::signal(SIGHUP, ask) == SIG_IGN)
+      std::signal(signal, request_end);
+    if (std::signal(SIGHUP, request_end) == SIG_IGN)
       std::signal(SIGHUP, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
-    leave_crashes_to_the_system();
+    restore_crash_signals();
   }
 
   bool interrupted()
   {
-    return asked != 0;
+    return requested != 0;
   }
 
   void end_if_interrupted()
@@ -53,6 +53,6 @@ namespace sprag
   {
     for (const int signal : { SIGINT, SIGTERM, SIGUSR1, SIGHUP, SIGPIPE })
       std::signal(signal, SIG_DFL);
-    leave_crashes_to_the_system();
+    restore_crash_signals();
   }
 } // namespace sprag

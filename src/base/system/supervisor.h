@@ -8,9 +8,9 @@ namespace sprag
   /// End of a supervised process.
   struct WorkEnd
   {
-    int status = 0;     ///< exit status, if it ended by itself
-    int signal = 0;     ///< that ended it, or 0
-    bool asked = false; ///< whether the user asked for the end
+    int status     = 0;     ///< exit status, if it ended by itself
+    int signal     = 0;     ///< that ended it, or 0
+    bool requested = false; ///< whether the user asked for the end
   };
 
   /// Time between asking a process for its end and making it end [s]: libraries in the middle of a mesh, a factorisation or a

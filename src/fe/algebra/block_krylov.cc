@@ -280,10 +280,10 @@ namespace sprag
 
     void orient(std::vector<double> &mode)
     {
-      constexpr double alike = 1e-6; // relative difference of displacements, as those of both sides in a mode that twists
-      double largest         = 0.;
+      constexpr double tie_tolerance = 1e-6; // relative difference of displacements, as those of both sides in a mode that twists
+      double largest                 = 0.;
       for (const double value : mode)
-        if (std::abs(value) > (1. + alike) * std::abs(largest))
+        if (std::abs(value) > (1. + tie_tolerance) * std::abs(largest))
           largest = value;
       if ((std::abs(mode.back()) < 1e-8 * std::abs(largest) ? largest : mode.back()) < 0.)
         for (double &value : mode)

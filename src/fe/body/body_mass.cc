@@ -122,13 +122,14 @@ namespace sprag
       const auto material = cell->material_id();
       if (material == material_id::hub)
         continue;
-      auto &alike = known[likeness<dim>(cell)];
-      if (alike == nullptr)
+      auto &mass_matrix = known[cell_shape<dim>(cell)];
+      if (mass_matrix == nullptr)
       {
         values.reinit(cell);
-        alike = &masses.emplace_back(unit_mass(values));
+        mass_matrix = &masses.emplace_back(unit_mass(values));
       }
-      all_cells.push_back({ alike, inertia.densities.at(material) * properties.material_width(material), node_dofs<dim>(cell) });
+      all_cells.push_back(
+          { mass_matrix, inertia.densities.at(material) * properties.material_width(material), node_dofs<dim>(cell) });
     }
   }
 

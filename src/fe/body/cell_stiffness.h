@@ -12,7 +12,7 @@ namespace sprag
   /// Returns material and shape of a cell in space up to a shift, in steps of a nanometre: cells that are alike share stiffness
   /// and mass. In a plane, where cells may be curved, each is like itself alone.
   template <int dim>
-  std::vector<long> likeness(const typename CellElasticity<dim>::Cell &cell)
+  std::vector<long> cell_shape(const typename CellElasticity<dim>::Cell &cell)
   {
     if (dim == 2)
       return { static_cast<long>(cell->active_cell_index()) };
@@ -41,7 +41,7 @@ namespace sprag
     {
       if (dim == 2)
         known.clear(); // no other cell is like it
-      const auto [found, is_new] = known.try_emplace(likeness<dim>(cell), at_rest.size(), at_rest.size());
+      const auto [found, is_new] = known.try_emplace(cell_shape<dim>(cell), at_rest.size(), at_rest.size());
       if (is_new)
       {
         elasticity.reinit(cell, at_rest);
@@ -54,6 +54,6 @@ namespace sprag
     CellElasticity<dim> elasticity;
     const dealii::Vector<double> at_rest;
     dealii::Vector<double> no_forces;
-    std::map<std::vector<long>, dealii::FullMatrix<double>> known; ///< by likeness()
+    std::map<std::vector<long>, dealii::FullMatrix<double>> known; ///< by cell_shape()
   };
 } // namespace sprag

@@ -18,8 +18,8 @@ namespace sprag
     unsigned int n;                      ///< of points
     double clear_until;                  ///< length of the element's travel until which no point comes to the cylinder [mm]
 
-    bool is_clear;        ///< as the element was pressed last: nothing was computed
-    BatchMask takes_part; ///< then
+    bool is_clear;       ///< as the element was pressed last: nothing was computed
+    BatchMask is_active; ///< then
   };
 
   struct alignas(SimdBatch) BatchedStep::Begin
@@ -41,7 +41,7 @@ namespace sprag
   {
     Triple<N> place;
     SeenPoint<N> seen;
-    BatchMask takes_part;
+    BatchMask is_active;
     N pressure;
     Several<N, 2> slip; ///< in the step
     SimdBatch shift;    ///< of the slip round the cylinder, without its elastic part [mm]
@@ -335,10 +335,10 @@ namespace sprag
     end.seen            = seen(cylinder.shape, pose, end.place);
     const SimdBatch gap = end.seen.gap;
     if (data.kind == Kind::in_time)
-      end.takes_part = (gap < 0.) | (begin.gap < 0.) | begin.known;
+      end.is_active = (gap < 0.) | (begin.gap < 0.) | begin.known;
     else
-      end.takes_part = data.kind == Kind::touch ? BatchMask{} : begin.multiplier - data.law.normal.stiffness * gap > 0.;
-    if (!any(end.takes_part))
+      end.is_active = data.kind == Kind::touch ? BatchMask{} : begin.multiplier - data.law.normal.stiffness * gap > 0.;
+    if (!any(end.is_active))
       return;
     if (data.kind == Kind::in_time)
       respond<true>(block, begin, pose, nodal, Part::all, end);
@@ -352,16 +352,16 @@ namespace sprag
     const bool in_time         = data.kind == Kind::in_time;
     const auto balance         = to_batch(data.balance);
     auto &group                = blocks[element];
-    bool takes_part            = false;
+    bool is_active             = false;
     Batches<n_coordinates> sums{};
     group.travel.go_to(to, data.end, cylinder.shape);
     End<Batch> end;
     for (unsigned int b = 0; b < group.all.size(); ++b)
     {
-      auto &block      = group.all[b];
-      auto &begin      = begins[group.first + b];
-      block.is_clear   = passes_over(group, b);
-      block.takes_part = BatchMask{};
+      auto &block     = group.all[b];
+      auto &begin     = begins[group.first + b];
+      block.is_clear  = passes_over(group, b);
+      block.is_active = BatchMask{};
       if (block.is_clear)
         continue;
       if (!begin.is_placed)
@@ -369,17 +369,17 @@ namespace sprag
       evaluate(block, begin, to, end);
       const SimdBatch gap = end.seen.gap;
       block.clear_until   = group.travel.length() - largest(-gap) - round_off;
-      block.takes_part    = end.takes_part;
-      if (!any(block.takes_part))
+      block.is_active     = end.is_active;
+      if (!any(block.is_active))
         continue;
-      takes_part           = true;
+      is_active            = true;
       const SimdBatch most = in_time ? -smaller(gap, begin.gap) : end.pressure / data.law.normal.stiffness;
       penetration          = std::max(penetration, largest(most));
 
       const auto at          = in_time ? begin.place + data.share * (end.place - begin.place) : end.place;
       const auto balanced    = in_time ? seen(cylinder.shape, balance, at) : end.seen;
       const auto force       = point_force(cylinder.shape, balanced, balance.axes.axis, end.mean_pressure, end.mean_traction);
-      const SimdBatch weight = block.takes_part ? block.weight : SimdBatch{};
+      const SimdBatch weight = block.is_active ? block.weight : SimdBatch{};
       const auto along       = generalised(balance, at, balanced.from_centre, weight * force);
       for (unsigned int d = 0; d < 3; ++d)
         for (unsigned int a = 0; a < n_nodes; ++a)
@@ -387,9 +387,9 @@ namespace sprag
       for (unsigned int k = 0; k < 2 + data.slopes; ++k)
         sums[n_displacements + k] += along[3 + k];
     }
-    for (unsigned int i = 0; takes_part && i < n_coordinates; ++i)
+    for (unsigned int i = 0; is_active && i < n_coordinates; ++i)
       forces[i] += sum(sums[i]);
-    return takes_part;
+    return is_active;
   }
 
   /// Sums over the points of an element: derivatives of its forces by its coordinates.
@@ -405,7 +405,7 @@ namespace sprag
     template <int variables>
     SPRAG_PART void add(const Block &block, const Several<Dual<Batch, variables>, 7> &force, const Triple<Batch> &by_direction)
     {
-      const SimdBatch weight   = block.takes_part ? block.weight : SimdBatch{};
+      const SimdBatch weight   = block.is_active ? block.weight : SimdBatch{};
       const SimdBatch along[3] = { by_direction.x, by_direction.y, by_direction.z };
       for (unsigned int f = 0; f < 5 + slopes; ++f)
       {
@@ -449,7 +449,7 @@ namespace sprag
       {
         const auto &block = group.all[b];
         const auto &begin = begins[group.first + b];
-        if (!any(block.takes_part))
+        if (!any(block.is_active))
           continue;
         End<N> end;
         end.place = varied_place<N>(at_points(block.shapes, block.position, nodal));
@@ -508,12 +508,12 @@ namespace sprag
     {
       const auto &block = blocks[element].all[b];
       const auto &begin = begins[blocks[element].first + b];
-      if (!any(block.takes_part))
+      if (!any(block.is_active))
         continue;
       evaluate(block, begin, blocks[element].travel.displacement(), end);
       const auto &friction   = end.friction;
-      const SimdBatch weight = block.takes_part ? block.weight : SimdBatch{};
-      pressure               = std::max(pressure, largest(block.takes_part ? end.pressure : SimdBatch{}));
+      const SimdBatch weight = block.is_active ? block.weight : SimdBatch{};
+      pressure               = std::max(pressure, largest(block.is_active ? end.pressure : SimdBatch{}));
       sums.stored += sum(weight * (0.5 / data.law.normal.stiffness * end.pressure * end.pressure + friction.energy));
       if (data.kind != Kind::in_time)
         continue;
@@ -534,7 +534,7 @@ namespace sprag
       sums.work.friction += sum(weight * friction.dissipated);
       sums.work.algorithmic += data.law.weights.delay() * sum(weight * work);
       sums.work.drive += sum(weight * (data.surface_run * end.mean_traction[0] + data.advance * force.x));
-      sums.work.creep = std::max(sums.work.creep, largest(block.takes_part ? friction.creep : SimdBatch{}));
+      sums.work.creep = std::max(sums.work.creep, largest(block.is_active ? friction.creep : SimdBatch{}));
     }
     return pressure;
   }
@@ -547,7 +547,7 @@ namespace sprag
     for (unsigned int b = 0; b < blocks[element].all.size(); ++b)
     {
       const auto &block = blocks[element].all[b];
-      if (!all && !any(block.takes_part))
+      if (!all && !any(block.is_active))
         continue;
       const auto &begin = block.is_clear ? nowhere : begins[blocks[element].first + b];
       evaluate(block, begin, blocks[element].travel.displacement(), end);
@@ -571,7 +571,7 @@ namespace sprag
     state.position       = dealii::Point<3>(end.place.x[i], end.place.y[i], end.place.z[i]);
     state.gap            = end.seen.gap[i];
     state.trial_pressure = begin.multiplier[i] - data.law.normal.stiffness * state.gap;
-    if (!block.takes_part[i])
+    if (!block.is_active[i])
       return;
     const auto &friction = end.friction;
     state.pressure       = end.pressure[i];

@@ -133,13 +133,13 @@ namespace sprag
         result.push_back(friction[i].ratio * pressure[i]);
         lacking += area(i) * (found.points[i].traction[0] - result.back());
       }
-      const auto way = [&](const std::size_t i) { return std::copysign(friction[i].mu * pressure[i], lacking) - result[i]; };
-      double whole   = 0.;
+      const auto deficit = [&](const std::size_t i) { return std::copysign(friction[i].mu * pressure[i], lacking) - result[i]; };
+      double whole       = 0.;
       for (std::size_t i = 0; i < friction.size(); ++i)
-        whole += area(i) * way(i);
+        whole += area(i) * deficit(i);
       if (lacking * whole > 0.)
         for (std::size_t i = 0; i < friction.size(); ++i)
-          result[i] += std::min(1., lacking / whole) * way(i);
+          result[i] += std::min(1., lacking / whole) * deficit(i);
       return result;
     }
   } // namespace

@@ -26,7 +26,7 @@ namespace sprag
   {
   }
 
-  void ElasticCounterface::enter(const StepPlaces &places_, const bool begins_anew)
+  void ElasticCounterface::set_places(const StepPlaces &places_, const bool begins_anew)
   {
     places         = places_;
     end.at         = pair.configuration(places.end);
@@ -71,7 +71,7 @@ namespace sprag
     return found->second;
   }
 
-  void ElasticCounterface::enter(const unsigned int element_index)
+  void ElasticCounterface::begin_element(const unsigned int element_index)
   {
     element = element_index;
     first   = face.elements[element].begin;
@@ -321,7 +321,7 @@ namespace sprag
     return result;
   }
 
-  void ElasticCounterface::leave(ContactSums &sums)
+  void ElasticCounterface::end_element(ContactSums &sums)
   {
     if (touched)
       add_element(interface_coordinates(), values, tangent, friction, sums);

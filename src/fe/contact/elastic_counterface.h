@@ -18,7 +18,7 @@ namespace sprag
     ElasticCounterface(const FrictionFace<2> &lever, const FrictionFace<2> &cylinder, const FaceElements<2> &face,
                        const FaceProperties<2> &properties);
 
-    void enter(const StepPlaces &places, bool begins_anew);
+    void set_places(const StepPlaces &places, bool begins_anew);
     FaceElements<2>::Indices near_end() const
     {
       return near(end.at);
@@ -27,7 +27,7 @@ namespace sprag
     {
       return near(begin_side.at);
     }
-    void enter(unsigned int element);
+    void begin_element(unsigned int element);
     bool place(FacePointState<2> &state) const;
 
     double gap_at_begin(const unsigned int point)
@@ -37,7 +37,7 @@ namespace sprag
 
     void step(FacePointState<2> &state, const ContactHistory &history, const FaceStep &step, ContactSums &sums);
     void slide(FacePointState<2> &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums);
-    void leave(ContactSums &sums);
+    void end_element(ContactSums &sums);
     FacePointRows rows(const FacePointState<2> &state);
     double slip(const FacePointState<2> &state);
 

@@ -38,7 +38,7 @@ namespace sprag
         {
           for (const unsigned int element : elements)
           {
-            below.enter(element);
+            below.begin_element(element);
             visit_element(below, element);
           }
         },
@@ -51,7 +51,7 @@ namespace sprag
     const FaceStep face_step{ step_terms(properties, step, statics), step.history };
     const StepPlaces places{ configuration(step.begin.position, step.from.x), configuration(step.end, step.to.x),
                              step.weights.stiffness(), statics.has_value() };
-    enter(places);
+    set_places(places);
     visit_elements(near_step(step.history, places, found),
                    [&](auto &below, const unsigned int element) { step_element(below, element, face_step, found); });
     sum_forces(found.sums.loaded, dof_places, found.forces);
@@ -59,13 +59,13 @@ namespace sprag
   }
 
   /// Enters a step. What is known of the beginning of the last one is kept where this one begins alike.
-  void FaceContact::enter(const StepPlaces &places) const
+  void FaceContact::set_places(const StepPlaces &places) const
   {
     const bool begins_anew = places.moves() && begin_at(*places.begin.displacement, places.begin.x);
     std::visit(
         [&](auto &below)
         {
-          below.enter(places, begins_anew);
+          below.set_places(places, begins_anew);
           if (begins_anew)
             near_begin = below.near_begin();
         },
@@ -114,7 +114,7 @@ namespace sprag
           std::max(found.sums.penetration, ends_balance ? state.trial_pressure / penalty : -std::min(state.gap, begin_gap));
       below.step(state, history, step, found.sums);
     }
-    below.leave(found.sums);
+    below.end_element(found.sums);
   }
 
   LinearisedForces FaceContact::linearise(const SlidingState &state, FaceEvaluation<2> &found) const
@@ -132,7 +132,7 @@ namespace sprag
     found.begin(sliding.displacements, sliding.drive.x, 1.); // slip in a second
     found.sums.in_parts = in_parts;
     const auto at       = configuration(sliding.displacements, sliding.drive.x);
-    enter({ at, at });
+    set_places({ at, at });
     const auto law = slide_friction(properties.friction, sliding);
     visit_elements(candidates.clip(near_end(), found.within_candidates),
                    [&](auto &below, const unsigned int element)
@@ -146,7 +146,7 @@ namespace sprag
                        if (state.gap < 0.)
                          below.slide(state, sliding, law, found.sums);
                      }
-                     below.leave(found.sums);
+                     below.end_element(found.sums);
                    });
     sum_forces(found.sums.loaded, dof_places, found.forces);
   }
@@ -171,7 +171,7 @@ namespace sprag
   {
     found.begin(displacements, drive.x, 0.);
     const auto at = configuration(displacements, drive.x);
-    enter({ at, at });
+    set_places({ at, at });
     visit_elements(near_end(),
                    [&](auto &below, const unsigned int element)
                    {
@@ -198,7 +198,7 @@ namespace sprag
   double FaceContact::gap_change(const FaceEvaluation<2> &found, const Vector<double> &moved, unsigned int) const
   {
     const auto at = configuration(found.displacement, found.x);
-    enter({ at, at });
+    set_places({ at, at });
     const auto &point = contact_middle(found.points);
     double change     = 0.;
     visit_elements({ point.element },
@@ -214,7 +214,7 @@ namespace sprag
   double FaceContact::mean_slip(const FaceEvaluation<2> &found, const Vector<double> &from, const double from_x,
                                 const Vector<double> &to, const double to_x) const
   {
-    enter({ configuration(from, from_x), configuration(to, to_x) });
+    set_places({ configuration(from, from_x), configuration(to, to_x) });
     return std::visit(
         [&](auto &below)
         {
@@ -223,7 +223,7 @@ namespace sprag
                                [&](const FacePointState<2> &point)
                                {
                                  if (point.element != element)
-                                   below.enter(element = point.element);
+                                   below.begin_element(element = point.element);
                                  return below.slip(point);
                                });
         },

@@ -64,7 +64,7 @@ namespace sprag
     void step_element(CounterfaceBelow &below, unsigned int element, const FaceStep &step, FaceEvaluation<2> &found) const;
     void slide(const SlidingState &sliding, bool in_parts, FaceEvaluation<2> &found) const;
 
-    void enter(const StepPlaces &places) const;
+    void set_places(const StepPlaces &places) const;
 
     FaceElements<2>::Indices near_end() const
     {

@@ -150,14 +150,14 @@ namespace sprag
   }
 
   template <int dim>
-  void FaceCandidates<dim>::set(const FaceElements<dim> &face, Indices may_touch, Indices shown, const unsigned int surface,
-                                const unsigned int size)
+  void FaceCandidates<dim>::set(const FaceElements<dim> &face, Indices may_touch, Indices near_elements,
+                                const unsigned int surface, const unsigned int size)
   {
     elements = std::move(may_touch);
-    if (!dofs.empty() && shown == looked_at)
+    if (!dofs.empty() && near_elements == near)
       return;
-    looked_at = std::move(shown);
-    dofs      = face.element_displacements(looked_at);
+    near = std::move(near_elements);
+    dofs = face.element_displacements(near);
     for (auto dof = surface; dof < size; ++dof)
       dofs.push_back(dof);
   }

@@ -117,11 +117,11 @@ namespace sprag
 
     double factor = 1.;             ///< of the distances that are looked at
     Indices elements;               ///< elements that the contact may touch
-    Indices looked_at;              ///< elements of the dofs
+    Indices near;                   ///< elements of the dofs
     std::vector<unsigned int> dofs; ///< increasing; none before the first set()
 
     /// Sets elements and dofs: those of the elements looked at, and those that follow the face's, from `surface` to `size`.
-    void set(const FaceElements<dim> &face, Indices may_touch, Indices shown, unsigned int surface, unsigned int size);
+    void set(const FaceElements<dim> &face, Indices may_touch, Indices near_elements, unsigned int surface, unsigned int size);
 
     /// Leaves out elements that are no candidates and tells if there are none. Before the first set() all are candidates.
     Indices clip(Indices near, bool &within_candidates) const;

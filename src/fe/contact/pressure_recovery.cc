@@ -211,11 +211,11 @@ namespace sprag
       };
       for (const double share : { 0.2, 0.06, 0.02 })
         for (double PressureFit::*const edge : { &PressureFit::a, &PressureFit::b })
-          for (const double way : { -1., 1. })
+          for (const double sign : { -1., 1. })
             for (unsigned int times = 0; times < 2; ++times)
             {
               PressureFit next = best;
-              next.*edge += way * share * cell;
+              next.*edge += sign * share * cell;
               set_coefficients(data, next);
               if (!(cost(next) < cost(best)))
                 break;

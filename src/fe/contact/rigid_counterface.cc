@@ -41,7 +41,7 @@ namespace sprag
     }
   }
 
-  void RigidCounterface::enter(const StepPlaces &places_, const bool begins_anew)
+  void RigidCounterface::set_places(const StepPlaces &places_, const bool begins_anew)
   {
     places = places_;
     end    = properties.counterface(places.end.x, places.end.theta);
@@ -71,7 +71,7 @@ namespace sprag
     return face.find_near({ at.centre.xi, at.centre.eta }, smallest_gap);
   }
 
-  void RigidCounterface::enter(const unsigned int element_index)
+  void RigidCounterface::begin_element(const unsigned int element_index)
   {
     element              = element_index;
     at_end               = FaceElements<2>::nodal(face.elements[element], *places.end.displacement);
@@ -258,7 +258,7 @@ namespace sprag
     return result;
   }
 
-  void RigidCounterface::leave(ContactSums &sums)
+  void RigidCounterface::end_element(ContactSums &sums)
   {
     if (touched)
       add_element(interface_coordinates(), values, tangent, friction, sums);

@@ -18,7 +18,7 @@ namespace sprag
 
     /// Sets the configurations of all that follows; for steady sliding beginning and end are one. `begins_anew`: the beginning is
     /// another than that of the last step.
-    void enter(const StepPlaces &places, bool begins_anew);
+    void set_places(const StepPlaces &places, bool begins_anew);
 
     // Elements near the counterface at the end of the step and at its beginning; at least one that is closest up to the margin,
     // 0.02 of its length.
@@ -32,7 +32,7 @@ namespace sprag
     }
 
     /// Sets the element of all that follows.
-    void enter(unsigned int element);
+    void begin_element(unsigned int element);
 
     /// Gives a point of the element its position and gap, and makes it that of step() and slide(). Returns whether the
     /// counterface can touch it.
@@ -51,7 +51,7 @@ namespace sprag
     void slide(FacePointState<2> &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums);
 
     /// Adds the forces of the element, if it has any.
-    void leave(ContactSums &sums);
+    void end_element(ContactSums &sums);
 
     /// Returns the rows of a point of the element at the end of the step.
     FacePointRows rows(const FacePointState<2> &state) const;

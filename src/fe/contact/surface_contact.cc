@@ -104,7 +104,7 @@ namespace sprag
     const auto constants = step_constants(step, end, statics);
     batched.set(constants);
     found.begin(step.end, step.to.x, step.weights.dt);
-    looked_at = candidates.clip(united(near(end, constants.end), near_begin), found.within_candidates);
+    near_elements = candidates.clip(united(near(end, constants.end), near_begin), found.within_candidates);
     place_elements(begin_displacements, step.history, statics);
     press_elements(step.end, found);
     set_forces(step.request, found.forces);
@@ -187,7 +187,7 @@ namespace sprag
   void SurfaceContact::place_elements(const Vector<double> &begin, const std::vector<ContactHistory> &history,
                                       const std::optional<StaticTerms> &statics)
   {
-    for (const unsigned int element : looked_at)
+    for (const unsigned int element : near_elements)
       if (!batched.is_placed(element))
         batched.place(element, Elements::nodal(grid.elements[element], begin),
                       statics ? slip_shifts(element, history, *statics) : std::vector<SlipShift>());
@@ -199,7 +199,7 @@ namespace sprag
     pressed.clear();
     most_pressed.reset();
     Elements::Indices touched;
-    for (const unsigned int element : looked_at)
+    for (const unsigned int element : near_elements)
     {
       auto &forces        = pressed.emplace_back();
       const double before = found.sums.penetration;
@@ -311,7 +311,7 @@ namespace sprag
   void SurfaceContact::press(const BatchedStep::Constants &step, const Vector<double> &displacements,
                              Elements::Indices elements_near, FaceEvaluation<3> &found)
   {
-    looked_at = std::move(elements_near);
+    near_elements = std::move(elements_near);
     begin_displacements.reinit(0); // a step that follows begins anew
     batched.set(step);
     batched.begin({});
@@ -348,7 +348,7 @@ namespace sprag
   void SurfaceContact::add_points(FaceEvaluation<3> &found) const
   {
     found.points.clear();
-    for (const unsigned int element : looked_at)
+    for (const unsigned int element : near_elements)
       batched.add_points(element, true, found.points);
   }
 
@@ -362,7 +362,7 @@ namespace sprag
   void SurfaceContact::add_points_in_contact(const std::optional<unsigned int> &peak, FaceEvaluation<3> &found) const
   {
     found.points.clear();
-    for (const unsigned int element : looked_at)
+    for (const unsigned int element : near_elements)
       batched.add_points(element, !peak || share_line(element, *peak), found.points);
   }
 
@@ -371,7 +371,7 @@ namespace sprag
   {
     double largest = 0.;
     std::optional<unsigned int> peak;
-    for (const unsigned int element : looked_at)
+    for (const unsigned int element : near_elements)
       if (const double pressure = batched.add_sums(element, found.sums); pressure > largest)
       {
         largest = pressure;

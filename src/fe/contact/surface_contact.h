@@ -98,7 +98,7 @@ namespace sprag
     };
 
     BatchedStep batched;
-    Elements::Indices looked_at;              ///< by the last evaluation
+    Elements::Indices near_elements;          ///< by the last evaluation
     std::vector<BatchedStep::Forces> pressed; ///< of the elements that are summed
     std::optional<unsigned int> most_pressed; ///< the one of the largest penetration
     Summed summed;

@@ -62,9 +62,9 @@ namespace sprag
 
   /// Completes the condensed model of a lever or a pair. `structure(part)` and `displacement(part, motion)`: structure and
   /// elastic displacement of the lever, or of the symmetric (0) and the antisymmetric (1) motions of a pair, whose structures may
-  /// be `alike`; `assemble(structure)` makes the model.
+  /// be `identical`; `assemble(structure)` makes the model.
   template <class Structure, class Displacement, class Assemble>
-  void complete_condensed(const unsigned int levers, const bool alike, const Structure &structure,
+  void complete_condensed(const unsigned int levers, const bool identical, const Structure &structure,
                           const Displacement &displacement, const Assemble &assemble, MeshedDynamics &result)
   {
     if (levers == 1)
@@ -73,7 +73,7 @@ namespace sprag
       result.model                = assemble(structure(0));
       return;
     }
-    auto pair                   = std::make_unique<MirroredStructure<ModalStructure>>(structure(0), structure(1), alike);
+    auto pair                   = std::make_unique<MirroredStructure<ModalStructure>>(structure(0), structure(1), identical);
     result.elastic_displacement = [lever_structure = pair.get(), displacement](const Motion &motion, const unsigned int lever)
     {
       return lever_structure->lever_vector(

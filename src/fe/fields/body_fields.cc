@@ -266,10 +266,10 @@ namespace sprag
   {
   }
 
-  BodyFields::BodyFields(const SolidBody &body, const FrictionFace<3> &shown)
+  BodyFields::BodyFields(const SolidBody &body, const FrictionFace<3> &displayed)
       : is_in_space(true)
       , is_half(body.is_half())
-      , face(shown)
+      , face(displayed)
       , calls(&body.calls())
       , ranks(calls->ranks)
   {

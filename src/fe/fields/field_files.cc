@@ -70,7 +70,7 @@ namespace sprag
              "</DataItem>\n";
     }
 
-    std::string shown_name(const std::string &name, const std::string &unit)
+    std::string labelled(const std::string &name, const std::string &unit)
     {
       return unit == "1" ? name : name + " [" + unit + "]";
     }
@@ -78,7 +78,7 @@ namespace sprag
     std::string attribute(const Field &field, const std::string &group, const std::size_t n_nodes)
     {
       const std::string type = field.components == 1 ? "Scalar" : field.components == 3 ? "Vector" : "Tensor";
-      return "        <Attribute Name=\"" + shown_name(field.name, field.unit) + "\" AttributeType=\"" + type +
+      return "        <Attribute Name=\"" + labelled(field.name, field.unit) + "\" AttributeType=\"" + type +
              "\" Center=\"Node\">" + item(group + "/" + field.name, n_nodes, field.components, "Float", 4) +
              "        </Attribute>\n";
     }
@@ -205,7 +205,7 @@ namespace sprag
       const auto &place = frame_group ? *frame_group : file;
       hdf5::write_attribute(place, "time", time);
       for (const auto &fact : facts)
-        hdf5::write_attribute(place, shown_name(fact.name, fact.unit), fact.value);
+        hdf5::write_attribute(place, labelled(fact.name, fact.unit), fact.value);
       for (std::size_t i = 0; i < indices.size(); ++i)
       {
         NewGroup group(place, group_path(indices[i]), indices[i].mesh.name, rows);
@@ -244,7 +244,7 @@ namespace sprag
     for (const auto &field : mesh.fixed)
       text += attribute(field, mesh_path, mesh.n_nodes());
     for (const auto &fact : facts)
-      text += "        <Attribute Name=\"" + shown_name(fact.name, fact.unit) +
+      text += "        <Attribute Name=\"" + labelled(fact.name, fact.unit) +
               "\" AttributeType=\"Scalar\" Center=\"Grid\"><DataItem Dimensions=\"1\" NumberType=\"Float\" Precision=\"8\" "
               "Format=\"XML\">" +
               number(fact.value) + "</DataItem></Attribute>\n";

@@ -122,7 +122,7 @@ namespace sprag
         constraints.add_line(dof);
     }
 
-    void move_alike(const std::vector<unsigned int> &dofs, AffineConstraints<double> &constraints)
+    void couple(const std::vector<unsigned int> &dofs, AffineConstraints<double> &constraints)
     {
       for (std::size_t i = 1; i < dofs.size(); ++i)
       {
@@ -171,7 +171,7 @@ namespace sprag
       {
         const auto dofs = dofs_on(body, component, boundary_id::joint);
         if (moves)
-          move_alike(dofs, constraints);
+          couple(dofs, constraints);
         else
           hold_all(dofs, constraints);
       };

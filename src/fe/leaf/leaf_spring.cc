@@ -173,10 +173,10 @@ namespace sprag
     const double rest       = kinematics(device.geometry, 0.).theta + device.spring.rest_angle;
     const double smallest   = std::min(0., kinematics(device.geometry, device.drive.minimum()).theta - rest);
     const double largest    = std::max(0., kinematics(device.geometry, device.drive.maximum()).theta - rest);
-    const double room       = std::max(0.02, 0.5 * std::max(-smallest, largest));
+    const double margin     = std::max(0.02, 0.5 * std::max(-smallest, largest));
     const double joint_mass = 0.5 * device.pair.joint_mass; // the mirrored lever's leaf carries the other half
     const auto plane        = result.leaf.plane;
-    result.behaviour        = leaf_behaviour(result.leaf, plane, smallest - room, largest + room, joint_mass);
+    result.behaviour        = leaf_behaviour(result.leaf, plane, smallest - margin, largest + margin, joint_mass);
     result.stiffness        = result.behaviour.law.linear_stiffness();
     if (swings(device))
       result.swing = swinging_leaf(result.leaf, plane, joint_mass);

@@ -35,8 +35,8 @@ namespace sprag
   namespace
   {
     /// A damaged mesh may keep gmsh busy for ever [s], or ask for all the memory there is [bytes].
-    constexpr double mesh_patience  = 20.;
-    constexpr std::size_t mesh_room = std::size_t(1) << 30;
+    constexpr double mesh_patience    = 20.;
+    constexpr std::size_t mesh_memory = std::size_t(1) << 30;
 
     /// Share of the free memory and time [s] that a stranger's script may take: other programs keep theirs, and loops end.
     constexpr double script_share   = 0.8;
@@ -318,8 +318,8 @@ namespace sprag
 
     std::string hint(const std::string &file, const std::string &error)
     {
-      const bool is_meant  = error.find("pen file") != std::string::npos || error.find("system call") != std::string::npos;
-      const bool by_rights = is_meant && is_script(file) && !scripts_are_trusted;
+      const bool is_refused = error.find("pen file") != std::string::npos || error.find("system call") != std::string::npos;
+      const bool by_rights  = is_refused && is_script(file) && !scripts_are_trusted;
       return by_rights ? "; a script may read its own folder, and write and start nothing, unless you give --trust-scripts" : "";
     }
 
@@ -479,7 +479,7 @@ namespace sprag
       {
         const double available = available_memory().bytes;
         if (is_mesh)
-          limit_growth(mesh_room + 200 * bytes);
+          limit_growth(mesh_memory + 200 * bytes);
         else if (!is_own(file) && std::isfinite(available))
           limit_growth(static_cast<std::size_t>(script_share * available));
         Answer answer;

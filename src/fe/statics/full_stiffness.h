@@ -16,7 +16,7 @@ namespace sprag
   class FullStiffness
   {
   public:
-    static constexpr bool looks_at_some = false; ///< but at the whole interface
+    static constexpr bool has_candidates = false; ///< but at the whole interface
 
     /// The body must outlive this; that of a pair's second lever is alike.
     FullStiffness(const ElasticBody<2> &body, const InterfaceLayout &layout, const JointSprings &springs);

@@ -103,8 +103,8 @@ namespace sprag
     {
       const auto is_back = [&](const auto &face)
       {
-        const auto way = face->center() - cell->center();
-        return way[1] > std::abs(way[0]) && way[1] > std::abs(way[2]);
+        const auto offset = face->center() - cell->center();
+        return offset[1] > std::abs(offset[0]) && offset[1] > std::abs(offset[2]);
       };
       const auto faces = cell->face_iterators();
       return std::any_of(faces.begin(), faces.end(), [&](const auto &face) { return face->at_boundary() && is_back(face); });

@@ -46,7 +46,7 @@ namespace sprag
   class StaticInterface
   {
   public:
-    static constexpr bool looks_at_some = true;
+    static constexpr bool has_candidates = true;
 
     /// `faces`: those of a lever in the order of their dofs, the same for both of a pair.
     StaticInterface(const InterfaceLayout &layout, const JointSprings &springs, std::vector<FaceResponse> faces);

@@ -176,7 +176,7 @@ namespace sprag
       const auto &ideal = levers[i].properties.ideal_theta;
       step.trial.coordinates[rotation(i)] += ideal(end.x - u) - ideal(accepted.drive.x - u);
     }
-    if (looks_at_some())
+    if (has_candidates())
       look_at(step);
     return step;
   }
@@ -191,7 +191,7 @@ namespace sprag
     std::visit(
         [&](auto &s)
         {
-          if constexpr (std::decay_t<decltype(s)>::looks_at_some)
+          if constexpr (std::decay_t<decltype(s)>::has_candidates)
             s.set_faces(step.forces, step.near, step.displacements);
         },
         own_structure);
@@ -226,7 +226,7 @@ namespace sprag
   Evaluation StaticLever<dim>::evaluate(Step &step, const FrictionMode mode)
   {
     Balance found;
-    if (looks_at_some() && step.near != candidates)
+    if (has_candidates() && step.near != candidates)
       look_at(step);
     evaluate_contacts(step, mode, found);
     excess.add_forces(turns(step.trial), !found.forces.dofs.empty(), found.forces);

@@ -177,9 +177,9 @@ namespace sprag
                         own_structure);
     }
 
-    bool looks_at_some() const
+    bool has_candidates() const
     {
-      return std::visit([](const auto &s) { return s.looks_at_some; }, own_structure);
+      return std::visit([](const auto &s) { return s.has_candidates; }, own_structure);
     }
 
     void look_at(Step &step);

@@ -32,7 +32,7 @@ namespace sprag
       return sum.real();
     }
 
-    constexpr double alike = 1e-6; ///< relative difference of displacements, as those of both sides in a mode that twists
+    constexpr double tie_tolerance = 1e-6; ///< relative difference of displacements, as those of both sides in a mode that twists
 
     void multiply(ComplexVector &vector, const Complex factor)
     {
@@ -53,7 +53,7 @@ namespace sprag
       const auto size        = [&](const unsigned int dof) { return std::hypot(displacements[0][dof], displacements[1][dof]); };
       unsigned int largest   = 0;
       for (unsigned int dof = 0; dof < displacements[0].size(); ++dof)
-        if (size(dof) > (1. + alike) * size(largest))
+        if (size(dof) > (1. + tie_tolerance) * size(largest))
           largest = dof;
       if (size(rotation) < 1e-9 * size(largest))
         reference = largest;

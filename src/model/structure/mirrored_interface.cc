@@ -87,11 +87,11 @@ namespace sprag
   }
 
   InterfaceCompliance MirroredInterface::compliance(const InterfaceCompliance &symmetric,
-                                                    const InterfaceCompliance &antisymmetric, const bool alike) const
+                                                    const InterfaceCompliance &antisymmetric, const bool identical) const
   {
     InterfaceCompliance result;
     const auto &lever_compliance = symmetric.blocks().front().matrix;
-    if (alike)
+    if (identical)
       for (unsigned int lever = 0; lever < 2; ++lever)
         result.append(lever_compliance);
     else

@@ -53,10 +53,10 @@ namespace sprag
     /// Returns the forces on a structure, motion 0 or 1, by forces on the pair; without tangent.
     InterfaceForces forces(const InterfaceForces &paired, unsigned int motion) const;
 
-    /// Returns the compliance of the pair, with blocks (Gs + Ga)/2 for each lever and (Gs - Ga)/2 between them. `alike`: Gs = Ga,
-    /// so that the levers are uncoupled.
+    /// Returns the compliance of the pair, with blocks (Gs + Ga)/2 for each lever and (Gs - Ga)/2 between them. `identical`: Gs =
+    /// Ga, so that the levers are uncoupled.
     InterfaceCompliance compliance(const InterfaceCompliance &symmetric, const InterfaceCompliance &antisymmetric,
-                                   bool alike) const;
+                                   bool identical) const;
 
     /// Returns linear forces on both structures; dofs of the antisymmetric motion are numbered after those of the symmetric.
     LinearisedForces on_both(const LinearisedForces &paired) const;

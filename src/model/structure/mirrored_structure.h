@@ -19,10 +19,10 @@ namespace sprag
   public:
     static constexpr unsigned int levers = 2;
 
-    /// `alike`: both structures have equal matrices, so that the levers are uncoupled.
-    MirroredStructure(std::unique_ptr<Structure> symmetric, std::unique_ptr<Structure> antisymmetric, const bool alike_)
+    /// `identical`: both structures have equal matrices, so that the levers are uncoupled.
+    MirroredStructure(std::unique_ptr<Structure> symmetric, std::unique_ptr<Structure> antisymmetric, const bool identical_)
         : parts{ { std::move(symmetric), std::move(antisymmetric) } }
-        , alike(alike_)
+        , identical(identical_)
         , mirrored(parts[0]->layout())
     {
     }
@@ -177,7 +177,7 @@ namespace sprag
 
   private:
     const std::array<std::unique_ptr<Structure>, 2> parts;
-    const bool alike;
+    const bool identical;
     const MirroredInterface mirrored;
     StepWeights joined_for{}; ///< step of the compliance; of dt = 0 in statics
     InterfaceCompliance joined_compliance;
@@ -185,7 +185,7 @@ namespace sprag
     void use_compliance(const StepWeights &weights)
     {
       joined_for        = weights;
-      joined_compliance = mirrored.compliance(parts[0]->compliance(), parts[1]->compliance(), alike);
+      joined_compliance = mirrored.compliance(parts[0]->compliance(), parts[1]->compliance(), identical);
     }
 
     static dealii::Vector<double> half(const dealii::Vector<double> &whole, const unsigned int part)

@@ -227,7 +227,7 @@ namespace sprag
     free_motion.reinit(n_modes());
     current->inverse.vmult(free_motion, right);
 
-    looked_at = selected;
+    selected_dofs = selected;
     Vector<double> result(n_interface());
     add_positions(free_motion, selected, result);
     add_static_displacements(data.face_compliance, accepted.face_force, kept_share(w), selected, result);
@@ -351,7 +351,7 @@ namespace sprag
     error -= begin.coordinates.acceleration;
     error *= w.dt * w.dt * (w.beta - 1. / 6.);
     Vector<double> result(n_interface());
-    add_positions(error, looked_at, result);
+    add_positions(error, selected_dofs, result);
     return result;
   }
 } // namespace sprag

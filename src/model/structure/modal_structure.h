@@ -146,6 +146,6 @@ namespace sprag
     std::vector<std::unique_ptr<Step>> steps; ///< the latest last
     const Step *current = nullptr;
     mutable dealii::Vector<double> free_motion; ///< modal, of the last free_displacements()
-    mutable DofSelection looked_at;             ///< by it
+    mutable DofSelection selected_dofs;         ///< by it
   };
 } // namespace sprag
