@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/append.h"
 #include "base/text.h"
 
 #include <algorithm>
@@ -19,10 +20,7 @@ namespace sprag
   template <class T>
   std::vector<std::string> words_in(const Choices<T> &choices)
   {
-    std::vector<std::string> words;
-    for (const auto &choice : choices)
-      words.push_back(choice.first);
-    return words;
+    return mapped(choices, &std::pair<std::string, T>::first);
   }
 
   /// Returns the word for a value; throws std::out_of_range where it has none.

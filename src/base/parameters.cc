@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/parameters.h"
 
+#include "base/append.h"
 #include "base/errors.h"
 #include "base/system/file_content.h"
 #include "base/text.h"
@@ -434,10 +435,9 @@ namespace sprag
     std::string kept = is_number(rule) ? without_unit(rule, value) : value;
     if (rule.kind == Rule::Kind::numbers)
     {
-      std::vector<std::string> specified = split(value, ','), parts;
-      for (const auto &part : specified)
-        parts.push_back(without_unit(rule, part));
-      kept = parts == specified ? value : boost::algorithm::join(parts, ", ");
+      const auto specified = split(value, ',');
+      const auto parts     = mapped(specified, [&](const auto &part) { return without_unit(rule, part); });
+      kept                 = parts == specified ? value : boost::algorithm::join(parts, ", ");
     }
     if (const auto broken = violation(rule, kept))
       throw InputError(*broken);
@@ -446,10 +446,7 @@ namespace sprag
 
   std::vector<double> parse_numbers(const std::string &value)
   {
-    std::vector<double> numbers;
-    for (const auto &part : split(value, ','))
-      numbers.push_back(leading_number(part)->value);
-    return numbers;
+    return mapped(split(value, ','), [](const auto &part) { return leading_number(part)->value; });
   }
 
   std::string full_name(const Parameter &parameter)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/table_file.h"
 
+#include "base/append.h"
 #include "base/archive.h"
 #include "base/errors.h"
 #include "base/hdf5_handle.h"
@@ -445,9 +446,8 @@ namespace sprag
         for (std::size_t i = 0; i < 2; ++i)
           if (!found[i] && found[1 - i] != i)
             found[i] = i;
-      Names mistakes, names;
-      for (const auto &column : header)
-        names.push_back(column.name);
+      const auto names = mapped(header, &NamedColumn::name);
+      Names mistakes;
       for (std::size_t i = 0; i < 2; ++i)
         if (!found[i])
         {
@@ -501,12 +501,7 @@ namespace sprag
   NamedColumns read_columns(const std::string &file, const std::vector<ColumnNames> &requested)
   {
     const auto choose = [&](const std::vector<NamedColumn> &header)
-    {
-      Chosen result;
-      for (const auto &names : requested)
-        result.push_back(column_called(header, names));
-      return result;
-    };
+    { return mapped(requested, [&](const ColumnNames &names) { return column_called(header, names); }); };
     return read_table(file, choose, true);
   }
 

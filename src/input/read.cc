@@ -79,10 +79,7 @@ namespace sprag
 
     std::vector<std::string> names_in(const std::vector<std::string> &overrides)
     {
-      std::vector<std::string> names;
-      for (const auto &text : overrides)
-        names.push_back(trim(text.substr(0, text.find('='))));
-      return names;
+      return mapped(overrides, [](const auto &text) { return trim(text.substr(0, text.find('='))); });
     }
 
     /// Reports the mistakes met on the way to a scene against the parameters they come from.

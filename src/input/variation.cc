@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "input/variation.h"
 
+#include "base/append.h"
 #include "base/errors.h"
 #include "base/text.h"
 
@@ -234,9 +235,8 @@ namespace sprag
 
   std::string variation_text(const std::vector<VariedParameter> &parameters)
   {
-    std::vector<std::string> parts;
-    for (const auto &[name, values] : parameters)
-      parts.push_back(name + " = " + boost::algorithm::join(values, ", "));
-    return boost::algorithm::join(parts, "; ");
+    const auto text = [](const VariedParameter &varied)
+    { return varied.name + " = " + boost::algorithm::join(varied.values, ", "); };
+    return boost::algorithm::join(mapped(parameters, text), "; ");
   }
 } // namespace sprag

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "levers/prepared_scene.h"
 
+#include "base/append.h"
 #include "base/errors.h"
 #include "fe/leaf/leaf_spring.h"
 #include "fe/mesh/solid_file.h"
@@ -15,11 +16,10 @@ namespace sprag
     // Each run of a study is prepared by itself.
     if (scene.spring.type == SpringType::torsional || scene.analysis.type == AnalysisType::study)
       return scene;
-    Scene result  = scene;
-    result.spring = prepared_spring(scene);
-    std::vector<std::string> mistakes;
-    for (const auto &violation : violations(result))
-      mistakes.push_back(scene.name + ".prm: " + violation.parameter + " " + violation.rule);
+    Scene result        = scene;
+    result.spring       = prepared_spring(scene);
+    const auto mistakes = mapped(violations(result), [&](const auto &broken)
+                                 { return scene.name + ".prm: " + broken.parameter + " " + broken.rule; });
     if (!mistakes.empty())
       throw InputError(mistakes);
     return result;

@@ -37,9 +37,7 @@ namespace sprag
 
     void add_pair(const FrictionPlate &plate, std::vector<ColumnInfo> &columns)
     {
-      std::vector<ColumnInfo> second_infos;
-      for (const Column column : lever_columns())
-        second_infos.push_back(column_info(column));
+      auto second_infos = mapped(lever_columns(), column_info);
       add_sensors(plate, second_infos);
       add_as_second(second_infos, columns);
       append(columns, page_columns("", "swing Q_pair lateral_force"));

@@ -74,9 +74,8 @@ namespace sprag
     {
       if (is_turned)
         return "Turn the sign of Q: as measured, friction gives work back to the drive.";
-      std::vector<std::string> named;
-      for (const auto &more : found.more)
-        named.push_back(more.name + " (by about " + with_unit(more.change, more.unit) + ")");
+      const auto named = mapped(found.more, [](const auto &more)
+                                { return more.name + " (by about " + with_unit(more.change, more.unit) + ")"; });
       return (named.empty() ? "" : "Check " + boost::algorithm::join(named, " or ") + ", which would explain the residuals. ") +
              remedy;
     }

@@ -423,18 +423,10 @@ namespace sprag
     {
       const auto findings = make_findings(scene.study, runs.points(), records);
       const auto table    = study_table(findings);
-      std::vector<ColumnInfo> columns;
-      for (const auto &column : table.numbers)
-        columns.push_back(column.info);
       PhaseTimer timer;
-      ResultWriter writer(scene, options, timer, columns);
+      ResultWriter writer(scene, options, timer, mapped(table.numbers, &Dataset::info));
       for (std::size_t row = 0; row < table.numbers.front().values.size(); ++row)
-      {
-        std::vector<double> values;
-        for (const auto &column : table.numbers)
-          values.push_back(column.values[row]);
-        writer.append(values);
-      }
+        writer.append(mapped(table.numbers, [row](const Dataset &column) { return column.values[row]; }));
       std::vector<Group> groups = {
         { "runs", {}, table.texts },
         { "headlines", {}, { { "name", "columns of the table that say most", main_entries(findings) } } },

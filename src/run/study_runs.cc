@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "run/study_runs.h"
 
+#include "base/append.h"
 #include "base/errors.h"
 #include "base/phase_timer.h"
 #include "base/progress.h"
@@ -150,9 +151,6 @@ namespace sprag
     std::stable_sort(groups.begin(), groups.end(),
                      [](const SharedMesh &a, const SharedMesh &b)
                      { return a.size > b.size || (a.size == b.size && a.runs.front() < b.runs.front()); });
-    std::vector<std::vector<std::size_t>> result;
-    for (const auto &group : groups)
-      result.push_back(group.runs);
-    return result;
+    return mapped(groups, &SharedMesh::runs);
   }
 } // namespace sprag

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/body/elastic_body.h"
 
+#include "base/append.h"
 #include "fe/body/cell_elasticity.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -174,10 +175,7 @@ namespace sprag
   template <int dim>
   std::vector<double> ElasticBody<dim>::sensor_forces(const Vector<double> &displacement) const
   {
-    std::vector<double> result;
-    for (const auto &sensor : sensors())
-      result.push_back(sensor.stiffness * sensor.compression(displacement));
-    return result;
+    return mapped(sensors(), [&](const auto &sensor) { return sensor.stiffness * sensor.compression(displacement); });
   }
 
   template class ElasticBody<2>;

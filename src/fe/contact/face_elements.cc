@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/contact/face_elements.h"
 
+#include "base/append.h"
 #include "base/errors.h"
 
 #include <deal.II/numerics/rtree.h>
@@ -24,15 +25,8 @@ namespace sprag
 
     static std::vector<Box> bounding_boxes(const FrictionFace<dim> &face)
     {
-      std::vector<Box> result;
-      for (const auto &edge : face.edges)
-      {
-        std::vector<dealii::Point<dim>> nodes;
-        for (const auto &node : edge.nodes)
-          nodes.push_back(node.position);
-        result.emplace_back(nodes);
-      }
-      return result;
+      using Node = typename std::decay_t<decltype(face.edges.front().nodes)>::value_type;
+      return mapped(face.edges, [](const auto &edge) { return Box(mapped(edge.nodes, &Node::position)); });
     }
 
     template <class Predicate>

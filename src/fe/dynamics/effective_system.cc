@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/effective_system.h"
 
+#include "base/append.h"
+
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
@@ -120,9 +122,7 @@ namespace sprag
 
   void EffectiveSystem::serialise_history(Archive &archive)
   {
-    DofSelection known;
-    for (const auto &known_response : responses)
-      known.push_back(known_response.first);
+    DofSelection known = mapped(responses, [](const auto &response) { return response.first; });
     archive(credit, known);
     if (!archive.reads())
       return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/inertial_matrices.h"
 
+#include "base/append.h"
 #include "base/errors.h"
 #include "fe/body/cell_stiffness.h"
 
@@ -56,9 +57,7 @@ namespace sprag
   void TotalCoordinates::scatter(const std::vector<types::global_dof_index> &dofs, const FullMatrix<double> &local,
                                  PETScMatrix &matrix) const
   {
-    std::vector<types::global_dof_index> indices;
-    for (const auto dof : dofs)
-      indices.push_back(movers[dof].coordinate);
+    const auto indices        = mapped(dofs, [&](const auto dof) -> types::global_dof_index { return movers[dof].coordinate; });
     FullMatrix<double> scaled = local;
     for (unsigned int i = 0; i < dofs.size(); ++i)
       for (unsigned int j = 0; j < dofs.size(); ++j)
@@ -159,12 +158,7 @@ namespace sprag
       FullMatrix<double> local = *unit;
       local *= density;
       for (unsigned int axis = 0; axis < 2; ++axis)
-      {
-        std::vector<types::global_dof_index> along;
-        for (const auto &node_dofs : dofs)
-          along.push_back(node_dofs[axis]);
-        coordinates.scatter(along, local, mass);
-      }
+        coordinates.scatter(mapped(dofs, [axis](const auto &node_dofs) { return node_dofs[axis]; }), local, mass);
     }
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/sparse_structure.h"
 
+#include "base/append.h"
 #include "fe/dynamics/sparse_vibration.h"
 
 #include <algorithm>
@@ -334,9 +335,7 @@ namespace sprag
 
   void SparseStructure::serialise_history(Archive &archive)
   {
-    std::vector<StepWeights> weights;
-    for (const auto &step : steps)
-      weights.push_back(step->weights);
+    auto weights = mapped(steps, [](const auto &step) { return step->weights; });
     archive(weights);
     if (archive.reads())
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/statics/lever_properties.h"
 
+#include "base/append.h"
 #include "base/text.h"
 #include "scene/closed_form.h"
 #include "scene/contact_estimates.h"
@@ -16,9 +17,10 @@ namespace sprag
     {
       if (plate.type == PlateType::none)
         return {};
-      std::vector<ConnectorSettings> result;
-      for (const double middle : plate.sensors)
-        result.push_back({ ConnectorType::sensor, middle, plate.sensor_length, plate.sensor_stiffness });
+      const auto sensor = [&](const double middle) {
+        return ConnectorSettings{ ConnectorType::sensor, middle, plate.sensor_length, plate.sensor_stiffness };
+      };
+      auto result = mapped(plate.sensors, sensor);
       result.push_back({ ConnectorType::guide, plate.guide, plate.sensor_length, plate.guide_stiffness });
       return result;
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/statics/sensor_forces.h"
 
+#include "base/append.h"
+
 namespace sprag
 {
   using dealii::Vector;
@@ -40,10 +42,7 @@ namespace sprag
 
   std::vector<double> SensorForces::compressions(const Vector<double> &displacement) const
   {
-    std::vector<double> result;
-    for (const auto &sensor : sensors)
-      result.push_back(sensor.compression(displacement));
-    return result;
+    return mapped(sensors, [&](const auto &sensor) { return sensor.compression(displacement); });
   }
 
   void SensorForces::add_compliance(const InterfaceLayout &layout, const unsigned int surface_begin,

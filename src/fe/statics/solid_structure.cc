@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/statics/solid_structure.h"
 
+#include "base/append.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -264,10 +266,7 @@ namespace sprag
 
   SolidStructure::Exactness SolidStructure::exactness(const std::vector<FaceSample> &samples) const
   {
-    std::vector<DofLoads> loads;
-    for (const auto &sample : samples)
-      loads.push_back(sample.first);
-    const auto whole_responses = responses(loads);
+    const auto whole_responses = responses(mapped(samples, &FaceSample::first));
 
     Exactness result{};
     for (std::size_t k = 0; k < samples.size(); ++k)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/statics/static_lever.h"
 
+#include "base/append.h"
 #include "base/text.h"
 #include "fe/contact/face_contact.h"
 #include "fe/statics/contact_penalties.h"
@@ -214,10 +215,8 @@ namespace sprag
       const double rest = properties.spring.rest, theta = rest + end[layout.rotation(i)];
       const double travel = properties.centre(relative, theta).xi -
                             properties.centre(begin_relative, rest + step.displacements[layout.rotation(i)]).xi;
-      DofSelection lever_dofs;
-      for (const unsigned int dof : contact.candidate_dofs(relative, { { theta } }, travel))
-        lever_dofs.push_back(joined_dof(layout, i, dof));
-      result = united(result, lever_dofs);
+      const auto to_joined = [&](const unsigned int dof) { return joined_dof(layout, i, dof); };
+      result               = united(result, mapped(contact.candidate_dofs(relative, { { theta } }, travel), to_joined));
     }
     return result;
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/statics/static_structure.h"
 
+#include "base/append.h"
+
 #include <algorithm>
 #include <numeric>
 #include <set>
@@ -113,9 +115,7 @@ namespace sprag
     {
       std::sort(surface_dofs.begin(), surface_dofs.end(),
                 [&](const unsigned int a, const unsigned int b) { return body_dofs[a] < body_dofs[b]; });
-      std::vector<unsigned int> dofs;
-      for (const unsigned int surface_dof : surface_dofs)
-        dofs.push_back(body_dofs[surface_dof]);
+      const auto dofs = mapped(surface_dofs, [&](const unsigned int surface_dof) { return body_dofs[surface_dof]; });
       for (const unsigned int row : block_dofs(block))
         entries[body_dofs[row]] = dofs;
     }

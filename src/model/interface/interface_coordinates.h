@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/append.h"
 #include "model/interface/interface_forces.h"
 #include "model/interface/interface_layout.h"
 
@@ -29,10 +30,7 @@ namespace sprag
   /// Returns the dofs of the coordinates, in their order.
   inline DofSelection collect_dofs(const InterfaceCoordinates &coordinates)
   {
-    std::vector<unsigned int> result;
-    for (const auto &coordinate : coordinates)
-      result.push_back(coordinate.dof);
-    return result;
+    return mapped(coordinates, &InterfaceCoordinate::dof);
   }
 
   /// Returns a row over the coordinates as one over their dofs.

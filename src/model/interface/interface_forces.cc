@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "model/interface/interface_forces.h"
 
+#include "base/append.h"
 #include "base/errors.h"
 #include "model/interface/block_product.h"
 #include "model/interface/interface_factors.h"
@@ -44,9 +45,7 @@ namespace sprag
     std::set_union(forces.dofs.begin(), forces.dofs.end(), others.begin(), others.end(), std::back_inserter(result.dofs));
     const auto n = static_cast<unsigned int>(result.dofs.size());
     result.values.reinit(n);
-    std::vector<unsigned int> places;
-    for (const unsigned int dof : forces.dofs)
-      places.push_back(find_index(dof, result.dofs));
+    const auto places = mapped(forces.dofs, [&](const unsigned int dof) { return find_index(dof, result.dofs); });
     for (unsigned int i = 0; i < places.size(); ++i)
       result.values[places[i]] = forces.values[i];
     result.has_tangent = forces.has_tangent;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/append.h"
 #include "base/errors.h"
 #include "model/contact/circle.h"
 #include "model/contact/contact_of_levers.h"
@@ -194,10 +195,7 @@ namespace sprag
 
     std::vector<std::complex<double>> eigenvalues(const HeldSlide &slide, const unsigned int number) override
     {
-      std::vector<std::complex<double>> result;
-      for (const auto &mode : structure->vibrations(perturbation(sliding_state(slide), true), number))
-        result.push_back(mode.eigenvalue);
-      return result;
+      return mapped(structure->vibrations(perturbation(sliding_state(slide), true), number), &StructureMode::eigenvalue);
     }
 
     Motion perturbed(const HeldSlide &slide, const Eigenmode &eigenmode, const double amplitude) override
@@ -316,10 +314,8 @@ namespace sprag
       for (unsigned int i = 0; i < frame.layout.sensors; ++i)
         sensors.push_back(frame.layout.sensor(i, lever));
       const auto compressions = structure->positions(motion, sensors);
-      std::vector<double> forces;
-      for (const unsigned int dof : sensors)
-        forces.push_back(frame.sensor_stiffness * compressions[dof]);
-      frame.tell_sensors(std::move(forces), row);
+      const auto force        = [&](const unsigned int dof) { return frame.sensor_stiffness * compressions[dof]; };
+      frame.tell_sensors(mapped(sensors, force), row);
     }
 
     const DofSelection &candidate_dofs(const Motion &motion) const

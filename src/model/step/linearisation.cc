@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "model/step/linearisation.h"
 
+#include "base/append.h"
 #include "model/interface/interface_forces.h"
 
 namespace sprag
@@ -65,9 +66,7 @@ namespace sprag
 
   void LinearisedForces::add(const LinearisedForces &other)
   {
-    std::vector<unsigned int> places;
-    for (const unsigned int dof : other.dofs)
-      places.push_back(find_index(dof, dofs));
+    const auto places = mapped(other.dofs, [&](const unsigned int dof) { return find_index(dof, dofs); });
     for (const auto matrix : { &LinearisedForces::pressure, &LinearisedForces::friction, &LinearisedForces::pressure_rate,
                                &LinearisedForces::friction_rate, &LinearisedForces::inertia })
       for (unsigned int i = 0; i < places.size(); ++i)
