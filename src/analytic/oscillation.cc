@@ -2,7 +2,7 @@
 #include "analytic/oscillation.h"
 
 #include "analytic/ringing.h"
-#include "base/append.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "results/row_statistics.h"
 

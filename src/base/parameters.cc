@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/parameters.h"
 
-#include "base/append.h"
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "base/system/file_content.h"
 #include "base/text.h"
 #include "base/units.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/table_file.h"
 
-#include "base/append.h"
 #include "base/archive.h"
 #include "base/errors.h"
 #include "base/hdf5_handle.h"
+#include "base/ranges.h"
 #include "base/system/child_process.h"
 #include "base/system/confinement.h"
 #include "base/system/file_content.h"

@@ -2,8 +2,8 @@
 #include "estimate/quasi_static_accuracy.h"
 
 #include "analysis/accuracy/slide_samples.h"
-#include "base/append.h"
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "estimate/coarser_scene.h"
 #include "fe/fields/stress_peaks.h"

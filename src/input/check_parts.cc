@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "input/check_parts.h"
 
-#include "base/append.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "scene/analysis_use.h"
 #include "scene/lever_shape.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "input/read.h"
 
-#include "base/append.h"
 #include "base/errors.h"
 #include "base/local_regression.h"
+#include "base/ranges.h"
 #include "base/table_file.h"
 #include "base/text.h"
 #include "input/analysis_texts.h"

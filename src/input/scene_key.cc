@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "input/scene_key.h"
 
-#include "base/append.h"
 #include "base/fingerprint.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "input/sections.h"
 #include "scene/contact_estimates.h"

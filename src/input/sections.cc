@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "input/sections.h"
 
-#include "base/append.h"
+#include "base/ranges.h"
 #include "input/section.h"
 #include "scene/scene.h"
 

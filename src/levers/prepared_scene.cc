@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "levers/prepared_scene.h"
 
-#include "base/append.h"
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "fe/leaf/leaf_spring.h"
 #include "fe/mesh/solid_file.h"
 #include "input/check.h"

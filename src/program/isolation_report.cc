@@ -2,7 +2,7 @@
 #include "program/isolation_report.h"
 
 #include "analytic/harmonic_balance.h"
-#include "base/append.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "base/unknown.h"
 #include "results/page_tables.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "program/result_writer.h"
 
-#include "base/append.h"
+#include "base/ranges.h"
 #include "base/system/interrupt.h"
 #include "base/system/memory.h"
 #include "base/version.h"

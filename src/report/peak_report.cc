@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "report/peak_report.h"
 
-#include "base/append.h"
 #include "base/local_regression.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "results/row_statistics.h"
 #include "scene/scene.h"

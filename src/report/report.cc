@@ -2,9 +2,9 @@
 #include "report/report.h"
 
 #include "analytic/oscillation.h"
-#include "base/append.h"
 #include "base/errors.h"
 #include "base/least_squares.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "report/peak_report.h"
 #include "report/summary_lines.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "results/columns.h"
 
-#include "base/append.h"
+#include "base/ranges.h"
 #include "results/page_tables.h"
 #include "scene/drive.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "base/append.h"
+#include "base/ranges.h"
 
 #include <string>
 

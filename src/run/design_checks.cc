@@ -3,8 +3,8 @@
 
 #include "analysis/stability/stability.h"
 #include "analytic/isolation.h"
-#include "base/append.h"
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "input/read.h"
 #include "levers/prepared_scene.h"
 #include "program/resources.h"

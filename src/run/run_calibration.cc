@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/calibration/calibration.h"
-#include "base/append.h"
+#include "base/ranges.h"
 #include "input/read.h"
 #include "levers/prepared_scene.h"
 #include "program/result_writer.h"

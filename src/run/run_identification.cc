@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/identification/identification.h"
-#include "base/append.h"
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "base/system/interrupt.h"
 #include "base/text.h"
 #include "base/unknown.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/map/map.h"
-#include "base/append.h"
+#include "base/ranges.h"
 #include "program/result_writer.h"
 #include "report/summary_lines.h"
 #include "run/run.h"

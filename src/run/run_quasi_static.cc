@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/statics/quasi_static.h"
-#include "base/append.h"
+#include "base/ranges.h"
 #include "estimate/quasi_static_accuracy.h"
 #include "fe/statics/static_lever.h"
 #include "model/step/state_archive.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/limit_cycle/limit_cycle.h"
-#include "base/append.h"
 #include "base/progress.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "base/unknown.h"
 #include "laws/friction.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/study/study_results.h"
 #include "analysis/task_farm/task_farm.h"
-#include "base/append.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "base/unknown.h"
 #include "input/sections.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/transient/transient.h"
-#include "base/append.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "estimate/dynamic_accuracy.h"
 #include "levers/dynamics.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/append.h"
 #include "base/errors.h"
 #include "base/progress.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "estimate/dynamic_accuracy.h"
 #include "fe/fields/mode_frames.h"

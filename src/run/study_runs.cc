@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "run/study_runs.h"
 
-#include "base/append.h"
 #include "base/errors.h"
 #include "base/phase_timer.h"
 #include "base/progress.h"
+#include "base/ranges.h"
 #include "base/system/memory.h"
 #include "estimate/choice.h"
 #include "estimate/expected_cost.h"

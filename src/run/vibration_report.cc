@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "run/vibration_report.h"
 
-#include "base/append.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "report/summary_lines.h"
 #include "results/page_tables.h"

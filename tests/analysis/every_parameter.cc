@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/stability/stability.h"
 #include "analysis/study/study_points.h"
-#include "base/append.h"
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "input/read.h"
 #include "input/scene_key.h"

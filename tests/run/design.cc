@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/stability/stability.h"
 #include "analytic/isolation.h"
-#include "base/append.h"
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "input/read.h"
 #include "levers/prepared_scene.h"
 #include "mpi_environment.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "input/check.h"
 
-#include "base/append.h"
+#include "base/ranges.h"
 #include "scene/messages.h"
 #include "scene/scene.h"
 

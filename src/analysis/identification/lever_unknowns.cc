@@ -3,9 +3,9 @@
 #include "laws/friction.h"
 #include "scene/scene.h"
 
-#include "base/append.h"
 #include "base/errors.h"
 #include "base/least_squares.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "input/analysis_texts.h"
 #include "input/read.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/study/study_points.h"
 
-#include "base/append.h"
+#include "base/ranges.h"
 #include "input/read.h"
 #include "scene/scene.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/body/elastic_body.h"
 
-#include "base/append.h"
+#include "base/ranges.h"
 #include "fe/body/cell_elasticity.h"
 
 #include <deal.II/base/quadrature_lib.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/contact/face_elements.h"
 
-#include "base/append.h"
 #include "base/errors.h"
+#include "base/ranges.h"
 
 #include <deal.II/numerics/rtree.h>
 

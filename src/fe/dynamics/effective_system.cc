@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/effective_system.h"
 
-#include "base/append.h"
+#include "base/ranges.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/inertial_matrices.h"
 
-#include "base/append.h"
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "fe/body/cell_stiffness.h"
 
 namespace sprag

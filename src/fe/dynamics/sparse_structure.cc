@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/sparse_structure.h"
 
-#include "base/append.h"
+#include "base/ranges.h"
 #include "fe/dynamics/sparse_vibration.h"
 
 #include <algorithm>

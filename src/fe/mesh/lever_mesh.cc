@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/mesh/lever_mesh.h"
 
-#include "base/append.h"
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "fe/body/body_properties.h"
 #include "fe/body/elastic_body.h"

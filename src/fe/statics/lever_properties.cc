@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/statics/lever_properties.h"
 
-#include "base/append.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "scene/closed_form.h"
 #include "scene/contact_estimates.h"

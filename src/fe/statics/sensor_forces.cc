@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/statics/sensor_forces.h"
 
-#include "base/append.h"
+#include "base/ranges.h"
 
 namespace sprag
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/statics/solid_structure.h"
 
-#include "base/append.h"
+#include "base/ranges.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/statics/static_lever.h"
 
-#include "base/append.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "fe/contact/face_contact.h"
 #include "fe/statics/contact_penalties.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "model/interface/interface_forces.h"
 
-#include "base/append.h"
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "model/interface/block_product.h"
 #include "model/interface/interface_factors.h"
 

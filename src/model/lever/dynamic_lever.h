@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "base/append.h"
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "model/contact/circle.h"
 #include "model/contact/contact_of_levers.h"
 #include "model/interface/interface_newton.h"
