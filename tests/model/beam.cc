@@ -4,6 +4,7 @@
 #include "scene/lever_inertia.h"
 #include "scene/scene.h"
 #include "scenes.h"
+#include "support/free_frequencies.h"
 
 #include <cmath>
 #include <functional>

@@ -8,6 +8,7 @@
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 #include "scenes.h"
+#include "support/free_frequencies.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -5,6 +5,7 @@
 #include "scenes.h"
 
 #include "scene/scene.h"
+#include "support/free_frequencies.h"
 #include "support/hardening.h"
 
 #include <cmath>

@@ -57,6 +57,6 @@ namespace sprag
       }
     const auto bent   = fitted_factor(across_shape, across);
     const auto turned = fitted_factor(along_shape, along);
-    return { 1. / bent.factor, e + turned.factor / bent.factor, bent.error, turned.error };
+    return { 1. / bent.factor, e + turned.factor / bent.factor, bent.error };
   }
 } // namespace sprag

@@ -13,7 +13,6 @@ namespace sprag
     double stiffness;           ///< EI [N mm^2]
     double neutral_axis_offset; ///< e_a [mm], of its axis from the pivot
     double deflection_error;    ///< of the deflections of the friction face, root mean square over the largest
-    double shift_error;         ///< of its displacements along, the same
   };
 
   /// Finds the beam that bends most like a lever. A unit load across the lever's end face at xi = L moves the friction face, at

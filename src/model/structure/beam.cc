@@ -266,12 +266,4 @@ namespace sprag
       append_support(device, data);
     return data;
   }
-
-  std::vector<double> free_frequencies(const Device &device, const BeamMesh &mesh)
-  {
-    auto result = solve_modes(make_matrices(device, mesh)).stiffness;
-    for (auto &value : result)
-      value = std::sqrt(value);
-    return result;
-  }
 } // namespace sprag

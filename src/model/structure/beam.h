@@ -31,7 +31,4 @@ namespace sprag
 
   /// Mass of lever and leaf spring, which moves with a sprung support [t].
   double carried_mass(const Device &device);
-
-  /// Circular frequencies of the free lever without support, increasing [rad/s].
-  std::vector<double> free_frequencies(const Device &device, const BeamMesh &mesh);
 } // namespace sprag
