@@ -2,6 +2,7 @@
 #include "analytic/measures.h"
 
 #include "base/pattern.h"
+#include "base/ranges.h"
 #include "base/unknown.h"
 
 #include <algorithm>
@@ -57,9 +58,8 @@ namespace sprag
     /// Returns the largest difference over the reference's peak.
     double compute_error(const Stroke &stroke, const Stroke &reference, double StrokePoint::*force)
     {
-      double peak = 0., largest = unknown;
-      for (const auto &point : reference.points)
-        peak = std::max(peak, std::abs(point.*force));
+      const double peak = maximum_over(reference.points, [force](const auto &point) { return std::abs(point.*force); });
+      double largest    = unknown;
       for (const auto &point : stroke.points)
       {
         if (stroke.turned_at && std::abs(point.x - *stroke.turned_at) < left_out_behind_reversal)

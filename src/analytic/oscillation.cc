@@ -114,10 +114,9 @@ namespace sprag
     /// `samples` from the turning point on.
     double overshoot(const Samples &samples, const double window_begin)
     {
-      const double scale = largest_reference(later_than(samples, window_begin));
-      double excess      = 0.;
-      for (const auto &sample : later_than(samples, first_crossing(samples, window_begin)))
-        excess = std::max(excess, std::copysign(1., sample.reference) * sample.difference);
+      const double scale  = largest_reference(later_than(samples, window_begin));
+      const double excess = maximum_over(later_than(samples, first_crossing(samples, window_begin)), [](const auto &sample)
+                                         { return std::copysign(1., sample.reference) * sample.difference; });
       return scale > 0. ? excess / scale : unknown;
     }
 

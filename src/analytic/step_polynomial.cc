@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/step_polynomial.h"
 
+#include "base/ranges.h"
+
 #include <boost/math/tools/roots.hpp>
 
 #include <algorithm>
@@ -85,9 +87,7 @@ namespace sprag
   {
     constexpr double round_off = 1e-13;
     const auto pieces          = monotone_pieces(polynomial);
-    double scale               = 0.;
-    for (const double share : pieces)
-      scale = std::max(scale, std::abs(evaluate(polynomial, share)));
+    const double scale         = maximum_over(pieces, [&](const double share) { return std::abs(evaluate(polynomial, share)); });
     for (std::size_t i = 1; i < pieces.size(); ++i)
       if (evaluate(polynomial, pieces[i]) < -round_off * scale)
         return Bracket{ pieces[i - 1], pieces[i] };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <iterator>
 #include <type_traits>
@@ -22,6 +23,35 @@ namespace sprag
     std::vector<std::decay_t<decltype(std::invoke(function, *std::begin(items)))>> result;
     for (const auto &item : items)
       result.push_back(std::invoke(function, item));
+    return result;
+  }
+
+  /// Returns the items that satisfy a condition.
+  template <class Range, class Condition>
+  auto filtered(const Range &items, const Condition &condition)
+  {
+    std::vector<std::decay_t<decltype(*std::begin(items))>> result;
+    std::copy_if(std::begin(items), std::end(items), std::back_inserter(result), condition);
+    return result;
+  }
+
+  /// Returns the sum of a function over all items, from the first to the last.
+  template <class Range, class Function>
+  double sum_over(const Range &items, const Function &function)
+  {
+    double result = 0.;
+    for (const auto &item : items)
+      result += function(item);
+    return result;
+  }
+
+  /// Returns the largest value of a function over all items, at least 0; NaN does not count.
+  template <class Range, class Function>
+  double maximum_over(const Range &items, const Function &function)
+  {
+    double result = 0.;
+    for (const auto &item : items)
+      result = std::max(result, function(item));
     return result;
   }
 

@@ -4,6 +4,7 @@
 #include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/split.hpp>
 #include <boost/algorithm/string/trim.hpp>
+#include <boost/algorithm/string/trim_all.hpp>
 
 #include <algorithm>
 #include <array>
@@ -85,11 +86,7 @@ namespace sprag
 
   std::string single_spaced(const std::string &text)
   {
-    std::istringstream words(text);
-    std::string result;
-    for (std::string word; words >> word;)
-      result += (result.empty() ? "" : " ") + word;
-    return result;
+    return boost::algorithm::trim_fill_copy(text, " ", std::locale::classic());
   }
 
   std::string number_text(const double value)

@@ -565,10 +565,8 @@ namespace sprag
   std::string specified_parameters_text(const Scene &scene)
   {
     SceneSettings defaults;
-    std::vector<Parameter> specified;
-    for (const auto &parameter : scene_parameters(defaults))
-      if (scene.specified.count(full_name(parameter)) > 0)
-        specified.push_back(parameter);
+    const auto specified = filtered(scene_parameters(defaults),
+                                    [&](const auto &parameter) { return scene.specified.count(full_name(parameter)) > 0; });
     return parameters_text(specified, *scene.parameters, scene.written);
   }
 

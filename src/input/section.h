@@ -4,9 +4,11 @@
 #include "base/choices.h"
 #include "base/pages.h"
 #include "base/parameters.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "scene/plane_state.h"
 
+#include <boost/algorithm/string/join.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,10 +69,7 @@ namespace sprag
 
     void numbers(const std::string &entry, std::vector<double> &values, const Interval &interval, const std::string &unit = "")
     {
-      std::string text;
-      for (const double value : values)
-        text += (text.empty() ? "" : ", ") + number_text(value);
-      add(entry, text, { Rule::Kind::numbers, interval, unit, {} },
+      add(entry, boost::algorithm::join(mapped(values, number_text), ", "), { Rule::Kind::numbers, interval, unit, {} },
           [&values](const auto &list) { values = parse_numbers(list); });
     }
 

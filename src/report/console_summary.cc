@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "report/console_summary.h"
 
+#include "base/ranges.h"
 #include "base/text.h"
 #include "input/sections.h"
 #include "report/summary_lines.h"
@@ -8,6 +9,7 @@
 #include "scene/analysis_settings.h"
 
 #include <algorithm>
+#include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/replace.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -21,10 +23,8 @@ namespace sprag
   {
     std::string to_text(const std::vector<ErrorPart> &parts)
     {
-      std::string text;
-      for (const auto &part : parts)
-        text += (text.empty() ? "" : ", ") + part.name + ' ' + percent(part.value);
-      return text;
+      const auto text = [](const ErrorPart &part) { return part.name + ' ' + percent(part.value); };
+      return boost::algorithm::join(mapped(parts, text), ", ");
     }
 
     std::string left_out_text(const ErrorEstimate &estimate)

@@ -191,9 +191,8 @@ namespace sprag
 
     double residual_share(const std::vector<Row> &rows)
     {
-      double work = 0.;
-      for (const auto column : { Column::drive_work, Column::friction_work, Column::spring_energy, Column::kinetic_energy })
-        work = std::max(work, largest(rows, column));
+      constexpr Column terms[] = { Column::drive_work, Column::friction_work, Column::spring_energy, Column::kinetic_energy };
+      const double work        = maximum_over(terms, [&](const Column column) { return largest(rows, column); });
       return work > 0. ? largest(rows, Column::energy_residual) / work : 0.;
     }
 

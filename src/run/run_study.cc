@@ -234,9 +234,7 @@ namespace sprag
 
     std::vector<Entry> study_summary(const StudyFindings &findings)
     {
-      double cpu = 0.;
-      for (const auto &[run, record] : findings.records)
-        cpu += record.cpu_spent;
+      const double cpu  = sum_over(findings.records, [](const auto &record) { return record.second.cpu_spent; });
       const auto number = [&](const RunOutcome outcome)
       {
         return static_cast<double>(std::count_if(findings.rows.begin(), findings.rows.end(),
@@ -278,10 +276,8 @@ namespace sprag
 
     std::string reference_text(const StudySettings &study)
     {
-      std::string text;
-      for (const auto &[name, values] : study.reference_values)
-        text += (text.empty() ? "" : ", ") + setting_with_unit(name, values.front());
-      return text;
+      const auto text = [](const VariedParameter &one) { return setting_with_unit(one.name, one.values.front()); };
+      return boost::algorithm::join(mapped(study.reference_values, text), ", ");
     }
 
     std::string accuracy_text(const double accuracy)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/design/design_search.h"
 
+#include "base/ranges.h"
 #include "base/system/interrupt.h"
 #include "scene/scene.h"
 
@@ -319,10 +320,6 @@ namespace sprag
       if (optimum.violation <= 0.)
         all.push_back(problem.at(optimum.place));
     }
-    std::vector<Proposal> front;
-    for (const auto &lever : all)
-      if (!is_dominated(aims, lever, all))
-        front.push_back(lever);
-    return front;
+    return filtered(all, [&](const Proposal &lever) { return !is_dominated(aims, lever, all); });
   }
 } // namespace sprag

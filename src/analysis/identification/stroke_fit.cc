@@ -3,6 +3,7 @@
 
 #include "base/errors.h"
 #include "base/monotone_cubic.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "levers/dynamics.h"
 #include "scene/analysis_use.h"
@@ -350,14 +351,12 @@ namespace sprag
                           const double confidence)
   {
     Uncertainty result;
-    const auto n           = unknowns.size();
-    result.singular        = singular_values(jacobian, n);
-    const auto covariances = covariance(result.singular, values, noise);
-    double independent     = 0.;
-    for (const auto &channel : noise)
-      independent += channel.effective_rows();
-    result.freedom  = std::max(1., independent - static_cast<double>(n));
-    result.quantile = boost::math::quantile(boost::math::students_t(result.freedom), 0.5 + 0.5 * confidence);
+    const auto n             = unknowns.size();
+    result.singular          = singular_values(jacobian, n);
+    const auto covariances   = covariance(result.singular, values, noise);
+    const double independent = sum_over(noise, [](const ChannelNoise &channel) { return channel.effective_rows(); });
+    result.freedom           = std::max(1., independent - static_cast<double>(n));
+    result.quantile          = boost::math::quantile(boost::math::students_t(result.freedom), 0.5 + 0.5 * confidence);
     result.correlation.resize(n * n);
     for (std::size_t i = 0; i < n; ++i)
     {

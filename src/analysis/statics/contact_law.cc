@@ -3,6 +3,7 @@
 
 #include "analysis/statics/quasi_static.h"
 #include "base/least_squares.h"
+#include "base/ranges.h"
 #include "levers/meshed_constants.h"
 #include "model/contact/circle.h"
 #include "scene/closed_form.h"
@@ -82,10 +83,7 @@ namespace sprag
 
   double FittedContact::penalty_error() const
   {
-    double largest = 0.;
-    for (const auto &point : points)
-      largest = std::max(largest, fit.exponent * point.penetration / point.local());
-    return largest;
+    return maximum_over(points, [&](const Indentation &point) { return fit.exponent * point.penetration / point.local(); });
   }
 
   FittedContact indent(const Scene &scene)

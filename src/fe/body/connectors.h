@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/ranges.h"
 #include "fe/body/body_properties.h"
 #include "fe/body/dimension.h"
 
@@ -24,10 +25,7 @@ namespace sprag
     template <class Vector>
     double compression(const Vector &displacement) const
     {
-      double sum = 0.;
-      for (const auto &[dof, weight] : row)
-        sum += weight * displacement[dof];
-      return sum;
+      return sum_over(row, [&](const auto &entry) { return entry.second * displacement[entry.first]; });
     }
   };
 

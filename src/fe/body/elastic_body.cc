@@ -59,11 +59,7 @@ namespace sprag
   template <int dim>
   std::vector<Connector> ElasticBody<dim>::sensors() const
   {
-    std::vector<Connector> result;
-    for (const auto &spring : springs)
-      if (spring.type == ConnectorType::sensor)
-        result.push_back(spring);
-    return result;
+    return filtered(springs, [](const Connector &spring) { return spring.type == ConnectorType::sensor; });
   }
 
   template <int dim>

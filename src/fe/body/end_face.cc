@@ -2,6 +2,7 @@
 #include "fe/body/end_face.h"
 
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "fe/body/body_properties.h"
 
 #include <algorithm>
@@ -50,10 +51,7 @@ namespace sprag
   template <int dim>
   double total_measure(const CellFaces<dim> &faces)
   {
-    double sum = 0.;
-    for (const auto &[cell, f] : faces)
-      sum += cell->face(f)->measure();
-    return sum;
+    return sum_over(faces, [](const auto &face) { return face.first->face(face.second)->measure(); });
   }
 
   template CellFaces<2> end_face(const DoFHandler<2> &);

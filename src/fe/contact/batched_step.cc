@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/contact/batched_step.h"
 
+#include "base/ranges.h"
 #include "laws/friction.h"
 
 #include <algorithm>
@@ -85,11 +86,8 @@ namespace sprag
     double farthest = 0., most_shapes = 0.;
     for (unsigned int q = range.begin; q < range.end; ++q)
     {
-      farthest         = std::max(farthest, grid.points[q].position.norm());
-      double shape_sum = 0.;
-      for (const double shape : grid.points[q].shapes)
-        shape_sum += std::abs(shape);
-      most_shapes = std::max(most_shapes, shape_sum);
+      farthest    = std::max(farthest, grid.points[q].position.norm());
+      most_shapes = std::max(most_shapes, sum_over(grid.points[q].shapes, [](const double shape) { return std::abs(shape); }));
     }
     blocks[element].travel = ElementTravel(farthest, most_shapes);
     for (unsigned int first = range.begin; first < range.end; first += n_lanes)

@@ -233,9 +233,7 @@ namespace sprag
     found.near        = step.near;
     found.residual =
         std::visit([&](auto &s) { return s.residual(step.trial.coordinates, found.forces, found.near); }, own_structure);
-    double penetration = 0.;
-    for (const auto &lever : found.levers)
-      penetration = std::max(penetration, lever.contact.penetration());
+    const double penetration = maximum_over(found.levers, [](const auto &lever) { return lever.contact.penetration(); });
     return { found.residual.norm, penetration, std::move(found) };
   }
 

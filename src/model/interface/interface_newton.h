@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/ranges.h"
 #include "model/interface/interface_forces.h"
 #include "model/interface/newton.h"
 
@@ -26,19 +27,13 @@ namespace sprag
 
     double smallest_movement() const
     {
-      double scale = 0.;
-      for (const unsigned int i : selected)
-        scale = std::max(scale, lengths[i]);
-      return round_off * scale;
+      return round_off * maximum_over(selected, [&](const unsigned int i) { return lengths[i]; });
     }
 
     /// The largest movement of a material point that a change means.
     double movement(const dealii::Vector<double> &change) const
     {
-      double largest = 0.;
-      for (const unsigned int i : selected)
-        largest = std::max(largest, std::abs(lengths[i] * change[i]));
-      return largest;
+      return maximum_over(selected, [&](const unsigned int i) { return std::abs(lengths[i] * change[i]); });
     }
 
     /// Sets z_free + G f - z.

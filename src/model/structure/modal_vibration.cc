@@ -2,6 +2,7 @@
 #include "model/structure/modal_vibration.h"
 
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "model/structure/eigenvalues.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -275,10 +276,8 @@ namespace sprag
     constexpr double widest     = 1e-10;
     constexpr double free_creep = 1e-10;
     const StateProblem problem(data, forces);
-    const auto pairs = problem.inverse_pairs();
-    double largest   = 0.;
-    for (const auto &pair : pairs)
-      largest = std::max(largest, std::abs(pair.value));
+    const auto pairs     = problem.inverse_pairs();
+    const double largest = maximum_over(pairs, [](const auto &pair) { return std::abs(pair.value); });
     std::vector<StructureMode> result;
     for (auto pair : pairs)
     {
