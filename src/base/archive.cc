@@ -32,9 +32,7 @@ namespace sprag
 
   std::string checksum(const std::string &bytes)
   {
-    Fingerprint sum;
-    sum.add(bytes);
-    return sum.text();
+    return fingerprint(bytes);
   }
 
   std::string sealed(const std::string &bytes)

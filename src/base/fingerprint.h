@@ -24,6 +24,15 @@ namespace sprag
     std::uint64_t hash = 14695981039346656037u;
   };
 
+  /// Returns the fingerprint of texts one after another, as text.
+  template <class... Texts>
+  std::string fingerprint(const Texts &...texts)
+  {
+    Fingerprint key;
+    (key.add(texts), ...);
+    return key.text();
+  }
+
   /// Returns the fingerprint of a file's content, whatever its name and time. What a script of gmsh (.geo) includes or merges by
   /// a quoted name, relative to its folder, belongs to its content. A file that cannot be read has the fingerprint "unreadable".
   std::string content_fingerprint(const std::string &file);

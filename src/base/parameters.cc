@@ -103,19 +103,6 @@ namespace sprag
 
     constexpr std::size_t comment_width = 74;
 
-    /// Breaks a text between words, where there is room for them.
-    std::vector<std::string> split_lines(const std::string &text)
-    {
-      std::vector<std::string> lines;
-      std::istringstream words(text);
-      for (std::string word; words >> word;)
-        if (!lines.empty() && lines.back().size() + 1 + word.size() <= comment_width)
-          lines.back() += " " + word;
-        else
-          lines.push_back(word);
-      return lines;
-    }
-
     /// An entry as it is printed.
     struct Entry
     {
@@ -144,7 +131,7 @@ namespace sprag
         const Parameter &parameter = entry.parameter;
         if (&entry != &entries.front())
           text << '\n';
-        for (const auto &line : split_lines(documentation(parameter)))
+        for (const auto &line : split_lines(documentation(parameter), comment_width))
           text << "  # " << line << '\n';
         text << (entry.is_open ? "  #set " : "  set ") << std::setw(name) << parameter.name << " = ";
         const std::string by_default = escaped(parameter.default_value);

@@ -162,6 +162,18 @@ namespace sprag
     return candidate ? "; did you mean '" + *candidate + "'?" : "";
   }
 
+  std::vector<std::string> split_lines(const std::string &text, const std::size_t width)
+  {
+    std::vector<std::string> lines;
+    std::istringstream words(text);
+    for (std::string word; words >> word;)
+      if (!lines.empty() && lines.back().size() + 1 + word.size() <= width)
+        lines.back() += " " + word;
+      else
+        lines.push_back(word);
+    return lines;
+  }
+
   std::string to_identifier(const std::string &name)
   {
     std::string result;

@@ -65,6 +65,9 @@ namespace sprag
   /// Returns "; did you mean 'X'?", or an empty text without a candidate.
   std::string did_you_mean(const std::optional<std::string> &candidate);
 
+  /// Breaks a text between words into lines of at most `width` characters; a longer word has a line of its own.
+  std::vector<std::string> split_lines(const std::string &text, std::size_t width);
+
   /// Returns a name as an identifier: in small letters, with underscores for all that is neither letter nor digit.
   std::string to_identifier(const std::string &name);
 

@@ -88,9 +88,7 @@ namespace sprag
 
     std::string checkpoint_parameters(const Scene &scene)
     {
-      Fingerprint sum;
-      sum.add(parameters_text(scene));
-      return sum.text();
+      return fingerprint(parameters_text(scene));
     }
 
     /// Replaces the file in one instant, or not at all.
@@ -178,10 +176,7 @@ namespace sprag
   /// instruction.
   std::string Checkpoint::key() const
   {
-    Fingerprint sum;
-    sum.add(own_scene_key);
-    sum.add(program_fingerprint());
-    return sum.text();
+    return fingerprint(own_scene_key, program_fingerprint());
   }
 
   void Checkpoint::find()

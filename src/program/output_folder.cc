@@ -184,10 +184,7 @@ namespace sprag
 
   std::string results_log_header(const std::string &what, const std::string &scene_key)
   {
-    Fingerprint key;
-    key.add(program_fingerprint());
-    key.add(scene_key);
-    return "sprag " + version() + " " + what + ", scene " + key.text() + '\n';
+    return "sprag " + version() + " " + what + ", scene " + fingerprint(program_fingerprint(), scene_key) + '\n';
   }
 
   bool has_progress(const std::string &folder, const Scene &scene)

@@ -2,6 +2,7 @@
 #include "results/hdf5.h"
 
 #include "base/errors.h"
+#include "base/ranges.h"
 
 #include <algorithm>
 #include <limits>
@@ -187,9 +188,7 @@ namespace sprag::hdf5
 
   Handle write_dataset(const Handle &location, const std::string &name, const std::vector<std::string> &texts)
   {
-    std::vector<const char *> characters;
-    for (const auto &text : texts)
-      characters.push_back(text.c_str());
+    const auto characters             = mapped(texts, [](const std::string &text) { return text.c_str(); });
     const std::vector<hsize_t> extent = { texts.size() };
     return write_dataset(location, name, text_type().id(), simple_space(extent, extent), characters.data());
   }

@@ -2,9 +2,11 @@
 #include "results/warning.h"
 
 #include "base/pages.h"
+#include "base/ranges.h"
 #include "base/system/coloured.h"
+#include "base/text.h"
 
-#include <sstream>
+#include <boost/algorithm/string/join.hpp>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -17,18 +19,8 @@ namespace sprag
     /// `text` behind a label, its further lines below its first word.
     std::string paragraph(const std::string &label, const std::string &text)
     {
-      std::string result, line = label;
-      std::istringstream words(text);
-      for (std::string word; words >> word;)
-      {
-        if (line.size() + 1 + word.size() > line_length)
-        {
-          result += line + '\n';
-          line = std::string(label.size(), ' ');
-        }
-        line += ' ' + word;
-      }
-      return result + line + '\n';
+      const auto lines = split_lines(text, line_length - label.size() - 1);
+      return label + ' ' + boost::algorithm::join(lines, '\n' + std::string(label.size() + 1, ' ')) + '\n';
     }
   } // namespace
 
@@ -63,9 +55,7 @@ namespace sprag
   {
     if (warnings.empty())
       return "no warnings";
-    std::string names;
-    for (const Warning &warning : warnings)
-      names += (names.empty() ? ": " : ", ") + warning.name;
-    return std::to_string(warnings.size()) + (warnings.size() == 1 ? " warning" : " warnings") + names;
+    return std::to_string(warnings.size()) + (warnings.size() == 1 ? " warning: " : " warnings: ") +
+           boost::algorithm::join(mapped(warnings, &Warning::name), ", ");
   }
 } // namespace sprag

@@ -219,11 +219,8 @@ namespace sprag
                             const Identification &found)
     {
       const auto folder = std::filesystem::absolute(options.folder);
-      std::vector<double> values;
-      for (const auto &one : found.found)
-        values.push_back(one.value);
       std::string table;
-      if (const auto rows = unknowns.friction_rows(values); !rows.empty())
+      if (const auto rows = unknowns.friction_rows(mapped(found.found, &FoundNumber::value)); !rows.empty())
       {
         table            = (folder / "identified-friction.csv").string();
         std::string text = "speed [mm/s], mu\n";
@@ -269,8 +266,7 @@ namespace sprag
             return void(writer.finish(status, {}, warnings));
           for (const auto &row : identification_rows(measured, fit, found))
             writer.append(row);
-          for (const auto &warning : identification_warnings(scene, fit, found))
-            warnings.push_back(warning);
+          append(warnings, identification_warnings(scene, fit, found));
           if (options.in_memory == nullptr)
             no_scene = write_scene(scene, options, unknowns, found);
           if (!options.quiet)

@@ -82,11 +82,6 @@ namespace sprag
       return { entry.name, entry.unit.empty() ? "1" : entry.unit, entry.description };
     }
 
-    bool has_numbers(const Rule &rule)
-    {
-      return rule.kind != Rule::Kind::choice && rule.kind != Rule::Kind::text && rule.kind != Rule::Kind::file;
-    }
-
     /// Returns the number of a value; of a parameter with words its index among the values.
     double varied_number(const VariedParameter &varied, const std::size_t index, const bool numeric)
     {
@@ -103,7 +98,7 @@ namespace sprag
         const auto &varied = findings.study.varied[i];
         const auto index   = [&](const StudyRecord *row) { return findings.points[row->run][i]; };
         const Rule &rule   = find_parameter(declared, varied.name)->rule;
-        const bool numeric = has_numbers(rule);
+        const bool numeric = is_number(rule) || rule.kind == Rule::Kind::numbers;
         const auto meaning = varied.name + (numeric ? "" : ": place among its values");
         table.numbers.push_back(make_dataset(findings.rows,
                                              { to_identifier(varied.name), rule.unit.empty() ? "1" : rule.unit, meaning },

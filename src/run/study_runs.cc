@@ -114,8 +114,7 @@ namespace sprag
     {
       ended(RunOutcome::failed, error_message(error));
     }
-    for (const auto &warning : warnings)
-      record.warnings.push_back(warning.name);
+    record.warnings = mapped(warnings, &Warning::name);
   }
 
   std::vector<std::vector<std::size_t>> StudyRuns::run_groups(const std::vector<std::size_t> &runs,

@@ -2,6 +2,7 @@
 #include "analysis/calibration/calibration.h"
 
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "input/read.h"
 #include "levers/dynamics.h"
@@ -93,9 +94,8 @@ namespace sprag
     {
       const std::string parameter = target.mass == AddedMass::tip ? "Lever/Tip mass" : "Lever/Hub inertia";
       result.added                = calibrated_mass(result.scene, *target.moment_of_inertia);
-      result.overrides.push_back("Lever/Inertia=as built");
-      result.overrides.push_back(override_text(parameter, *result.added));
-      result.overrides.push_back(override_text("Lever/Moment of inertia", *target.moment_of_inertia));
+      append<std::string>(result.overrides, { "Lever/Inertia=as built", override_text(parameter, *result.added),
+                                              override_text("Lever/Moment of inertia", *target.moment_of_inertia) });
       result.scene = prepared(variant(scene, result.overrides));
     }
     return result;
