@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/closed_form.h"
 
+#include "analytic/step_clock.h"
+#include "base/errors.h"
+#include "base/text.h"
 #include "scene/mirrored_pair.h"
 #include "scene/pair_closed_form.h"
 #include "scene/scene.h"
@@ -91,6 +94,76 @@ namespace sprag
         return pair_advance(scene);
       return scene.support.type == SupportType::sprung ? on_sprung_support(scene) : on_rigid_support(scene);
     }
+
+    struct IdealContact
+    {
+      const Scene &scene;
+      const double inertia; ///< moment of [t mm^2]
+      const double rest      = kinematics(scene.geometry, 0.).theta;
+      const MomentLaw spring = moment_law(scene.spring);
+
+      /// Returns the row at a point of the drive, with subscripts for derivatives by x and theta_x = sin theta / s:
+      ///   s_x = -cos theta - (R - e) theta_x,  theta_xx = (cos theta theta_x s - sin theta s_x) / s^2,
+      ///   theta' = theta_x v,  theta'' = theta_x a + theta_xx v^2.
+      Row row(const DrivePoint &point) const
+      {
+        const auto &g          = scene.geometry;
+        ClosedFormState state  = closed_form(scene, point.x, point.v);
+        const auto &contact    = state.contact;
+        const double signed_mu = drive_direction(point.v) * state.mu;
+        const double s_x       = -std::cos(contact.theta) - (g.cylinder_radius - g.interface_offset) * contact.theta_x;
+        const double theta_xx =
+            (std::cos(contact.theta) * contact.theta_x * contact.s - std::sin(contact.theta) * s_x) / (contact.s * contact.s);
+        const double rate           = contact.theta_x * point.v;
+        const double acceleration   = contact.theta_x * point.a + theta_xx * point.v * point.v;
+        const double moment         = inertia * acceleration + spring.moment(contact.theta - rest);
+        const double quasi_static_P = state.P, quasi_static_Q = state.Q;
+        state.P = moment / (contact.s + signed_mu * g.interface_offset);
+        state.F = signed_mu * state.P;
+        state.Q = state.P * std::sin(contact.theta) + state.F * std::cos(contact.theta);
+
+        Row result                     = ideal_contact_row(point, state, spring.energy(contact.theta - rest));
+        result[Column::theta_rate]     = rate;
+        result[Column::kinetic_energy] = 0.5 * inertia * rate * rate;
+        result[Column::P_quasi_static] = quasi_static_P;
+        result[Column::Q_quasi_static] = quasi_static_Q;
+        for (const auto column : { Column::contact_energy, Column::damping_work, Column::algorithmic_work, Column::creep })
+          result[column] = 0.;
+        return result;
+      }
+    };
+
+    StoredEnergy stored(const Row &row)
+    {
+      StoredEnergy energy;
+      energy.kinetic = row[Column::kinetic_energy];
+      energy.spring  = row[Column::spring_energy];
+      return energy;
+    }
+
+    /// Returns the works of drive and friction over a time interval, by Gauss' rule with three points.
+    StepWork work_between(const IdealContact &lever, const Drive &drive, const double begin, const double end)
+    {
+      const double points[]  = { 0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15) };
+      const double weights[] = { 5. / 18., 8. / 18., 5. / 18. };
+      StepWork work;
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        const Row row = lever.row(drive.at(begin + points[i] * (end - begin)));
+        work.drive += weights[i] * (end - begin) * row[Column::Q] * row[Column::v];
+        work.friction += weights[i] * (end - begin) * row[Column::friction_power];
+      }
+      return work;
+    }
+
+    void require_contact(const Row &row)
+    {
+      if (row[Column::P] >= 0.)
+        return;
+      throw AnalysisError("the contact would have to pull: P = " + rounded_text(row[Column::P]) +
+                          " N at t = " + rounded_text(row[Column::time]) + " s, x = " + mm(row[Column::x]) +
+                          ". An ideal contact cannot open: use Contact/Type = compliant or a longer Drive/Reversal duration.");
+    }
   } // namespace
 
   Row ideal_contact_row(const DrivePoint &point, const ClosedFormState &state, const double spring_energy)
@@ -139,5 +212,42 @@ namespace sprag
         hand_on(point, point);
       }
     }
+  }
+
+  TransientReport run_ideal_contact(const Scene &scene, const double inertia, const std::function<void(const Row &)> &sink)
+  {
+    const auto &drive = scene.drive;
+    const IdealContact lever{ scene, inertia };
+    StepClock clock(drive, scene.time.step, 0);
+
+    double time = 0.;
+    Row row     = lever.row(drive.at(0., Drive::Side::after));
+    EnergyLedger ledger(stored(row));
+    TransientReport report;
+    const auto hand_on = [&](const double step)
+    {
+      ledger.fill(row);
+      row[Column::time_step] = step;
+      require_contact(row);
+      sink(row);
+    };
+    hand_on(0.);
+    for (; !clock.finished(); clock.advance())
+    {
+      const double end = clock.step_end();
+      const auto work  = work_between(lever, drive, time, end);
+      row              = lever.row(drive.at(end));
+      ledger.add(end, stored(row), work);
+      ++report.steps;
+      hand_on(end - time);
+      time = end;
+      if (drive.turns_at(end))
+      {
+        row = lever.row(drive.at(end, Drive::Side::after));
+        hand_on(0.);
+      }
+    }
+    report.ledger = ledger.report();
+    return report;
   }
 } // namespace sprag
