@@ -8,6 +8,7 @@
 #include "fe/statics/lever_properties.h"
 #include "fe/statics/static_lever.h"
 #include "scene/closed_form.h"
+#include "scene/lever_shape.h"
 #include "scene/scene.h"
 
 namespace sprag
@@ -34,9 +35,7 @@ namespace sprag
     Mesh triangulation;
     make_mesh(scene, triangulation);
     const Body body(triangulation, lever_properties(scene).body);
-    const double room     = 0.1 * scene.geometry.cylinder_radius;
-    const double nearest  = kinematics(scene.geometry, scene.drive.maximum()).s - room;
-    const double farthest = kinematics(scene.geometry, scene.drive.minimum()).s + room;
+    const auto [nearest, farthest] = contact_surroundings(scene);
     return { mesh_inertia(scene, body), effective_bending(body, nearest, farthest) };
   }
 

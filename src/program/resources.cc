@@ -63,16 +63,15 @@ namespace sprag
     {
       const double size        = scene.mesh.face_size;
       const double largest     = std::max(size, 0.15 * scene.lever.depth);
-      const double room        = 0.1 * scene.geometry.cylinder_radius;
-      const auto [first, last] = swept_contact(scene);
+      const auto [first, last] = contact_surroundings(scene);
       const auto [begin, end]  = friction_face(scene);
-      const double from        = std::clamp(first - room, begin, end);
+      const double from        = std::clamp(first, begin, end);
       if (const auto grading = face_grading(scene))
         return graded(from - begin, grading->longest, largest, 1.2) + (grading->begin - from) / grading->longest +
                (grading->end - grading->begin) * std::log(grading->longest / grading->shortest) /
                    (grading->longest - grading->shortest) +
                graded(end - grading->end, grading->shortest, largest, 1.2);
-      const double to = std::clamp(last + room, begin, end);
+      const double to = std::clamp(last, begin, end);
       return (to - from) / size + graded(from - begin, size, largest, 1.2) + graded(end - to, size, largest, 1.2);
     }
 

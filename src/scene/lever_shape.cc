@@ -17,6 +17,13 @@ namespace sprag
     return { { kinematics(device.geometry, device.drive.maximum()).s, kinematics(device.geometry, device.drive.minimum()).s } };
   }
 
+  std::array<double, 2> contact_surroundings(const Device &device)
+  {
+    const double margin      = 0.1 * device.geometry.cylinder_radius;
+    const auto [first, last] = swept_contact(device);
+    return { { first - margin, last + margin } };
+  }
+
   std::array<double, 2> friction_face(const Device &device)
   {
     if (device.plate.type == PlateType::on_sensors)

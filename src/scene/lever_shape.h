@@ -22,6 +22,9 @@ namespace sprag
   /// Returns the first and last xi that the contact of a rigid lever sweeps in the drive.
   std::array<double, 2> swept_contact(const Device &device);
 
+  /// Returns swept_contact() with a margin of a tenth of the cylinder's radius on both sides for the contact's width.
+  std::array<double, 2> contact_surroundings(const Device &device);
+
   /// Returns the first and last xi of the part of lever or plate that carries the friction layer.
   std::array<double, 2> friction_face(const Device &device);
 

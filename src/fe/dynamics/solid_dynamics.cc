@@ -154,7 +154,7 @@ namespace sprag
     {
       LeverFrame result       = lever_frame(device, layout, lever.modes.total_mass);
       result.sensor_stiffness = lever.sensors->stiffness();
-      result.tell_sensors     = [is_half = lever.body->is_half()](const std::vector<double> &forces, Row &row)
+      result.observe_sensors  = [is_half = lever.body->is_half()](const std::vector<double> &forces, Row &row)
       { tell_sides(forces, is_half, row); };
       return result;
     }
@@ -180,12 +180,11 @@ namespace sprag
   {
     SolidInTime result;
     result.body                         = std::make_unique<const SolidBody>(device, plane);
-    const double room                   = 0.1 * device.geometry.cylinder_radius;
     constexpr double spacing_over_depth = 0.5; // ringing adds up what the compliance leaves out
-    const auto [first, last]            = swept_contact(device);
-    result.compliance = std::make_unique<LayeredCompliance>(*result.body, first - room, last + room, spacing_over_depth);
-    result.sensors    = std::make_unique<const SensorForces>(*result.body, make_response(*result.body));
-    const auto modes  = [&](const Device &single)
+    const auto [first, last]            = contact_surroundings(device);
+    result.compliance                   = std::make_unique<LayeredCompliance>(*result.body, first, last, spacing_over_depth);
+    result.sensors                      = std::make_unique<const SensorForces>(*result.body, make_response(*result.body));
+    const auto modes                    = [&](const Device &single)
     {
       return lever_modes(*result.body, make_response(*result.body), lever_inertia(single), single.spring.stiffness,
                          single.condensed.modes);

@@ -105,14 +105,14 @@ namespace sprag
 
   namespace
   {
-    /// Part of the friction face under the cylinder during the drive, with room for the contact's width [mm].
+    /// Part of the friction face under the cylinder during the drive, with a margin for the contact's width [mm].
     std::array<double, 2> swept_face(const Device &device)
     {
-      const double room        = 0.1 * device.geometry.cylinder_radius;
+      const auto [from, to]    = contact_surroundings(device);
       const auto [first, last] = swept_contact(device);
       const auto [begin, end]  = friction_face(device);
       const double size        = device.mesh.face_size;
-      return { { std::max(first - room, std::min(begin + size, first)), std::min(last + room, std::max(end - size, last)) } };
+      return { { std::max(from, std::min(begin + size, first)), std::min(to, std::max(end - size, last)) } };
     }
 
     MeshConstants common_constants(const Device &device)

@@ -102,12 +102,10 @@ namespace sprag
       return Structure(std::in_place_type<FullStiffness>, body, layout, springs);
     }
 
-    LeverParts<3>::Structure make_structure(const SolidBody &body, const LeverProperties &properties,
-                                            const InterfaceLayout &layout, const JointSprings &springs,
-                                            const std::array<double, 2> &swept)
+    LeverParts<3>::Structure make_structure(const SolidBody &body, const LeverProperties &, const InterfaceLayout &layout,
+                                            const JointSprings &springs, const std::array<double, 2> &surroundings)
     {
-      const double room = 0.1 * properties.radius;
-      return LeverParts<3>::Structure(std::in_place_type<SolidStructure>, body, swept[0] - room, swept[1] + room, layout,
+      return LeverParts<3>::Structure(std::in_place_type<SolidStructure>, body, surroundings[0], surroundings[1], layout,
                                       springs);
     }
 
@@ -130,7 +128,7 @@ namespace sprag
   template <int dim>
   StaticLever<dim>::StaticLever(const typename Parts::Source &source, const Device &device)
       : StaticLever(source, all_lever_properties(device), swings(device),
-                    dim == 3 ? swept_contact(device) : std::array<double, 2>{})
+                    dim == 3 ? contact_surroundings(device) : std::array<double, 2>{})
   {
   }
 
@@ -142,11 +140,11 @@ namespace sprag
 
   template <int dim>
   StaticLever<dim>::StaticLever(const typename Parts::Source &source, std::vector<LeverProperties> properties, const bool swings,
-                                const std::array<double, 2> &swept)
+                                const std::array<double, 2> &surroundings)
       : own_body(make_body(source, properties.front()))
       , layout(make_layout(own_body, properties))
       , springs(make_springs(properties.front()))
-      , own_structure(make_structure(own_body, properties.front(), layout, springs, swept))
+      , own_structure(make_structure(own_body, properties.front(), layout, springs, surroundings))
       , multipliers(own_body.friction_face())
       , excess(layout, properties.front().spring.law, swings, 0.)
       , joint_is_free(swings)

@@ -164,7 +164,7 @@ namespace sprag
     };
 
     StaticLever(const typename Parts::Source &source, std::vector<LeverProperties> properties, bool swings,
-                const std::array<double, 2> &swept);
+                const std::array<double, 2> &surroundings);
 
     static const Balance &get_balance(const Evaluation &evaluation)
     {
