@@ -48,7 +48,7 @@ namespace sprag
       work.friction += more.friction;
     }
 
-    /// Goes on from one point of the drive to another: the row there.
+    /// Integrates the works from one point of the drive to another and returns the row there.
     using Advance = std::function<Row(const DrivePoint &from, const DrivePoint &to)>;
 
     Advance on_rigid_support(const Scene &scene)
@@ -95,10 +95,11 @@ namespace sprag
       return scene.support.type == SupportType::sprung ? on_sprung_support(scene) : on_rigid_support(scene);
     }
 
+    /// Computes rows of a rigid lever with inertia that always touches the cylinder.
     struct IdealContact
     {
       const Scene &scene;
-      const double inertia; ///< moment of [t mm^2]
+      const double inertia; ///< J [t mm^2]
       const double rest      = kinematics(scene.geometry, 0.).theta;
       const MomentLaw spring = moment_law(scene.spring);
 

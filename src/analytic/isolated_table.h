@@ -15,10 +15,10 @@ namespace sprag
     stop,    ///< z' = 0, and friction holds it
     release, ///< it moves again
     centre,  ///< z = 0
-    end      ///< of the damper's way
+    end      ///< of the damper's stroke
   };
 
-  /// An instant of the motion, with integrals over time since the start or since reset_period().
+  /// Holds an instant of the motion, with integrals over time since the start or since reset_period().
   struct TableState
   {
     double time        = 0.;
@@ -38,7 +38,7 @@ namespace sprag
   public:
     virtual ~IsolatedTable() = default;
 
-    /// Goes on by a step that ends at `until` or before, and tells what happened there. Throws AnalysisError where the damper
+    /// Takes a step that ends at `until` or before, and returns the event at its end. Throws AnalysisError where the damper
     /// ends or locks, or no step is found; state() is the last instant then.
     virtual TableEvent advance(double until) = 0;
 
@@ -66,7 +66,8 @@ namespace sprag
     /// Returns the energy of table, spring and damper [N mm].
     virtual double energy() const = 0;
 
-    /// Returns what the energies leave open since the start: base work less change of energy less what was dissipated [N mm].
+    /// Returns the residual of the energy balance since the start: work of the base less change of energy less dissipation
+    /// [N mm].
     double energy_residual() const
     {
       return now.base_work - (energy() - energy_at_start) - now.dissipated;

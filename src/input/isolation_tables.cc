@@ -27,7 +27,8 @@ namespace sprag
           throw InputError(row_label(i) + name + " " + number_text(samples.at[i]) + ": must be more than in the row before");
     }
 
-    /// The row of the largest x ends the way out and begins that back; of two such rows, between which Q jumps, each does one.
+    /// Splits the rows at the largest x into outward and return stroke. Of two rows there, between which Q jumps, each stroke has
+    /// its own.
     DamperLoop make_loop(const std::vector<double> &x, const std::vector<double> &forces)
     {
       const auto largest = std::max_element(x.begin(), x.end()) - x.begin();
@@ -52,7 +53,7 @@ namespace sprag
       return loop;
     }
 
-    /// A loop that went round the other way would give energy away.
+    /// Requires that the loop dissipates energy.
     void need_dissipation(const DamperLoop &loop)
     {
       double area = 0.;

@@ -22,7 +22,7 @@ namespace sprag
 {
   namespace
   {
-    /// Program, libraries and what the process has used so far, phases by wall and CPU time [s].
+    /// Returns the versions of program and libraries, and the time [s] and memory that the process has used.
     std::vector<Entry> process_entries(PhaseTimer &timer)
     {
       std::vector<Entry> entries;

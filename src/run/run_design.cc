@@ -32,7 +32,7 @@ namespace sprag
 {
   namespace
   {
-    /// All that a design finds, as far as it came.
+    /// Holds what a design has found until its end or failure.
     struct DesignFindings
     {
       std::optional<Found> found; ///< by the closed form; of the last round with its corrections
@@ -56,7 +56,7 @@ namespace sprag
                                                                   : design_quantity_info(term.quantity).unit);
     }
 
-    /// Value by the last check model that computes the quantity, or by the closed form if none does.
+    /// Returns the value by the last check model that computes the quantity, or by the closed form if none does.
     double best_known(const DesignTerm &term, const Proposal &lever, const DesignFindings &findings)
     {
       double value = term_value(term, lever);
@@ -76,7 +76,7 @@ namespace sprag
       return text;
     }
 
-    /// Demands in the order of how much a lever misses them.
+    /// Returns the demands that a lever misses, the largest violation first.
     std::vector<std::size_t> missed_demands(const DesignSettings &design, const Proposal &lever)
     {
       constexpr double met = 1e-6;
@@ -209,7 +209,7 @@ namespace sprag
       return groups;
     }
 
-    /// Tells why a search within the bounds met not all demands: what stops it and what is nearest.
+    /// Says why no lever within the bounds meets all demands: which ones stop it, and the nearest lever.
     std::string unmet_text(const DesignSettings &design, const DesignFindings &findings)
     {
       std::string text = "No lever within the bounds meets all demands";
@@ -236,7 +236,7 @@ namespace sprag
       return text;
     }
 
-    /// Tells in a sentence how far a lever that a check model saw misses what is demanded.
+    /// Says in a sentence by how much a lever misses the demands according to a check model.
     std::string missed_text(const DesignSettings &design, const ModelCheck &check)
     {
       const std::string by = "by the judge " + model_name(check.check_model);
@@ -275,9 +275,9 @@ namespace sprag
         stream << "  front of both aims: " << findings.front.size() << " levers\n";
     }
 
-    constexpr double correction_margin = 1e-3; ///< as they are known to first order, and of a mesh with its ripple
+    constexpr double correction_margin = 1e-3; ///< covers corrections of first order and the ripple of a mesh
 
-    /// Proposes by the closed form and asks the check models.
+    /// Proposes levers by the closed form and checks them by the check models.
     class DesignRun
     {
     public:
@@ -297,7 +297,7 @@ namespace sprag
         if (design.aims.size() > 1)
           search([&] { findings.front = pareto_front(problem); });
         for (const auto check_model : design.check_models)
-          ask(check_model);
+          check_rounds(check_model);
       }
 
     private:
@@ -334,7 +334,7 @@ namespace sprag
         return design.checks_in_time && check_model != CheckModel::table && check_model == design.check_models.back();
       }
 
-      void ask(const CheckModel check_model)
+      void check_rounds(const CheckModel check_model)
       {
         for (unsigned int round = 1;; ++round)
         {
@@ -365,7 +365,7 @@ namespace sprag
                            });
       }
 
-      /// From now on the closed form is corrected by what the check model found above it.
+      /// Corrects the closed form from now on to the results of a check model.
       void learn(const ModelCheck &check)
       {
         problem.margin = correction_margin;
@@ -385,8 +385,8 @@ namespace sprag
         return check.found[quantity] * (is_known ? overshoot[quantity] : 1.);
       }
 
-      /// The closed form knows no growth: the beam is asked about every lever, corrected by what a dearer check model found above
-      /// it.
+      /// Computes the growth rate of every lever by a beam, as the closed form has none, corrected to a more expensive check
+      /// model.
       void learn_growth(const ModelCheck &check)
       {
         if (check.check_model != CheckModel::beam)
@@ -405,8 +405,8 @@ namespace sprag
         require_lever();
       }
 
-      /// The best lever of the closed form may be stable as it is. Otherwise the beam is asked about every one, first near the
-      /// last that it was asked about.
+      /// Returns the best lever of the closed form if it is stable. Otherwise searches with the growth rates of a beam, first
+      /// near the last lever that has one.
       Found best_stable_lever()
       {
         std::optional<Proposal> near;

@@ -9,7 +9,7 @@ namespace sprag
 {
   // Measurements along a stroke, and the unknowns to be found from them.
 
-  /// Unknown of an identification. `stiffness`, `interface_offset` and `inclination` are k, e and th0 of the paper.
+  /// Selects an unknown of an identification. `stiffness`, `interface_offset` and `inclination` are k, e and th0 of the paper.
   enum class Unknown
   {
     friction_constant,   ///< mu, whatever the speed
@@ -21,7 +21,7 @@ namespace sprag
     inclination,         ///< th0 = th(x = 0) [rad], by the pivot's height
     force_offsets,       ///< of each measured force [N]
     rest_angle,          ///< of the rotational spring [rad]
-    lag                  ///< of all forces behind x [s]
+    lag                  ///< delay of all forces after x [s]
   };
 
   /// Names the force that a column of a measurement holds.
@@ -39,7 +39,7 @@ namespace sprag
     std::vector<double> values; ///< [N]; NaN: none in this row
   };
 
-  /// Rows of a measurement. Either time or x may be missing.
+  /// Holds the rows of a measurement. Either time or x may be missing.
   struct MeasuredStroke
   {
     std::vector<double> time; ///< [s], never falling; empty: unknown

@@ -38,7 +38,7 @@ namespace sprag
     /// Returns the grid points to be checked next, by increasing site; none once nothing is left to refine.
     std::vector<MapSite> next_sites();
 
-    /// Takes over what is known of the grid's points.
+    /// Adds the kinds at points of the grid.
     void learn(const KnownKinds &known);
 
     bool is_known(const unsigned int i, const unsigned int j) const
@@ -155,8 +155,8 @@ namespace sprag
 
   using MapCells = std::map<MapSite, MapCell>;
 
-  /// All ranks of MPI, checking the slides of a map's scene both ways with other values of its two parameters. A cell depends on
-  /// nothing but its site. Every rank calls what is here and comes to have all cells.
+  /// Checks the slides of a map's scene in both directions at other values of its two parameters, on all ranks of MPI. A cell
+  /// depends on its site alone. Every rank calls these functions and holds all cells.
   class MapFarm
   {
   public:

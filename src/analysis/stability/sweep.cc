@@ -35,7 +35,7 @@ namespace sprag
       return result;
     }
 
-    /// Returns whether two slides do the same to the last digit; slides that jam never do.
+    /// Returns whether two slides have bitwise equal growth rates and forces. Slides that jam (NaN) never have.
     bool are_equal(const CheckedSlide &a, const CheckedSlide &b)
     {
       return a.growth_rate == b.growth_rate && a.P == b.P;
@@ -52,7 +52,7 @@ namespace sprag
       return range.points == 1 ? 0. : std::abs(range.to - range.from) / (range.points - 1);
     }
 
-    /// Reduced and condensed levers check a slide in milliseconds.
+    /// Returns the number of x over the stroke: more for levers that check a slide in milliseconds.
     unsigned int points_along(const Scene &scene)
     {
       const bool is_cheap = scene.analysis.model != ModelType::finite_element && scene.analysis.dimension == 2;
@@ -80,7 +80,7 @@ namespace sprag
       return result;
     }
 
-    /// Returns the values that a verdict looks at inside one of Stability/Ranges.
+    /// Returns the values inside one of Stability/Ranges at which slides are checked.
     std::vector<double> values_inside(const Scene &scene, const ParameterRange &range)
     {
       const unsigned int n = is_reduced(scene.analysis.model) ? 7 : 1;
@@ -117,7 +117,7 @@ namespace sprag
       return search_kinds({ "Stability/Position", x, x, 1 }, { 0., 0 }, check_at);
     }
 
-    /// A beam in place of a meshed bar, with the contact law of its layer.
+    /// Returns the scene with a beam in place of a meshed bar, and the contact law of its layer.
     Scene beam_instead(const Scene &scene)
     {
       const auto law = face_law(scene);
@@ -125,7 +125,7 @@ namespace sprag
                                        override_text("Contact/Exponent", law.exponent) }));
     }
 
-    /// Values in the middle of what a beam says is narrower than the spacing of the range's points.
+    /// Returns the middles of the intervals of one kind that, for a beam, are narrower than the spacing of the range's points.
     std::vector<double> beam_hints(const Scene &scene, const ParameterRange &range)
     {
       if (!is_meshed(scene.analysis.model) || scene.analysis.dimension == 3 || !scene.mesh.file.empty())
@@ -144,6 +144,7 @@ namespace sprag
       return hints;
     }
 
+    /// Holds a value of the parameter and the slide there.
     struct Tried
     {
       double value = 0.;
@@ -163,8 +164,8 @@ namespace sprag
     using Window = std::array<Tried, 3>;
     using Height = std::function<double(const Tried &)>;
 
-    /// Returns whether a height's peak near the window's middle may be above 0. It may rise once more what it has fallen to a
-    /// side.
+    /// Returns whether the height may exceed 0 near the window's middle: its peak is bounded by as much above the middle as the
+    /// lower side lies below.
     bool may_pass_zero(const std::array<double, 3> &height)
     {
       const double low = std::min(height[0], height[2]);
@@ -278,7 +279,7 @@ namespace sprag
         ++result.more_values;
       }
 
-      /// Golden sections, until the kind is another one.
+      /// Climbs the height by golden sections until the kind changes.
       void climb(Window window, const unsigned int steps, const Height &height)
       {
         constexpr double share = 0.381966;

@@ -78,7 +78,7 @@ namespace sprag
     CriticalSearch along;
   };
 
-  /// The slides on which a verdict rests: at Stability/Position or over the stroke, in Stability/Direction or both, with the
+  /// The slides that decide a verdict: at Stability/Position or over the stroke, in Stability/Direction or both, with the
   /// constants of the scene, all combinations of the ends of Stability/Ranges and values inside each range.
   struct SweptSlides
   {
