@@ -64,7 +64,7 @@ namespace sprag
       const bool unfinished  = finish(arguments, scene, fate, since);
       if (unfinished)
         add_to_log(result_folder(arguments, scene), fate);
-      return ended_itself && !unfinished ? analysis_failed : tell(fate);
+      return ended_itself && !unfinished ? analysis_failed : report_error(fate);
     }
 
     /// A map or a study is carried out by several processes. A folder that cannot serve is for the run itself to refuse.
@@ -169,10 +169,10 @@ int main(int argc, char **argv)
   }
   catch (const InputError &error)
   {
-    return tell(error);
+    return report_error(error);
   }
   catch (const std::exception &error)
   {
-    return tell(error.what());
+    return report_error(error.what());
   }
 }

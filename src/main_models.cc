@@ -121,7 +121,7 @@ namespace sprag
         if (outcome.status != success && Clock::now() > end)
         {
           if (!rank.is_first)
-            tell(outcome.failure);
+            report_error(outcome.failure);
           MPI_Abort(MPI_COMM_WORLD, outcome.status);
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -150,7 +150,7 @@ namespace sprag
       }
       catch (const std::exception &error)
       {
-        tell(error.what());
+        report_error(error.what());
         MPI_Abort(MPI_COMM_WORLD, analysis_failed);
         return analysis_failed;
       }
@@ -181,7 +181,7 @@ int main(int argc, char **argv)
     }
     catch (const InputError &error)
     {
-      return tell(error);
+      return report_error(error);
     }
   RunLog log(argc, argv);
   int no_arguments = 1;

@@ -134,12 +134,12 @@ namespace sprag
       /// table.
       double excess(const BasePoint &base) const
       {
-        const auto [low, high] = friction_at_rest();
-        const double needed    = force_needed(base);
-        const double share     = std::max(tolerance, 8. * epsilon);
-        const double doubt     = share * (system.mass * std::abs(base.a) + system.stiffness * std::abs(now.z) +
-                                      std::max(std::abs(low), std::abs(high)));
-        return std::max(needed - high, low - needed) - doubt;
+        const auto [low, high]  = friction_at_rest();
+        const double needed     = force_needed(base);
+        const double share      = std::max(tolerance, 8. * epsilon);
+        const double step_error = share * (system.mass * std::abs(base.a) + system.stiffness * std::abs(now.z) +
+                                           std::max(std::abs(low), std::abs(high)));
+        return std::max(needed - high, low - needed) - step_error;
       }
 
       int way_out() const

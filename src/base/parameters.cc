@@ -201,13 +201,13 @@ namespace sprag
       void unusable(const std::string &rule)
       {
         settings.mistakes.push_back(settings.file + ": " + rule);
-        doubt_all();
+        invalidate_all();
       }
 
-      void doubt_all()
+      void invalidate_all()
       {
         for (const auto &parameter : declared)
-          settings.doubtful.insert(full_name(parameter));
+          settings.invalid.insert(full_name(parameter));
       }
 
       void read_file()
@@ -220,7 +220,7 @@ namespace sprag
         catch (const InputError &error)
         {
           settings.mistakes.push_back(error.what());
-          doubt_all();
+          invalidate_all();
         }
       }
 
@@ -326,7 +326,7 @@ namespace sprag
           catch (const InputError &broken)
           {
             mistake(place, name + " = " + value, broken.what());
-            settings.doubtful.insert(name);
+            settings.invalid.insert(name);
           }
       }
 
@@ -348,7 +348,7 @@ namespace sprag
         if (const auto near = nearest(last, names); near && !match)
         {
           match = near;
-          settings.doubtful.insert(own + "/" + *near);
+          settings.invalid.insert(own + "/" + *near);
         }
         mistake(place, name + " = " + value,
                 (own.empty() ? "must stand inside a subsection" : "no such parameter") + did_you_mean(match));

@@ -124,7 +124,7 @@ namespace sprag
   {
     std::string file;                         ///< as given by the user
     std::map<std::string, Setting> specified; ///< by full name; only declared parameters and values that keep their rule
-    std::set<std::string> doubtful;           ///< full names whose value is unknown because of a mistake
+    std::set<std::string> invalid;            ///< full names whose value is unknown because of a mistake
     std::vector<std::string> mistakes;        ///< a line each: "PLACE: Section/Name = value: RULE"
   };
 

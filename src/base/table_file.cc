@@ -220,14 +220,14 @@ namespace sprag
       {
         has_rows = true;
         if (cells.size() != columns.size())
-          return tell_width(cells, line);
+          return report_width(cells, line);
         for (std::size_t i = 0; i < cells.size(); ++i)
         {
           if (is_read[i] == 0)
             continue;
           const auto value = number_alone(cells[i]);
           if (!value && !(named && is_missing(cells[i])))
-            return tell_cell(cells[i], line);
+            return report_cell(cells[i], line);
           columns[i].values.push_back(value.value_or(missing));
           if (columns[i].values.size() > most_rows)
             throw InputError(file + ": must have at most " + std::to_string(most_rows) + " rows");
@@ -239,25 +239,25 @@ namespace sprag
         return line + ": must be " + (columns.size() == 2 ? "two" : std::to_string(columns.size())) + " numbers";
       }
 
-      void tell_width(const Names &cells, const std::string &line)
+      void report_width(const Names &cells, const std::string &line)
       {
         const auto pointed = with_points(line);
         if (const auto retry = split_cells(pointed); pointed != line && retry.size() == columns.size() && are_numbers(retry))
-          tell_decimal_comma(line);
+          report_decimal_comma(line);
         else
           mistake(named ? "has " + std::to_string(cells.size()) + " cells, the header " + std::to_string(columns.size())
                         : row_rule(line));
       }
 
-      void tell_cell(const std::string &cell, const std::string &line)
+      void report_cell(const std::string &cell, const std::string &line)
       {
         if (with_decimal_point(cell))
-          tell_decimal_comma(line);
+          report_decimal_comma(line);
         else
           mistake(named ? cell + ": must be a number" : row_rule(line));
       }
 
-      void tell_decimal_comma(const std::string &line)
+      void report_decimal_comma(const std::string &line)
       {
         if (!decimal_commas)
           mistake(line + ": numbers need a decimal point: " + with_points(line));
@@ -361,7 +361,7 @@ namespace sprag
     }
 
     /// A damaged file may keep HDF5 busy for ever [s], or ask for all the memory there is [bytes].
-    constexpr double file_patience    = 20.;
+    constexpr double file_timeout     = 20.;
     constexpr std::size_t file_memory = std::size_t(1) << 30;
 
     /// A stranger's file may crash the library or name other files: it is read in a process without rights.
@@ -379,7 +379,7 @@ namespace sprag
         archive(content);
         return archive.bytes();
       };
-      const auto answer = in_child_process(work, file_patience + 1e-7 * static_cast<double>(bytes));
+      const auto answer = in_child_process(work, file_timeout + 1e-7 * static_cast<double>(bytes));
       if (!answer.failure.empty())
         throw InputError(path + ": HDF5 " + answer.failure + " on it: the file is damaged");
       Content content;

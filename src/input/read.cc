@@ -293,7 +293,7 @@ namespace sprag
                            { input.scene.drive = Drive(times, smoothed(times, positions)); });
         if (drive.stroke > drive.start)
           input.scene.drive = Drive(drive.profile, drive.start, drive.stroke, drive.speed, drive.cycles, reversal_duration());
-        else if (!doubtful("Drive/Stroke") && !doubtful("Drive/Start"))
+        else if (!is_invalid("Drive/Stroke") && !is_invalid("Drive/Start"))
           report("Drive/Stroke", "must be more than Start = " + mm(drive.start));
       }
 
@@ -331,7 +331,7 @@ namespace sprag
       {
         for (const auto &violation : violations(input.scene))
         {
-          const auto known = [this](const auto &name) { return !doubtful(name); };
+          const auto known = [this](const auto &name) { return !is_invalid(name); };
           if (known(violation.parameter) && std::all_of(violation.others.begin(), violation.others.end(), known))
             report(violation.parameter, violation.rule);
         }
@@ -340,7 +340,7 @@ namespace sprag
       void check_ranges()
       {
         const Scene &scene = input.scene;
-        if (doubtful("Analysis/Type"))
+        if (is_invalid("Analysis/Type"))
           return;
         if (scene.analysis.type == AnalysisType::map)
         {
@@ -364,7 +364,7 @@ namespace sprag
 
       void read_study()
       {
-        if (doubtful("Analysis/Type") || input.scene.analysis.type != AnalysisType::study)
+        if (is_invalid("Analysis/Type") || input.scene.analysis.type != AnalysisType::study)
           return;
         StudySettings &study   = input.scene.study;
         const auto varied      = parse_variation(study.vary, parameters, input.scene.folder);
@@ -421,7 +421,7 @@ namespace sprag
         {
           const auto name  = full_name(parameter);
           const auto found = settings.specified.find(name);
-          if (counts(parameter) || found == settings.specified.end() || found->second.value.empty() || doubtful(name))
+          if (counts(parameter) || found == settings.specified.end() || found->second.value.empty() || is_invalid(name))
             continue;
           const auto chosen    = settings.specified.find(parameter.choice);
           const auto by_option = [](const Setting &setting) { return setting.place == "--set"; };
@@ -434,7 +434,7 @@ namespace sprag
 
       bool counts(const Parameter &parameter) const
       {
-        if (parameter.choice.empty() || doubtful(parameter.choice))
+        if (parameter.choice.empty() || is_invalid(parameter.choice))
           return true;
         const auto chosen = settings.specified.find(parameter.choice);
         const auto &value = chosen != settings.specified.end() ? chosen->second.value
@@ -453,7 +453,7 @@ namespace sprag
           return drive.reversal;
         const std::vector<std::string> others = { "Analysis/Type", "Drive/Profile", "Drive/Start",
                                                   "Drive/Stroke",  "Drive/Speed",   "Drive/Cycles" };
-        if (std::none_of(others.begin(), others.end(), [this](const auto &name) { return doubtful(name); }))
+        if (std::none_of(others.begin(), others.end(), [this](const auto &name) { return is_invalid(name); }))
           report("Drive/Reversal duration", "must be at most " + rounded_down_text(largest) +
                                                 " s, or the ramps of speed do not fit into the shortest stroke");
         return 0.;
@@ -487,7 +487,7 @@ namespace sprag
       void report(const std::string &parameter, const std::string &rule)
       {
         add_mistake(settings, parameters, parameter, rule);
-        settings.doubtful.insert(parameter);
+        settings.invalid.insert(parameter);
       }
 
       ReportMistake reporter()
@@ -495,9 +495,9 @@ namespace sprag
         return [this](const auto &name, const auto &rule) { report(name, rule); };
       }
 
-      bool doubtful(const std::string &parameter) const
+      bool is_invalid(const std::string &parameter) const
       {
-        return settings.doubtful.count(parameter) > 0;
+        return settings.invalid.count(parameter) > 0;
       }
     };
 

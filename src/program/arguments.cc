@@ -56,7 +56,7 @@ namespace sprag
       }
       catch (const InputError &error)
       {
-        return tell(error);
+        return report_error(error);
       }
     }
 
@@ -73,13 +73,13 @@ namespace sprag
         if (entry.path().extension() == ".prm")
           names.push_back(entry.path().stem());
       if (std::find(names.begin(), names.end(), name) == names.end())
-        return tell(
+        return report_error(
             InputError("--from " + name + ": there is no such scene" + did_you_mean(nearest(fs::path(name).stem(), names))));
       if (contains_match(read_whole_file(shipped.string(), 1 << 20), R"(\n\s*set [^#\n]*\.(csv|geo|msh)\b)"))
-        return tell(InputError("--from " + name + ": that scene reads files of its folder; copy it together with them"));
+        return report_error(InputError("--from " + name + ": that scene reads files of its folder; copy it together with them"));
       if (!fs::copy_file(shipped, arguments.new_file, error))
-        return tell(InputError("--new " + arguments.new_file + ": " + error.message() +
-                               (error == std::errc::file_exists ? "; no file is replaced, name another" : "")));
+        return report_error(InputError("--new " + arguments.new_file + ": " + error.message() +
+                                       (error == std::errc::file_exists ? "; no file is replaced, name another" : "")));
       std::cout << arguments.new_file << ": a copy of " << shipped.filename().string() << ", to be edited and run\n";
       return success;
     }
@@ -106,8 +106,8 @@ namespace sprag
       return {};
     for (const auto *option : app.get_options([](const CLI::Option *each) { return each->count() > 0; }))
       if (const auto name = option->get_name(); name != "--new" && name != "--from")
-        return tell(InputError("--new goes with --from alone, not with " + name + ": type 'sprag --new " + arguments.new_file +
-                               "' and then 'sprag " + arguments.new_file + "' with other options"));
+        return report_error(InputError("--new goes with --from alone, not with " + name + ": type 'sprag --new " +
+                                       arguments.new_file + "' and then 'sprag " + arguments.new_file + "' with other options"));
     return write_new_scene(arguments);
   }
 

@@ -199,12 +199,12 @@ namespace sprag
         return drop("its rows are damaged");
       progress_found = std::move(content->progress);
       rows_found     = std::move(*rows);
-      goes_on        = true;
+      is_resumed     = true;
     }
     else
       remove(); // what a run left that was killed before its first one
     if (const auto earlier = earlier_result(folder + "/result.h5");
-        !goes_on && !quiet && earlier && earlier->status != "completed")
+        !is_resumed && !quiet && earlier && earlier->status != "completed")
       std::cout << "Begins anew:  the result in the folder is unfinished and has no checkpoint\n" << std::flush;
   }
 
@@ -233,7 +233,7 @@ namespace sprag
 
   void Checkpoint::end_steps(const ProgressSerialiser &progress)
   {
-    if (is_kept && (goes_on || is_written))
+    if (is_kept && (is_resumed || is_written))
       try_to([&] { write(progress); });
   }
 

@@ -79,7 +79,7 @@ namespace sprag
     /// Returns whether the run goes on from an interrupted one.
     bool resumes() const
     {
-      return goes_on;
+      return is_resumed;
     }
 
     /// Hands over what the interrupted run has recorded.
@@ -135,7 +135,7 @@ namespace sprag
     const std::chrono::duration<double> interval;
     RowLog row_log;
     std::vector<ProgressSerialiser> parts;
-    bool goes_on = false;
+    bool is_resumed = false;
     std::string progress_found, rows_found;
     Clock::time_point next;
     bool is_written = false; ///< by this run

@@ -63,13 +63,13 @@ namespace sprag
     return result;
   }
 
-  int tell(const InputError &error)
+  int report_error(const InputError &error)
   {
     std::cerr << coloured(terminal_text(error.what()), STDERR_FILENO, error_colour) << '\n';
     return bad_input;
   }
 
-  int tell(const std::string &failure)
+  int report_error(const std::string &failure)
   {
     std::cerr << coloured("sprag: " + terminal_text(failure), STDERR_FILENO, error_colour) << '\n';
     return analysis_failed;
@@ -100,13 +100,13 @@ namespace sprag
     }
     catch (const InputError &error)
     {
-      return { rank.is_first ? tell(error) : bad_input, error.what() };
+      return { rank.is_first ? report_error(error) : bad_input, error.what() };
     }
     catch (const AnalysisError &error)
     {
       if (rank.is_first && scene)
         finish(arguments, *scene, error.what(), since);
-      return { rank.is_first ? tell(error.what()) : analysis_failed, error.what() };
+      return { rank.is_first ? report_error(error.what()) : analysis_failed, error.what() };
     }
     catch (const std::exception &error)
     {
@@ -114,7 +114,7 @@ namespace sprag
         throw;
       if (scene)
         finish(arguments, *scene, error.what(), since);
-      return { tell(error.what()), error.what() };
+      return { report_error(error.what()), error.what() };
     }
   }
 } // namespace sprag

@@ -29,10 +29,10 @@ namespace sprag
   std::timespec file_time();
 
   /// Prints what is wrong with the input and returns the exit status.
-  int tell(const InputError &error);
+  int report_error(const InputError &error);
 
   /// Prints what failed and returns the exit status.
-  int tell(const std::string &failure);
+  int report_error(const std::string &failure);
 
   /// Gives what a run since then has left unfinished its end; returns whether there was anything.
   bool finish(const Arguments &arguments, const Scene &scene, const std::string &status, const std::timespec &since);

@@ -31,7 +31,7 @@ namespace sprag
     namespace fs = std::filesystem;
 
     /// A run that was killed has its folder until the last of its processes is gone.
-    constexpr std::chrono::milliseconds lock_patience(3000);
+    constexpr std::chrono::milliseconds lock_timeout(3000);
 
     /// " (process 123)" of whoever has the lock, as far as the system tells.
     std::string find_holder(const OpenFile &folder)
@@ -56,7 +56,7 @@ namespace sprag
       OpenFile opened(folder, O_RDONLY | O_DIRECTORY);
       if (!opened.is_open() || held.is_same_as(opened))
         return false;
-      if (!opened.lock(lock_patience) && errno == EWOULDBLOCK)
+      if (!opened.lock(lock_timeout) && errno == EWOULDBLOCK)
         throw InputError("--output = " + folder + ": another run writes there" + find_holder(opened) +
                          ". Wait for its end or choose another folder");
       held = std::move(opened);

@@ -14,7 +14,7 @@ namespace sprag
   namespace
   {
     /// A damaged file may keep HDF5 busy for ever [s].
-    constexpr double patience = 20.;
+    constexpr double timeout = 20.;
 
     bool is_newer(const std::string &path, const std::timespec &since)
     {
@@ -62,7 +62,7 @@ namespace sprag
       const std::string status = hdf5::has(file, "summary") ? hdf5::read_text(file, "summary/status") : "";
       return status + '\0' + hdf5::read_text(file, "parameters");
     };
-    const auto answer = in_child_process(read, patience);
+    const auto answer = in_child_process(read, timeout);
     const auto end    = answer.text.find('\0');
     if (!answer.failure.empty() || end == std::string::npos)
       return {};
@@ -79,6 +79,6 @@ namespace sprag
       write_end(path, parameters, status);
       return std::string();
     };
-    return in_child_process(work, patience).failure.empty();
+    return in_child_process(work, timeout).failure.empty();
   }
 } // namespace sprag

@@ -240,7 +240,7 @@ TEST(Parameters, FilesThatCannotBeReadAreReported)
 TEST(Parameters, DoubtIsRememberedForWhatWasMeant)
 {
   const auto settings = read("subsection Geometry\n set Cylinder radus = 5\nend\nsubsection Mesh\n set Degree = x\nend\n");
-  EXPECT_EQ(settings.doubtful, (std::set<std::string>{ "Geometry/Cylinder radius", "Mesh/Degree" }));
+  EXPECT_EQ(settings.invalid, (std::set<std::string>{ "Geometry/Cylinder radius", "Mesh/Degree" }));
 }
 
 TEST(Parameters, LaterMistakesNamePlaceAndValueInUse)

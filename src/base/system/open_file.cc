@@ -44,10 +44,10 @@ namespace sprag
       ::close(descriptor);
   }
 
-  bool OpenFile::lock(const std::chrono::milliseconds patience) const
+  bool OpenFile::lock(const std::chrono::milliseconds timeout) const
   {
     constexpr std::chrono::milliseconds pause(50);
-    const auto end = std::chrono::steady_clock::now() + patience;
+    const auto end = std::chrono::steady_clock::now() + timeout;
     while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
     {
       if (errno != EWOULDBLOCK || std::chrono::steady_clock::now() >= end)

@@ -29,9 +29,9 @@ namespace sprag
       return descriptor >= 0;
     }
 
-    /// Waits up to `patience` for a lock that no other process has; kept until the file is closed. EWOULDBLOCK says that another
+    /// Waits up to `timeout` for a lock that no other process has; kept until the file is closed. EWOULDBLOCK says that another
     /// process has it, other reasons that the file system has no locks.
-    bool lock(std::chrono::milliseconds patience = {}) const;
+    bool lock(std::chrono::milliseconds timeout = {}) const;
 
     bool write(const std::string &text) const;
 

@@ -40,30 +40,30 @@ namespace sprag
     {
       const pid_t process;
       const int last_signal;
-      const std::chrono::duration<double> patience;
-      unsigned int wishes    = 0;
-      bool insisted          = false;
+      const std::chrono::duration<double> timeout;
+      unsigned int requests  = 0;
+      bool is_forced         = false;
       Clock::time_point sent = {};
 
       void ask()
       {
-        ++wishes;
-        if (wishes == 1)
+        ++requests;
+        if (requests == 1)
           send(SIGUSR1);
         else
-          insist();
+          force_end();
       }
 
       void go_on()
       {
-        if (wishes > 0 && Clock::now() - sent > patience)
-          insist();
+        if (requests > 0 && Clock::now() - sent > timeout)
+          force_end();
       }
 
-      void insist()
+      void force_end()
       {
-        send(insisted ? SIGKILL : last_signal);
-        insisted = true;
+        send(is_forced ? SIGKILL : last_signal);
+        is_forced = true;
       }
 
       void send(const int signal)
@@ -74,7 +74,7 @@ namespace sprag
     };
   } // namespace
 
-  std::optional<WorkEnd> supervise(const int last_signal, const double patience)
+  std::optional<WorkEnd> supervise(const int last_signal, const double timeout)
   {
     const sigset_t signals = watched_signals();
     sigset_t before;
@@ -90,13 +90,14 @@ namespace sprag
       ::sigprocmask(SIG_SETMASK, &before, nullptr);
       return {};
     }
-    Ending ending{ child, last_signal, std::chrono::duration<double>(patience) };
+    Ending ending{ child, last_signal, std::chrono::duration<double>(timeout) };
     int status = 0;
     while (::waitpid(child, &status, WNOHANG) == 0)
       if (next_signal(signals) != 0)
         ending.ask();
       else
         ending.go_on();
-    return WorkEnd{ WIFEXITED(status) ? WEXITSTATUS(status) : 0, WIFSIGNALED(status) ? WTERMSIG(status) : 0, ending.wishes > 0 };
+    return WorkEnd{ WIFEXITED(status) ? WEXITSTATUS(status) : 0, WIFSIGNALED(status) ? WTERMSIG(status) : 0,
+                    ending.requests > 0 };
   }
 } // namespace sprag

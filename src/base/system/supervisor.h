@@ -21,8 +21,8 @@ namespace sprag
   inline constexpr double process_grace = 10.;
 
   /// Splits the process: none is returned in a child, which goes on with the work, and its end in the parent, which supervises
-  /// it. SIGINT, SIGTERM and SIGHUP are handed on as SIGUSR1; after `patience` [s], or a second one, follows `last_signal`, and
-  /// SIGKILL another `patience` later. The child ends with its parent. Where no process can be made the work is not supervised:
+  /// it. SIGINT, SIGTERM and SIGHUP are handed on as SIGUSR1; after `timeout` [s], or a second one, follows `last_signal`, and
+  /// SIGKILL another `timeout` later. The child ends with its parent. Where no process can be made the work is not supervised:
   /// none.
-  std::optional<WorkEnd> supervise(int last_signal, double patience);
+  std::optional<WorkEnd> supervise(int last_signal, double timeout);
 } // namespace sprag

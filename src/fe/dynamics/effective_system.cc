@@ -108,10 +108,10 @@ namespace sprag
     };
     const auto unknown = static_cast<unsigned int>(
         std::count_if(forces.dofs.begin(), forces.dofs.end(), [&](const unsigned int dof) { return responses.count(dof) == 0; }));
-    credit = std::min(credit + 1, most_responses);
-    if (unknown > credit)
+    budget = std::min(budget + 1, most_responses);
+    if (unknown > budget)
       return add(1., response(forces));
-    credit -= unknown;
+    budget -= unknown;
     if (responses.size() + unknown > most_responses)
       for (auto known = responses.begin(); known != responses.end();)
         known =
@@ -123,7 +123,7 @@ namespace sprag
   void EffectiveSystem::serialise_history(Archive &archive)
   {
     DofSelection known = mapped(responses, [](const auto &response) { return response.first; });
-    archive(credit, known);
+    archive(budget, known);
     if (!archive.reads())
       return;
     responses.clear();

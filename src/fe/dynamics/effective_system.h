@@ -57,6 +57,6 @@ namespace sprag
     std::vector<dealii::Vector<double>> damped;                       ///< S^-1 M phi, S without modal damping
     dealii::FullMatrix<double> low_rank;                              ///< (D^-1 + (M phi)^T S^-1 M phi)^-1
     mutable std::map<unsigned int, dealii::Vector<double>> responses; ///< by dof
-    mutable unsigned int credit = 0;                                  ///< responses that may be found now
+    mutable unsigned int budget = 0;                                  ///< responses that may be found now
   };
 } // namespace sprag

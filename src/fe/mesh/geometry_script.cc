@@ -35,7 +35,7 @@ namespace sprag
   namespace
   {
     /// A damaged mesh may keep gmsh busy for ever [s], or ask for all the memory there is [bytes].
-    constexpr double mesh_patience    = 20.;
+    constexpr double mesh_timeout     = 20.;
     constexpr std::size_t mesh_memory = std::size_t(1) << 30;
 
     /// Share of the free memory and time [s] that a stranger's script may take: other programs keep theirs, and loops end.
@@ -495,7 +495,7 @@ namespace sprag
         packed(answer);
         return packed.bytes();
       };
-      const double patience = is_mesh ? mesh_patience + 1e-6 * static_cast<double>(bytes) : is_trusted ? 0. : script_patience();
+      const double patience = is_mesh ? mesh_timeout + 1e-6 * static_cast<double>(bytes) : is_trusted ? 0. : script_patience();
       const auto found      = in_child_process(in_process, patience);
       if (!found.failure.empty() || found.text.empty())
         throw InputError(file + ": gmsh " + (found.failure.empty() ? "ends" : found.failure) + " on it: the file is damaged, " +

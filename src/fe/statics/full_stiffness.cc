@@ -201,7 +201,8 @@ namespace sprag
     return result;
   }
 
-  void FullStiffness::tell_sensors(const unsigned int lever, const Vector<double> &coordinates, const DofLoads &, Row &row) const
+  void FullStiffness::observe_sensors(const unsigned int lever, const Vector<double> &coordinates, const DofLoads &,
+                                      Row &row) const
   {
     row.sensor_forces = body.sensor_forces(body_displacement(lever, coordinates));
   }

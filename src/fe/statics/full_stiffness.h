@@ -42,7 +42,7 @@ namespace sprag
                                                            const DofLoads &forces) const;
 
     /// Tells a row the forces of the sensors of a lever [N].
-    void tell_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const DofLoads &forces, Row &row) const;
+    void observe_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const DofLoads &forces, Row &row) const;
 
     /// Serialises what the factors' ordering was found for, on which their round-off depends.
     void serialise_history(Archive &archive);

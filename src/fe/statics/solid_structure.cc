@@ -156,8 +156,8 @@ namespace sprag
     return result;
   }
 
-  void SolidStructure::tell_sensors(const unsigned int lever, const Vector<double> &coordinates, const DofLoads &forces,
-                                    Row &row) const
+  void SolidStructure::observe_sensors(const unsigned int lever, const Vector<double> &coordinates, const DofLoads &forces,
+                                       Row &row) const
   {
     tell_sides(finite ? body.sensor_forces(lever_displacement(coordinates, lever)) : sensors(on_surface(forces, lever)),
                body.is_half(), row);

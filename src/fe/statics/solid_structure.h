@@ -80,7 +80,7 @@ namespace sprag
                                                            const DofLoads &forces) const;
 
     /// Tells a row the forces of the sensors of a lever [N].
-    void tell_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const DofLoads &forces, Row &row) const;
+    void observe_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const DofLoads &forces, Row &row) const;
 
     /// Returns the deflection of a lever's face where the pressure is largest over that aside of the contact [mm]; 0 without a
     /// layer. The row holds place and width of the contact.

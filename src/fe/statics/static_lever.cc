@@ -397,7 +397,7 @@ namespace sprag
       row[Column::elastic_energy] = own_body.energy(body_displacements(state.coordinates, state.forces)[lever]);
     if (is_linear || dim == 3) // a body in a plane has its elastic cylinder
       row[Column::elastic_energy] += cylinder_energy(lever, state);
-    std::visit([&](const auto &s) { s.tell_sensors(lever, state.coordinates, state.forces, row); }, own_structure);
+    std::visit([&](const auto &s) { s.observe_sensors(lever, state.coordinates, state.forces, row); }, own_structure);
   }
 
   /// Returns the energy of a linear elastic cylinder or of the rigid one's shaft [mJ]: half of the work of the interface forces

@@ -175,7 +175,7 @@ namespace sprag
     return result;
   }
 
-  void StaticStructure::tell_sensors(const unsigned int lever, const Vector<double> &, const DofLoads &forces, Row &row) const
+  void StaticStructure::observe_sensors(const unsigned int lever, const Vector<double> &, const DofLoads &forces, Row &row) const
   {
     row.sensor_forces = sensors(on_surface(forces, lever));
   }

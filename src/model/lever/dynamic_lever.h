@@ -315,7 +315,7 @@ namespace sprag
         sensors.push_back(frame.layout.sensor(i, lever));
       const auto compressions = structure->positions(motion, sensors);
       const auto force        = [&](const unsigned int dof) { return frame.sensor_stiffness * compressions[dof]; };
-      frame.tell_sensors(mapped(sensors, force), row);
+      frame.observe_sensors(mapped(sensors, force), row);
     }
 
     const DofSelection &candidate_dofs(const Motion &motion) const

@@ -28,8 +28,8 @@ namespace sprag
     {
       constexpr unsigned int most_corrections = 25;
       constexpr unsigned int most_renewals    = 8;
-      constexpr double slow                   = 0.05; ///< share of the unbalance that a correction may leave
-      constexpr double hopeless               = 100.; ///< share that even a new tangent is not tried for
+      constexpr double slow                   = 0.05; ///< ratio of successive residuals that admits the stored tangent
+      constexpr double divergent              = 100.; ///< ratio of successive residuals from which no new tangent is tried
 
       NewtonResult result;
       if (kept != nullptr)
@@ -40,7 +40,7 @@ namespace sprag
       auto found = evaluate(z, kept == nullptr ? Request::with_tangent : Request::forces, phi);
       if (kept == nullptr && !renew(*found.forces, kept))
         return { result, found.forces };
-      double by_unit        = 0.; // of unbalance, the largest movement
+      double by_unit        = 0.; // largest movement by a unit residual
       unsigned int renewals = 0;
       const double least    = equations.smallest_movement();
       result.converged      = found.residual_norm == 0.; // nothing touches
@@ -51,7 +51,7 @@ namespace sprag
         const double movement = correct(found, phi, z);
         found                 = evaluate(z, Request::forces, phi);
         const double share    = found.residual_norm / before;
-        if (!(share < hopeless))
+        if (!(share < divergent))
           break;
         by_unit = std::max(by_unit, movement / before);
         result.converged =

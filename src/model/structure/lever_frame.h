@@ -32,7 +32,7 @@ namespace sprag
     double largest_indentation = std::numeric_limits<double>::infinity();
 
     /// Writes the sensor forces of a lever [N] to its row.
-    std::function<void(std::vector<double> forces, Row &row)> tell_sensors = [](std::vector<double> forces, Row &row)
+    std::function<void(std::vector<double> forces, Row &row)> observe_sensors = [](std::vector<double> forces, Row &row)
     { row.sensor_forces = std::move(forces); };
   };
 
