@@ -29,7 +29,7 @@ namespace sprag
     double peak        = unknown;
     double fundamental = unknown;
     double rms         = unknown;
-    double rms_low     = unknown; ///< of a random base: what another record of its spectrum gives lies between, with 95 %
+    double rms_low     = unknown; ///< of a random base: lower end of the 95 % interval for other records of its spectrum
     double rms_high    = unknown;
 
     bool is_steady        = false;

@@ -37,7 +37,7 @@ namespace sprag
       }
     }
 
-    /// Strokes of a periodic drive are alike but for its first, and for the last, which may be cut short or end at full speed.
+    /// Strokes of a periodic drive are equal except the first, and the last, which may be cut short or end at full speed.
     void follow(const Drive &drive, const Visit &visit)
     {
       const auto &turns  = drive.reversals();
@@ -59,7 +59,7 @@ namespace sprag
   {
     const double e = device.geometry.interface_offset;
     JammingMargin margin;
-    // Without an offset the margin is 1 everywhere; then the shortest s moving back is told.
+    // Without an offset the margin is 1 everywhere; then the result is the shortest s moving back.
     const auto rank  = [](const JammingMargin &at) { return std::make_tuple(at.margin(), at.s, drive_direction(at.v)); };
     bool begins      = true;
     const auto visit = [&](const DrivePoint &point)

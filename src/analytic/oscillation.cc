@@ -75,7 +75,7 @@ namespace sprag
       return noise * std::max(largest_reference(samples), largest(samples, [](const Sample &sample) { return sample.value; }));
     }
 
-    /// Mean over time of what `mean_between` tells of two successive samples.
+    /// Returns the mean over time of `mean_between`, the mean between two successive samples.
     template <typename Mean>
     double mean(const Samples &samples, const Mean &mean_between)
     {

@@ -19,7 +19,7 @@ namespace sprag
   {
     passed = 0;
     count  = std::max(1ul, static_cast<unsigned long>(std::ceil((ends[segment] - begin) / nominal_step - 1e-6)));
-    // A count that can be halved often leaves room to grow; it shortens the step by an eighth at most.
+    // A count with many factors of 2 lets the step grow later; it shortens the step by an eighth at most.
     for (double step = nominal_step; step < 0.99 * largest && count >= 8; step *= 2.)
       if (const unsigned long unit = 2ul * static_cast<unsigned long>(std::lround(step / nominal_step)); count >= 8 * unit)
         count = (count + unit - 1) / unit * unit;

@@ -17,7 +17,7 @@ namespace sprag
   {
   public:
     /// Begins with steps of at most `step` [s], which may be doubled `doublings` times. If at all, the steps of a segment
-    /// are up to an eighth shorter than asked for, so that they can be.
+    /// are up to an eighth shorter than requested, so that they can be.
     StepClock(const Drive &drive, double step, unsigned int doublings);
 
     /// Returns the duration of the present step [s].

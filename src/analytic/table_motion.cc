@@ -240,7 +240,7 @@ namespace sprag
         return TableEvent::release;
       }
 
-      /// A step of the error asked for; returns its duration.
+      /// Takes a step within the tolerance and returns its duration.
       double accepted_step(const double until, Values &end)
       {
         const double remaining = step_end(until) - now.time;

@@ -8,8 +8,8 @@ namespace sprag
   {
     double kinetic = 0.;
     double spring  = 0.; ///< rotational spring
-    double elastic = 0.; ///< lever and friction layer, or the contact law that stands for the layer
-    double layer   = 0.; ///< the friction layer's part of it; NaN where it cannot be told
+    double elastic = 0.; ///< lever and friction layer, or the contact law of the layer
+    double layer   = 0.; ///< the friction layer's part of it; NaN if unknown
     double support = 0.;
     double contact = 0.; ///< springs of the penalties, normal and tangential: numerical
 

@@ -189,7 +189,7 @@ namespace sprag
     {
       const std::vector<Parameter> &declared;
       Settings &settings;
-      std::optional<std::string> section = {}; ///< none outside; the declared one meant where the name is misspelt
+      std::optional<std::string> section = {}; ///< none outside; the closest declared one where the name is misspelt
       bool section_known                 = false;
       std::string section_place          = {};
 
@@ -330,7 +330,7 @@ namespace sprag
           }
       }
 
-      /// `name` with its section, or alone where it stands outside any.
+      /// `name`: with its section, or alone outside of sections.
       void unknown_name(const std::string &place, const std::string &name, const std::string &value)
       {
         const auto slash       = name.find('/');

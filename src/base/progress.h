@@ -27,7 +27,7 @@ namespace sprag
     quiet     ///< nothing
   };
 
-  /// Environment variable which tells that standard error ends at a terminal although another process stands between.
+  /// Environment variable that is set if standard error goes to a terminal through another process.
   inline constexpr const char *terminal_variable = "SPRAG_TERMINAL";
 
   /// Chooses the style for the standard error stream.
@@ -75,7 +75,7 @@ namespace sprag
     double first      = 0.; ///< share that was done before
     double last_drawn = -std::numeric_limits<double>::infinity();
     int logged_tenths = 0;
-    std::size_t width = 0; ///< of what stands in the terminal's line
+    std::size_t width = 0; ///< of the text in the terminal's line
     std::string latest;    ///< the line to be shown next or last
     bool finished = false;
   };

@@ -38,7 +38,7 @@ namespace sprag
     constexpr std::size_t most_mistakes = 20;
     constexpr double missing            = std::numeric_limits<double>::quiet_NaN();
 
-    /// Indices of the columns asked for; none for one that the file lacks.
+    /// Indices of the requested columns; none for one that the file lacks.
     using Chosen = std::vector<std::optional<std::size_t>>;
     using Choose = std::function<Chosen(const std::vector<NamedColumn> &header)>;
 
@@ -360,7 +360,7 @@ namespace sprag
       return content;
     }
 
-    /// A damaged file may keep HDF5 busy for ever [s], or ask for all the memory there is [bytes].
+    /// Limits of time [s] and memory [bytes] for HDF5, which may never end on a damaged file.
     constexpr double file_timeout     = 20.;
     constexpr std::size_t file_memory = std::size_t(1) << 30;
 
@@ -399,7 +399,7 @@ namespace sprag
       return result;
     }
 
-    /// Takes the first of the names that there is; of several that differ in capitals alone none can be meant.
+    /// Returns the first of the names that the file has. Columns that differ in capitals alone are ambiguous.
     std::optional<std::size_t> column_called(const std::vector<NamedColumn> &header, const ColumnNames &names)
     {
       for (const auto &name : names)

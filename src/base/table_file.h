@@ -20,7 +20,7 @@ namespace sprag
   /// Holds the requested columns of a table file and the names of the others.
   struct NamedColumns
   {
-    std::vector<NamedColumn> columns; ///< those asked for, in their order; one that the file lacks has neither name nor values
+    std::vector<NamedColumn> columns; ///< the requested ones, in their order; one that the file lacks has neither name nor values
     std::vector<std::string> names;   ///< of all columns of the file
     std::vector<std::string> unused;  ///< names of the others
   };

@@ -41,7 +41,7 @@ namespace sprag
   /// Returns "row 1: " for index 0, the beginning of a message about a row of a table.
   std::string row_label(std::size_t index);
 
-  /// A number at the beginning of a text and what stands behind it.
+  /// A number at the beginning of a text, and the rest.
   struct LeadingNumber
   {
     double value;

@@ -239,7 +239,7 @@ namespace sprag
 
   void read_analysis_texts(Scene &scene, const std::vector<Parameter> &declared, const ReportMistake &report)
   {
-    // A design may ask for what an isolated table does.
+    // A design may demand quantities of the isolated table.
     const auto type = scene.analysis.type;
     if (type == AnalysisType::isolation || type == AnalysisType::design)
       read_isolation_tables(scene.isolation, scene.unused_columns, report);

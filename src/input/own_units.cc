@@ -55,7 +55,7 @@ namespace sprag
       const Parameter *const named =
           find_parameter(declared, look_up(parameter.section + "/" + rule.unit.substr(reference_prefix.size())));
       const auto number = leading_number(text);
-      if (named == nullptr) // which is told as a mistake of its own
+      if (named == nullptr) // which is reported as a mistake of its own
         return number->value;
       return in_own_unit(declared, *named, text, look_up);
     }

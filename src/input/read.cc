@@ -255,7 +255,7 @@ namespace sprag
           report("Analysis/Dimension", "auto is for Analysis/Type = quasi-static, stability and transient");
       }
 
-      /// Reads the accuracy asked for. Rules that depend on the model or on a target are left to each run of a study.
+      /// Reads the requested accuracy. Rules that depend on the model or on a target are left to each run of a study.
       void read_accuracy()
       {
         AccuracySettings &accuracy = input.scene.accuracy;

@@ -52,8 +52,8 @@ namespace sprag
     std::optional<double> face_size;                                   ///< none: by the analysis
     std::optional<double> faces_in_contact;                            ///< none: by the analysis
     std::optional<Enforcement> enforcement;                            ///< none: by the analysis
-    std::optional<ModelType> model        = ModelType::finite_element; ///< none: by the accuracy asked for
-    std::optional<unsigned int> dimension = 2;                         ///< none: by what a trial run tells
+    std::optional<ModelType> model        = ModelType::finite_element; ///< none: by the requested accuracy
+    std::optional<unsigned int> dimension = 2;                         ///< none: by a trial run
   };
 
   /// Returns the word for a type of analysis, "quasi-static".

@@ -107,7 +107,7 @@ namespace sprag
         return found;
       }
 
-      /// The full name of a parameter whose name stands alone, else the one that looks most like it.
+      /// Returns the full name of a parameter given without section, else the most similar one.
       std::optional<std::string> nearest_name(const std::string &name) const
       {
         std::vector<std::string> names;

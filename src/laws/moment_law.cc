@@ -38,7 +38,7 @@ namespace sprag
       }
     };
 
-    /// Index of the sample after which a turn within the samples lies.
+    /// Returns the index of the last sample before a turn within the samples.
     std::size_t interval(const std::vector<Sample> &samples, const double turn)
     {
       const auto after = std::upper_bound(samples.begin(), samples.end(), turn,

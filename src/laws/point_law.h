@@ -57,7 +57,7 @@ namespace sprag
   {
     FrictionLaw friction;
     double stiffness                  = 0.;    ///< in stick, > 0
-    std::vector<FrictionPiece> pieces = {};    ///< see rising_pieces(); none: the law is asked
+    std::vector<FrictionPiece> pieces = {};    ///< see rising_pieces(); none: evaluates the law
     bool follows_speed                = false; ///< over the memory length, see falls_with_speed()
     bool is_layer                     = false; ///< the spring of stick is a layer's shear, else a penalty
   };

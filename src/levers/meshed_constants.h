@@ -17,7 +17,7 @@ namespace sprag
   /// Finds J of the scene's mesh with its densities, whatever Lever/Inertia says [t mm^2].
   double inertia_as_built(const Scene &scene);
 
-  /// Constants of a reduced lever that stands for a prepared scene's mesh.
+  /// Constants of the reduced lever equivalent to a prepared scene's mesh.
   struct MeshedConstants
   {
     double moment_of_inertia = 0.; ///< J as Lever/Inertia says [t mm^2]
@@ -27,7 +27,7 @@ namespace sprag
   /// Finds these constants by the mesh of a prepared scene.
   MeshedConstants meshed_constants(const Scene &scene);
 
-  /// A meshed lever without inertia and the mesh that it stands on.
+  /// A meshed lever without inertia, and its mesh.
   struct LeverOnMesh
   {
     std::unique_ptr<Mesh> mesh;

@@ -33,9 +33,9 @@ namespace sprag
   };
 
   /// Reads the command line. Returns the exit status where nothing else is to be done: help and version, which are printed, a
-  /// new scene, which is written, and mistakes, which are told.
+  /// new scene, which is written, and mistakes, which are printed.
   std::optional<int> read_arguments(int argc, char **argv, Arguments &arguments);
 
-  /// Returns whether an analysis is asked for, and not only a look at the scene.
+  /// Returns whether the arguments request an analysis rather than a check or print of the scene.
   bool is_run(const Arguments &arguments);
 } // namespace sprag

@@ -33,7 +33,7 @@ namespace sprag
     /// A run that was killed has its folder until the last of its processes is gone.
     constexpr std::chrono::milliseconds lock_timeout(3000);
 
-    /// " (process 123)" of whoever has the lock, as far as the system tells.
+    /// Returns " (process 123)" of the process with the lock, if known.
     std::string find_holder(const OpenFile &folder)
     {
       const std::string inode = ":" + std::to_string(folder.status().st_ino) + " ";
@@ -138,7 +138,7 @@ namespace sprag
       existing = existing.parent_path();
     if (!fs::is_directory(existing, ignored))
       throw InputError("--output = " + folder + ": " + existing.string() + " is not a folder");
-    // Permissions say little where root asks: only a file that is made tells.
+    // Permissions do not restrict root, so a file is created as a test.
     std::string trial = (existing / ".sprag-XXXXXX").string();
     const int file    = ::mkstemp(trial.data());
     if (file < 0)

@@ -28,7 +28,7 @@ namespace sprag
     void record(FaceState face);
 
     std::vector<Entry> stress;           ///< peaks for the summary, see StressPeaks; NaN of a model without a mesh
-    std::vector<ErrorEstimate> accuracy; ///< that the run tells of its results
+    std::vector<ErrorEstimate> accuracy; ///< estimated by the run
 
     /// Returns the rows so far.
     const std::vector<Row> &recorded() const

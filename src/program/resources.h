@@ -14,9 +14,9 @@ namespace sprag
   /// Expected cost of a run.
   struct ExpectedCost
   {
-    double cpu_seconds = 0.; ///< of all processes; NaN where it cannot be told
+    double cpu_seconds = 0.; ///< of all processes; NaN if unknown
     double bytes       = 0.; ///< largest resident memory of all processes
-    std::string unknown;     ///< why the time cannot be told, a sentence; else empty
+    std::string unknown;     ///< why the time is unknown, a sentence; else empty
   };
 
   constexpr double formula_start_seconds = 0.03; ///< CPU time of a start without models where slowness() is 1 [s]
@@ -63,7 +63,7 @@ namespace sprag
   /// where memory or disk do not even so.
   std::optional<FactorFiles> factor_files(const Scene &scene, unsigned int processes, const std::string &folder);
 
-  /// Returns a clause that tells all numbers.
+  /// Returns a clause with all numbers.
   std::string to_text(const FactorFiles &files);
 
   /// Throws InputError where expected_memory() exceeds what the system has left and there are no factor_files(), as without a

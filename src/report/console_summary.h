@@ -21,7 +21,7 @@ namespace sprag
   /// Prints a line a quantity: its error, its parts and what halves the largest.
   void print_accuracy(std::ostream &stream, const std::vector<ErrorEstimate> &estimates);
 
-  /// Warns where the error that a run tells of a quantity is larger than the target that the scene gives.
+  /// Warns where the estimated error of a quantity exceeds the target of the scene.
   Warnings target_warnings(const AccuracySettings &accuracy, const std::vector<ErrorEstimate> &estimates);
 
   /// Returns the group /answer: the lines of a summary's entries that have one in the tables of the pages, see SummaryRow, each

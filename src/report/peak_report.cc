@@ -30,7 +30,7 @@ namespace sprag
     };
 
     constexpr double admitted_error  = 0.05;
-    constexpr double admitted_share  = 0.25;        ///< of the way in contact, where the contact is narrower than that takes
+    constexpr double admitted_share  = 0.25;        ///< of the travel in contact, on which the contact may be narrower
     constexpr double element_error[] = { 5., 0.8 }; ///< of degree 1 and 2
 
     Peak largest_pressure(const std::vector<Row> &rows)
@@ -57,7 +57,7 @@ namespace sprag
       return std::cbrt(element_error[degree - 1] / admitted_error);
     }
 
-    /// Width below which a share of the way in contact lies [mm]; 0 without a way.
+    /// Returns the quantile of the contact's width over the travel in contact [mm]; 0 without travel.
     double width_over_share(const std::vector<Row> &rows, const double share)
     {
       std::vector<std::pair<double, double>> width_and_travel;

@@ -43,7 +43,7 @@ namespace sprag
       return first[Column::P] > 0. && first[Column::friction_resultant] * drive_direction(first) <= 0.;
     }
 
-    /// Returns true if the table stands still in a row: friction then depends on the motion before.
+    /// Returns true if the drive is at rest in a row: friction then depends on the motion before.
     bool rests(const std::vector<Row> &rows, const std::size_t i)
     {
       return i > 0 && rows[i][Column::x] == rows[i - 1][Column::x] && rows[i][Column::time] > rows[i - 1][Column::time];

@@ -338,7 +338,7 @@ namespace sprag
       warnings.push_back(make_warning("largest_speed_alone", { rounded_text(scene.drive.peak_speed()) }));
     }
 
-    /// A value, what it can be with room, and units that are used by mistake in place of its own.
+    /// Holds a value, its plausible range with a margin, and units that are often used by mistake.
     struct CheckedValue
     {
       std::string parameter;

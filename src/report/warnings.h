@@ -17,7 +17,7 @@ namespace sprag
   Warnings scene_warnings(const Scene &scene);
 
   /// Returns the warnings that follow from the rows of a run, completed by add_closed_form(). Where a model has no friction face,
-  /// layer_pressure() of the largest P stands for the largest pressure. Only the first lever of a full pair is looked at.
+  /// layer_pressure() of the largest P stands for the largest pressure. Only the first lever of a full pair is checked.
   Warnings row_warnings(const Scene &scene, const std::vector<Row> &rows);
 
   /// Throws AnalysisError where there are warnings and Analysis/Warnings = error; the message quotes the first of them.

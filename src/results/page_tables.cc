@@ -13,7 +13,7 @@ namespace sprag
 {
   namespace
   {
-    /// Returns what `*` stands for, and none where the pattern does not fit the name.
+    /// Returns the part of the name at `*`, and none where the pattern does not fit.
     std::optional<std::string> word_in(const std::string &name, const std::string &pattern)
     {
       const auto star = pattern.find('*');

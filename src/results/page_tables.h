@@ -14,7 +14,7 @@ namespace sprag
   struct PageRow
   {
     PageCells cells;
-    std::string word; ///< that `*` in the row's name stands for, and in its cells; empty without one
+    std::string word; ///< in place of `*` in the row's name and cells; empty without one
   };
 
   /// Finds the row for a name among tables of one `kind`, "entry", "column", "fact" or "warning", as the heading of their first

@@ -11,21 +11,21 @@ namespace sprag
 {
   struct Scene;
 
-  /// Result of a check of a proposed lever by a dearer model.
+  /// Result of a check of a proposed lever by a more expensive model.
   struct ModelCheck
   {
     CheckModel check_model = CheckModel::beam;
     unsigned int round     = 1;
     bool in_time           = false;   ///< whether the drive was followed in time
     Proposal lever;                   ///< with what was expected of it
-    DesignQuantities found;           ///< NaN of what the check model does not tell
+    DesignQuantities found;           ///< NaN where the check model has none
     DesignQuantities overshoot;       ///< of those that are larger in time: over the value of the slides
-    std::string failure;              ///< why it tells nothing; empty: it does
+    std::string failure;              ///< why there is no result; empty: there is one
     Warnings warnings;                ///< of the lever in this model
     std::vector<std::string> changes; ///< of the design's scene, "Section/Name=value", for what was computed last
     double cpu_seconds = 0.;
 
-    /// Returns the largest violation of the demands on what the check model tells; minus infinity without such.
+    /// Returns the largest violation of demands on quantities of the check model; minus infinity without such.
     double violation(const std::vector<Demand> &demands) const;
 
     bool passes(const std::vector<Demand> &demands) const
@@ -39,8 +39,8 @@ namespace sprag
     return word_for(enumerators<CheckModel>(), check_model);
   }
 
-  /// Computes levers of a design again by dearer models. Forces come from steady slides at Design/Positions both ways, and one
-  /// near x = 0 for the slopes; in time from the drive followed once.
+  /// Computes levers of a design again by more expensive models. Forces come from steady slides at Design/Positions both ways,
+  /// and one near x = 0 for the slopes; in time from the drive followed once.
   class DesignChecks
   {
   public:

@@ -13,7 +13,7 @@ namespace sprag
 {
   namespace
   {
-    constexpr double all_slide   = 0.99; ///< share of mu P from which the whole contact is told to slide
+    constexpr double all_slide   = 0.99; ///< share of mu P from which the whole contact counts as sliding
     constexpr double long_behind = 0.02; ///< travel behind a turning point, over R, after which it is no longer waited for
     constexpr double no_contact  = 1e-3; ///< P over the largest one so far
 

@@ -29,7 +29,7 @@ namespace sprag
 
   /// Chooses the states of a run whose fields are found, writes those that are frames and looks at the stress of all. Frames
   /// (Output/Fields) are: turning points, the first state behind each in which the whole contact slides back (or 0.02 R behind
-  /// it), the end, every interval if asked for, and the state of the largest P; but for the intervals only those in contact.
+  /// it), the end, every interval if requested, and the state of the largest P; but for the intervals only those in contact.
   ///
   /// The largest stress of a run is found without the fields of every step: each way the states are kept in which an estimate
   /// from what a step knows anyway is largest, and their fields are found at the end. For the layer the estimate is

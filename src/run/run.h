@@ -75,6 +75,6 @@ namespace sprag
   /// can be found.
   void run_identification(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
-  /// Makes parts that have the k and J asked for and finds the constants of the reduced models for them.
+  /// Makes parts that have the target k and J and finds the constants of the reduced models for them.
   void run_calibration(const Scene &scene, const RunOptions &options, Warnings &warnings);
 } // namespace sprag

@@ -425,7 +425,7 @@ namespace sprag
       }
     };
 
-    /// Adds what the last check model has to say of its scene, and whether the table judged another lever before it.
+    /// Adds the warnings of the last check model's scene, and one if the table checked another lever before it.
     void add_warnings(const DesignSettings &design, const DesignFindings &findings, Warnings &warnings)
     {
       if (findings.checks.empty())
@@ -439,7 +439,7 @@ namespace sprag
             make_warning("judged_another_lever", { lever_text(design, judged->lever), model_name(last.check_model) }));
     }
 
-    /// Names the command that gives the values printed of a lever: by the closed form and by the last model that judged it.
+    /// Names the command that gives the values printed of a lever: by the closed form and by the last model that checked it.
     std::string command_text(const std::vector<ModelCheck> &checks, const Proposal &lever, const std::string &name)
     {
       std::string text = "# By the closed form: sprag " + name + ".prm";

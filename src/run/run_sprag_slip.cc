@@ -193,7 +193,7 @@ namespace sprag
                             ". Try another Stability/Position or a smaller friction coefficient.");
     }
 
-    /// Growth, vibration and continuation, one after the other; what is finished stands in `found` whatever happens.
+    /// Runs growth, vibration and continuation one after the other; `found` holds the finished parts even after a failure.
     struct Study
     {
       const Scene &scene;

@@ -37,7 +37,7 @@ namespace sprag
     StudyRecord run(std::size_t index);
 
     /// Groups those of the runs that share a mesh, so that one process makes it; the largest meshes first. Where there are fewer
-    /// meshes than `processes` each run stands alone.
+    /// meshes than `processes` each run is a group of its own.
     std::vector<std::vector<std::size_t>> run_groups(const std::vector<std::size_t> &runs, unsigned int processes) const;
 
   private:

@@ -146,7 +146,7 @@ namespace sprag
 
   std::optional<Locking> locking(const Device &device)
   {
-    // Strokes of a periodic drive are alike but for its first and last.
+    // Strokes of a periodic drive are equal except the first and the last.
     const auto &turns = device.drive.reversals();
     const double end  = device.drive.duration();
     if (device.drive.profile() == DriveProfile::table || turns.size() <= 3)

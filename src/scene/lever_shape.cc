@@ -70,7 +70,7 @@ namespace sprag
     const double half               = 0.5 * device.lever.width;
     const double begin              = std::max(-half, cylinder.position - 0.5 * cylinder.length);
     const double end                = std::min(half, cylinder.position + 0.5 * cylinder.length);
-    if (cylinder.length == 0. || (begin == -half && end == half) || begin >= end) // the last is told as a wrong position
+    if (cylinder.length == 0. || (begin == -half && end == half) || begin >= end) // the last is reported as a wrong position
       return {};
     double widest = 0.;
     for (std::size_t i = 1; i < planes.size(); ++i)

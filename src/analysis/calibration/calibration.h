@@ -13,7 +13,7 @@
 
 namespace sprag
 {
-  /// Parts that have the k and J asked for.
+  /// Parts that have the target k and J.
   struct CalibratedParts
   {
     std::optional<double> thickness;    ///< of the leaf spring [mm]

@@ -211,7 +211,7 @@ namespace sprag
     constexpr double settled           = 1e-6; ///< change of a scaled unknown in a round
     constexpr double held_within       = 3.;   ///< scales of an unknown
     constexpr double same_lag          = 0.5;  ///< rows; a lag that changes by less leaves the values chosen
-    constexpr double corrected         = 1e-4; ///< change that the model is not asked again for
+    constexpr double corrected         = 1e-4; ///< change below which the model is not evaluated again
 
     /// Fits again and again, each time with the noise, weights, window and correction of the last fit.
     class Identifier

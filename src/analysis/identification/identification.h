@@ -211,7 +211,7 @@ namespace sprag
     std::vector<double> deviations;      ///< standard deviations
     std::vector<double> correlation;     ///< of i and j at i * unknowns + j
     SingularValues singular;             ///< of the Jacobian over the noise; `left` empty
-    double quantile = 0.;                ///< of Student's t for the confidence asked for, two-sided
+    double quantile = 0.;                ///< of Student's t for the confidence, two-sided
     double freedom  = 0.;                ///< degrees of freedom: effective rows less unknowns, at least 1
     std::vector<std::string> indistinct; ///< sentences: unknowns that the data do not determine or separate
     std::vector<std::string> weak;       ///< sentences: badly separated unknowns, if all are determined

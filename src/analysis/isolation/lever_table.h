@@ -91,7 +91,7 @@ namespace sprag
 
     TableEvent advance(double until) override;
 
-    /// Sticking levers are elastic: z never stands still to the last digit.
+    /// Returns false: sticking levers are elastic, so that z is never constant to the last digit.
     bool rests() const override
     {
       return false;

@@ -105,7 +105,7 @@ namespace sprag
     slide,     ///< back to the slide, or on its way there
     cycle,     ///< the same again in every window
     irregular, ///< a vibration that neither dies nor repeats itself
-    undecided  ///< too small to tell what becomes of it
+    undecided  ///< too small to classify
   };
 
   /// Returns "slide", "cycle" ...
@@ -184,7 +184,7 @@ namespace sprag
                  const CheckedModes &modes, const SpragSlipSettings &settings);
 
     /// Goes to `turn` [mm] in the scene's number of intervals, finds where the vibration dies on the way, and returns. `done` is
-    /// called after each x. What is finished can be asked for after an exception too. Throws as HeldRun::step() and
+    /// called after each x. Finished results are available after an exception too. Throws as HeldRun::step() and
     /// check_slide().
     void go(const SlideStability &slide, const Settled &start, double turn, const std::function<void()> &done);
 

@@ -192,7 +192,7 @@ namespace sprag
       State state = model.initial_state(start);
       StepCost cost;
       if (!is_balanced(model, state))
-        if (auto settled = solve_step(model, state, state.drive, settings, false, cost)) // if not, the first step tells why
+        if (auto settled = solve_step(model, state, state.drive, settings, false, cost)) // if not, the first step reports why
           return { std::move(settled->state), std::move(settled->found) };
       return { std::move(state), std::nullopt };
     }

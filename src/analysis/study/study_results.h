@@ -80,7 +80,7 @@ namespace sprag
   /// Returns "Mesh/Face size = 1, Mesh/Degree = 2".
   std::string settings_text(const StudySettings &study, const StudyPoint &point);
 
-  // Trade between cost and error of runs; NaN stands for an unknown cost or error.
+  // Trade between cost and error of runs; NaN is an unknown cost or error.
 
   /// Returns for each run whether nobody is better: no other costs at most as much and is at most as far off, one of them less. A
   /// run without cost or error is none of these.

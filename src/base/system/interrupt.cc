@@ -17,7 +17,7 @@ namespace sprag
       requested = 1;
     }
 
-    /// An address sanitizer keeps its own handlers, which tell more.
+    /// Restores the default handlers, except under an address sanitizer, whose own print more.
     void restore_crash_signals()
     {
 #ifndef __SANITIZE_ADDRESS__

@@ -12,7 +12,7 @@ namespace sprag
   /// end.
   void catch_interrupts();
 
-  /// Returns whether an end was asked for.
+  /// Returns whether an end was requested.
   bool interrupted();
 
   /// Throws AnalysisError with the interruption's message if so.

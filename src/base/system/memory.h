@@ -8,7 +8,7 @@ namespace sprag
   /// Memory that a process can still have.
   struct AvailableMemory
   {
-    double bytes = 0.;  ///< infinite where the system does not tell
+    double bytes = 0.;  ///< infinite if unknown
     std::string reason; ///< what sets the limit: "free on this machine", "left by the limit of the control group"
   };
 
@@ -16,12 +16,12 @@ namespace sprag
   /// and what its own limit of address space leaves. `root` stands before /proc and /sys.
   AvailableMemory available_memory(const std::string &root = "");
 
-  /// Returns the bytes that are free on the disk of a folder; 0 where its file system lives in memory, or does not tell.
+  /// Returns the bytes that are free on the disk of a folder; 0 for a file system in memory or if unknown.
   double bytes_free_on_disk(const std::string &folder);
 
   /// Begins to look for the peak anew, where the system can (Linux).
   void reset_peak_memory();
 
-  /// Returns the largest resident memory of the process since then, or since its beginning [bytes]; 0 where it is not told.
+  /// Returns the largest resident memory of the process since then, or since its beginning [bytes]; 0 if unknown.
   double peak_memory();
 } // namespace sprag

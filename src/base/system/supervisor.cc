@@ -35,7 +35,7 @@ namespace sprag
       return signal < 0 || signal == SIGCHLD ? 0 : signal;
     }
 
-    /// State of the end of a process after the user has asked for it.
+    /// Ends a process on request of the user: first by a signal, later by force.
     struct Ending
     {
       const pid_t process;

@@ -10,7 +10,7 @@ namespace sprag
   {
     int status     = 0;     ///< exit status, if it ended by itself
     int signal     = 0;     ///< that ended it, or 0
-    bool requested = false; ///< whether the user asked for the end
+    bool requested = false; ///< whether the user requested the end
   };
 
   /// Time between asking a process for its end and making it end [s]: libraries in the middle of a mesh, a factorisation or a

@@ -57,7 +57,7 @@ namespace sprag
     class BlockSpace
     {
     public:
-      /// With room for so many columns.
+      /// Allocates that many columns.
       BlockSpace(const Pencil &pencil_, const unsigned int most)
           : pencil(pencil_)
           , n(pencil_.size)

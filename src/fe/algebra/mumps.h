@@ -29,7 +29,7 @@ namespace sprag
     std::vector<int> column;
     std::vector<double> value;
 
-    /// Makes room for that many.
+    /// Allocates that many.
     void reserve(const std::size_t number)
     {
       row.reserve(number);
@@ -107,7 +107,7 @@ namespace sprag
     /// Takes part in a solve of the first rank.
     void take_part() const;
 
-    /// Finds entries of the inverse of a symmetric matrix on a single rank, in the order asked for: `positions` holds increasing
+    /// Finds entries of the inverse of a symmetric matrix on a single rank, in the requested order: `positions` holds increasing
     /// columns by their row. Only the parts of the factors between rows and columns are visited.
     std::vector<double> compute_inverse_entries(const std::map<unsigned int, std::vector<unsigned int>> &positions) const;
 

@@ -95,7 +95,7 @@ namespace sprag
       return axes[cell.dofs.front()[0]] >= 0;
     }
 
-    std::list<dealii::FullMatrix<double>> masses; ///< of unit density, in space one for cells that are alike
+    std::list<dealii::FullMatrix<double>> masses; ///< of unit density, in space one for equal cells
     std::vector<Cell> all_cells;
     const std::vector<int> axes;
   };

@@ -9,7 +9,7 @@
 
 namespace sprag
 {
-  /// Returns material and shape of a cell in space up to a shift, in steps of a nanometre: cells that are alike share stiffness
+  /// Returns material and shape of a cell in space up to a shift, in steps of a nanometre: equal cells share stiffness
   /// and mass. In a plane, where cells may be curved, each is like itself alone.
   template <int dim>
   std::vector<long> cell_shape(const typename CellElasticity<dim>::Cell &cell)
@@ -23,7 +23,7 @@ namespace sprag
     return result;
   }
 
-  /// Stiffnesses of a body's cells without load, found once for those that are alike. That of a cell in a plane lives until the
+  /// Stiffnesses of a body's cells without load, found once for equal ones. That of a cell in a plane lives until the
   /// next is asked for.
   template <int dim>
   class CellStiffness

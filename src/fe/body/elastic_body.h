@@ -76,7 +76,7 @@ namespace sprag
       return constraints;
     }
 
-    /// Gives a matrix room for the stiffness.
+    /// Allocates a matrix for the stiffness.
     void reinit(dealii::PETScWrappers::SparseMatrix &matrix) const;
 
     /// Adds the stiffness at `displacement` to `matrix` and the internal forces [N] to `forces`.

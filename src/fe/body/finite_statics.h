@@ -16,7 +16,7 @@ namespace sprag
   public:
     BandFactors() = default;
 
-    /// Makes room for the entries (i, j) with i <= j <= i + `width`.
+    /// Allocates the entries (i, j) with i <= j <= i + `width`.
     BandFactors(const unsigned int size, const unsigned int width)
         : n(size)
         , bandwidth(width)

@@ -27,7 +27,7 @@ namespace sprag
   struct FacePoint
   {
     dealii::Point<dim> position;                        ///< undeformed [mm]
-    double weight;                                      ///< area of the face that it stands for [mm^2]
+    double weight;                                      ///< area of the face that it represents [mm^2]
     std::vector<std::pair<unsigned int, double>> nodes; ///< indices of the free nodes that move it, and their shape functions
     std::vector<double> slopes;                         ///< of those along the first axis, in three dimensions alone [1/mm]
   };

@@ -143,7 +143,7 @@ namespace sprag
     std::vector<Blocks> blocks; ///< of the elements
     std::vector<unsigned int> placed;
     unsigned int n_placed = 0; ///< blocks of these
-    std::vector<Begin> begins; ///< of them, and room for more
+    std::vector<Begin> begins; ///< of them, and spare ones
     History begin_history;
     Constants data;
   };

@@ -203,7 +203,7 @@ namespace sprag
     return shape;
   }
 
-  /// The pressure is told as recovered in a plane, on a surface as it is.
+  /// Reports the recovered pressure in a plane, that of the points on a surface.
   template <int dim>
   FaceState ContactFace<dim>::face_state(const FaceEvaluation<dim> &found, const DrivePoint &drive) const
   {

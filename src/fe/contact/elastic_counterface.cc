@@ -250,7 +250,7 @@ namespace sprag
   }
 
   /// Adds how the traction on a facet changes with the slip's shift, by the stretch and by the slip's slope. Turning moves both
-  /// neighbours alike.
+  /// neighbours equally.
   void ElasticCounterface::add_shift(const Facet &facet, const unsigned int point, const SlipShift &shift, const double d_shift)
   {
     add_product(-facet.weight * shift.slip * d_shift, end_rows.slip, end_rows.stretch, tangent);

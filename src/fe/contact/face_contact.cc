@@ -58,7 +58,7 @@ namespace sprag
     found.sums.work.drive -= found.sums.force_on_counterface * (step.to.x - step.from.x);
   }
 
-  /// Enters a step. What is known of the beginning of the last one is kept where this one begins alike.
+  /// Begins a step. The data of the beginning of the last one are kept where this one begins equally.
   void FaceContact::set_places(const StepPlaces &places) const
   {
     const bool begins_anew = places.moves() && begin_at(*places.begin.displacement, places.begin.x);

@@ -29,7 +29,7 @@ namespace sprag
     {
     }
 
-    /// Takes what tells the gap alone as well, in less time, for the many points that touch nothing.
+    /// Takes a faster function of the gap alone as well, for the many points that touch nothing.
     template <class Kinematics, class Gap>
     PlacedCounterface(Kinematics point_kinematics, Gap point_gap)
         : kinematics(std::move(point_kinematics))

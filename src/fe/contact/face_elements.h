@@ -123,7 +123,7 @@ namespace sprag
     /// Sets elements and dofs: those of the elements looked at, and those that follow the face's, from `surface` to `size`.
     void set(const FaceElements<dim> &face, Indices may_touch, Indices near_elements, unsigned int surface, unsigned int size);
 
-    /// Leaves out elements that are no candidates and tells if there are none. Before the first set() all are candidates.
+    /// Removes elements that are no candidates and sets whether there were none. Before the first set() all are candidates.
     Indices clip(Indices near, bool &within_candidates) const;
   };
 

@@ -76,7 +76,7 @@ namespace sprag
   }
 
   /// Sets the coefficients of least misfit among those that keep resultant and moment of the data, and the misfit; infinite if
-  /// the data do not tell the coefficients.
+  /// the data do not determine the coefficients.
   void set_coefficients(const PressureData &data, PressureFit &fit)
   {
     const unsigned int n = fit.degree + 1;

@@ -9,7 +9,7 @@ namespace sprag
   struct PressureSamples
   {
     std::vector<double> xi;         ///< deformed, increasing [mm]
-    std::vector<double> weight;     ///< area that a point stands for, > 0 [mm^2]
+    std::vector<double> weight;     ///< area that a point represents, > 0 [mm^2]
     std::vector<double> pressure;   ///< [MPa], >= 0
     std::vector<double> trial;      ///< the same, below zero where there is a gap: its zeros are the edges of the contact [MPa]
     std::vector<unsigned int> cell; ///< of the face, in order
@@ -17,7 +17,7 @@ namespace sprag
     double end   = 0.;
   };
 
-  /// The pressure on a contact as far as a solution tells it.
+  /// The pressure on a contact at the points of a solution.
   struct RecoveredPressure
   {
     std::vector<double> pressure; ///< of the samples [MPa], >= 0

@@ -42,7 +42,7 @@ namespace sprag
     return properties.cylinder.pose(at.x, at.theta, axis_turn(*at.displacement));
   }
 
-  /// Keeps what is known of the beginning of the last step where this one begins alike.
+  /// Keeps the data of the beginning of the last step where this one begins equally.
   void SurfaceContact::begin_step(const InterfaceStep &step, const std::optional<StaticTerms> &statics)
   {
     const bool is_new = begin_at(step.begin.position, step.from.x);
@@ -232,7 +232,7 @@ namespace sprag
         coordinate.dof = find_index(coordinate.dof, summed.dofs);
   }
 
-  /// Sums forces, and the tangent where it is asked for, over the elements as they were pressed last.
+  /// Sums forces, and the tangent if requested, over the elements as evaluated last.
   void SurfaceContact::set_forces(const Request request, InterfaceForces &forces) const
   {
     forces.has_tangent = request == Request::with_tangent;

@@ -21,7 +21,7 @@ namespace sprag
   /// `lever_mass`: what moves with a sprung support [t].
   LeverDynamics make_lever_dynamics(const Device &device, double relaxation, double lever_mass);
 
-  /// A meshed lever in time, and what there is to tell about it.
+  /// A meshed lever in time, and its numbers for /meta.
   struct MeshedDynamics : MassSums
   {
     std::shared_ptr<const FrictionFace<3>> face; ///< in space, of the contact

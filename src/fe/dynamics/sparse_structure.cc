@@ -228,7 +228,7 @@ namespace sprag
 
   namespace
   {
-    /// Modes in which the local error of a step is told.
+    /// Modes in which the local error of a step is estimated.
     constexpr unsigned int n_error_modes = 8;
 
     /// Step sizes whose factors are kept.

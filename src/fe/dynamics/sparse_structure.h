@@ -115,7 +115,7 @@ namespace sprag
       InterfaceCompliance compliance;
     };
 
-    /// Known of the last two motions asked for.
+    /// Quantities of the last two motions that were evaluated.
     const Products &products(const Motion &motion) const;
     Products make_products(const Motion &motion) const;
     std::unique_ptr<Step> make_step(const StepWeights &weights) const;

@@ -48,7 +48,7 @@ namespace sprag
       }
       catch (const std::runtime_error &)
       {
-        // The first rank fails as well and tells why.
+        // The first rank fails as well and reports why.
       }
   }
 

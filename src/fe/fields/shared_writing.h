@@ -12,7 +12,7 @@
 
 namespace sprag
 {
-  /// The processes that write large data together. The first has the data, calls the others and tells them what there is.
+  /// The processes that write large data together. The first has the data, calls the others and sends them the list.
   struct Writers
   {
     MPI_Comm ranks = MPI_COMM_SELF;

@@ -34,7 +34,7 @@ namespace sprag
 
   namespace
   {
-    /// A damaged mesh may keep gmsh busy for ever [s], or ask for all the memory there is [bytes].
+    /// Limits of time [s] and memory [bytes] for gmsh, which may never end on a damaged mesh.
     constexpr double mesh_timeout     = 20.;
     constexpr std::size_t mesh_memory = std::size_t(1) << 30;
 
@@ -87,7 +87,7 @@ namespace sprag
       return result;
     }
 
-    /// Elements of a dimension by their nodes, to tell those that two groups with a meaning claim.
+    /// Elements of a dimension by their nodes, to find those in two physical groups.
     struct Claims
     {
       std::map<std::vector<std::size_t>, std::string> group; ///< by sorted nodes
@@ -225,7 +225,7 @@ namespace sprag
                                 "Lever/Width is the third dimension, or set Analysis/Dimension = 3");
     }
 
-    /// A plane lever's mesh lies in z = 0: another would be read as its shadow.
+    /// Requires the mesh of a plane lever in z = 0: another would be projected.
     void refuse_third_dimension(const std::string &file)
     {
       const auto positions = GmshNodes().positions;

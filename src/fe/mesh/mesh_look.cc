@@ -20,7 +20,7 @@ namespace sprag
 
   namespace
   {
-    // Nodes nearer than this share of the shortest side were meant to be one.
+    // Nodes nearer than this share of the shortest side are taken for duplicates.
     constexpr double nearness = 1e-3;
 
     template <int dim>

@@ -18,7 +18,7 @@ namespace sprag
   public:
     static constexpr bool has_candidates = false; ///< but at the whole interface
 
-    /// The body must outlive this; that of a pair's second lever is alike.
+    /// The body must outlive this; that of a pair's second lever is equal.
     FullStiffness(const ElasticBody<2> &body, const InterfaceLayout &layout, const JointSprings &springs);
 
     unsigned int n_coordinates() const
@@ -67,7 +67,7 @@ namespace sprag
     Mumps factors;
     dealii::PETScWrappers::SparseMatrix body_stiffness; ///< stiffness of a lever's body
     dealii::DynamicSparsityPattern pattern;
-    std::vector<std::shared_ptr<dealii::PETScWrappers::SparseMatrix>> matrices; ///< with room for a tangent each
+    std::vector<std::shared_ptr<dealii::PETScWrappers::SparseMatrix>> matrices; ///< each allocated for a tangent
     std::vector<std::size_t> places; ///< of the entries of each lever's body in such a matrix
 
     // State of the first tangent, for which the factors are ordered.

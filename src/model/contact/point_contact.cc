@@ -144,7 +144,7 @@ namespace sprag
     for (unsigned int a = 0; a < n_element_dofs; ++a)
       nodal[a] = variable<N>(q[first + a], a);
 
-    // Another step of Newton's method tells how the closest point moves with the coordinates.
+    // Another step of Newton's method gives the motion of the closest point with the coordinates.
     const auto fixed = surface(node, nodal, N{} + foot.xi);
     const N slope    = (fixed.xi - circle.xi) * fixed.tangent[0] + (fixed.eta - circle.eta) * fixed.tangent[1];
     const auto at    = surface(node, nodal, N(foot.xi - 1. / foot.d_slope * slope));

@@ -57,7 +57,7 @@ namespace sprag
   /// speed of the steady slide. An equilibrium, also called frozen steady sliding, about which vibrations can be linearised.
   struct HeldSlide
   {
-    Motion motion;    ///< at rest; its drive stands still
+    Motion motion;    ///< at rest, with the drive at rest
     DrivePoint drive; ///< whose slide it is
     dealii::Vector<double> displacements;
     ContactFriction friction = ContactFriction::sliding;

@@ -70,7 +70,7 @@ namespace sprag
     /// Returns the largest penetration of body and counterface, or what of it the next augmentation removes [mm].
     virtual double penetration(const Evaluation &found) const = 0;
 
-    /// Returns why an equilibrium is beyond what the model can tell; empty if it is not.
+    /// Returns why an equilibrium is outside the validity of the model; empty if it is not.
     virtual std::string check_validity(const State &state, const Evaluation &found) const = 0;
 
     /// Gives a state the multipliers of the next augmentation.

@@ -13,7 +13,7 @@ namespace sprag
   /// Holds an eigenvalue and its right eigenvector.
   struct Eigenpair
   {
-    std::complex<double> value; ///< imaginary part >= 0; of a complex pair the one with the positive one stands for both
+    std::complex<double> value;                   ///< imaginary part >= 0; of a complex pair only the one with the positive one
     std::array<dealii::Vector<double>, 2> vector; ///< real and imaginary part
   };
 

@@ -107,7 +107,7 @@ namespace sprag
 
   InterfaceCompliance ModalStructure::interface_compliance(const FullMatrix<double> &inverse, const double static_share) const
   {
-    // Without a matrix of the whole interface beside it, whose room in memory would not serve again.
+    // Avoids a second matrix of the whole interface, whose memory could not be reused.
     const unsigned int n = data.layout.dofs_per_lever();
     FullMatrix<double> lever_compliance(n), half(n_interface(), n_modes()), shapes(n, n_modes()), own(n, n_modes());
     data.shapes.mmult(half, inverse);

@@ -84,7 +84,7 @@ namespace sprag
 
     StoredEnergy stored_energy(const Motion &motion) const;
 
-    /// Returns the displacements by the local error of a step, of the dofs that free_displacements() was asked for.
+    /// Returns the displacements by the local error of a step, of the dofs selected in free_displacements().
     dealii::Vector<double> local_error(const Motion &begin, const Motion &end) const;
 
     /// Returns all vibrations under linear forces at the interface.
