@@ -193,7 +193,7 @@ namespace sprag
       if (oscillation.rms > vibration_rms * oscillation.scale && oscillation.open_share > vibration_open)
         return Verdict::vibrates;
       if (std::isfinite(oscillation.passing_frequency))
-        return Verdict::passing;
+        return Verdict::elements_pass;
       const bool little = oscillation.rms_end <= std::max(decayed_rms * oscillation.scale, least);
       if (little && oscillation.open_share == 0.)
         return Verdict::decays;
@@ -283,12 +283,6 @@ namespace sprag
     }
   } // namespace
 
-  std::string verdict_name(const Verdict verdict)
-  {
-    return std::vector<std::string>{ "unknown", "vibrates", "elements pass", "grows", "decays", "rings" }.at(
-        static_cast<std::size_t>(verdict));
-  }
-
   Warnings element_passing_warnings(const std::vector<Oscillation> &oscillations, const double face_size)
   {
     const auto found = std::find_if(oscillations.begin(), oscillations.end(),
@@ -363,7 +357,7 @@ namespace sprag
     {
       const auto &found        = oscillations[i];
       const std::string prefix = "reversal_" + std::to_string(i + 1) + '_';
-      append<Entry>(entries, { { prefix + "verdict", verdict_name(found.verdict) },
+      append<Entry>(entries, { { prefix + "verdict", enumerator_name(found.verdict) },
                                { prefix + "time", found.time },
                                { prefix + "x", found.x },
                                { prefix + "frequency", found.frequency },

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/choices.h"
 #include "base/unknown.h"
 #include "results/result_file.h"
 #include "results/warning.h"
@@ -11,19 +12,14 @@
 
 namespace sprag
 {
-  /// Classifies the vibration after a reversal by its lasting amplitude and its envelope.
-  enum class Verdict
-  {
-    unknown,  ///< fewer than two rows in the window
-    vibrates, ///< rms over 8 % of P without inertia, and the contact is open for more than 1 % of the time
-    passing,  ///< what lasts is the ripple of elements that pass under the contact, see Oscillation::passing_frequency
-    grows,    ///< none of these, the envelope grows and what is left at the end is over 1.2 % of P without inertia
-    decays,   ///< none of these, at most 1.2 % of P without inertia is left at the end, or 0.1 % of the run's; never open
-    rings     ///< none of these: it decays, but not within the window
-  };
-
-  /// Returns "vibrates", "decays" ...
-  std::string verdict_name(Verdict verdict);
+  /// Classifies the vibration after a reversal:
+  /// - unknown: fewer than two rows in the window;
+  /// - vibrates: rms over 8 % of P without inertia, and the contact is open for more than 1 % of the time;
+  /// - elements_pass: the ripple of elements under the contact remains, see Oscillation::passing_frequency;
+  /// - grows: none of these, the envelope grows and the remainder at the end is over 1.2 % of P without inertia;
+  /// - decays: none of these, the remainder is at most 1.2 % of P without inertia, or 0.1 % of the run's; never open;
+  /// - rings: none of these, it decays, but not within the window.
+  SPRAG_ENUMERATION(Verdict, unknown, vibrates, elements_pass, grows, decays, rings)
 
   /// The vibration after a reversal of the drive, measured by how far P, Q and Q_support are off the values without inertia.
   ///

@@ -62,6 +62,13 @@ namespace sprag
       std::replace(word.begin(), word.end(), '_', ' ');
     return words;
   }
+
+  /// Returns the name of a value as words.
+  template <class T>
+  std::string enumerator_name(const T value)
+  {
+    return word_for(enumerator_words<T>(), value);
+  }
 } // namespace sprag
 
 /// Defines an enumeration, and enumerator_list(Enumeration()), which returns its names with commas between. Files that do not ask

@@ -13,15 +13,7 @@ namespace sprag
       section.number("Mass", settings.mass, above(0.), "t");
       section.number("Stiffness", settings.stiffness, above(0.), "N/mm");
       section.integer("Levers", settings.levers, { 1., 1000. });
-      section.choice("Damper", settings.damper,
-                     { { "lever", DamperType::lever },
-                       { "constant friction", DamperType::constant_friction },
-                       { "linear friction", DamperType::linear_friction },
-                       { "Beucke", DamperType::beucke },
-                       { "restoring lever", DamperType::restoring_lever },
-                       { "viscous", DamperType::viscous },
-                       { "loop", DamperType::loop },
-                       { "none", DamperType::none } });
+      section.choice("Damper", settings.damper);
       section.number("Friction force", settings.friction_force, at_least(0.), "N");
       section.number("Friction slope", settings.friction_slope, at_least(0.), "N/mm");
       section.number("Viscous coefficient", settings.viscous_coefficient, at_least(0.), "N s/mm");
@@ -90,8 +82,7 @@ namespace sprag
       section.text("Unknowns", settings.unknowns);
       section.numbers("Friction speeds", settings.friction_speeds, at_least(0.), "mm/s");
       section.number_or_auto("Reversal window", settings.window, at_least(0.), "mm");
-      section.choice("Loss", settings.loss,
-                     { { "least squares", IdentificationLoss::squares }, { "Huber", IdentificationLoss::huber } });
+      section.choice("Loss", settings.loss);
       section.number("Confidence", settings.confidence, { 0.5, 0.9999 });
     }
   } // namespace

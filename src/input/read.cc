@@ -315,11 +315,11 @@ namespace sprag
       {
         const FrictionSettings &friction = input.friction;
         FrictionLaw &law                 = input.scene.friction;
-        if (friction.law == FrictionChoice::coulomb)
+        if (friction.law == FrictionChoice::Coulomb)
           law.law = friction.coulomb;
         else if (friction.law == FrictionChoice::cork_on_aluminium)
           law.law = CorkOnAluminium{};
-        else if (friction.law == FrictionChoice::stribeck)
+        else if (friction.law == FrictionChoice::Stribeck)
           law.law = friction.stribeck;
         else
           use_table("Friction/Table", friction.table, { { "speed", "velocity", "v" }, "mm/s" },

@@ -60,11 +60,7 @@ namespace sprag
 
     void friction(Section section, FrictionSettings &settings, FrictionLaw &law)
     {
-      section.choice("Law", settings.law,
-                     { { "Coulomb", FrictionChoice::coulomb },
-                       { "cork on aluminium", FrictionChoice::cork_on_aluminium },
-                       { "Stribeck", FrictionChoice::stribeck },
-                       { "table", FrictionChoice::table } });
+      section.choice("Law", settings.law);
       section.only_with("Law", "Coulomb").number("Coefficient", settings.coulomb.coefficient, at_least(0.));
       auto stribeck = section.only_with("Law", "Stribeck");
       stribeck.number("Static coefficient", settings.stribeck.at_rest, at_least(0.));
@@ -73,7 +69,7 @@ namespace sprag
       stribeck.number("Stribeck exponent", settings.stribeck.exponent, at_least(1.));
       stribeck.number("Viscous coefficient", settings.stribeck.viscous, at_least(0.), "s/mm");
       section.only_with("Law", "table").text("Table", settings.table, Rule::Kind::file);
-      section.choice("Speed", law.speed, { { "sliding", FrictionSpeed::sliding }, { "drive", FrictionSpeed::drive } });
+      section.choice("Speed", law.speed);
       section.number("Factor", law.factor, at_least(0.));
       section.number("Regularisation speed", law.regularisation_speed, at_least(0.), "mm/s");
       section.number("Memory length", law.memory_length, above(0.), "mm");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/choices.h"
 #include "base/parameters.h"
 #include "scene/scene.h"
 
@@ -24,13 +25,7 @@ namespace sprag
   };
 
   /// Selects the friction law (Friction/Law).
-  enum class FrictionChoice
-  {
-    coulomb,
-    cork_on_aluminium,
-    stribeck,
-    table
-  };
+  SPRAG_ENUMERATION(FrictionChoice, Coulomb, cork_on_aluminium, Stribeck, table)
 
   /// The choice of a friction law as a parameter file gives it; its other settings are those of the scene's law.
   struct FrictionSettings

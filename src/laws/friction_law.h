@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/choices.h"
 #include "base/monotone_cubic.h"
 
 #include <string>
@@ -53,12 +54,8 @@ namespace sprag
     bool falls     = false; ///< whether mu falls from one row to a later one by more than 1 % of its largest value
   };
 
-  /// Which speed mu depends on: the true material sliding speed, or the drive's (the paper's choice).
-  enum class FrictionSpeed
-  {
-    sliding,
-    drive
-  };
+  /// Selects the speed that mu depends on: the material sliding speed, or the speed of the drive (the paper's choice).
+  SPRAG_ENUMERATION(FrictionSpeed, sliding, drive)
 
   /// A law of mu over speed, and how the contact uses it.
   struct FrictionLaw

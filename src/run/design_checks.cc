@@ -192,8 +192,8 @@ namespace sprag
 
   void DesignChecks::check_slides(ModelCheck &check)
   {
-    check.changes     = { "Analysis/Type=stability", "Analysis/Model=" + model_name(check.check_model), "Stability/Position=auto",
-                          "Stability/Critical=none" };
+    check.changes     = { "Analysis/Type=stability", "Analysis/Model=" + enumerator_name(check.check_model),
+                          "Stability/Position=auto", "Stability/Critical=none" };
     const Scene scene = make_scene(check);
     check.warnings    = scene_warnings(scene);
     require_memory(scene);
@@ -215,7 +215,7 @@ namespace sprag
 
   void DesignChecks::follow_in_time(ModelCheck &check)
   {
-    check.changes     = { "Analysis/Type=transient", "Analysis/Model=" + model_name(check.check_model) };
+    check.changes     = { "Analysis/Type=transient", "Analysis/Model=" + enumerator_name(check.check_model) };
     const Scene scene = make_scene(check);
     require_memory(scene);
     Warnings warnings;

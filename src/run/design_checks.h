@@ -34,11 +34,6 @@ namespace sprag
     }
   };
 
-  inline std::string model_name(const CheckModel check_model)
-  {
-    return word_for(enumerators<CheckModel>(), check_model);
-  }
-
   /// Computes levers of a design again by more expensive models. Forces come from steady slides at Design/Positions both ways,
   /// and one near x = 0 for the slopes; in time from the drive followed once.
   class DesignChecks

@@ -109,9 +109,10 @@ namespace sprag
         add({ "expected_" + to_identifier(info.name), info.unit, "as it was proposed, corrections included" },
             [&](const ModelCheck &check) { return check.lever.quantities[info.quantity]; });
       }
-      group.texts = { make_texts(checks, "judge", "which", [](const ModelCheck &check) { return model_name(check.check_model); }),
-                      make_texts(checks, "failure", "why it tells nothing",
-                                 [](const ModelCheck &check) { return check.failure; }) };
+      group.texts = {
+        make_texts(checks, "judge", "which", [](const ModelCheck &check) { return enumerator_name(check.check_model); }),
+        make_texts(checks, "failure", "why it tells nothing", [](const ModelCheck &check) { return check.failure; })
+      };
       return group;
     }
 
@@ -133,7 +134,7 @@ namespace sprag
       for (const auto &check : checks)
       {
         const bool passes = check.passes(design.demanded);
-        stream << "\nJudged by " << model_name(check.check_model) << (check.in_time ? ", in time as well" : "") << ", round "
+        stream << "\nJudged by " << enumerator_name(check.check_model) << (check.in_time ? ", in time as well" : "") << ", round "
                << check.round << ", " << formatted("%.3g", check.cpu_seconds) << " CPU s: "
                << (passes                  ? "passes"
                    : check.failure.empty() ? "does not pass"
@@ -214,8 +215,8 @@ namespace sprag
     {
       std::string text = "No lever within the bounds meets all demands";
       if (!findings.checks.empty())
-        text +=
-            " when the closed form is corrected by what the judge " + model_name(findings.checks.back().check_model) + " found";
+        text += " when the closed form is corrected by what the judge " + enumerator_name(findings.checks.back().check_model) +
+                " found";
       text += ". ";
       if (findings.stopping.empty() && !(findings.found->lever.rule.violation < 0.))
         text += "Every lever breaks the rule that " + findings.found->lever.rule.text + ". ";
@@ -239,7 +240,7 @@ namespace sprag
     /// Says in a sentence by how much a lever misses the demands according to a check model.
     std::string missed_text(const DesignSettings &design, const ModelCheck &check)
     {
-      const std::string by = "by the judge " + model_name(check.check_model);
+      const std::string by = "by the judge " + enumerator_name(check.check_model);
       if (!check.failure.empty())
         return "The lever proposed cannot be followed " + by + ": " + check.failure;
       std::string text = "No lever proposed meets all demands " + by + "; of the last one";
@@ -436,7 +437,7 @@ namespace sprag
       const auto judged   = std::find_if(findings.checks.rbegin(), findings.checks.rend(), by_table);
       if (judged != findings.checks.rend() && judged->lever.parameters != last.lever.parameters)
         warnings.push_back(
-            make_warning("judged_another_lever", { lever_text(design, judged->lever), model_name(last.check_model) }));
+            make_warning("judged_another_lever", { lever_text(design, judged->lever), enumerator_name(last.check_model) }));
     }
 
     /// Names the command that gives the values printed of a lever: by the closed form and by the last model that checked it.
@@ -445,7 +446,7 @@ namespace sprag
       std::string text = "# By the closed form: sprag " + name + ".prm";
       if (checks.empty() || checks.back().lever.parameters != lever.parameters)
         return text;
-      text += "; by the judge " + model_name(checks.back().check_model) + " with";
+      text += "; by the judge " + enumerator_name(checks.back().check_model) + " with";
       for (const auto &change : checks.back().changes)
         text += " --set '" + change + '\'';
       return text;

@@ -103,7 +103,7 @@ namespace sprag
       {
         const auto &window = found.settled->window;
         append<Entry>(entries,
-                      { { "cycle", settling_name(found.settled->kind) },
+                      { { "cycle", enumerator_name(found.settled->kind) },
                         { "cycle_begin", found.settled_begin },
                         { "cycle_amplitude_P", window.amplitude_P },
                         { "cycle_amplitude_indentation", window.amplitude_indentation },

@@ -123,7 +123,7 @@ namespace sprag
       add("peak_memory", [](const StudyRecord &row) { return row.peak_memory; });
       add("warnings", [](const StudyRecord &row) { return static_cast<double>(row.warnings.size()); });
       table.texts = { make_texts(rows, "outcome", "how the run ended",
-                                 [](const StudyRecord *row) { return outcome_name(row->outcome); }),
+                                 [](const StudyRecord *row) { return enumerator_name(row->outcome); }),
                       make_texts(rows, "reason", "why it was not completed", [](const StudyRecord *row) { return row->reason; }),
                       make_texts(rows, "warnings", "their names",
                                  [](const StudyRecord *row) { return boost::algorithm::join(row->warnings, ", "); }) };
@@ -242,7 +242,7 @@ namespace sprag
                                      { "cpu_time_of_runs", cpu } };
       if (const auto *reference = findings.reference; reference != nullptr)
         entries.push_back({ "reference",
-                            outcome_name(reference->outcome) + (reference->reason.empty() ? "" : ": " + reference->reason), "",
+                            enumerator_name(reference->outcome) + (reference->reason.empty() ? "" : ": " + reference->reason), "",
                             findings.study.reference });
       return entries;
     }
@@ -285,10 +285,10 @@ namespace sprag
       std::size_t printed = 0;
       for (const auto *row : findings.rows)
         if (row->outcome == outcome && printed++ < most_runs_printed)
-          stream << "  " << outcome_name(outcome) << ": " << settings_with_units(findings, row->run) << ": " << row->reason
+          stream << "  " << enumerator_name(outcome) << ": " << settings_with_units(findings, row->run) << ": " << row->reason
                  << '\n';
       if (printed > most_runs_printed)
-        stream << "  ... and " << printed - most_runs_printed << " more " << outcome_name(outcome) << '\n';
+        stream << "  ... and " << printed - most_runs_printed << " more " << enumerator_name(outcome) << '\n';
     }
 
     std::string run_text(const StudyFindings &findings, const MeasuredErrors &measured, const std::size_t accuracy)
@@ -380,7 +380,7 @@ namespace sprag
       print_unfinished(stream, findings, RunOutcome::failed);
       print_unfinished(stream, findings, RunOutcome::refused);
       if (reference != nullptr && reference->outcome != RunOutcome::completed)
-        stream << "  no errors: the reference is " << outcome_name(reference->outcome) << ": " << reference->reason << '\n';
+        stream << "  no errors: the reference is " << enumerator_name(reference->outcome) << ": " << reference->reason << '\n';
       if (measured.empty())
       {
         for (const auto &name : main_entries(findings))

@@ -139,7 +139,7 @@ namespace sprag
       return friction(settings.friction_force, 0., 0.);
     case DamperType::linear_friction:
       return friction(0., settings.friction_slope, 0.);
-    case DamperType::beucke:
+    case DamperType::Beucke:
       return friction(settings.friction_force, settings.friction_slope, settings.viscous_coefficient);
     case DamperType::restoring_lever:
       return restoring_lever(scene);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/choices.h"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,12 +54,8 @@ namespace sprag
     }
   };
 
-  /// Selects the loss function of the residuals.
-  enum class IdentificationLoss
-  {
-    squares,
-    huber ///< squares up to 1.345 standard deviations, lines beyond
-  };
+  /// Selects the loss function of the residuals: squares, or squares up to 1.345 standard deviations and lines beyond (Huber).
+  SPRAG_ENUMERATION(IdentificationLoss, least_squares, Huber)
 
   /// Holds the section Identification: the measurement, the unknowns and the method of the fit.
   struct IdentificationSettings
@@ -67,7 +65,7 @@ namespace sprag
     std::string unknowns                = "mu, k";
     std::vector<double> friction_speeds = { 20., 60., 100., 140. }; ///< of a table of mu [mm/s], increasing, at least 4
     std::optional<double> window; ///< travel left out behind each reversal [mm]; none: from the data
-    IdentificationLoss loss = IdentificationLoss::squares;
+    IdentificationLoss loss = IdentificationLoss::least_squares;
     double confidence       = 0.95; ///< of the intervals, 0 ... 1
 
     // read_identification() fills these from the texts and the table.

@@ -12,18 +12,10 @@ namespace sprag
   // A table on a restoring spring and a damper, whose base moves: Fig. 2 of the paper. z is its displacement relative to the
   // base.
 
-  /// Selects the damper between table and base.
-  enum class DamperType
-  {
-    lever,             ///< the levers of the scene: a mirrored pair for each sign of z
-    constant_friction, ///< F0 against the motion
-    linear_friction,   ///< c |z| against the motion
-    beucke,            ///< viscous, constant and linear friction together
-    restoring_lever,   ///< a friction lever that the restoring spring presses
-    viscous,
-    loop, ///< Q over |z| on the way out and back, from a file
-    none
-  };
+  /// Selects the damper between table and base: the levers of the scene, a mirrored pair for each sign of z (lever); F0 or c |z|
+  /// against the motion (constant_friction, linear_friction); viscous, constant and linear friction together (Beucke); a friction
+  /// lever pressed by the restoring spring (restoring_lever); viscous; Q over |z| from a file (loop); or none.
+  SPRAG_ENUMERATION(DamperType, lever, constant_friction, linear_friction, Beucke, restoring_lever, viscous, loop, none)
 
   /// Selects the motion of the base: none, a sine, a sine of changing frequency (sweep), one pulse (shock), an acceleration of
   /// given spectrum (random) or one from a file (record).

@@ -272,7 +272,7 @@ TEST(Identification, HubersLossBearsOutliers)
   Scene scene                   = guess(truth, { Unknown::friction_constant, Unknown::stiffness });
   scene.identification.measured = spoilt(rows, 1);
   const double by_squares       = number(identified(scene), "mu").deviation;
-  scene.identification.loss     = IdentificationLoss::huber;
+  scene.identification.loss     = IdentificationLoss::Huber;
   const auto found              = identified(scene);
   EXPECT_NEAR(number(found, "mu").value, 0.73, 5e-3);
   EXPECT_LT(number(found, "mu").deviation, by_squares / 1.5);
@@ -284,7 +284,7 @@ TEST(Identification, HubersLossIsLeastWhereTheFitEnds)
   const Scene truth             = device();
   Scene scene                   = guess(truth, { Unknown::friction_constant, Unknown::stiffness });
   scene.identification.measured = spoilt(compute_rows(truth), 1);
-  scene.identification.loss     = IdentificationLoss::huber;
+  scene.identification.loss     = IdentificationLoss::Huber;
   const MeasuredMotion motion(scene);
   const LeverUnknowns unknowns(scene, motion);
   const auto found = identify(scene, motion, unknowns);
@@ -302,7 +302,7 @@ TEST(Identification, HubersLossIsLeastWhereTheFitEnds)
     double slope = 0., size = 0.;
     for (std::size_t i = 0; i < at_end.size(); ++i)
     {
-      const double share = influence(IdentificationLoss::huber, at_end[i]) * slopes[i * scaled.size() + j];
+      const double share = influence(IdentificationLoss::Huber, at_end[i]) * slopes[i * scaled.size() + j];
       slope += share;
       size += std::abs(share);
     }
@@ -315,7 +315,7 @@ TEST(Identification, HubersIntervalsHoldTheTruth)
   const Scene truth         = device();
   const auto rows           = compute_rows(truth);
   Scene scene               = guess(truth, { Unknown::friction_constant, Unknown::stiffness });
-  scene.identification.loss = IdentificationLoss::huber;
+  scene.identification.loss = IdentificationLoss::Huber;
   expect_honest(scene, { { "mu", 0.73 }, { "k", 7.4e4 } },
                 [&](const unsigned int seed) {
                   return measured(rows, { 0.2, 0. }, seed);

@@ -193,7 +193,7 @@ TEST(Oscillation, VerdictsDoNotDependOnTheUnitOfForce)
         for (const auto column : { Column::P, Column::Q, Column::Q_support, Column::P_quasi_static, Column::Q_quasi_static })
           row[column] *= unit;
       const auto found = find_oscillation(rows);
-      EXPECT_EQ(found.verdict, verdict) << verdict_name(verdict) << ' ' << unit;
+      EXPECT_EQ(found.verdict, verdict) << enumerator_name(verdict) << ' ' << unit;
       EXPECT_NEAR(found.scale, unit * quasi_static_P, 1e-9 * unit);
     }
 }
@@ -212,7 +212,7 @@ TEST(Oscillation, ElementsThatPassAreNoRinging)
   for (const auto &[frequency, face_size] : { std::pair<double, double>{ 227., 0.5 }, { 230., 1. } })
   {
     const auto mesh = found(frequency, -5., face_size);
-    EXPECT_EQ(mesh[0].verdict, Verdict::passing);
+    EXPECT_EQ(mesh[0].verdict, Verdict::elements_pass);
     EXPECT_NEAR(mesh[0].passing_frequency, 226., 1e-6);
     const auto warnings = element_passing_warnings(mesh, face_size);
     ASSERT_EQ(warnings.size(), 1u);
@@ -221,7 +221,7 @@ TEST(Oscillation, ElementsThatPassAreNoRinging)
   }
   for (const auto &lever : { found(227., -60., 0.5), found(290., -5., 0.5), found(227., -5., 0.) })
   {
-    EXPECT_NE(lever[0].verdict, Verdict::passing);
+    EXPECT_NE(lever[0].verdict, Verdict::elements_pass);
     EXPECT_TRUE(element_passing_warnings(lever, 0.5).empty());
   }
 }

@@ -356,7 +356,7 @@ namespace sprag
       std::vector<double> robust_weights() const
       {
         std::vector<double> weights;
-        if (settings.loss == IdentificationLoss::squares || result.rounds == 0)
+        if (settings.loss == IdentificationLoss::least_squares || result.rounds == 0)
           return weights;
         for (const double residual : residuals())
           weights.push_back(residual == 0. ? 1. : influence(settings.loss, residual) / residual);

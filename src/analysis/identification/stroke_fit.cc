@@ -298,7 +298,7 @@ namespace sprag
 
   double influence(const IdentificationLoss loss, const double residual)
   {
-    return loss == IdentificationLoss::squares ? residual : std::clamp(residual, -huber_limit, huber_limit);
+    return loss == IdentificationLoss::least_squares ? residual : std::clamp(residual, -huber_limit, huber_limit);
   }
 
   std::vector<ChannelNoise> estimate_noise(const std::vector<UsedValue> &values, const std::vector<double> &residuals,
@@ -333,7 +333,7 @@ namespace sprag
       // Degrees of freedom: the fit uses as many independent rows as it has unknowns.
       const double fitted     = static_cast<double>(unknowns) * noise.correlation / static_cast<double>(values.size());
       const double free_share = 1. - std::min(fitted, 0.9);
-      if (loss == IdentificationLoss::squares)
+      if (loss == IdentificationLoss::least_squares)
         noise.deviation = deviations[channel] * std::sqrt(squares / noise.rows / free_share);
       else
       {

@@ -216,11 +216,6 @@ namespace sprag
     }
   } // namespace
 
-  std::string settling_name(const Settling settling)
-  {
-    return std::vector<std::string>{ "slide", "cycle", "irregular", "undecided" }.at(static_cast<std::size_t>(settling));
-  }
-
   Settled settle(HeldRun &run, const HeldSlide &slide, const SettlingTimes &times, const RowSink &sink)
   {
     const auto path    = held_path(run.drive(), slide);

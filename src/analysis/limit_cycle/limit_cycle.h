@@ -3,6 +3,7 @@
 
 #include "analysis/stability/stability.h"
 #include "analysis/transient/held_run.h"
+#include "base/choices.h"
 #include "scene/vibration_settings.h"
 
 #include <optional>
@@ -99,17 +100,9 @@ namespace sprag
     double period                = 0.; ///< after which P is the same again [s]; NaN if it never is
   };
 
-  /// Long-term outcome of a motion about a held slide.
-  enum class Settling
-  {
-    slide,     ///< back to the slide, or on its way there
-    cycle,     ///< the same again in every window
-    irregular, ///< a vibration that neither dies nor repeats itself
-    undecided  ///< too small to classify
-  };
-
-  /// Returns "slide", "cycle" ...
-  std::string settling_name(Settling settling);
+  /// Classifies the long-term motion about a held slide: it returns to the slide, repeats itself in every window (cycle), neither
+  /// decays nor repeats itself (irregular), or is too small to classify (undecided).
+  SPRAG_ENUMERATION(Settling, slide, cycle, irregular, undecided)
 
   /// The vibration or slide that a motion about a held slide comes to.
   struct Settled

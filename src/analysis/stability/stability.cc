@@ -55,7 +55,7 @@ namespace sprag
 
   std::string kind_name(const SlideKind kind)
   {
-    return std::vector<std::string>{ "stable", "flutter", "divergence", "jammed" }.at(static_cast<std::size_t>(kind));
+    return enumerator_name(kind);
   }
 
   std::string SlideStability::motion() const

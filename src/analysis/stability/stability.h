@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/choices.h"
 #include "levers/dynamics.h"
 
 #include <cmath>
@@ -12,14 +13,9 @@ namespace sprag
 {
   struct Scene;
 
-  /// Stability of a steady slide.
-  enum class SlideKind
-  {
-    stable,
-    flutter,    ///< a vibration grows: sprag-slip
-    divergence, ///< a real eigenvalue > 0
-    jammed      ///< no unique equilibrium: none found, or its tangent has passed a singular one
-  };
+  /// Classifies a steady slide: stable, a growing vibration (flutter, sprag-slip), a real eigenvalue > 0 (divergence), or no
+  /// unique equilibrium, as none is found or its tangent has passed a singular one (jammed).
+  SPRAG_ENUMERATION(SlideKind, stable, flutter, divergence, jammed)
 
   /// Returns "stable", "flutter" ...
   std::string kind_name(SlideKind kind);

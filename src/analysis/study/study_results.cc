@@ -197,12 +197,6 @@ namespace sprag
     return enough ? fitted_line(x, y).slope : std::numeric_limits<double>::quiet_NaN();
   }
 
-  std::string outcome_name(const RunOutcome outcome)
-  {
-    static const std::array<std::string, 3> names = { { "completed", "failed", "refused" } };
-    return names.at(static_cast<std::size_t>(outcome));
-  }
-
   /// Attributes are left out: no study uses those of its runs.
   void serialise(Archive &archive, Entry &entry)
   {

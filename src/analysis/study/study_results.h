@@ -4,6 +4,7 @@
 #include "analysis/study/study_points.h"
 #include "analytic/measures.h"
 #include "base/archive.h"
+#include "base/choices.h"
 
 #include <array>
 #include <map>
@@ -13,16 +14,8 @@
 
 namespace sprag
 {
-  /// End of a study's run.
-  enum class RunOutcome
-  {
-    completed,
-    failed, ///< the analysis could not be carried to its end
-    refused ///< the scene is not possible
-  };
-
-  /// Returns "completed", "failed" or "refused".
-  std::string outcome_name(RunOutcome outcome);
+  /// Classifies the end of a study's run: completed, a failed analysis, or a scene that is refused.
+  SPRAG_ENUMERATION(RunOutcome, completed, failed, refused)
 
   /// Result of a run that a study keeps.
   struct StudyRecord

@@ -26,7 +26,7 @@ namespace sprag
     /// K^-1 (f + K u - R(u)) - u. Throws AnalysisError where an element turned inside out.
     dealii::Vector<double> strain_residual(const dealii::Vector<double> &displacement, const DofLoads &on_face);
 
-    /// Returns the correction by an unbalance and a change of the forces that goes with it.
+    /// Returns the correction by a residual and the change of the forces with it.
     dealii::Vector<double> correction(const dealii::Vector<double> &strain_residual, const DofLoads &change) const;
 
   private:
