@@ -4,6 +4,7 @@
 #include "analytic/step_clock.h"
 #include "base/errors.h"
 #include "base/text.h"
+#include "base/unknown.h"
 #include "scene/mirrored_pair.h"
 #include "scene/pair_closed_form.h"
 #include "scene/scene.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sprag
 {
@@ -33,7 +33,7 @@ namespace sprag
       Row row = row_at(point, lever.state, lever.spring_energy, work);
       if (!lever.touches)
         for (const auto column : { Column::s, Column::v_rel, Column::mu })
-          row[column] = std::numeric_limits<double>::quiet_NaN();
+          row[column] = unknown;
       return row;
     }
 

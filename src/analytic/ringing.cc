@@ -2,6 +2,7 @@
 #include "analytic/ringing.h"
 
 #include "base/least_squares.h"
+#include "base/unknown.h"
 
 #include <boost/numeric/ublas/lu.hpp>
 #include <gsl/gsl_fft_complex.h>
@@ -106,7 +107,7 @@ namespace sprag
           logarithms.push_back(std::log(half_range));
         }
       }
-      return times.size() < 2 ? std::numeric_limits<double>::quiet_NaN() : fitted_line(times, logarithms).slope;
+      return times.size() < 2 ? unknown : fitted_line(times, logarithms).slope;
     }
 
     using Vector = std::array<double, unknowns>;
@@ -245,7 +246,7 @@ namespace sprag
       }
       return (static_cast<double>(lag) + found.share) * signal.step;
     }
-    return std::numeric_limits<double>::quiet_NaN();
+    return unknown;
   }
 
   Ringing ringing(const Signal &signal, const double noise)

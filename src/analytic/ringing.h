@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include <limits>
+#include "base/unknown.h"
+
 #include <vector>
 
 namespace sprag
@@ -17,8 +18,8 @@ namespace sprag
   /// the spectrum next to what is constant or drifts.
   struct Ringing
   {
-    double frequency   = std::numeric_limits<double>::quiet_NaN(); ///< [Hz]
-    double growth_rate = std::numeric_limits<double>::quiet_NaN(); ///< of the envelope [1/s], negative: decays
+    double frequency   = unknown; ///< [Hz]
+    double growth_rate = unknown; ///< of the envelope [1/s], negative: decays
   };
 
   /// Returns the shortest time after which a signal is the same again [s], to 2 % of its root mean square and up to half of its

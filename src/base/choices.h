@@ -27,8 +27,8 @@ namespace sprag
   template <class T>
   std::string word_for(const Choices<T> &choices, const T &value)
   {
-    const auto found = std::find_if(choices.begin(), choices.end(), [&](const auto &choice) { return choice.second == value; });
-    if (found == choices.end())
+    const auto *const found = find_by(choices, &std::pair<std::string, T>::second, value);
+    if (found == nullptr)
       throw std::out_of_range("a value without a word");
     return found->first;
   }
@@ -37,8 +37,8 @@ namespace sprag
   template <class T>
   const T &value_for(const Choices<T> &choices, const std::string &word)
   {
-    const auto found = std::find_if(choices.begin(), choices.end(), [&](const auto &choice) { return choice.first == word; });
-    if (found == choices.end())
+    const auto *const found = find_by(choices, &std::pair<std::string, T>::first, word);
+    if (found == nullptr)
       throw std::out_of_range("'" + word + "' is none of the choices");
     return found->second;
   }

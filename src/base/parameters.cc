@@ -443,9 +443,7 @@ namespace sprag
 
   const Parameter *find_parameter(const std::vector<Parameter> &declared, const std::string &name)
   {
-    const auto has_name = [&](const Parameter &parameter) { return full_name(parameter) == name; };
-    const auto found    = std::find_if(declared.begin(), declared.end(), has_name);
-    return found == declared.end() ? nullptr : &*found;
+    return find_by(declared, full_name, name);
   }
 
   std::string documentation(const Parameter &parameter)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/unknown.h"
+
 #include <cstddef>
 #include <functional>
 #include <iosfwd>
@@ -12,11 +14,11 @@ namespace sprag
   /// Numbers that a line of progress shows beside the share done; NaN leaves one out.
   struct ProgressFields
   {
-    double x                = std::numeric_limits<double>::quiet_NaN(); ///< [mm]
-    double P                = std::numeric_limits<double>::quiet_NaN(); ///< [N]
-    double Q                = std::numeric_limits<double>::quiet_NaN(); ///< [N]
-    unsigned int iterations = 0;                                        ///< of the last step; 0: left out
-    double z                = std::numeric_limits<double>::quiet_NaN(); ///< of a table [mm]
+    double x                = unknown; ///< [mm]
+    double P                = unknown; ///< [N]
+    double Q                = unknown; ///< [N]
+    unsigned int iterations = 0;       ///< of the last step; 0: left out
+    double z                = unknown; ///< of a table [mm]
   };
 
   /// The kind of output that the lines of progress go to.

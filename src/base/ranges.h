@@ -35,6 +35,15 @@ namespace sprag
     return result;
   }
 
+  /// Returns the first item for which a function, or a member, has this value; null without any.
+  template <class Range, class Function, class Value>
+  const auto *find_by(const Range &items, const Function &function, const Value &value)
+  {
+    const auto has_value = [&](const auto &item) { return std::invoke(function, item) == value; };
+    const auto found     = std::find_if(std::begin(items), std::end(items), has_value);
+    return found == std::end(items) ? nullptr : &*found;
+  }
+
   /// Returns the sum of a function over all items, from the first to the last.
   template <class Range, class Function>
   double sum_over(const Range &items, const Function &function)

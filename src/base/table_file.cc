@@ -10,6 +10,7 @@
 #include "base/system/file_content.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "base/unknown.h"
 
 #include <boost/algorithm/string.hpp>
 
@@ -18,7 +19,6 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <sstream>
@@ -36,7 +36,6 @@ namespace sprag
     constexpr std::size_t most_rows = 10000000;
 
     constexpr std::size_t most_mistakes = 20;
-    constexpr double missing            = std::numeric_limits<double>::quiet_NaN();
 
     /// Indices of the requested columns; none for one that the file lacks.
     using Chosen = std::vector<std::optional<std::size_t>>;
@@ -228,7 +227,7 @@ namespace sprag
           const auto value = number_alone(cells[i]);
           if (!value && !(named && is_missing(cells[i])))
             return report_cell(cells[i], line);
-          columns[i].values.push_back(value.value_or(missing));
+          columns[i].values.push_back(value.value_or(unknown));
           if (columns[i].values.size() > most_rows)
             throw InputError(file + ": must have at most " + std::to_string(most_rows) + " rows");
         }

@@ -4,12 +4,12 @@
 #include "base/errors.h"
 #include "base/parameters.h"
 #include "base/text.h"
+#include "base/unknown.h"
 #include "scene/design.h"
 #include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <vector>
 
@@ -26,8 +26,6 @@ namespace sprag
       return is_number(parameter.rule) && parameter.rule.kind != Rule::Kind::integer &&
              (free_sections.count(parameter.section) > 0 || full_name(parameter) == free_friction);
     }
-
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
     /// Reads all texts; a mistake is reported against the parameter that is being read.
     struct DesignReader
@@ -72,7 +70,7 @@ namespace sprag
         rule.unit = unit == "1" ? "" : unit;
         try
         {
-          return leading_number(text) ? leading_number(kept_value(rule, text))->value : none;
+          return leading_number(text) ? leading_number(kept_value(rule, text))->value : unknown;
         }
         catch (const InputError &error)
         {

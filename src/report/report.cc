@@ -6,6 +6,7 @@
 #include "base/least_squares.h"
 #include "base/ranges.h"
 #include "base/text.h"
+#include "base/unknown.h"
 #include "report/peak_report.h"
 #include "report/summary_lines.h"
 #include "results/row_statistics.h"
@@ -54,7 +55,7 @@ namespace sprag
     Rows stroke(const std::vector<Row> &rows, const int direction, const double apart)
     {
       Rows result;
-      double turned_at = begins_in_stick(rows.front()) ? rows.front()[Column::x] : std::numeric_limits<double>::quiet_NaN();
+      double turned_at = begins_in_stick(rows.front()) ? rows.front()[Column::x] : unknown;
       for (std::size_t i = 0; i < rows.size(); ++i)
       {
         if (i > 0 && drive_direction(rows[i]) != drive_direction(rows[i - 1]))
@@ -85,7 +86,7 @@ namespace sprag
     {
       const double peak = largest(rows, reference);
       const double off  = largest(rows, [&](const Row &row) { return row[column] - row[reference]; });
-      return peak > 0. ? off / peak : std::numeric_limits<double>::quiet_NaN();
+      return peak > 0. ? off / peak : unknown;
     }
 
     constexpr double largest_mu_change = 0.05; ///< over which C_Q has a meaning, over the largest mu
@@ -106,7 +107,7 @@ namespace sprag
           Q.push_back(row[Column::Q]);
         }
       const bool changes = largest_mu - least_mu > largest_mu_change * largest_mu;
-      return x.size() < 3 || changes ? std::numeric_limits<double>::quiet_NaN() : slope_at_origin(x, Q);
+      return x.size() < 3 || changes ? unknown : slope_at_origin(x, Q);
     }
 
     /// Without inertia; a model without a support has none in it.
@@ -301,8 +302,8 @@ namespace sprag
 
   double find_value(const std::vector<Entry> &entries, const std::string &name)
   {
-    const auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry &e) { return e.name == name; });
-    if (entry == entries.end())
+    const auto *const entry = find_by(entries, &Entry::name, name);
+    if (entry == nullptr)
       throw std::out_of_range("no entry '" + name + "'");
     return std::get<double>(entry->value);
   }

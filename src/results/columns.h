@@ -2,11 +2,11 @@
 #pragma once
 
 #include "base/choices.h"
+#include "base/unknown.h"
 #include "scene/apparatus.h"
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -58,7 +58,7 @@ namespace sprag
   public:
     Row()
     {
-      values.fill(std::numeric_limits<double>::quiet_NaN());
+      values.fill(unknown);
     }
 
     /// Sets time, x and v.

@@ -3,9 +3,9 @@
 
 #include "base/errors.h"
 #include "base/ranges.h"
+#include "base/unknown.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace sprag::hdf5
 {
@@ -101,8 +101,7 @@ namespace sprag::hdf5
     {
       const Handle chunks = storage();
       set_chunk(chunks, with_rows(chunk, row));
-      const double missing = std::numeric_limits<double>::quiet_NaN();
-      checked("fill value", H5Pset_fill_value(chunks.id(), H5T_NATIVE_DOUBLE, &missing));
+      checked("fill value", H5Pset_fill_value(chunks.id(), H5T_NATIVE_DOUBLE, &unknown));
       if (!row.empty())
         checked("compression", H5Pset_deflate(chunks.id(), 1));
       const Handle space = simple_space(with_rows(0, row), with_rows(H5S_UNLIMITED, row));

@@ -3,6 +3,7 @@
 
 #include "base/errors.h"
 #include "base/system/disk_reserve.h"
+#include "base/unknown.h"
 #include "results/earlier_result.h"
 #include "results/entries.h"
 #include "results/hdf5.h"
@@ -234,7 +235,7 @@ namespace sprag
           (n_values - n_columns - second.size() - pair_values.size() - row.across.size()) / (is_pair ? 2 : 1); // and their sum
       const auto sensor_values = [&](const std::size_t lever)
       {
-        std::vector<double> forces(n_sensors, std::numeric_limits<double>::quiet_NaN());
+        std::vector<double> forces(n_sensors, unknown);
         if (row.sensor_forces.empty() || forces.empty())
           return forces;
         const auto begin = row.sensor_forces.begin() + static_cast<std::ptrdiff_t>(lever * (n_sensors - 1));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/unknown.h"
 #include "results/result_file.h"
 
 #include <array>
-#include <limits>
 
 namespace sprag
 {
@@ -15,10 +15,6 @@ namespace sprag
   /// Returns the entries of a run that finds no stress.
   inline std::vector<Entry> no_stress_peaks(const std::string &reason)
   {
-    const double missing = std::numeric_limits<double>::quiet_NaN();
-    std::vector<Entry> result;
-    for (const unsigned int i : { 0u, 1u })
-      result.push_back({ stress_names[i], missing, "", "not told: " + reason });
-    return result;
+    return { { stress_names[0], unknown, "", "not told: " + reason }, { stress_names[1], unknown, "", "not told: " + reason } };
   }
 } // namespace sprag

@@ -5,6 +5,7 @@
 #include "analytic/isolation.h"
 #include "base/errors.h"
 #include "base/ranges.h"
+#include "base/unknown.h"
 #include "input/read.h"
 #include "levers/prepared_scene.h"
 #include "program/resources.h"
@@ -59,7 +60,7 @@ namespace sprag
       const double v     = scene.drive.peak_speed();
       const double speed = direction == Direction::forward ? v : -v;
       const auto found   = slide_at(scene, x, direction, maker);
-      return found.slide ? found.slide->forces.Q / closed_form(scene, x, speed).Q : std::numeric_limits<double>::quiet_NaN();
+      return found.slide ? found.slide->forces.Q / closed_form(scene, x, speed).Q : unknown;
     }
 
     /// Q and P of slides at places, of one way.

@@ -65,9 +65,7 @@ namespace sprag
     /// Returns an entry of a run's summary, null where it has none of this name.
     const Entry *find_entry(const StudyRecord &record, const std::string &name)
     {
-      const auto &summary = record.found.summary;
-      const auto found    = std::find_if(summary.begin(), summary.end(), [&](const Entry &entry) { return entry.name == name; });
-      return found == summary.end() ? nullptr : &*found;
+      return find_by(record.found.summary, &Entry::name, name);
     }
 
     template <class Value>

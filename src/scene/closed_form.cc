@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/closed_form.h"
+#include "base/unknown.h"
 #include "laws/friction.h"
 #include "scene/device.h"
 
@@ -27,7 +28,7 @@ namespace sprag
       const double sine  = std::sin(theta);
       const double lever = s + sign * coefficient * geometry.interface_offset * sine;
       if (lever <= 0.)
-        return std::numeric_limits<double>::quiet_NaN();
+        return unknown;
       const double dP = sine / lever;
       return (sign * coefficient * std::cos(theta) + sine) * dP * sine * sine / s;
     }

@@ -2,6 +2,7 @@
 #include "scene/design.h"
 
 #include "base/pages.h"
+#include "base/ranges.h"
 
 namespace sprag
 {
@@ -34,10 +35,8 @@ namespace sprag
 
   std::optional<DesignQuantity> find_design_quantity(const std::string &name)
   {
-    for (const auto &info : design_quantities())
-      if (info.name == name)
-        return info.quantity;
-    return {};
+    const auto *const info = find_by(design_quantities(), &DesignQuantityInfo::name, name);
+    return info != nullptr ? std::make_optional(info->quantity) : std::nullopt;
   }
 
   bool asks_for(const DesignSettings &design, const DesignQuantity quantity)

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "base/parameters.h"
+#include "base/unknown.h"
 #include "input/sections.h"
 #include "scene/design.h"
 
 #include <array>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,7 +38,7 @@ namespace sprag
   public:
     DesignQuantities()
     {
-      values.fill(std::numeric_limits<double>::quiet_NaN());
+      values.fill(unknown);
     }
 
     double &operator[](const DesignQuantity quantity)

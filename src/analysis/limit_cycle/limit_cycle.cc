@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -187,7 +186,7 @@ namespace sprag
     {
       growth.sizes     = compute_amplitudes(signal, oscillates(mode));
       growth.envelope  = fit_exponential(growth.sizes);
-      growth.frequency = oscillates(mode) ? fit_frequency(crossings(signal)) : std::numeric_limits<double>::quiet_NaN();
+      growth.frequency = oscillates(mode) ? fit_frequency(crossings(signal)) : unknown;
       for (auto &size : growth.sizes)
         size.value *= at_start / growth.envelope.amplitude;
     }

@@ -3,6 +3,7 @@
 
 #include "analysis/stability/sweep.h"
 #include "base/errors.h"
+#include "base/unknown.h"
 #include "input/read.h"
 #include "levers/prepared_scene.h"
 #include "results/page_tables.h"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 namespace sprag
@@ -24,13 +24,11 @@ namespace sprag
     constexpr unsigned int failed_cell       = 5; ///< its analysis fails
     static_assert(static_cast<unsigned int>(SlideKind::jammed) + 1 == inadmissible_cell);
 
-    constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
-
     /// A cell without slides.
     MapCell empty_cell(const unsigned int kind)
     {
       MapCell cell;
-      cell.values.fill(no_number);
+      cell.values.fill(unknown);
       cell.values[1] = cell.values[1 + n_slide_values] = kind;
       return cell;
     }
@@ -39,7 +37,7 @@ namespace sprag
     void set_slide(const SweptSlides &slides, const Direction direction, MapCell &cell)
     {
       // One NaN for all, so that maps compare bit by bit.
-      const auto number = [](const double value) { return std::isnan(value) ? no_number : value; };
+      const auto number = [](const double value) { return std::isnan(value) ? unknown : value; };
       const auto place  = cell.values.begin() + 1 + (direction == Direction::forward ? 0 : n_slide_values);
       try
       {
@@ -268,7 +266,7 @@ namespace sprag
 
   std::vector<double> MapGrid::interpolated(const std::vector<double> &values) const
   {
-    std::vector<double> result(values.size(), std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> result(values.size(), unknown);
     // Smaller quads come later and overwrite.
     for (const auto &quad : active_quads())
       interpolate(quad, values, result);
@@ -281,8 +279,7 @@ namespace sprag
   void MapGrid::interpolate(const Corners &quad, const std::vector<double> &values, std::vector<double> &result) const
   {
     const auto &[low, high] = quad;
-    const auto value        = [&](const unsigned int i, const unsigned int j)
-    { return is_known(i, j) ? values[index(i, j)] : std::numeric_limits<double>::quiet_NaN(); };
+    const auto value = [&](const unsigned int i, const unsigned int j) { return is_known(i, j) ? values[index(i, j)] : unknown; };
     for (unsigned int i = low[0]; i <= high[0]; ++i)
       for (unsigned int j = low[1]; j <= high[1]; ++j)
       {

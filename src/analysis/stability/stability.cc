@@ -2,6 +2,7 @@
 #include "analysis/stability/stability.h"
 
 #include "base/errors.h"
+#include "base/unknown.h"
 #include "model/structure/eigenmodes.h"
 #include "scene/held_slide.h"
 #include "scene/lever_inertia.h"
@@ -82,7 +83,7 @@ namespace sprag
 
   double SlideStability::highest_frequency() const
   {
-    double result = std::numeric_limits<double>::quiet_NaN();
+    double result = unknown;
     for (const auto &mode : modes)
       result = std::fmax(result, mode_frequency(mode));
     return result;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/choices.h"
+#include "base/unknown.h"
 #include "levers/dynamics.h"
 
 #include <cmath>
@@ -53,19 +54,19 @@ namespace sprag
     /// Returns the largest Re lambda [1/s]; NaN without equilibrium.
     double growth_rate() const
     {
-      return modes.empty() ? std::numeric_limits<double>::quiet_NaN() : worst_mode().mode.eigenvalue.real();
+      return modes.empty() ? unknown : worst_mode().mode.eigenvalue.real();
     }
 
     /// Returns the frequency of that mode [Hz]; NaN without equilibrium.
     double frequency() const
     {
-      return modes.empty() ? std::numeric_limits<double>::quiet_NaN() : mode_frequency(worst_mode());
+      return modes.empty() ? unknown : mode_frequency(worst_mode());
     }
 
     /// Returns the uniqueness of the HeldSlide; NaN without equilibrium.
     double uniqueness() const
     {
-      return slide ? slide->uniqueness : std::numeric_limits<double>::quiet_NaN();
+      return slide ? slide->uniqueness : unknown;
     }
 
     /// Returns how a pair's levers move in that mode: "mirroring" (symmetric), "swinging" (antisymmetric), "either" if both have

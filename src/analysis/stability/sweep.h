@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/stability/stability.h"
+#include "base/unknown.h"
 #include "scene/vibration_settings.h"
 
 #include <functional>
@@ -15,13 +16,13 @@ namespace sprag
   struct CheckedSlide
   {
     SlideKind kind     = SlideKind::jammed;
-    double growth_rate = std::numeric_limits<double>::quiet_NaN(); ///< largest Re lambda [1/s]; NaN where it jams
-    double frequency   = std::numeric_limits<double>::quiet_NaN(); ///< of that mode [Hz]
-    double uniqueness  = std::numeric_limits<double>::quiet_NaN();
-    double mu          = std::numeric_limits<double>::quiet_NaN();
-    double P           = std::numeric_limits<double>::quiet_NaN(); ///< [N]
-    std::string motion;                                            ///< see SlideStability::motion()
-    DrivePoint drive;                                              ///< position and speed
+    double growth_rate = unknown; ///< largest Re lambda [1/s]; NaN where it jams
+    double frequency   = unknown; ///< of that mode [Hz]
+    double uniqueness  = unknown;
+    double mu          = unknown;
+    double P           = unknown;       ///< [N]
+    std::string motion;                 ///< see SlideStability::motion()
+    DrivePoint drive;                   ///< position and speed
     std::vector<std::string> constants; ///< "Section/Name=value", of Stability/Ranges; empty: those of the scene
     std::vector<double> growth_rates;   ///< of the modes by increasing |lambda| [1/s]; empty for the worst of several
   };

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 
 namespace sprag
@@ -194,7 +193,7 @@ namespace sprag
         y.push_back(std::log(errors[i]));
       }
     const bool enough = std::set<double>(x.begin(), x.end()).size() >= 3;
-    return enough ? fitted_line(x, y).slope : std::numeric_limits<double>::quiet_NaN();
+    return enough ? fitted_line(x, y).slope : unknown;
   }
 
   /// Attributes are left out: no study uses those of its runs.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/fields/field_frames.h"
 
+#include "base/unknown.h"
 #include "fe/fields/help_first_rank.h"
 #include "scene/device.h"
 #include "scene/mirrored_pair.h"
 
 #include <cmath>
-#include <limits>
 
 namespace sprag
 {
@@ -115,7 +115,7 @@ namespace sprag
       const auto rigid    = hub.place(at_rest);
       const auto place    = found ? at.place(at_rest + node.displacement) : rigid;
       if (!found)
-        node.stress *= std::numeric_limits<double>::quiet_NaN();
+        node.stress *= unknown;
       values.add(place - before.place(at_rest), place - rigid, node, at);
     }
   }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/fields/stress_peaks.h"
 
+#include "base/unknown.h"
 #include "results/stress_entries.h"
-
-#include <limits>
 
 namespace sprag
 {
@@ -47,13 +46,12 @@ namespace sprag
 
   std::vector<Entry> StressPeaks::entries(const unsigned int levers) const
   {
-    const double missing = std::numeric_limits<double>::quiet_NaN();
     std::vector<Entry> result;
     for (unsigned int i = 0; i < stress_names.size(); ++i)
       if (there[i])
       {
         const std::string name = stress_names[i];
-        const Peak peak        = peaks[i].value_or(Peak{ missing, missing, 0, 0, { missing, missing, missing } });
+        const Peak peak        = peaks[i].value_or(Peak{ unknown, unknown, 0, 0, { unknown, unknown, unknown } });
         result.push_back({ name, peak.stress });
         result.push_back({ name + "_x", peak.x });
         result.push_back({ name + "_direction", std::string(peak.direction == 0  ? "none"

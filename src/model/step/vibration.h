@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/unknown.h"
+
 #include <deal.II/lac/vector.h>
 
 #include <array>
 #include <complex>
-#include <limits>
 #include <vector>
 
 namespace sprag
@@ -59,15 +60,15 @@ namespace sprag
     EnergyShares energy;
 
     /// In a pair 1 of a symmetric mode, -1 of an antisymmetric one, where both levers swing the same way.
-    double symmetry = std::numeric_limits<double>::quiet_NaN();
+    double symmetry = unknown;
 
     /// In three dimensions the shares of the kinetic energy that lie in motion as in a plane, in twisting and in motion along the
     /// cylinder's axis; NaN else.
     struct AcrossShares
     {
-      double plane    = std::numeric_limits<double>::quiet_NaN();
-      double twisting = std::numeric_limits<double>::quiet_NaN();
-      double sideways = std::numeric_limits<double>::quiet_NaN();
+      double plane    = unknown;
+      double twisting = unknown;
+      double sideways = unknown;
     };
     AcrossShares across{};
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "model/structure/modal_structure.h"
 
+#include "base/unknown.h"
 #include "model/interface/block_product.h"
 #include "model/structure/modal_vibration.h"
 
@@ -281,7 +282,7 @@ namespace sprag
     const auto &q = motion.coordinates;
     StoredEnergy energy;
     energy.kinetic = 0.5 * q.velocity.norm_sqr();
-    energy.layer   = std::numeric_limits<double>::quiet_NaN();
+    energy.layer   = unknown;
     for (unsigned int i = 0; i < n_modes(); ++i)
       (i == data.support ? energy.support : energy.elastic) += 0.5 * data.stiffness[i] * q.position[i] * q.position[i];
     energy.elastic += 0.5 * quadratic_form(data.face_compliance, motion.face_force);
