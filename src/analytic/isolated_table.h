@@ -47,7 +47,7 @@ namespace sprag
       return now;
     }
 
-    /// Returns whether friction holds the table, as far as the model resolves that.
+    /// Returns whether friction holds the table, if the model resolves stick.
     virtual bool rests() const = 0;
 
     /// Returns the damper's force f [N], while the table rests that which friction holds.

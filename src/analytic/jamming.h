@@ -40,6 +40,6 @@ namespace sprag
   /// Finds the same margin; `flexible`: whether the lever's flexure is counted, by a beam.
   JammingMargin jamming_margin(const Device &device, bool flexible);
 
-  /// Tells the margin in a line.
+  /// Returns the margin as a line of text.
   std::string jamming_text(const JammingMargin &margin);
 } // namespace sprag

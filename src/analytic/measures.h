@@ -51,7 +51,7 @@ namespace sprag
     StrokeCurve curve; ///< without inertia; else empty
   };
 
-  /// Lists the quantities that runs of this analysis are compared by, as far as the reference knows them.
+  /// Lists the quantities of this analysis by which runs are compared and that the reference has.
   std::vector<Measure> make_measures(AnalysisType type, const Comparable &reference);
 
   /// Returns the errors of a run in the order of make_measures(), relative, NaN where the run does not know the quantity.

@@ -275,7 +275,7 @@ namespace sprag
         note_peaks(from, duration);
       }
 
-      /// Looks for the first event within a step; `end` and the duration returned are those of the step as far as there.
+      /// Looks for the first event within a step and shortens the step to it: `end` and the duration returned.
       double step_to_event(const double duration, Values &end, TableEvent &event)
       {
         const double h  = duration;

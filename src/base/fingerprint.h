@@ -33,8 +33,9 @@ namespace sprag
     return key.text();
   }
 
-  /// Returns the fingerprint of a file's content, whatever its name and time. What a script of gmsh (.geo) includes or merges by
-  /// a quoted name, relative to its folder, belongs to its content. A file that cannot be read has the fingerprint "unreadable".
+  /// Returns the fingerprint of a file's content, independent of its name and time. What a script of gmsh (.geo) includes or
+  /// merges by a quoted name, relative to its folder, belongs to its content. A file that cannot be read has the fingerprint
+  /// "unreadable".
   std::string content_fingerprint(const std::string &file);
 
   /// Returns the fingerprint of the running program, another one for each build that differs in an instruction: for keys of what

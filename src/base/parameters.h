@@ -72,7 +72,7 @@ namespace sprag
   /// it until these are known.
   bool depends_on_others(const Rule &rule);
 
-  /// Tells the rule in words, without the unit: "a number > 0", "one of a | b".
+  /// Returns the rule in words, without the unit: "a number > 0", "one of a | b".
   std::string description(const Rule &rule);
 
   /// Returns none where `value` keeps the rule. Otherwise it says what the value must be. Numbers stand without unit.

@@ -48,7 +48,7 @@ namespace sprag
     /// Shows progress towards `total` > 0, in the unit of update()'s `done`. The stream must outlive the object.
     Progress(std::ostream &stream, ProgressStyle style, double total, Clock clock = monotonic_seconds);
 
-    /// Ends the line, whatever became of the run.
+    /// Ends the line, also after an exception.
     ~Progress()
     {
       finish();
@@ -56,7 +56,7 @@ namespace sprag
 
     Progress &operator=(Progress &&) = delete;
 
-    /// Says how much had been done, in another run, before this one began.
+    /// Sets how much an earlier run had done.
     void begin_at(double done);
 
     void update(double done, const ProgressFields &fields);

@@ -7,10 +7,10 @@
 
 namespace sprag
 {
-  /// Serialises all that an analysis goes on from.
+  /// Serialises the state from which an analysis resumes.
   using ProgressSerialiser = std::function<void(Archive &)>;
 
-  /// Keeps the progress of a long analysis, so that a run that was killed goes on from there.
+  /// Keeps the progress of a long analysis, so that a run that was killed resumes there.
   class ProgressKeeper
   {
   public:

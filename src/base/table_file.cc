@@ -363,7 +363,7 @@ namespace sprag
     constexpr double file_timeout     = 20.;
     constexpr std::size_t file_memory = std::size_t(1) << 30;
 
-    /// A stranger's file may crash the library or name other files: it is read in a process without rights.
+    /// Reads the file in a process without rights, as it may crash the library or name other files.
     Content read_hdf5(const std::string &path, const Choose &choose)
     {
       if (const auto reason = reason_unreadable(path, largest_table); !reason.empty())

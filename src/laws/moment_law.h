@@ -6,7 +6,7 @@
 namespace sprag
 {
   /// Moment of a rotational spring over the lever's turn from x = 0: k turn and an excess over that. A spring that is not linear
-  /// has one, by cubic Hermite interpolation between samples of finite elements; beyond them the last one's tangent goes on. So
+  /// has one, by cubic Hermite interpolation between samples of finite elements; beyond them by the tangent of the last one. So
   /// has a spring that is at rest at another turn.
   class MomentLaw
   {

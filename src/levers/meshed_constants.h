@@ -14,7 +14,7 @@ namespace sprag
   /// Finds by finite elements the k that the scene's leaf spring would have, unloaded, with another thickness [mm] [N mm/rad].
   double leaf_stiffness(const Scene &scene, double thickness);
 
-  /// Finds J of the scene's mesh with its densities, whatever Lever/Inertia says [t mm^2].
+  /// Finds J of the scene's mesh with its densities, independent of Lever/Inertia [t mm^2].
   double inertia_as_built(const Scene &scene);
 
   /// Constants of the reduced lever equivalent to a prepared scene's mesh.

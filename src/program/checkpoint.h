@@ -76,7 +76,7 @@ namespace sprag
     /// Reads what an interrupted run has left.
     Checkpoint(const Scene &scene, const RunOptions &options);
 
-    /// Returns whether the run goes on from an interrupted one.
+    /// Returns whether the run resumes an interrupted one.
     bool resumes() const
     {
       return is_resumed;
@@ -140,7 +140,7 @@ namespace sprag
     Clock::time_point next;
     bool is_written = false; ///< by this run
     bool has_failed = false;
-    bool is_needed  = false; ///< whatever becomes of the run
+    bool is_needed  = false; ///< even if the run fails
 
     std::string key() const;
     void find();

@@ -19,7 +19,7 @@ namespace sprag
   /// Throws InputError if the folder could not be made or written to; makes nothing.
   void require_writable(const std::string &folder);
 
-  /// Makes the run's folder if needed, removes fields of earlier runs unless there is one to go on from, and begins the log.
+  /// Makes the run's folder if needed, removes fields of earlier runs unless one is resumed, and begins the log.
   /// Throws InputError if nothing can be written there, or if another run has meanwhile made the folder for its result.
   void prepare_folder(const Scene &scene, const RunOptions &options);
 
@@ -44,6 +44,6 @@ namespace sprag
   /// parameters, whatever the files hold that they name.
   bool has_progress(const std::string &folder, const Scene &scene);
 
-  /// Removes what a run goes on from.
+  /// Removes the checkpoint of a run.
   void remove_checkpoint(const std::string &folder);
 } // namespace sprag

@@ -74,7 +74,7 @@ namespace sprag
   /// The caller is to throw that then.
   std::string status_at_end(const std::string &status);
 
-  /// Runs `steps`, then calls finish(status) whatever happened: with "completed", or with the message of an AnalysisError, which
+  /// Runs `steps`, then always calls finish(status): with "completed", or with the message of an AnalysisError, which
   /// is thrown again.
   template <class Steps, class Finish>
   void finish_in_any_case(const Steps &steps, const Finish &finish)

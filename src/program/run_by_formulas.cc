@@ -27,7 +27,7 @@ namespace sprag
   {
     using FindMargin = std::function<JammingMargin(const Device &)>;
 
-    /// Tells the margin of the lever of a pair that is closer to jamming.
+    /// Returns the margin, as text, of the lever of a pair that is closer to jamming.
     std::string least_margin(const Device &device, const FindMargin &margin)
     {
       if (count_levers(device) == 1)

@@ -21,7 +21,7 @@ namespace sprag
     RunLog(const RunLog &)            = delete;
     RunLog &operator=(const RunLog &) = delete;
 
-    /// Begins the file in a folder, or goes on in it where an interrupted run is gone on from. Later calls do nothing.
+    /// Begins the file in a folder, or appends to it where an interrupted run is resumed. Later calls do nothing.
     void open(const std::string &folder, const Scene &scene);
 
   private:

@@ -43,7 +43,7 @@ namespace sprag
   /// Returns the warnings that follow from the oscillations of a run in time.
   Warnings transient_warnings(const Scene &scene, const std::vector<Row> &rows);
 
-  /// Tells what the run models and what it leaves out, in lines for people.
+  /// Returns lines of text on what the run models and what it neglects.
   std::vector<std::string> modelled(const Scene &scene);
 
   /// Throws AnalysisError where the ledger leaves more open than Analysis/Maximum energy residual, naming the term that moved.

@@ -19,7 +19,7 @@ namespace sprag
 {
   struct Scene;
 
-  /// Variables of a state that determine its displacements, as far as its model needs them.
+  /// Variables of a state that determine its displacements; those that its model needs.
   struct FieldSource
   {
     dealii::Vector<double> coordinates;

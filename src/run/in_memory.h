@@ -16,7 +16,7 @@ namespace sprag
   class StaticMeshes
   {
   public:
-    /// Returns the scene's mesh, which lives until the next call. Throws InputError for one that cannot serve.
+    /// Returns the scene's mesh, which lives until the next call. Throws InputError for an invalid one.
     const Mesh &cached_mesh(const Scene &scene);
 
     /// Returns the CPU time saved by reusing meshes [s].

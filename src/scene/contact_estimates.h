@@ -21,7 +21,7 @@ namespace sprag
     double shortest = 0.; ///< >= Mesh/Face size/4 [mm]
   };
 
-  /// Returns how the faces of a built-in bar are graded so that Mesh/Faces in contact lie across the contact, as far as that
+  /// Returns how the faces of a built-in bar are graded so that Mesh/Faces in contact lie across the contact, if that
   /// takes no faces below a quarter of Mesh/Face size, by estimated_contact_width() and P of the closed form. None where faces of
   /// Mesh/Face size are short enough everywhere, and where they are twice too long even for the widest contact: of such a mesh
   /// forces are wanted alone.

@@ -12,7 +12,7 @@
 
 namespace sprag
 {
-  // A scene is plain data: what there is and what is done to it, at no particular fidelity.
+  // A scene is plain data: the device and its loading, independent of the model.
   // Units: mm, N, s, tonne, rad (so MPa and mJ). All forces and stiffnesses are per lever over its whole width.
 
   /// The device, its drive and its discretisation: the part of a scene from which models are made.

@@ -14,7 +14,7 @@ namespace sprag
   /// Selects an unknown of an identification. `stiffness`, `interface_offset` and `inclination` are k, e and th0 of the paper.
   enum class Unknown
   {
-    friction_constant,   ///< mu, whatever the speed
+    friction_constant,   ///< mu, independent of the speed
     friction_polynomial, ///< mu = mu_0 + mu_1 v + mu_2 v^2, the form of the paper's eqs. 13-15
     friction_table,      ///< mu at Identification/Friction speeds, joined as TabulatedFriction does
     friction_factor,     ///< times mu of the scene's law

@@ -347,7 +347,7 @@ namespace sprag
         take(*limit);
       if (aim && is_possible)
         result.objective = (aim->maximises ? -1. : 1.) * term_value(aim->term, lever);
-      // A table that no lever holds is of no use, whatever else the lever is good for.
+      // A table that the lever does not hold fails the demand.
       const bool is_finite = std::all_of(base.design.aims.begin(), base.design.aims.end(),
                                          [&](const DesignAim &other) { return std::isfinite(term_value(other.term, lever)); });
       if (!is_finite)

@@ -55,7 +55,7 @@ namespace sprag
     std::array<double, static_cast<std::size_t>(DesignQuantity::parameter)> values;
   };
 
-  /// A condition for a lever that can be built and slides on the whole stroke, whatever the demands.
+  /// A condition for a lever that can be built and slides on the whole stroke, independent of the demands.
   struct LeverRule
   {
     double violation = 0.; ///< relative to a length of the rule; <= 0: satisfied

@@ -325,7 +325,7 @@ namespace sprag
     peak_base         = std::max(peak_base, std::abs(behind.base));
   }
 
-  /// Says how far the table goes on levers of the closed form, which takes no time to find.
+  /// Returns a message with the travel of the table on levers of the closed form, which is cheap to compute.
   std::string LeverTable::stroke_exceeded() const
   {
     IsolationFindings by_closed_form;

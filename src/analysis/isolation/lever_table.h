@@ -53,7 +53,7 @@ namespace sprag
     /// Returns the end of the present step [s].
     double step_end() const;
 
-    /// Goes on to the next step.
+    /// Advances to the next step.
     void advance();
 
   private:

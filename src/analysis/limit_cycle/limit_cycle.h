@@ -30,7 +30,7 @@ namespace sprag
   {
     double rate;      ///< g [1/s]; NaN with fewer than 3 sizes
     double amplitude; ///< A, at time 0
-    double scatter;   ///< root mean square of what the logarithms are off
+    double scatter;   ///< root mean square of the residuals of the logarithms
   };
 
   /// Fits sizes, all > 0.
@@ -54,7 +54,7 @@ namespace sprag
     double frequency = 0.;           ///< measured [Hz]; NaN where the mode does not oscillate
     std::vector<Sample> sizes;       ///< the envelope fitted, over the mean penetration
     bool slid    = true;             ///< neither stick nor loss of contact in the window
-    bool reached = false;            ///< the amplitude aimed at, within Sprag slip/Longest growth
+    bool reached = false;            ///< the final amplitude, within Sprag slip/Longest growth
 
     /// Returns the frequency that the eigenvalue predicts [Hz].
     double predicted_frequency() const
@@ -82,7 +82,7 @@ namespace sprag
   double choose_step(const Eigenmode &mode, const SpragSlipSettings &settings);
 
   /// Perturbs a slide along its watched mode and follows that from the initial amplitude to the final one, a stable slide from
-  /// the final to the initial. The run goes on from there. Requires a slide that is not jammed; throws AnalysisError as
+  /// the final to the initial. The run continues from there. Requires a slide that is not jammed; throws AnalysisError as
   /// HeldRun::step().
   Growth measure_growth(DynamicModel &model, const SlideStability &stability, const SpragSlipSettings &settings, HeldRun &run,
                         const RowSink &sink);
@@ -104,7 +104,7 @@ namespace sprag
   /// decays nor repeats itself (irregular), or is too small to classify (undecided).
   SPRAG_ENUMERATION(Settling, slide, cycle, irregular, undecided)
 
-  /// The vibration or slide that a motion about a held slide comes to.
+  /// The final vibration or slide of a motion about a held slide.
   struct Settled
   {
     Settling kind = Settling::undecided;
@@ -122,13 +122,13 @@ namespace sprag
   {
     double period;   ///< of the slide's vibration [s]; a window has 20
     double shortest; ///< before anything is checked [s]
-    double longest;  ///< before what there is has to do [s]
+    double longest;  ///< after which the outcome is decided by the data so far [s]
   };
 
-  /// Amplitude of P over its mean below which a shrinking vibration is one that dies.
+  /// Amplitude of P over its mean below which a shrinking vibration counts as decaying to rest.
   constexpr double small_vibration = 1e-2;
 
-  /// Goes on about a held slide until P comes back to itself and three windows agree, in amplitudes and frequency within 1 % and
+  /// Continues about a held slide until P repeats itself and three windows agree, in amplitudes and frequency within 1 % and
   /// in the share of open time within 0.01, or the vibration is small and shrinks. Throws as HeldRun::step().
   Settled settle(HeldRun &run, const HeldSlide &slide, const SettlingTimes &times, const RowSink &sink);
 
@@ -146,14 +146,14 @@ namespace sprag
       return slide.kind != SlideKind::jammed;
     }
 
-    /// Returns whether a stable slide and a vibration both live there.
+    /// Returns whether a stable slide and a vibration both exist there.
     bool coexist() const
     {
       return slide.kind == SlideKind::stable && (away.vibrates() || back.vibrates());
     }
   };
 
-  /// Places at which a stable slide and a vibration live side by side [mm], `from` < `to`.
+  /// Range in which a stable slide and a vibration coexist [mm], `from` < `to`.
   struct Coexistence
   {
     double from;
@@ -161,7 +161,7 @@ namespace sprag
   };
 
   /// Follows vibrations and slides from one x to the next, away from the start and back. The centre moves at the drive's speed at
-  /// most, the slip goes on at that of the slides.
+  /// most, the slip continues at that of the slides.
   class Continuation
   {
   public:
@@ -169,14 +169,14 @@ namespace sprag
     static constexpr double small_kick = 1e-3;
     static constexpr double large_kick = 3.;
 
-    /// Bisections of the interval in which a vibration that was carried along dies.
+    /// Bisections of the interval in which a vibration carried along decays.
     static constexpr unsigned int bisections = 3;
 
     /// Starts at `drive`; `modes` is that of check_slide(). The run must begin at the slide or vibration there.
     Continuation(DynamicModel &model, HeldRun &run, const DrivePoint &drive, const SettlingTimes &times,
                  const CheckedModes &modes, const SpragSlipSettings &settings);
 
-    /// Goes to `turn` [mm] in the scene's number of intervals, finds where the vibration dies on the way, and returns. `done` is
+    /// Goes to `turn` [mm] in the scene's number of intervals, finds where the vibration decays, and returns. `done` is
     /// called after each x. Finished results are available after an exception too. Throws as HeldRun::step() and
     /// check_slide().
     void go(const SlideStability &slide, const Settled &start, double turn, const std::function<void()> &done);
@@ -192,7 +192,7 @@ namespace sprag
     std::optional<Coexistence> coexistence();
 
   private:
-    /// The last x, of those visited, at which the vibration carried away lived, and its state there.
+    /// The last x, of those visited, at which the vibration carried away existed, and its state there.
     struct Alive
     {
       std::size_t point;

@@ -40,7 +40,7 @@ namespace sprag
       }
     }
 
-    /// Without mass nothing vibrates: what is left is whether the equilibrium is unique.
+    /// Without mass nothing vibrates: only the uniqueness of the equilibrium is decided.
     Role without_inertia(const SlideStability &present)
     {
       SlideStability massless;

@@ -25,7 +25,7 @@ namespace sprag
     std::string reason;                ///< of a run that is not completed
     double cpu_time    = 0.;           ///< that the run would take alone, meshes that it shares with others included [s]
     double cpu_spent   = 0.;           ///< that it took [s]
-    double work        = 0.;           ///< a count that is the same each time it is run; NaN where nobody counts
+    double work        = 0.;           ///< a count that is equal in every repetition; NaN where there is none
     double wall_time   = 0.;           ///< [s]
     double peak_memory = 0.;           ///< of its process while it ran [MiB]
     std::vector<std::string> warnings; ///< their names

@@ -173,7 +173,7 @@ namespace sprag
       }
     }
 
-    /// A run on its way, all that it goes on from beside what the model keeps.
+    /// The state from which a run resumes, beside the history of the model.
     struct SolverState
     {
       Motion motion;

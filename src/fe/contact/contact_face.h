@@ -22,14 +22,14 @@ namespace sprag
         points; ///< near the counterface, by increasing point; in three dimensions see SurfaceContact
     InterfaceForces forces;
 
-    /// Forgets what was found and begins another evaluation.
+    /// Resets the results and begins another evaluation.
     void begin(const dealii::Vector<double> &displacements, double at_x, double duration_);
 
     /// Returns the history of the points in contact, by increasing point. Throws AnalysisError where
     /// check_validity() objects.
     std::vector<ContactHistory> history() const;
 
-    /// Tells why the contact goes beyond what can touch; empty if it does not.
+    /// Returns why the contact leaves the range where the model is valid; empty if it does not.
     std::string check_validity() const;
 
     /// Returns the works of the step.

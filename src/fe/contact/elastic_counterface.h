@@ -94,7 +94,7 @@ namespace sprag
     Side begin_side;
     std::map<unsigned int, ElementFacets> begin_facets; ///< by elements
 
-    // State of the element at hand.
+    // State of the present element.
     unsigned int element = 0;
     unsigned int first   = 0;       ///< of its points
     FaceElements<2>::Nodal nodal{}; ///< its displacements at the end

@@ -19,7 +19,8 @@ namespace sprag
     /// shapes.
     ElementTravel(double farthest, double most_shapes);
 
-    /// Goes on to these displacements of the element's nodes and this place of the cylinder; begins there the first time.
+    /// Adds the travel to these displacements of the element's nodes and this position of the cylinder; begins there the first
+    /// time.
     void go_to(const Nodal &displacement, const RigidCylinder::Pose &pose, const RigidCylinder::Shape &cylinder);
 
     /// The bound, over all of the way [mm]; infinite from then on where that went far away.

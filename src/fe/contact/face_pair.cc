@@ -136,7 +136,7 @@ namespace sprag
       place.along = 0.5;
   }
 
-  /// Closest point on the edge at `place`, by Newton's method; the edge goes on beyond its ends where kinks leave a wedge.
+  /// Closest point on the edge at `place`, by Newton's method; the edge is continued beyond its ends where kinks leave a wedge.
   PairPoint FacePair::project(const Vector2 &position, const PairConfiguration &at, PairPlace &place) const
   {
     constexpr unsigned int most_iterations = 30;

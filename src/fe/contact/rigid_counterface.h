@@ -7,7 +7,7 @@
 
 namespace sprag
 {
-  /// A rigid counterface below the lever's face, in two dimensions. FaceContact enters it with a step, then with one element
+  /// A rigid counterface below the lever's face, in two dimensions. FaceContact sets a step, see set_places(), then one element
   /// after the other, by their indices in `face`. A point has four coordinates: its displacement along xi and eta, the rotation,
   /// and the position of the counterface.
   class RigidCounterface
@@ -107,7 +107,7 @@ namespace sprag
     PlacedCounterface begin;
     std::map<unsigned int, std::vector<BeginPoint>> begin_points; ///< by elements
 
-    // State of the element at hand.
+    // State of the present element.
     const std::vector<BeginPoint> *element_begin_points = nullptr; ///< none where beginning and end are one
     bool touched                                        = false;
     Local values;

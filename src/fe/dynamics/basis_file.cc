@@ -128,7 +128,7 @@ namespace sprag
     const OpenFile writer(temporary, O_RDWR | O_CREAT | O_EXCL);
     if (!writer.is_open())
       return temporary + " cannot be made";
-    writer.lock(); // until it is closed nobody takes the file for abandoned
+    writer.lock(); // until it is closed no process takes the file for abandoned
     std::string trouble;
     if (!writer.write(sealed(signature + key + bytes)))
       trouble = std::strerror(errno);

@@ -9,6 +9,6 @@ namespace sprag
   /// as it has RanksAtHand. To be called by the others.
   void help_first_rank(MPI_Comm ranks);
 
-  /// Returns the ranks at hand, as those that write fields with this process, the first.
+  /// Returns the present ranks as those that write fields with this process, the first.
   Writers writers_at_hand();
 } // namespace sprag

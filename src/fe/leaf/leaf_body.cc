@@ -236,7 +236,7 @@ namespace sprag
     if (!finite_statics.is_stable())
       throw AnalysisError("the leaf spring buckles when the hub turns by " + rounded_text(turn) + " rad");
     result.rate = finite_statics.response(rate, no_loads);
-    // The work of what is left unbalanced on the rate makes the moment's error one of second order.
+    // The work of the residual on the rate makes the error of the moment one of second order.
     result.moment    = result.rate * finite_statics.forces();
     result.stiffness = finite_statics.stiffness_product(result.rate) * result.rate + finite_statics.forces() * second_rate;
     return result;

@@ -38,7 +38,7 @@ namespace sprag
     constexpr double mesh_timeout     = 20.;
     constexpr std::size_t mesh_memory = std::size_t(1) << 30;
 
-    /// Share of the free memory and time [s] that a stranger's script may take: other programs keep theirs, and loops end.
+    /// Share of the free memory and time [s] that a user's script may take, so that other programs keep theirs and loops end.
     constexpr double script_share   = 0.8;
     constexpr double script_timeout = 300.;
 
@@ -303,7 +303,7 @@ namespace sprag
       return parent_folder(file) == parent_folder(mesh_script("lever.geo"));
     }
 
-    /// A stranger's file has no rights but to be read.
+    /// Takes all rights from the process but to read the file.
     void take_rights(const std::string &file)
     {
       if (is_script(file) && scripts_are_trusted)
@@ -323,7 +323,7 @@ namespace sprag
       return by_rights ? "; a script may read its own folder, and write and start nothing, unless you give --trust-scripts" : "";
     }
 
-    /// A mesh is opened by its content, whatever gmsh makes of names or finds beside it.
+    /// A mesh is opened by its content, independent of its name and the files beside it.
     class OpenMesh
     {
     public:

@@ -23,7 +23,7 @@ namespace sprag
     std::map<std::string, dealii::types::boundary_id> sides;
     std::string part_names; ///< the admissible ones in words
 
-    /// Tells what is missing among the parts and sides found, a line each.
+    /// Lists the missing parts and sides, a line each.
     std::function<std::vector<std::string>(const std::set<std::string> &parts, const std::set<std::string> &sides)> missing =
         [](const auto &, const auto &) { return std::vector<std::string>(); };
   };

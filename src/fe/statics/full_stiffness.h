@@ -41,7 +41,7 @@ namespace sprag
     std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
                                                            const DofLoads &forces) const;
 
-    /// Tells a row the forces of the sensors of a lever [N].
+    /// Writes the forces of the sensors of a lever into a row [N].
     void observe_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const DofLoads &forces, Row &row) const;
 
     /// Serialises what the factors' ordering was found for, on which their round-off depends.

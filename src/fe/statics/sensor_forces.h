@@ -50,6 +50,7 @@ namespace sprag
     dealii::FullMatrix<double> rows; ///< compressions by unit forces on the surface's dofs and then on the sensors themselves
   };
 
-  /// Tells a row the forces of the places in space, and their parts on either side of the plate. Each of a half stands for both.
+  /// Writes into a row the forces of the places in space, and their parts on either side of the plate. Each of a half stands for
+  /// both.
   void tell_sides(const std::vector<double> &forces, bool is_half, Row &row);
 } // namespace sprag

@@ -79,7 +79,7 @@ namespace sprag
     std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
                                                            const DofLoads &forces) const;
 
-    /// Tells a row the forces of the sensors of a lever [N].
+    /// Writes the forces of the sensors of a lever into a row [N].
     void observe_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const DofLoads &forces, Row &row) const;
 
     /// Returns the deflection of a lever's face where the pressure is largest over that aside of the contact [mm]; 0 without a

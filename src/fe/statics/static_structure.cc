@@ -13,7 +13,7 @@ namespace sprag
 
   namespace
   {
-    /// Dofs in a row of a block. Smaller ones make more calls of the solver, larger ones more entries that nobody asks for.
+    /// Dofs in a row of a block. Smaller ones make more calls of the solver, larger ones more entries that are not needed.
     constexpr unsigned int block_size = 128;
   } // namespace
 

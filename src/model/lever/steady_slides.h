@@ -127,7 +127,7 @@ namespace sprag
     std::shared_ptr<const StoredJacobian> kept;
     JacobianFactors factors;
 
-    /// Returns true if a drive goes on from the last that was followed.
+    /// Returns true if a drive continues the last one that was followed.
     bool goes_on(const DrivePoint &drive) const
     {
       return followed.size() > 0 && (drive.x - followed.last().place) * drive.v > 0. && drive.v * followed_speed > 0.;

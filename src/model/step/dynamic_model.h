@@ -120,7 +120,7 @@ namespace sprag
     virtual FaceState face_state(const Motion &motion) const = 0;
 
     /// Serialises what later steps and slides depend on, to the last bit, beside the motion that they begin with: what was found
-    /// on the way and is kept. A model that takes it from an archive goes on as the one it is of.
+    /// on the way and is kept. A model that reads it from an archive continues as the one that wrote it.
     virtual void serialise_history(Archive &archive) = 0;
   };
 } // namespace sprag

@@ -102,7 +102,7 @@ namespace sprag
       return static_cast<unsigned int>(data.stiffness.size());
     }
 
-    /// There is nothing to serialise, as all that it stores follows from the step at hand.
+    /// Does nothing, as all data follow from the present step.
     void serialise_history(Archive &)
     {
     }
