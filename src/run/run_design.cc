@@ -279,17 +279,14 @@ namespace sprag
     constexpr double correction_margin = 1e-3; ///< covers corrections of first order and the ripple of a mesh
 
     /// Proposes levers by the closed form and checks them by the check models.
-    class DesignRun
+    struct DesignRun
     {
-    public:
-      DesignRun(const Scene &scene_, DesignFindings &found)
-          : scene(scene_)
-          , design(scene.design)
-          , findings(found)
-          , problem(scene)
-          , checks(scene)
-      {
-      }
+      const Scene &scene;
+      DesignFindings &findings;
+      const DesignSettings &design = scene.design;
+      DesignProblem problem        = DesignProblem(scene);
+      DesignChecks checks          = DesignChecks(scene);
+      DesignQuantities overshoot   = {}; ///< in time, of the last lever that was followed; NaN: none
 
       void carry_out()
       {
@@ -300,14 +297,6 @@ namespace sprag
         for (const auto check_model : design.check_models)
           check_rounds(check_model);
       }
-
-    private:
-      const Scene &scene;
-      const DesignSettings &design;
-      DesignFindings &findings;
-      DesignProblem problem;
-      DesignChecks checks;
-      DesignQuantities overshoot; ///< in time, of the last lever that was followed; NaN: none
 
       template <class Search>
       void search(const Search &find)
@@ -482,7 +471,9 @@ namespace sprag
                  { return boost::starts_with(name, "design-") && boost::ends_with(name, ".prm"); });
     DesignFindings findings;
     finish_in_any_case(
-        [&] { DesignRun(scene, findings).carry_out(); },
+        [&] {
+          DesignRun{ scene, findings }.carry_out();
+        },
         [&](const std::string &status)
         {
           if (findings.found)

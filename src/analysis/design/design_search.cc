@@ -46,13 +46,13 @@ namespace sprag
     }
 
     /// Evaluates a point once although NLopt asks for objective and constraints separately, and keeps the best point.
-    class Evaluator
+    struct Evaluator
     {
-    public:
-      explicit Evaluator(const BoxProblem &problem_)
-          : problem(problem_)
-      {
-      }
+      const BoxProblem &problem;
+      std::exception_ptr thrown   = {}; ///< by an evaluation; NLopt replaces it by an exception of its own
+      std::vector<double> place   = {};
+      BoxProblem::Evaluation last = {};
+      Optimum best                = { {}, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity() };
 
       const BoxProblem::Evaluation &at(const double *first)
       {
@@ -70,23 +70,10 @@ namespace sprag
           throw;
         }
         const Optimum here{ place, last.objective, max_constraint(last.constraints) };
-        if (found.place.empty() || is_better(here, found))
-          found = here;
+        if (best.place.empty() || is_better(here, best))
+          best = here;
         return last;
       }
-
-      const Optimum &best() const
-      {
-        return found;
-      }
-
-      const BoxProblem &problem;
-      std::exception_ptr thrown; ///< by an evaluation; NLopt replaces it by an exception of its own
-
-    private:
-      std::vector<double> place;
-      BoxProblem::Evaluation last;
-      Optimum found{ {}, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity() };
     };
 
     Evaluator &to_evaluator(void *data)
@@ -182,20 +169,20 @@ namespace sprag
     Optimum from_start(const BoxProblem &problem, std::vector<double> start, const unsigned int evaluations,
                        const bool only_approaches)
     {
-      Evaluator evaluator(problem);
+      Evaluator evaluator{ problem };
       if (max_constraint(evaluator.at(start.data()).constraints) > 0.)
         for (const double step : { 0.1, 0.01, 1e-3 })
-          if (evaluator.best().violation > 0.)
-            approach_constraints(evaluator, evaluator.best().place, evaluations, step);
-      if (!only_approaches && evaluator.best().violation <= 0.)
+          if (evaluator.best.violation > 0.)
+            approach_constraints(evaluator, evaluator.best.place, evaluations, step);
+      if (!only_approaches && evaluator.best.violation <= 0.)
         for (const double step : { 0.1, 0.02, 1e-3 })
-          improve(evaluator, evaluator.best().place, evaluations, step);
-      return evaluator.best();
+          improve(evaluator, evaluator.best.place, evaluations, step);
+      return evaluator.best;
     }
 
     std::vector<double> global_start(const BoxProblem &problem, const SearchSettings &settings, const bool only_approaches)
     {
-      Evaluator evaluator(problem);
+      Evaluator evaluator{ problem };
       nlopt::srand(settings.seed);
       nlopt::opt search(nlopt::GN_ISRES, static_cast<unsigned int>(problem.dimension));
       search.set_lower_bounds(0.);
@@ -205,7 +192,7 @@ namespace sprag
       if (!only_approaches)
         search.add_inequality_mconstraint(constraints, &evaluator, std::vector<double>(problem.n_constraints));
       optimise(search, std::vector<double>(problem.dimension, 0.5), evaluator);
-      return evaluator.best().place;
+      return evaluator.best.place;
     }
 
     /// Finds the smallest objective that satisfies all constraints: by an evolution strategy (ISRES), then by local searches
