@@ -66,13 +66,9 @@ namespace sprag
     }
 
     /// Puts the columns that are known into the stroke.
-    class StrokeReader
+    struct StrokeReader
     {
-    public:
-      explicit StrokeReader(const std::string &file)
-          : table(read_columns(file, known_columns()))
-      {
-      }
+      const NamedColumns table; ///< with known_columns()
 
       MeasuredStroke stroke(const std::vector<MeasuredForce> &selected, const bool all) const
       {
@@ -95,12 +91,6 @@ namespace sprag
         return result;
       }
 
-      const Names &unused() const
-      {
-        return table.unused;
-      }
-
-    private:
       // Places of the columns in the table.
       enum Place : std::size_t
       {
@@ -112,7 +102,6 @@ namespace sprag
         first_sensor
       };
       static constexpr unsigned int most_sensors = 16;
-      const NamedColumns table;
 
       static std::vector<ColumnNames> known_columns()
       {
@@ -210,11 +199,11 @@ namespace sprag
     {
       if (!all && forces.empty())
         return;
-      const StrokeReader reader(settings.table);
+      const StrokeReader reader{ read_columns(settings.table, StrokeReader::known_columns()) };
       auto stroke = reader.stroke(forces, all);
       need_usable(stroke);
       settings.measured       = std::move(stroke);
-      unused[table_parameter] = reader.unused();
+      unused[table_parameter] = reader.table.unused;
       if (settings.measured.time.empty() && contains(settings.sought, Unknown::lag))
         report(unknowns_parameter, "lag needs a column time in Identification/Table");
     };

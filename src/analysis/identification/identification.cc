@@ -2,6 +2,7 @@
 #include "analysis/identification/identification.h"
 
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "input/analysis_texts.h"
 #include "results/row_statistics.h"
 #include "scene/scene.h"
@@ -214,21 +215,21 @@ namespace sprag
     constexpr double corrected         = 1e-4; ///< change below which the model is not evaluated again
 
     /// Fits again and again, each time with the noise, weights, window and correction of the last fit.
-    class Identifier
+    struct Identifier
     {
-    public:
-      Identifier(const Scene &scene_, const MeasuredMotion &motion_, const LeverUnknowns &unknowns_)
-          : scene(scene_)
-          , settings(scene.identification)
-          , unknowns(unknowns_)
-          , fit(scene, motion_, unknowns)
-      {
-        for (const auto &number : unknowns.numbers())
-          scaled.push_back(number.start / number.scale);
-        start = scaled;
-        for (const auto &channel : settings.measured.channels)
-          deviations.push_back(neighbour_deviation(channel.values));
-      }
+      const Scene &scene;
+      const MeasuredMotion &motion;
+      const LeverUnknowns &unknowns;
+      const IdentificationSettings &settings = scene.identification;
+      const StrokeFit fit                    = StrokeFit(scene, motion, unknowns);
+      Identification result                  = {};
+      std::vector<double> scaled =
+          mapped(unknowns.numbers(), [](const UnknownNumber &number) { return number.start / number.scale; });
+      const std::vector<double> start = scaled;
+      std::vector<double> deviations ///< of the channels, by which residuals are scaled
+          = mapped(settings.measured.channels, [](const ForceChannel &channel) { return neighbour_deviation(channel.values); });
+      std::vector<double> corrected_at                  = {};
+      std::optional<std::pair<double, double>> selected = {}; ///< window and lag by which values were chosen
 
       Identification identify()
       {
@@ -245,17 +246,6 @@ namespace sprag
         finish();
         return result;
       }
-
-    private:
-      const Scene &scene;
-      const IdentificationSettings &settings;
-      const LeverUnknowns &unknowns;
-      const StrokeFit fit;
-      Identification result;
-      std::vector<double> scaled, start;
-      std::vector<double> deviations; ///< of the channels, by which residuals are scaled
-      std::vector<double> corrected_at;
-      std::optional<std::pair<double, double>> selected; ///< window and lag by which values were chosen
 
       void repeat()
       {
@@ -384,6 +374,6 @@ namespace sprag
 
   Identification identify(const Scene &scene, const MeasuredMotion &motion, const LeverUnknowns &unknowns)
   {
-    return Identifier(scene, motion, unknowns).identify();
+    return Identifier{ scene, motion, unknowns }.identify();
   }
 } // namespace sprag

@@ -172,21 +172,16 @@ namespace sprag
       return height[1] >= height[0] && height[1] >= height[2] && height[1] > low && 2. * height[1] - low > 0.;
     }
 
-    class Search
+    struct Search
     {
-    public:
-      Search(const ParameterRange &range, const std::function<CheckedSlide(double)> &check_at_,
-             const std::function<void()> &value_tried_)
-          : check_at(check_at_)
-          , value_tried(value_tried_)
-      {
-        result.range   = range;
-        result.spacing = range_spacing(range);
-      }
+      const ParameterRange &range;
+      const std::function<CheckedSlide(double)> &check_at;
+      const std::function<void()> &value_tried;
+      CriticalSearch result  = { range, {}, {}, {}, {}, {}, range_spacing(range) };
+      std::vector<Tried> all = {}; ///< from one end of the range to the other
 
       void try_points(const std::vector<double> &hints)
       {
-        const auto &range = result.range;
         for (unsigned int i = 0; i < range.points; ++i)
           all.push_back(
               checked_at(range.points == 1 ? range.from : range.from + (range.to - range.from) * i / (range.points - 1)));
@@ -235,12 +230,6 @@ namespace sprag
           narrow(all[i - 1], all[i], tolerance * std::abs(result.range.to - result.range.from));
         return result;
       }
-
-    private:
-      const std::function<CheckedSlide(double)> &check_at;
-      const std::function<void()> &value_tried;
-      CriticalSearch result;
-      std::vector<Tried> all; ///< from one end of the range to the other
 
       Tried checked_at(const double value)
       {
@@ -470,7 +459,7 @@ namespace sprag
                               const std::function<CheckedSlide(double)> &check_at, const std::vector<double> &hints,
                               const std::function<void()> &tried)
   {
-    Search search(range, check_at, tried);
+    Search search{ range, check_at, tried };
     search.try_points(hints);
     search.look_for_islands(effort.island_steps);
     return search.found(effort.tolerance);

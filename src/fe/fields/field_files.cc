@@ -33,16 +33,11 @@ namespace sprag
     const std::string closing = "    </Grid>\n  </Domain>\n</Xdmf>\n";
 
     /// A group of datasets that are created, with what is to be written there.
-    class NewGroup
+    struct NewGroup
     {
-    public:
-      /// `place`: its path in the file.
-      NewGroup(const hdf5::Handle &location, std::string place_, const std::string &name, std::vector<DatasetRows> &to_write)
-          : group(hdf5::create_group(location, name))
-          , place(std::move(place_))
-          , rows(to_write)
-      {
-      }
+      const hdf5::Handle group;
+      const std::string place; ///< path of the group in the file
+      std::vector<DatasetRows> &rows;
 
       template <class Number>
       hdf5::Handle add(const std::string &name, const std::vector<Number> &values, const std::size_t width)
@@ -55,11 +50,6 @@ namespace sprag
       {
         describe(add(field.name, field.values, field.components), field.unit, field.description);
       }
-
-    private:
-      const hdf5::Handle group;
-      const std::string place;
-      std::vector<DatasetRows> &rows;
     };
 
     std::string item(const std::string &place, const std::size_t rows, const std::size_t width, const std::string &type,
@@ -171,7 +161,7 @@ namespace sprag
     std::vector<DatasetRows> rows;
     for (const auto &[path, mesh, grids] : indices)
     {
-      NewGroup group(file, "/" + mesh.name, mesh.name, rows);
+      NewGroup group{ hdf5::create_group(file, mesh.name), "/" + mesh.name, rows };
       describe(group.add("nodes", mesh.nodes, 3), "mm",
                "positions at rest: x along the cylinder's path towards the pivot, y up, z across");
       group.add("cells", mesh.cells, mesh.nodes_per_cell);
@@ -208,7 +198,7 @@ namespace sprag
         hdf5::write_attribute(place, labelled(fact.name, fact.unit), fact.value);
       for (std::size_t i = 0; i < indices.size(); ++i)
       {
-        NewGroup group(place, group_path(indices[i]), indices[i].mesh.name, rows);
+        NewGroup group{ hdf5::create_group(place, indices[i].mesh.name), group_path(indices[i]), rows };
         for (const auto &field : fields.at(i))
           group.add(field);
       }
