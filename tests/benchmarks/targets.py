@@ -9,7 +9,7 @@ import os
 import tempfile
 
 import numpy as np
-from effectivity import Run, drawn_device, true_errors
+from effectivity import AlongDrive, drawn_device
 from runs import add_program, print_row
 
 TARGETS = (0.1, 1e-2, 1e-3, 1e-4)
@@ -35,8 +35,8 @@ def measure_cpu(work):
 
 def measured(sprag, scene, changes, quantities, reference, folder):
     """CPU time, largest true and told error of a run."""
-    run, cpu = measure_cpu(lambda: Run(sprag, scene, changes, folder))
-    errors = true_errors(run, reference)
+    run, cpu = measure_cpu(lambda: AlongDrive(sprag, scene, changes, folder))
+    errors = run.errors(reference)
     return cpu, max(errors[name] for name in quantities), max(run.estimates[name] for name in quantities)
 
 
@@ -63,7 +63,7 @@ def main():
     print_row(("asked for", "target", "CPU s", "true", "told", "", "cheapest s", "ratio", "with"), WIDTHS)
     with tempfile.TemporaryDirectory() as folder:
         for number, (scene, device, quantities) in enumerate(CASES[: arguments.cases]):
-            reference = Run(arguments.sprag, scene, {**device, **FINE}, folder)
+            reference = AlongDrive(arguments.sprag, scene, {**device, **FINE}, folder)
             settings = [] if arguments.without_grid else grid(arguments.sprag, scene, device, quantities, reference, folder)
             for target in TARGETS:
                 asked = {**device, "Accuracy/Target": target, "Accuracy/Quantity": ", ".join(quantities)}
