@@ -59,7 +59,7 @@ STRESSES = ("largest_lever_stress", "largest_layer_stress")
 COLUMNS = ("P", "Q", "largest_pressure", "contact_width", "x", "v", "drive_work")
 OF_SLIDES = ("growth_rate", "frequency")
 ALONE = {"Analysis/Model": "condensed", "Stability/Critical": "none", "Stability/Roles": "off", "Output/Fields": "none"}
-FACE_SIZE_OF_SLIDES = 0.5  # by default [mm]
+FACE_SIZE_OF_SLIDES, FACE_SIZE_IN_TIME = 0.5, 0.25  # by default [mm]
 PENALTIES = (1.2e4, 3.6e4)  # of their references [N/mm^3]
 FINER = 4
 FINE_IN_PLANE = {"Contact/Enforcement": "augmented Lagrangian", "Contact/Penalty": "auto", "Mesh/Degree": 2, "Analysis/Step": 0.5}
@@ -172,7 +172,7 @@ class InTime:
         run_scene(sprag, scene + ".prm", {"Output/Fields": "none", **changes}, folder, "--overwrite")
         with h5py.File(Path(folder) / "result.h5") as file:
             self.estimates, self.cost = read_estimates(file, ("P", *OF_RINGING))
-            self.face_size = float(file["meta/face_size"][()]) if "meta/face_size" in file else None
+            self.face_size = changes.get("Mesh/Face size", FACE_SIZE_IN_TIME) if "meta/face_points" in file else None
             self.found = {name: float(file["summary/" + entry][()]) for name, entry in OF_RINGING.items()}
             self.time, self.P = file["table/time"][:], file["table/P"][:]
 
