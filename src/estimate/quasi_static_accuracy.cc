@@ -48,18 +48,21 @@ namespace sprag
       StressSample run, other;
     };
 
-    /// Returns the largest changes over the states with at least half the largest stress, over that one: a single place may lie
-    /// well by chance. None without states.
+    /// Returns the root mean square changes over the states with at least half the largest stress, over that one: a single place
+    /// may lie well by chance. None without states.
     std::optional<StressChanges> stress_changes(const std::vector<StressPair> &pairs)
     {
       const auto change = [&](double StressSample::*const part)
       {
         const double peak = largest(pairs, [&](const StressPair &pair) { return pair.run.*part; });
-        double result     = 0.;
+        double sum = 0., number = 0.;
         for (const auto &[run, other] : pairs)
           if (run.*part >= near_peak * peak)
-            result = std::max(result, std::abs(other.*part - run.*part));
-        return peak > 0. ? result / peak : 0.;
+          {
+            sum += std::pow(other.*part - run.*part, 2);
+            ++number;
+          }
+        return peak > 0. ? std::sqrt(sum / number) / peak : 0.;
       };
       if (pairs.empty())
         return {};

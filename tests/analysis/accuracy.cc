@@ -89,6 +89,10 @@ TEST(SampleChanges, AreRelativeToPeaksOrThemselves)
   EXPECT_NEAR(relative_change("P", rows, other), 0.05, 1e-14);
   other[0][Column::largest_pressure] = 9.; // below half of the largest
   EXPECT_NEAR(relative_change("largest_pressure", rows, other), 0.25, 1e-14);
+  other[0][Column::largest_pressure] = rows[0][Column::largest_pressure] = 2.;
+  rows[0][Column::contact_width]     = 1.; // half of that at the peak, errors of an eighth there
+  other[0][Column::largest_pressure] = 6.;
+  EXPECT_NEAR(relative_change("largest_pressure", rows, other), 0.25, 1e-14);
   EXPECT_DOUBLE_EQ(relative_change("Q", rows, other), 0.);
   EXPECT_THROW(relative_change("theta", rows, other), std::out_of_range);
 }

@@ -98,24 +98,36 @@ namespace sprag
       return slide_to(model, middle.state, to, settings, halves + 1);
     }
 
-    // All samples near the peak are compared: a single one may agree by chance.
-    constexpr double near_peak = 0.5; ///< least pressure of compared samples, over the largest
-
-    /// Returns the largest change over all samples, or those with at least a share of the largest value.
-    double largest_change(const std::vector<Row> &samples, const std::vector<Row> &other, const Column column,
-                          const double share = 0.)
-    {
-      const double peak = largest(samples, column);
-      double result     = 0.;
-      for (std::size_t i = 0; i < samples.size(); ++i)
-        if (std::abs(samples[i][column]) >= share * peak)
-          result = std::max(result, std::abs(other[i][column] - samples[i][column]));
-      return result / peak;
-    }
-
     double change(const double value, const double other)
     {
       return std::abs((other - value) / value);
+    }
+
+    double largest_change(const std::vector<Row> &samples, const std::vector<Row> &other, const Column column)
+    {
+      double result = 0.;
+      for (std::size_t i = 0; i < samples.size(); ++i)
+        result = std::max(result, std::abs(other[i][column] - samples[i][column]));
+      return result / largest(samples, column);
+    }
+
+    // All samples near the peak are compared: a single one may agree by chance.
+    constexpr double near_peak = 0.5; ///< least pressure of compared samples, over the largest
+
+    /// Returns the root mean square of the pressure's relative changes near the peak. Each is scaled to the contact at the peak,
+    /// by the cube of the faces in contact with which pressures converge.
+    double pressure_change(const std::vector<Row> &samples, const std::vector<Row> &other)
+    {
+      const auto *const peak = find_largest_row(samples, [](const Row &row) { return row[Column::largest_pressure]; });
+      double sum = 0., number = 0.;
+      for (std::size_t i = 0; peak != nullptr && i < samples.size(); ++i)
+        if (const Row &row = samples[i]; row[Column::largest_pressure] >= near_peak * (*peak)[Column::largest_pressure])
+        {
+          const double width = row[Column::contact_width] / (*peak)[Column::contact_width];
+          sum += std::pow(change(row[Column::largest_pressure], other[i][Column::largest_pressure]) * std::pow(width, 3), 2);
+          ++number;
+        }
+      return number > 0. ? std::sqrt(sum / number) : 0.;
     }
 
     std::vector<Row> closed_form_rows(Scene scene, const double step)
@@ -305,7 +317,7 @@ namespace sprag
     if (quantity == "loop_area")
       return change(compute_drive_work(samples), compute_drive_work(other));
     if (quantity == "largest_pressure" || quantity == "largest_stress")
-      return largest_change(samples, other, Column::largest_pressure, near_peak);
+      return pressure_change(samples, other);
     static const std::map<std::string, Column> columns = { { "P", Column::P },
                                                            { "Q", Column::Q },
                                                            { "contact_width", Column::contact_width } };
