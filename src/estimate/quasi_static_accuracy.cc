@@ -145,6 +145,8 @@ namespace sprag
       part.name  = "reversal";
       if (part.value > 0.)
         estimate.parts.push_back(part);
+      if (const double missed = missed_peak(estimate.quantity, trial_runs.run.passage); missed > 0.)
+        estimate.parts.push_back({ "rows", missed, "Let lines through the rows on both sides of the peak meet." });
     }
 
     ErrorEstimate estimate(const Scene &scene, const TrialRuns &trial_runs, const std::string &quantity,

@@ -205,9 +205,10 @@ namespace sprag
       if (!has_turned[largest_Q] || std::abs(rows[i][Column::Q]) > std::abs(rows[largest_Q][Column::Q]))
         largest_Q = i;
     }
-    const Index end = std::max(largest_P, largest_Q) + 1;
-    if (!has_turned[end - 1] || end - turn > passage_limit)
+    const Index last = std::max(largest_P, largest_Q);
+    if (!has_turned[last] || last - turn >= passage_limit)
       return {};
+    const Index end = std::min(last + 3, rows.size());
     return { rows.begin() + static_cast<std::ptrdiff_t>(turn) - 1, rows.begin() + static_cast<std::ptrdiff_t>(end) };
   }
 
@@ -310,6 +311,34 @@ namespace sprag
         other_peak = std::max(other_peak, std::abs(other[i][column]));
       }
     return std::abs(other_peak - peak) / largest(passage, column);
+  }
+
+  double missed_peak(const std::string &quantity, const std::vector<Row> &passage)
+  {
+    if (quantity != "P" && quantity != "Q")
+      return 0.;
+    const auto column     = quantity == "P" ? Column::P : Column::Q;
+    const auto has_turned = friction_has_turned(passage);
+    std::size_t peak      = 0;
+    for (std::size_t i = 1; i < passage.size(); ++i)
+      if (has_turned[i] && (peak == 0 || std::abs(passage[i][column]) > std::abs(passage[peak][column])))
+        peak = i;
+    double result = 0.;
+    for (std::size_t i = std::max<std::size_t>(peak, 3); i + 1 < std::min(peak + 3, passage.size()); ++i)
+    {
+      const auto slope = [&](const std::size_t row)
+      {
+        return (std::abs(passage[row][column]) - std::abs(passage[row - 1][column])) /
+               std::abs(passage[row][Column::x] - passage[row - 1][Column::x]);
+      };
+      // Lines through the two rows before and the two behind meet between rows i - 1 and i.
+      const double rise = slope(i - 1), fall = -slope(i + 1);
+      const double length = std::abs(passage[i][Column::x] - passage[i - 1][Column::x]);
+      const double way    = (slope(i) + fall) / (rise + fall) * length;
+      if (rise > 0. && fall > 0. && way > 0. && way < length)
+        result = std::max(result, std::abs(passage[i - 1][column]) + rise * way - std::abs(passage[peak][column]));
+    }
+    return result / largest(passage, column);
   }
 
   double relative_change(const std::string &quantity, const std::vector<Row> &samples, const std::vector<Row> &other)

@@ -17,7 +17,7 @@ namespace sprag
   /// [s]. Empty without full sliding.
   std::vector<Row> slide_samples(const std::vector<Row> &rows, unsigned int number, const std::vector<double> &times = {});
 
-  /// Returns the rows from the first reversal to the largest P and Q behind it, while the contact moves by less than its width.
+  /// Returns the rows from the first reversal to two rows behind the largest P and Q, which lie less than the contact's width away.
   /// slide_samples() leaves these out although a peak may lie there. Empty without a reversal or for more than 100 rows.
   std::vector<Row> passage_rows(const std::vector<Row> &rows);
 
@@ -53,6 +53,10 @@ namespace sprag
   /// Returns the relative difference of the peak of P or Q between two models' rows of the same passage_rows(), once friction
   /// has changed its direction; 0 for other quantities and without rows.
   double peak_change(const std::string &quantity, const std::vector<Row> &passage, const std::vector<Row> &other);
+
+  /// Returns how far the lines through the rows on both sides of this peak meet above it, over the largest value of the passage.
+  /// The peak is a corner, at which the last point slips.
+  double missed_peak(const std::string &quantity, const std::vector<Row> &passage);
 
   /// Returns the largest Analysis/Step [mm], at most a quarter of the stroke, at which rows of the closed form have a relative
   /// error of at most `error` > 0: linear interpolation of P and Q and, if `has_loop`, the loop area by the trapezoidal rule.
