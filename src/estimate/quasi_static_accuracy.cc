@@ -138,14 +138,15 @@ namespace sprag
       // A narrower contact does not converge with the order of forces yet.
       const bool is_narrow = faces_in_contact(scene, trial_runs.run.slides) < least_reversal_faces;
       const double order   = is_narrow ? 1. : force_order(scene);
-      const auto change    = [&](const std::vector<Row> &other)
-      { return other.empty() ? 0. : peak_change(estimate.quantity, trial_runs.run.passage, other); };
-      auto part  = mesh_part(scene, change(trial_runs.other.passage), order);
-      part.value = part.value + penalty_part(scene, change(trial_runs.soft.passage)).value - total_error(estimate);
-      part.name  = "reversal";
+      const auto &passage  = trial_runs.run.passage;
+      const auto column    = estimate.quantity == "P" ? Column::P : Column::Q;
+      const auto change    = [&](const std::vector<Row> &other) { return peak_errors(column, passage, other).change; };
+      auto part            = mesh_part(scene, change(trial_runs.other.passage), order);
+      part.value           = part.value + penalty_part(scene, change(trial_runs.soft.passage)).value - total_error(estimate);
+      part.name            = "reversal";
       if (part.value > 0.)
         estimate.parts.push_back(part);
-      if (const double missed = missed_peak(estimate.quantity, trial_runs.run.passage); missed > 0.)
+      if (const double missed = peak_errors(column, passage, {}).missed; missed > 0.)
         estimate.parts.push_back({ "rows", missed, "Let lines through the rows on both sides of the peak meet." });
     }
 
@@ -159,7 +160,8 @@ namespace sprag
         result.parts.push_back(penalty_part(scene, change(trial_runs.soft.slides)));
       if (!trial_runs.soft.slides.empty() && augments(scene))
         result.parts.back().remedy = "Try twice the Contact/Tangential penalty, or leave it at auto.";
-      add_reversal(scene, trial_runs, result);
+      if (quantity == "P" || quantity == "Q")
+        add_reversal(scene, trial_runs, result);
       return result;
     }
 

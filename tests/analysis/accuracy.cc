@@ -105,8 +105,9 @@ TEST(Passage, TellsHowFarACornerLiesAboveItsRows)
     rows.push_back(row(rows.back()[Column::time] + 1., 0., -1., P));
   for (std::size_t i = 1; i < rows.size(); ++i)
     rows[i][Column::x] = 1. - 0.1 * static_cast<double>(i);
-  EXPECT_NEAR(missed_peak("P", passage_rows(rows)), 0.75 / 14.25, 1e-12);
-  EXPECT_EQ(missed_peak("loop_area", rows), 0.);
+  EXPECT_NEAR(peak_errors(Column::P, passage_rows(rows), passage_rows(rows)).missed, 0.75 / 14.25, 1e-12);
+  EXPECT_EQ(peak_errors(Column::P, passage_rows(rows), passage_rows(rows)).change, 0.);
+  EXPECT_EQ(peak_errors(Column::P, {}, {}).missed, 0.);
 }
 
 TEST(RowSpacing, GoesWithTheRootOfTheErrorAndHoldsIt)

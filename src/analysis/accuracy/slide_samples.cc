@@ -297,48 +297,47 @@ namespace sprag
     return result;
   }
 
-  double peak_change(const std::string &quantity, const std::vector<Row> &passage, const std::vector<Row> &other)
+  namespace
   {
-    if (passage.empty() || (quantity != "P" && quantity != "Q"))
-      return 0.;
-    const auto column     = quantity == "P" ? Column::P : Column::Q;
-    const auto has_turned = friction_has_turned(passage);
-    double peak = 0., other_peak = 0.;
-    for (std::size_t i = 1; i < passage.size(); ++i) // row 0 belongs to the previous stroke
-      if (has_turned[i])
-      {
-        peak       = std::max(peak, std::abs(passage[i][column]));
-        other_peak = std::max(other_peak, std::abs(other[i][column]));
-      }
-    return std::abs(other_peak - peak) / largest(passage, column);
-  }
-
-  double missed_peak(const std::string &quantity, const std::vector<Row> &passage)
-  {
-    if (quantity != "P" && quantity != "Q")
-      return 0.;
-    const auto column     = quantity == "P" ? Column::P : Column::Q;
-    const auto has_turned = friction_has_turned(passage);
-    std::size_t peak      = 0;
-    for (std::size_t i = 1; i < passage.size(); ++i)
-      if (has_turned[i] && (peak == 0 || std::abs(passage[i][column]) > std::abs(passage[peak][column])))
-        peak = i;
-    double result = 0.;
-    for (std::size_t i = std::max<std::size_t>(peak, 3); i + 1 < std::min(peak + 3, passage.size()); ++i)
+    /// Largest value behind a reversal.
+    struct PassagePeak
     {
-      const auto slope = [&](const std::size_t row)
+      double row    = 0.; ///< in a row
+      double corner = 0.; ///< where the lines through the rows on both sides meet
+    };
+
+    PassagePeak passage_peak(const std::vector<Row> &passage, const Column column)
+    {
+      const auto has_turned = friction_has_turned(passage);
+      const auto value      = [&](const std::size_t i) { return std::abs(passage[i][column]); };
+      const auto length     = [&](const std::size_t i) { return std::abs(passage[i][Column::x] - passage[i - 1][Column::x]); };
+      const auto slope      = [&](const std::size_t i) { return (value(i) - value(i - 1)) / length(i); };
+      std::size_t peak      = 0;
+      for (std::size_t i = 1; i < passage.size(); ++i) // row 0 belongs to the previous stroke
+        if (has_turned[i] && (peak == 0 || value(i) > value(peak)))
+          peak = i;
+      if (peak == 0)
+        return {};
+      PassagePeak result{ value(peak), value(peak) };
+      for (std::size_t i = std::max<std::size_t>(peak, 3); i + 1 < std::min(peak + 3, passage.size()); ++i)
       {
-        return (std::abs(passage[row][column]) - std::abs(passage[row - 1][column])) /
-               std::abs(passage[row][Column::x] - passage[row - 1][Column::x]);
-      };
-      // Lines through the two rows before and the two behind meet between rows i - 1 and i.
-      const double rise = slope(i - 1), fall = -slope(i + 1);
-      const double length = std::abs(passage[i][Column::x] - passage[i - 1][Column::x]);
-      const double way    = (slope(i) + fall) / (rise + fall) * length;
-      if (rise > 0. && fall > 0. && way > 0. && way < length)
-        result = std::max(result, std::abs(passage[i - 1][column]) + rise * way - std::abs(passage[peak][column]));
+        const double rise = slope(i - 1), fall = -slope(i + 1);
+        const double share = (slope(i) + fall) / (rise + fall); // of the way between rows i - 1 and i
+        if (rise > 0. && fall > 0. && share > 0. && share < 1.)
+          result.corner = std::max(result.corner, value(i - 1) + rise * share * length(i));
+      }
+      return result;
     }
-    return result / largest(passage, column);
+  } // namespace
+
+  PeakErrors peak_errors(const Column column, const std::vector<Row> &passage, const std::vector<Row> &other)
+  {
+    const auto peak   = passage_peak(passage, column);
+    const double size = largest(passage, column);
+    if (!(size > 0.))
+      return {};
+    return { other.empty() ? 0. : std::abs(passage_peak(other, column).corner - peak.corner) / size,
+             (peak.corner - peak.row) / size };
   }
 
   double relative_change(const std::string &quantity, const std::vector<Row> &samples, const std::vector<Row> &other)

@@ -17,8 +17,8 @@ namespace sprag
   /// [s]. Empty without full sliding.
   std::vector<Row> slide_samples(const std::vector<Row> &rows, unsigned int number, const std::vector<double> &times = {});
 
-  /// Returns the rows from the first reversal to two rows behind the largest P and Q, which lie less than the contact's width away.
-  /// slide_samples() leaves these out although a peak may lie there. Empty without a reversal or for more than 100 rows.
+  /// Returns the rows from the first reversal to two rows behind the largest P and Q, which lie less than the contact's width
+  /// away. slide_samples() leaves these out although a peak may lie there. Empty without a reversal or for more than 100 rows.
   std::vector<Row> passage_rows(const std::vector<Row> &rows);
 
   /// Solves another model at the drive points of samples and returns a row for each. It takes a single step between samples, or
@@ -50,13 +50,16 @@ namespace sprag
   /// compute_drive_work(). Throws std::out_of_range for other names.
   double relative_change(const std::string &quantity, const std::vector<Row> &samples, const std::vector<Row> &other);
 
-  /// Returns the relative difference of the peak of P or Q between two models' rows of the same passage_rows(), once friction
-  /// has changed its direction; 0 for other quantities and without rows.
-  double peak_change(const std::string &quantity, const std::vector<Row> &passage, const std::vector<Row> &other);
+  /// Differences of the peak of P or Q behind a reversal, once friction has changed its direction, over the largest value. The
+  /// peak is a corner, at which the last point slips. It lies where the lines through the rows on both sides meet.
+  struct PeakErrors
+  {
+    double change = 0.; ///< between the corners of two models
+    double missed = 0.; ///< of the corner from the highest row
+  };
 
-  /// Returns how far the lines through the rows on both sides of this peak meet above it, over the largest value of the passage.
-  /// The peak is a corner, at which the last point slips.
-  double missed_peak(const std::string &quantity, const std::vector<Row> &passage);
+  /// Compares two models' rows of the same passage_rows(). Without rows the differences are 0.
+  PeakErrors peak_errors(Column column, const std::vector<Row> &passage, const std::vector<Row> &other);
 
   /// Returns the largest Analysis/Step [mm], at most a quarter of the stroke, at which rows of the closed form have a relative
   /// error of at most `error` > 0: linear interpolation of P and Q and, if `has_loop`, the loop area by the trapezoidal rule.
