@@ -55,8 +55,8 @@ namespace sprag
           peak             = excess;
           result.peak_step = longest;
         }
-        result.frequency += error * now * now * dt;
-        weights += now * now * dt;
+        result.frequency += error * std::abs(now) * dt;
+        weights += std::abs(now) * dt;
       }
     }
     if (weights > 0.)
