@@ -164,7 +164,8 @@ namespace sprag
     double sum         = 0.;
     for (std::size_t i = first; i <= last; ++i)
       sum += std::pow(pressure[i] - smooth[i], 2);
-    return { *highest, std::sqrt(sum / static_cast<double>(last - first + 1)) / *highest };
+    const double scatter = std::sqrt(sum / static_cast<double>(last - first + 1));
+    return { *highest, std::max(scatter, peak.value - *highest) / *highest };
   }
 
   void add_largest_pressure(const std::vector<Row> &rows, std::vector<Entry> &entries, const double face_size)

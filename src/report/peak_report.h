@@ -19,7 +19,8 @@ namespace sprag
   struct SmoothedPressure
   {
     double value   = 0.; ///< [MPa]
-    double scatter = 0.; ///< root mean square distance of the means near by from the smooth curve, over the value
+    double scatter = 0.; ///< root mean square distance of the means near by from the smooth curve, at least that of the
+                         ///< highest row, over the value
   };
 
   /// Smooths the pressure of the rows near the largest one, means over a face or a row's step by local regression over six of
