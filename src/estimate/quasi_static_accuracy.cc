@@ -139,11 +139,11 @@ namespace sprag
       const bool is_narrow = faces_in_contact(scene, trial_runs.run.slides) < least_reversal_faces;
       const double order   = is_narrow ? 1. : force_order(scene);
       const auto &passage  = trial_runs.run.passage;
-      const auto column    = estimate.quantity == "P" ? Column::P : Column::Q;
-      const auto change    = [&](const std::vector<Row> &other) { return peak_errors(column, passage, other).change; };
-      auto part            = mesh_part(scene, change(trial_runs.other.passage), order);
-      part.value           = part.value + penalty_part(scene, change(trial_runs.soft.passage)).value - total_error(estimate);
-      part.name            = "reversal";
+      const auto column = estimate.quantity == "P" ? Column::P : estimate.quantity == "Q" ? Column::Q : Column::largest_pressure;
+      const auto change = [&](const std::vector<Row> &other) { return peak_errors(column, passage, other).change; };
+      auto part         = mesh_part(scene, change(trial_runs.other.passage), order);
+      part.value        = part.value + penalty_part(scene, change(trial_runs.soft.passage)).value - total_error(estimate);
+      part.name         = "reversal";
       if (part.value > 0.)
         estimate.parts.push_back(part);
       if (const double missed = peak_errors(column, passage, {}).missed; missed > 0.)
@@ -160,7 +160,7 @@ namespace sprag
         result.parts.push_back(penalty_part(scene, change(trial_runs.soft.slides)));
       if (!trial_runs.soft.slides.empty() && augments(scene))
         result.parts.back().remedy = "Try twice the Contact/Tangential penalty, or leave it at auto.";
-      if (quantity == "P" || quantity == "Q")
+      if (quantity == "P" || quantity == "Q" || quantity == "largest_pressure")
         add_reversal(scene, trial_runs, result);
       return result;
     }
