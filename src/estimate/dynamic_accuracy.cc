@@ -4,7 +4,7 @@
 #include "analysis/accuracy/step_errors.h"
 #include "analysis/transient/transient.h"
 #include "analytic/oscillation.h"
-#include "base/append.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "estimate/coarser_scene.h"
 #include "fe/contact/face_contact_point.h"
