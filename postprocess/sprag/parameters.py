@@ -11,14 +11,15 @@ COMMENT = re.compile(r"(.*?)(?: \[[^\[\]]*\])?[:;] ((?:auto or )?an? (?:number|i
 
 
 class Parameter(NamedTuple):
-    """The text of a value as used, its unit, "1" where it has none, its default's text where a scene sets it apart from it, what it means,
-    and the range of values: "a number > 0", "one of a | b"; empty where the meaning tells it."""
+    """The text of a value as used, its unit, "1" where it has none, its default's text where it differs from it, what it means,
+    the range of values: "a number > 0", "one of a | b"; empty where the meaning tells it, and whether a scene sets it."""
 
     text: str
     unit: str
     default: Optional[str] = None
     meaning: str = ""
     range: str = ""
+    is_set: bool = True
 
     @property
     def number(self):
@@ -52,11 +53,13 @@ def parse(listing):
             name, _, value = line.partition("set ")[2].partition("=")
             units = re.findall(r"\[([^\[\]]+)\](?=[:;])", comment)
             text, default = parse_value(value), re.search(r"#(?:\s*given as .*;)?\s*default:(.*)$", value)
-            apart = default and line.startswith("set ") and different(text, default[1].strip())
+            apart = default and different(text, default[1].strip())
             unit = units[-1] if units and units[-1] != "-" else "1"
             parts = COMMENT.fullmatch(comment)
             meaning, rule = (parts[1], parts[2]) if parts else (comment, "")
-            found["/".join((*section, name.strip()))] = Parameter(text, unit, default[1].strip() if default and apart else None, meaning, rule)
+            found["/".join((*section, name.strip()))] = Parameter(
+                text, unit, default[1].strip() if default and apart else None, meaning, rule, line.startswith("set ")
+            )
         comment = f"{comment} {line[1:].strip()}".strip() if line.startswith("#") and not line.startswith("#set ") else ""
     return found
 
@@ -70,8 +73,9 @@ def different(one, other):
 
 
 def set_apart(parameters):
-    """{name: Parameter} of those that are not at their defaults, where output goes left out."""
-    return {name: parameter for name, parameter in parameters.items() if parameter.default is not None and not name.startswith("Output/")}
+    """{name: Parameter} of those that a scene sets to other values than their defaults, where output goes left out."""
+    apart = lambda parameter: parameter.is_set and parameter.default is not None
+    return {name: parameter for name, parameter in parameters.items() if apart(parameter) and not name.startswith("Output/")}
 
 
 def scene_text(parameters):

@@ -147,7 +147,7 @@ namespace sprag
       if (part.value > 0.)
         estimate.parts.push_back(part);
       if (const double missed = peak_errors(column, passage, {}).missed; missed > 0.)
-        estimate.parts.push_back({ "rows", missed, "Let lines through the rows on both sides of the peak meet." });
+        estimate.parts.push_back({ "rows", missed, "The peak lies between two rows; no setting puts one there." });
     }
 
     ErrorEstimate estimate(const Scene &scene, const TrialRuns &trial_runs, const std::string &quantity,

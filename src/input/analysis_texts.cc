@@ -186,7 +186,7 @@ namespace sprag
         if (listed == std::vector<std::string>{ "none" })
           return;
         const auto models = enumerators<CheckModel>();
-        const auto names   = words_in(models);
+        const auto names  = words_in(models);
         for (const auto &[word, check_model] : models)
           if (std::find(listed.begin(), listed.end(), word) != listed.end())
             settings.check_models.push_back(check_model);
