@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <type_traits>
@@ -62,6 +63,13 @@ namespace sprag
     for (const auto &item : items)
       result = std::max(result, function(item));
     return result;
+  }
+
+  /// Returns the root mean square of values; 0 without any.
+  inline double root_mean_square(const std::vector<double> &values)
+  {
+    const double sum = sum_over(values, [](const double value) { return value * value; });
+    return values.empty() ? 0. : std::sqrt(sum / static_cast<double>(values.size()));
   }
 
   /// Returns `first` with `second` at its end.

@@ -16,7 +16,6 @@
 #include <cmath>
 #include <complex>
 #include <functional>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -47,14 +46,20 @@ namespace sprag
       std::vector<SlideStability> other_mesh; ///< on the mesh of with_compared_mesh(), with as many modes as `other_modes`
     };
 
-    /// Checks the slide of a meshed scene at places over a face of its mesh, where there is one.
-    std::vector<SlideStability> slides_over_face(const Scene &scene, DynamicsMaker &maker)
+    /// Checks the slide of a meshed scene at places over a face of its mesh, where there is one; the first may be known already.
+    std::vector<SlideStability> slides_over_face(const Scene &scene, DynamicsMaker &maker,
+                                                 const SlideStability *const known = nullptr)
     {
       const Scene held    = held_scene(scene);
       const auto dynamics = maker.make(held);
       std::vector<SlideStability> result;
       for (const double share : face_shares)
       {
+        if (known != nullptr && share == 0.)
+        {
+          result.push_back(*known);
+          continue;
+        }
         DrivePoint drive  = held_drive(scene);
         const double away = share * scene.mesh.face_size;
         drive.x += drive.x - away > scene.drive.minimum() ? -away : away;
@@ -64,12 +69,14 @@ namespace sprag
       return result;
     }
 
-    /// Checks the slide of a meshed scene, see held_scene(), by these models. The run's own mesh stays in the maker.
-    SlideTrials run_slide_trials(const Scene &scene, const ContactPenalties &penalties, DynamicsMaker &maker)
+    /// Checks the slide of a meshed scene, see held_scene(), by these models; `found` is its own. The run's own mesh stays in the
+    /// maker.
+    SlideTrials run_slide_trials(const Scene &scene, const SlideStability &found, const ContactPenalties &penalties,
+                                 DynamicsMaker &maker)
     {
       SlideTrials result;
       result.soft   = check_slide(with_penalties(scene, penalties, 1. / softer), maker);
-      result.places = slides_over_face(scene, maker);
+      result.places = slides_over_face(scene, maker, &found);
       Scene other   = with_compared_mesh(with_penalties(scene, penalties, 1.));
       if (scene.analysis.model == ModelType::condensed && scene.condensed.modes > 1)
       {
@@ -94,9 +101,7 @@ namespace sprag
 
     double mean(const std::vector<SlideStability> &slides, const SlideValue &value)
     {
-      return std::accumulate(slides.begin(), slides.end(), 0.,
-                             [&](const double sum, const auto &slide) { return sum + value(slide); }) /
-             static_cast<double>(slides.size());
+      return sum_over(slides, value) / static_cast<double>(slides.size());
     }
 
     /// Returns the parts of the error of the mean of a value over places between the nodes, relative to the value itself, from
@@ -120,8 +125,8 @@ namespace sprag
                                       const SlideValue &value)
     {
       const double middle  = mean(trial_runs.places, value);
-      const double squares = mean(trial_runs.places, [&](const auto &slide) { return std::pow(value(slide) - middle, 2); });
-      parts.front().value += std::sqrt(squares) / std::abs(value(found));
+      const auto distances = mapped(trial_runs.places, [&](const auto &slide) { return value(slide) - middle; });
+      parts.front().value += root_mean_square(distances) / std::abs(value(found));
       return parts;
     }
 
@@ -197,7 +202,7 @@ namespace sprag
       std::vector<ErrorPart> frequency_parts, decay_parts, overshoot_parts;
       if (is_meshed(scene.analysis.model))
       {
-        const auto trial_runs = run_slide_trials(held, dynamics.penalties, maker);
+        const auto trial_runs = run_slide_trials(held, found, dynamics.penalties, maker);
         frequency_parts       = slide_error_parts(held, found, trial_runs, slide_frequency);
         decay_parts           = slide_error_parts(held, found, trial_runs, decay_rate);
         overshoot_parts       = times(with_place(frequency_parts, found, trial_runs, slide_frequency), 2.);
@@ -235,7 +240,7 @@ namespace sprag
     {
       if (!(found.frequency() > 0.))
         throw NoEstimate{ "the mode that grows most does not oscillate." };
-      const auto trial_runs      = run_slide_trials(scene, dynamics.penalties, maker);
+      const auto trial_runs      = run_slide_trials(scene, found, dynamics.penalties, maker);
       const SlideValue frequency = [](const SlideStability &slide) { return slide.frequency(); };
       const SlideValue growth    = [](const SlideStability &slide) { return slide.growth_rate(); };
       if (!(mean(trial_runs.other_mesh, frequency) > 0.) || !(frequency(trial_runs.soft) > 0.))

@@ -55,14 +55,11 @@ namespace sprag
       const auto change = [&](double StressSample::*const part)
       {
         const double peak = largest(pairs, [&](const StressPair &pair) { return pair.run.*part; });
-        double sum = 0., number = 0.;
+        std::vector<double> changes;
         for (const auto &[run, other] : pairs)
           if (run.*part >= near_peak * peak)
-          {
-            sum += std::pow(other.*part - run.*part, 2);
-            ++number;
-          }
-        return peak > 0. ? std::sqrt(sum / number) / peak : 0.;
+            changes.push_back(other.*part - run.*part);
+        return peak > 0. ? root_mean_square(changes) / peak : 0.;
       };
       if (pairs.empty())
         return {};

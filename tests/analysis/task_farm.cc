@@ -199,3 +199,13 @@ TEST_F(ResultsLogTest, RefusesAFolderThatIsNotThere)
 {
   EXPECT_THROW(ResultsLog(folder.path / "none" / "map.journal", "map", "a scene"), InputError);
 }
+
+TEST(TaskFarm, NodesShareAllGroupsByTheirRanks)
+{
+  PieceGroups groups;
+  for (std::size_t i = 0; i < 9; ++i)
+    groups.push_back({ i });
+  const std::vector<unsigned int> nodes = { 0, 0, 2 }; // of three ranks
+  EXPECT_EQ(groups_on_node(groups, nodes, 0), (PieceGroups{ { 0 }, { 1 }, { 3 }, { 4 }, { 6 }, { 7 } }));
+  EXPECT_EQ(groups_on_node(groups, nodes, 2), (PieceGroups{ { 2 }, { 5 }, { 8 } }));
+}

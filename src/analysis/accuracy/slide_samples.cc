@@ -119,15 +119,14 @@ namespace sprag
     double pressure_change(const std::vector<Row> &samples, const std::vector<Row> &other)
     {
       const auto *const peak = find_largest_row(samples, [](const Row &row) { return row[Column::largest_pressure]; });
-      double sum = 0., number = 0.;
+      std::vector<double> changes;
       for (std::size_t i = 0; peak != nullptr && i < samples.size(); ++i)
         if (const Row &row = samples[i]; row[Column::largest_pressure] >= near_peak * (*peak)[Column::largest_pressure])
         {
           const double width = row[Column::contact_width] / (*peak)[Column::contact_width];
-          sum += std::pow(change(row[Column::largest_pressure], other[i][Column::largest_pressure]) * std::pow(width, 3), 2);
-          ++number;
+          changes.push_back(change(row[Column::largest_pressure], other[i][Column::largest_pressure]) * std::pow(width, 3));
         }
-      return number > 0. ? std::sqrt(sum / number) : 0.;
+      return root_mean_square(changes);
     }
 
     std::vector<Row> closed_form_rows(Scene scene, const double step)

@@ -37,18 +37,6 @@ namespace sprag
     constexpr double large_share           = 0.25; ///< scale of e and th0, as a share of R - e and th0
     constexpr double largest_table_speed   = 1.25; ///< of that table, over the peak speed
 
-    double root_mean_square(const std::vector<double> &values)
-    {
-      double squares = 0., count = 0.;
-      for (const double value : values)
-        if (!std::isnan(value))
-        {
-          squares += value * value;
-          count += 1.;
-        }
-      return std::sqrt(squares / count);
-    }
-
     /// A number of a lever that is a parameter of its scene.
     struct LeverParameter
     {
@@ -261,7 +249,8 @@ namespace sprag
     for (const auto &channel : scene.identification.measured.channels)
     {
       const auto word = word_for(force_words(), channel.force);
-      all.push_back({ "offset_" + word, "N", "what " + word + " shows above the force", 0., root_mean_square(channel.values) });
+      all.push_back({ "offset_" + word, "N", "what " + word + " shows above the force", 0.,
+                      root_mean_square(filtered(channel.values, [](const double value) { return !std::isnan(value); })) });
     }
   }
 

@@ -76,7 +76,7 @@ namespace sprag
   /// < > the mean and [ ] the change over the step of h, where f is the force that the levers' steps to that end have, so that
   /// the work that leaves the table is the one that the levers take.
   ///
-  /// Where Time/Tolerance is given the travel is extrapolated from the forces of the last steps, and corrected only where it is
+  /// With Time/Tolerance the travel is extrapolated from the forces of the last steps, and corrected only where it is
   /// further from the end of that equation than a tenth of the error that a step may have. What it lacks is added to the next
   /// travel and the rate z' is that of the forces, so that no momentum is lost.
   ///

@@ -116,17 +116,11 @@ namespace sprag
       return values;
     }
 
-    /// Deals groups out to the ranks in turn and returns those of this node.
-    std::vector<std::vector<std::size_t>> deal(const std::vector<std::vector<std::size_t>> &groups) const
+    /// Returns the groups for the ranks of this node, which its first rank names.
+    PieceGroups own(const PieceGroups &groups) const
     {
-      const auto rank       = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-      const auto first_rank = broadcast(node, rank);
-      const auto nodes      = gather(MPI_COMM_WORLD, first_rank);
-      std::vector<std::vector<std::size_t>> result;
-      for (std::size_t i = 0; i < groups.size(); ++i)
-        if (nodes[i % nodes.size()] == first_rank)
-          result.push_back(groups[i]);
-      return result;
+      const auto first_rank = broadcast(node, dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
+      return groups_on_node(groups, gather(MPI_COMM_WORLD, first_rank), first_rank);
     }
 
   private:
@@ -244,15 +238,23 @@ namespace sprag
       progress.update(done, total);
   }
 
-  void TaskFarm::carry_out(const std::vector<std::vector<std::size_t>> &groups,
-                           const std::function<std::string(std::size_t)> &work,
+  PieceGroups groups_on_node(const PieceGroups &groups, const std::vector<unsigned int> &nodes, const unsigned int node)
+  {
+    PieceGroups result;
+    for (std::size_t i = 0; i < groups.size(); ++i)
+      if (nodes[i % nodes.size()] == node)
+        result.push_back(groups[i]);
+    return result;
+  }
+
+  void TaskFarm::carry_out(const PieceGroups &groups, const std::function<std::string(std::size_t)> &work,
                            const std::function<void(const std::string &)> &learn)
   {
     Batch batch(*this);
     std::string failure;
     {
       const Counters counters;
-      const auto groups_here = counters.deal(groups);
+      const auto groups_here = counters.own(groups);
       std::size_t total      = 0;
       for (const auto &group : groups_here)
         total += group.size();
@@ -274,8 +276,8 @@ namespace sprag
         throw AnalysisError(message);
   }
 
-  void TaskFarm::work_on(const std::vector<std::vector<std::size_t>> &groups, const std::function<std::string(std::size_t)> &work,
-                         const std::size_t total, const Counters &counters, Batch &batch) const
+  void TaskFarm::work_on(const PieceGroups &groups, const std::function<std::string(std::size_t)> &work, const std::size_t total,
+                         const Counters &counters, Batch &batch) const
   {
     const auto stopped = [&] { return interrupted() || counters->stop; };
     for (std::size_t next = 0; !stopped() && (next = counters->group++) < groups.size();)

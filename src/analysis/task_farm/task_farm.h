@@ -101,6 +101,12 @@ namespace sprag
     void update(std::size_t done, std::size_t total);
   };
 
+  /// Pieces by their indices, in groups that one rank does one after the other.
+  using PieceGroups = std::vector<std::vector<std::size_t>>;
+
+  /// Deals groups out to ranks in turn and returns those of the ranks on one node. `nodes` names the node of each rank.
+  PieceGroups groups_on_node(const PieceGroups &groups, const std::vector<unsigned int> &nodes, unsigned int node);
+
   /// All ranks of MPI, doing the pieces of a long analysis together. The result of a piece is a line of text, which goes into the
   /// results log. Every rank calls what is here.
   class TaskFarm
@@ -127,8 +133,8 @@ namespace sprag
     /// Does the pieces in `groups`, whose indices `work` takes and whose lines it returns, and hands the lines of all ranks to
     /// `learn`. Groups are dealt out to the nodes; a rank takes one after another of its node's, as soon as it is free. Throws
     /// AnalysisError on all ranks when one was asked to end, the check fails or the results log cannot be written; what was
-    /// finished until then is learned.
-    void carry_out(const std::vector<std::vector<std::size_t>> &groups, const std::function<std::string(std::size_t)> &work,
+    /// finished until then is learned. Other nodes than that of such a rank first do the groups that they have.
+    void carry_out(const PieceGroups &groups, const std::function<std::string(std::size_t)> &work,
                    const std::function<void(const std::string &)> &learn);
 
     /// Sums up the cost of all ranks until now, for /meta.
@@ -153,8 +159,8 @@ namespace sprag
     void open_log(const RunOptions &options);
     void check_inputs() const;
     void report(std::size_t done, std::size_t total) const;
-    void work_on(const std::vector<std::vector<std::size_t>> &groups, const std::function<std::string(std::size_t)> &work,
-                 std::size_t total, const Counters &counters, Batch &batch) const;
+    void work_on(const PieceGroups &groups, const std::function<std::string(std::size_t)> &work, std::size_t total,
+                 const Counters &counters, Batch &batch) const;
     void wait_for_others(std::size_t total, const Counters &counters) const;
   };
 
