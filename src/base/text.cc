@@ -141,14 +141,19 @@ namespace sprag
   std::optional<std::string> nearest(const std::string &name, const std::vector<std::string> &candidates)
   {
     std::optional<std::string> best;
-    std::size_t smallest = std::max<std::size_t>(name.size() / 2, 1) + 1;
-    const auto lower     = [](const std::string &text) { return boost::algorithm::to_lower_copy(text); };
+    std::size_t smallest                     = std::max<std::size_t>(name.size() / 2, 1) + 1;
+    const auto lower                         = [](const std::string &text) { return boost::algorithm::to_lower_copy(text); };
+    constexpr std::size_t shortest_beginning = 4;
     for (const auto &candidate : candidates)
-      if (const auto distance = edit_distance(lower(name), lower(candidate)); distance < smallest)
+    {
+      const bool begins   = name.size() >= shortest_beginning && boost::starts_with(lower(candidate), lower(name));
+      const auto distance = begins ? 1 : edit_distance(lower(name), lower(candidate));
+      if (distance < smallest)
       {
         smallest = distance;
         best     = candidate;
       }
+    }
     return best;
   }
 

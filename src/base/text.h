@@ -58,8 +58,8 @@ namespace sprag
   /// otherwise.
   std::optional<std::string> with_decimal_point(const std::string &text);
 
-  /// Returns the candidate with the smallest edit distance (Levenshtein, capitals ignored); none where even that would change
-  /// more than half of the name.
+  /// Returns the candidate with the smallest edit distance (Levenshtein, capitals ignored), 1 where it begins with the name, of
+  /// four characters at least; none where even that would change more than half of the name.
   std::optional<std::string> nearest(const std::string &name, const std::vector<std::string> &candidates);
 
   /// Returns "; did you mean 'X'?", or an empty text without a candidate.

@@ -3,6 +3,7 @@
 
 #include "base/errors.h"
 #include "base/pattern.h"
+#include "base/ranges.h"
 #include "base/shipped_file.h"
 #include "base/system/file_content.h"
 #include "base/text.h"
@@ -83,6 +84,17 @@ namespace sprag
       std::cout << arguments.new_file << ": a copy of " << shipped.filename().string() << ", to be edited and run\n";
       return success;
     }
+
+    /// Returns a message for each word that looks like an option and is none.
+    std::vector<std::string> find_unknown_options(const CLI::App &app)
+    {
+      const auto names = mapped(app.get_options(), [](const CLI::Option *option) { return option->get_name(); });
+      std::vector<std::string> messages;
+      for (const auto &word : app.remaining())
+        if (const auto name = word.substr(0, word.find('=')); name[0] == '-')
+          messages.push_back(name + ": there is no such option" + did_you_mean(nearest(name, names)));
+      return messages;
+    }
   } // namespace
 
   std::optional<int> read_arguments(int argc, char **argv, Arguments &arguments)
@@ -97,6 +109,11 @@ namespace sprag
     {
       const auto &words = app.get_option("FILE.prm")->results();
       return words.empty() ? app.exit(help) : explain(words.front());
+    }
+    catch (const CLI::ExtrasError &error)
+    {
+      const auto unknown_options = find_unknown_options(app);
+      return unknown_options.empty() ? app.exit(error), bad_input : report_error(InputError(unknown_options));
     }
     catch (const CLI::ParseError &error)
     {

@@ -95,6 +95,8 @@ class BadScene(ProgramTest):
             (("--new", elsewhere, "--overwrite"), f"--from alone, not with --overwrite: type 'sprag --new {elsewhere}' and then 'sprag {elsewhere}' with"),
             (("--new", elsewhere, "model-a"), "--from alone, not with FILE.prm"),
             (("--new", elsewhere, "--from", "modl-a"), "did you mean 'model-a'?"),
+            ((elsewhere, "--out", "folder"), "--out: there is no such option; did you mean '--output'?"),
+            ((elsewhere, "--overwrit"), "did you mean '--overwrite'?"),
             (("--new", elsewhere, "--from", "params/model-a.prm"), "no such scene; did you mean 'model-a'?"),
             (("--new", elsewhere, "--from", "../params/model-a"), "no such scene; did you mean 'model-a'?"),
             (("--new", elsewhere, "--from", "solid-rib-a"), "reads files"),
