@@ -44,7 +44,7 @@ class Several:
         elif len(self.names) <= MOST_LABELS:
             label_ends(beside, [line for line in beside.lines if line.get_label() in self.names])
             if self.label:
-                beside.set_title(self.label + self.remark, loc="right", fontsize=7)
+                beside.set_title(self.label + self.remark, loc="right", y=1.07, fontsize=7)  # above the panel's letter
         else:
             lines = {line.get_label(): line for line in beside.lines}
             handles = [lines[name] for name in self.names if name in lines] + handles

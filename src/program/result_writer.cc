@@ -4,6 +4,7 @@
 #include "base/ranges.h"
 #include "base/system/interrupt.h"
 #include "base/system/memory.h"
+#include "base/system/process_time.h"
 #include "base/version.h"
 #include "input/read.h"
 #include "program/run_options.h"
@@ -105,7 +106,7 @@ namespace sprag
       print_accuracy(std::cout, end.accuracy);
     }
     else if (!options.quiet)
-      print_console_summary(std::cout, answer, end.accuracy, PhaseTimer::cpu_seconds());
+      print_console_summary(std::cout, answer, end.accuracy, PhaseTimer::cpu_seconds(), wall_seconds());
     return end;
   }
 } // namespace sprag

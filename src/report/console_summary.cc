@@ -175,13 +175,14 @@ namespace sprag
   }
 
   void print_console_summary(std::ostream &stream, const Group &answer, const std::vector<ErrorEstimate> &errors,
-                             const double cpu_seconds)
+                             const double cpu_seconds, const double wall_seconds)
   {
     const auto &labels = answer.texts.front().values, &texts = answer.texts.back().values;
     for (std::size_t line = 0; line < labels.size(); ++line)
       summary_line(stream, labels[line], texts[line]);
     print_errors(stream, errors);
-    summary_line(stream, "cost", formatted("%.2g", cpu_seconds) + " s of CPU time");
+    summary_line(stream, "cost",
+                 formatted("%.2g", cpu_seconds) + " s of CPU time, " + formatted("%.2g", wall_seconds) + " s of wall time");
   }
 
   std::optional<SummaryRow> summary_row(const AnalysisType type, const std::string &entry)

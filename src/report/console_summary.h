@@ -30,7 +30,7 @@ namespace sprag
 
   /// Prints what a reader wants to know first: those lines, the estimated errors and the cost.
   void print_console_summary(std::ostream &stream, const Group &answer, const std::vector<ErrorEstimate> &errors,
-                             double cpu_seconds);
+                             double cpu_seconds, double wall_seconds);
 
   /// A row of the tables of /summary on the pages of postprocess/, see page_row(), for one entry.
   struct SummaryRow

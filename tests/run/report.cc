@@ -211,7 +211,8 @@ TEST(SummaryTable, PrintsEntriesOfALineTogetherAndNothingThatDoesNotApply)
                                                                 { "reversal_1_overshoot_P", 0.24 },
                                                                 { "reversal_13_x", 65. },
                                                                 { "creep", 1. } }),
-                        { { "P", "its peak", { { "step", 0.02, "Try less." } }, {} }, { "Q", "", {}, "No estimate." } }, 0.5);
+                        { { "P", "its peak", { { "step", 0.02, "Try less." } }, {} }, { "Q", "", {}, "No estimate." } }, 0.5,
+                        0.7);
   EXPECT_EQ(printed.str(), "  largest Q             forward 18 N, backward -23.46 N\n"
                            "  on the ground         backward -20 N\n"
                            "  reversal 1.           overshoot of P 24 %\n"
@@ -219,5 +220,5 @@ TEST(SummaryTable, PrintsEntriesOfALineTogetherAndNothingThatDoesNotApply)
                            "  errors, estimated     P 2 %\n"
                            "  not estimated         Q: No estimate.\n"
                            "  to improve the worst  Try less.\n"
-                           "  cost                  0.5 s of CPU time\n");
+                           "  cost                  0.5 s of CPU time, 0.7 s of wall time\n");
 }
