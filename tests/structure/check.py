@@ -179,6 +179,21 @@ def check_named_files(page, sources):
                 report(page, number, f"names {name}, which is not there")
 
 
+def shared_types(folder):
+    """The types that the headers of a folder share with others, each with its header."""
+    return {
+        name: path
+        for path in (ROOT / folder).rglob("*.h")
+        for name in re.findall(r"^  (?:struct|class) (\w+)$", path.read_text(encoding="utf-8"), re.MULTILINE)
+    }
+
+
+# A linker takes the members of one of them for both.
+types = shared_types("src")
+for name, path in shared_types("tests").items():
+    if name in types:
+        report(path, 0, f"names a type {name}, as {types[name].name} does")
+
 pages = [*ROOT.glob("*.md"), *(path for path in own_files() if path.suffix == ".md")]
 paths = ["/" + path.relative_to(ROOT).as_posix() for path in own_files()]
 for page in pages:

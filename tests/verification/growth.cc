@@ -14,7 +14,7 @@ namespace
   {
   }
 
-  Growth compute_growth(const CheckedSlide &checked)
+  Growth compute_growth(const JudgedSlide &checked)
   {
     HeldRun run(checked.dynamics.model(), checked.step());
     return measure_growth(checked.dynamics.model(), checked.stability, checked.scene.sprag_slip, run, ignore);
@@ -26,7 +26,7 @@ namespace
     return lambda * (1. + lambda * lambda * dt * dt / 12.);
   }
 
-  void expect_as_predicted(const CheckedSlide &checked, const Growth &growth, const double growth_tolerance = 1e-4)
+  void expect_as_predicted(const JudgedSlide &checked, const Growth &growth, const double growth_tolerance = 1e-4)
   {
     EXPECT_TRUE(growth.reached);
     EXPECT_TRUE(growth.slid);
@@ -41,7 +41,7 @@ namespace
   }
 
   /// Largest deviation of P from a slide that nothing perturbs, over P.
-  double drift(const CheckedSlide &checked, const unsigned int steps)
+  double drift(const JudgedSlide &checked, const unsigned int steps)
   {
     HeldRun run(checked.dynamics.model(), checked.step());
     run.begin(checked.slide().motion);
@@ -79,7 +79,7 @@ TEST(HeldSlide, StaysWhereItIs)
       {
         Scene scene        = backward_a(type, 20.);
         scene.support.type = support;
-        EXPECT_LT(drift(CheckedSlide(rises ? regularised_cork(scene) : scene), 2000), 1e-9) << static_cast<int>(type) << rises;
+        EXPECT_LT(drift(JudgedSlide(rises ? regularised_cork(scene) : scene), 2000), 1e-9) << static_cast<int>(type) << rises;
       }
 }
 
@@ -88,7 +88,7 @@ TEST(HeldSlide, OfAMeshedLeverStaysWhereItIs)
   // The steps solve for a correction below 1e-7 of the penetration, and what the static shapes carry of round-off counts the more
   // the stiffer the penalty: 2e-9 at 12 E/depth, 1.4e-7 at 120, 5.7e-6 at 1200. It is the first step's: 500 and 8000 steps drift
   // alike. Which round-off it is changes it at random: 1.3e-8 to 4.2e-7 for levers of 18, 18.5 ... 22 mm.
-  const CheckedSlide checked(backward_a(ModelType::condensed, 20.));
+  const JudgedSlide checked(backward_a(ModelType::condensed, 20.));
   const double early = drift(checked, 200);
   EXPECT_LT(early, 1e-6);
   EXPECT_NEAR(drift(checked, 2000), early, 1e-2 * early);
@@ -101,9 +101,9 @@ TEST(Growth, OfAPairThatSwingsWhereHalfOfItIsStable)
   Scene scene        = with_lever(in_time(model_a(), ModelType::beam), 7.15, 10577.8, 1.47073);
   scene.support.type = SupportType::sprung;
   scene              = held_at(scene, 65.);
-  EXPECT_EQ(CheckedSlide(scene).stability.kind, SlideKind::stable);
+  EXPECT_EQ(JudgedSlide(scene).stability.kind, SlideKind::stable);
   scene.pair.type = PairType::full;
-  const CheckedSlide checked(scene);
+  const JudgedSlide checked(scene);
   EXPECT_EQ(checked.stability.kind, SlideKind::flutter);
   EXPECT_NEAR(checked.mode().symmetry, -1., 1e-6);
   EXPECT_NEAR(checked.mode().growth.friction_support, 0., 1e-6 * checked.mode().mode.eigenvalue.real());
@@ -112,26 +112,26 @@ TEST(Growth, OfAPairThatSwingsWhereHalfOfItIsStable)
   EXPECT_NEAR(growth.frequency_difference(), 0., 0.0005);
   // A held joint gives each lever its spring, but the frame still stays where it is.
   scene.pair.joint = SpringJoint::held;
-  EXPECT_EQ(CheckedSlide(scene).stability.kind, SlideKind::flutter);
+  EXPECT_EQ(JudgedSlide(scene).stability.kind, SlideKind::flutter);
 }
 
 TEST(Growth, OfModelAIsThatOfItsEigenvalue)
 {
-  const CheckedSlide checked(backward_a(ModelType::beam, 6.));
+  const JudgedSlide checked(backward_a(ModelType::beam, 6.));
   ASSERT_EQ(checked.stability.kind, SlideKind::flutter);
   expect_as_predicted(checked, compute_growth(checked));
 }
 
 TEST(Growth, OfModelBIsThatOfItsEigenvalue)
 {
-  const CheckedSlide checked(backward_b());
+  const JudgedSlide checked(backward_b());
   ASSERT_EQ(checked.stability.kind, SlideKind::flutter);
   expect_as_predicted(checked, compute_growth(checked));
 }
 
 TEST(Growth, OfACondensedLeverIsThatOfItsEigenvalue)
 {
-  const CheckedSlide checked(backward_a(ModelType::condensed, 6.));
+  const JudgedSlide checked(backward_a(ModelType::condensed, 6.));
   ASSERT_EQ(checked.stability.kind, SlideKind::flutter);
   // The start of Newton's method decides on the round-off of the first steps: 1.04e-4 from the line of the last two forces with
   // modes in axes that do not turn, 2.2e-4 in those of the hub.
@@ -142,7 +142,7 @@ TEST(Growth, OfAMeshedLeverIsThatOfItsEigenvalueSlow)
 {
   Scene scene           = backward_a(ModelType::finite_element, 6.);
   scene.stability.modes = 4;
-  const CheckedSlide checked(scene);
+  const JudgedSlide checked(scene);
   ASSERT_EQ(checked.stability.kind, SlideKind::flutter);
   // Round-off of the first steps depends on the BLAS: below 1e-4 without AVX-512, 1.26e-4 with it.
   expect_as_predicted(checked, compute_growth(checked), 2e-4);
@@ -155,7 +155,7 @@ TEST(Growth, OfAStableSlideIsItsDecay)
     {
       Scene scene        = backward_a(type, 20.);
       scene.support.type = support;
-      const CheckedSlide checked(scene);
+      const JudgedSlide checked(scene);
       ASSERT_EQ(checked.stability.kind, SlideKind::stable);
       const auto growth = compute_growth(checked);
       EXPECT_LT(growth.envelope.rate, 0.);
@@ -169,8 +169,8 @@ TEST(Growth, OfAStableSlideIsItsDecay)
 // from step to step, second order as everything else.
 TEST(Growth, UnderARegularisedLawThatRisesWithSpeedIsThatOfItsEigenvalue)
 {
-  const CheckedSlide checked(regularised_cork(backward_a(ModelType::beam, 6.)));
-  const CheckedSlide constant(backward_a(ModelType::beam, 6.));
+  const JudgedSlide checked(regularised_cork(backward_a(ModelType::beam, 6.)));
+  const JudgedSlide constant(backward_a(ModelType::beam, 6.));
   const auto growth = compute_growth(checked);
   EXPECT_TRUE(growth.reached);
   EXPECT_LT(std::abs(growth.growth_difference()), 1e-3);
@@ -183,8 +183,8 @@ TEST(Growth, UnderALawThatRisesWithSpeedIsThatOfItsEigenvalue)
 {
   for (const auto type : { ModelType::rigid, ModelType::beam, ModelType::condensed })
   {
-    const CheckedSlide checked(cork(backward_a(type, 6.)));
-    const CheckedSlide constant(backward_a(type, 6.));
+    const JudgedSlide checked(cork(backward_a(type, 6.)));
+    const JudgedSlide constant(backward_a(type, 6.));
     const auto growth = compute_growth(checked);
     EXPECT_TRUE(growth.reached);
     EXPECT_TRUE(growth.slid);
@@ -199,7 +199,7 @@ TEST(Growth, IsFrictions)
 {
   for (const auto &scene : { backward_a(ModelType::beam, 6.), backward_b() })
   {
-    const CheckedSlide checked(scene);
+    const JudgedSlide checked(scene);
     HeldSlide without = checked.slide();
     without.friction  = ContactFriction::none;
     double largest    = -1e9;
@@ -215,7 +215,7 @@ TEST(Growth, IsFrictions)
 namespace
 {
   /// A run on the true drive, slowly backward from the held x, perturbed along a mode by an amplitude over the indentation.
-  Motion driven(const CheckedSlide &checked, const DrivePoint &start, const double amplitude)
+  Motion driven(const JudgedSlide &checked, const DrivePoint &start, const double amplitude)
   {
     auto &model      = checked.dynamics.model();
     const auto held  = checked.slide().motion;
@@ -235,7 +235,7 @@ namespace
   }
 
   /// P of a perturbed run less that of its twin in the same steps, from the perturbation's initial to its final amplitude.
-  std::vector<Sample> twin_difference(const CheckedSlide &checked, const double speed, double &travel)
+  std::vector<Sample> twin_difference(const JudgedSlide &checked, const double speed, double &travel)
   {
     const auto &settings = checked.scene.sprag_slip;
     auto &model          = checked.dynamics.model();
@@ -267,7 +267,7 @@ TEST(Growth, OnACreepingDriveIsThatOfItsEigenvalue)
   {
     Scene slow = scene;
     slow.drive = Drive(DriveProfile::triangle, 0., 65., speed, 1.);
-    const CheckedSlide checked(slow);
+    const JudgedSlide checked(slow);
     double travel      = 0.;
     const auto signal  = twin_difference(checked, speed, travel);
     const auto fit     = fit_exponential(compute_envelope(signal));

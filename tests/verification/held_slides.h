@@ -10,13 +10,13 @@
 namespace sprag
 {
   /// A scene's model with its slide checked.
-  struct CheckedSlide
+  struct JudgedSlide
   {
     Scene scene;
     Dynamics dynamics;
     SlideStability stability;
 
-    explicit CheckedSlide(const Scene &scene_)
+    explicit JudgedSlide(const Scene &scene_)
         : scene(held_scene(scene_))
         , dynamics(DynamicsMaker().make(scene))
         , stability(check_slide(dynamics.model(), held_drive(scene), checked_modes(scene)))

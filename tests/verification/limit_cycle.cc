@@ -16,7 +16,7 @@ namespace
   }
 
   /// Returns the attractor to which a kick of the slide leads.
-  Settled after_kick(const CheckedSlide &checked, const double kick, HeldRun &run)
+  Settled after_kick(const JudgedSlide &checked, const double kick, HeldRun &run)
   {
     run.spectral_radius = checked.scene.time.spectral_radius;
     run.begin(checked.dynamics.model().perturbed(checked.slide(), checked.mode(), kick * checked.slide().penetration));
@@ -24,7 +24,7 @@ namespace
     return settle(run, checked.slide(), { period, checked.scene.sprag_slip.settling, 2. }, ignore);
   }
 
-  Settled after_kick(const CheckedSlide &checked, const double kick)
+  Settled after_kick(const JudgedSlide &checked, const double kick)
   {
     HeldRun run(checked.dynamics.model(), checked.step());
     return after_kick(checked, kick, run);
@@ -41,9 +41,9 @@ namespace
 // by less than 1 % of impacts that last half a period.
 TEST(LimitCycle, IsTheSameFromBelowAndAboveAndInShorterSteps)
 {
-  const auto below  = after_kick(CheckedSlide(backward_b()), 1e-3);
-  const auto above  = after_kick(CheckedSlide(backward_b()), 5.);
-  const auto finely = after_kick(CheckedSlide(with_steps(backward_b(), 256)), 1e-3);
+  const auto below  = after_kick(JudgedSlide(backward_b()), 1e-3);
+  const auto above  = after_kick(JudgedSlide(backward_b()), 5.);
+  const auto finely = after_kick(JudgedSlide(with_steps(backward_b(), 256)), 1e-3);
   for (const auto *found : { &below, &above, &finely })
   {
     ASSERT_EQ(found->kind, Settling::cycle);
@@ -61,7 +61,7 @@ TEST(LimitCycle, IsTheSameFromBelowAndAboveAndInShorterSteps)
 // Friction and damping take what the turning cylinder gives, over whole cycles and with everything that opens and sticks.
 TEST(LimitCycle, ClosesTheLedger)
 {
-  const CheckedSlide checked(backward_a(ModelType::beam, 6.));
+  const JudgedSlide checked(backward_a(ModelType::beam, 6.));
   HeldRun run(checked.dynamics.model(), checked.step());
   EXPECT_TRUE(after_kick(checked, 1., run).vibrates());
   EXPECT_LT(run.ledger().share(), 1e-6);
@@ -70,7 +70,7 @@ TEST(LimitCycle, ClosesTheLedger)
 
 TEST(LimitCycle, DiesWhereTheSlideIsStableAndTheKickSmall)
 {
-  const CheckedSlide checked(backward_a(ModelType::beam, 20.));
+  const JudgedSlide checked(backward_a(ModelType::beam, 20.));
   EXPECT_EQ(after_kick(checked, 0.5).kind, Settling::slide);
 }
 
@@ -79,7 +79,7 @@ TEST(Continuation, FindsWhereASlideAndACycleCoexistSlow)
 {
   Scene scene                   = backward_b();
   scene.sprag_slip.continuation = 6;
-  const CheckedSlide checked(scene);
+  const JudgedSlide checked(scene);
   HeldRun run(checked.dynamics.model(), checked.step());
   const auto start     = after_kick(checked, 1e-3, run);
   const auto &settings = scene.sprag_slip;
@@ -98,7 +98,7 @@ TEST(Continuation, FindsWhereASlideAndACycleCoexistSlow)
   EXPECT_LT(found->from, 40.);
 
   // Without continuation: at one x inside a small perturbation dies and a large one does not, and it is the same cycle.
-  const CheckedSlide inside(held_at(scene, 41.));
+  const JudgedSlide inside(held_at(scene, 41.));
   EXPECT_EQ(after_kick(inside, Continuation::small_kick).kind, Settling::slide);
   const auto &points = continuation.points();
   const auto at_41 = std::find_if(points.begin(), points.end(), [](const auto &point) { return std::abs(point.x - 41.) < 1e-9; });

@@ -116,7 +116,7 @@ TEST(SolidInTime, AVibrationGrowsAsItsEigenvalueSays)
   scene.cylinder.tilt      = 1e-4;
   scene.stability.position = 65.;
   scene.analysis.type      = AnalysisType::sprag_slip;
-  const CheckedSlide checked(scene);
+  const JudgedSlide checked(scene);
   ASSERT_EQ(checked.stability.kind, SlideKind::flutter);
   HeldRun run(checked.dynamics.model(), checked.step());
   const auto growth = measure_growth(checked.dynamics.model(), checked.stability, scene.sprag_slip, run, [](const Row &) {});

@@ -345,7 +345,7 @@ TEST(SolidPartsInTime, AVibrationGrowsAsItsEigenvalueSaysSlow)
   scene.drive              = Drive(DriveProfile::triangle, 0., 65., 112., 1.);
   scene.stability.position = 65.;
   scene.spring             = prepared_spring(scene);
-  const CheckedSlide checked(scene);
+  const JudgedSlide checked(scene);
   ASSERT_EQ(checked.stability.kind, SlideKind::flutter);
   HeldRun run(checked.dynamics.model(), checked.step());
   const auto growth = measure_growth(checked.dynamics.model(), checked.stability, scene.sprag_slip, run, [](const Row &) {});

@@ -108,7 +108,7 @@ TEST(SolidShaftInTime, AVibrationGrowsAsItsEigenvalueSaysSlow)
   scene.cylinder.skew           = 0.;
   scene.cylinder.skew_stiffness = 1e6;
   scene.stability.position      = 65.;
-  const CheckedSlide checked(scene);
+  const JudgedSlide checked(scene);
   ASSERT_EQ(checked.stability.kind, SlideKind::flutter);
   HeldRun run(checked.dynamics.model(), checked.step());
   const auto growth = measure_growth(checked.dynamics.model(), checked.stability, scene.sprag_slip, run, [](const Row &) {});

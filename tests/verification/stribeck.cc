@@ -68,7 +68,7 @@ namespace
                                          "Drive/Speed=" + std::to_string(speed),
                                          std::string("Stability/Direction=") + (sign > 0. ? "forward" : "backward") };
     changes.insert(changes.end(), friction.begin(), friction.end());
-    const auto frame = CheckedSlide(scene_with(changes)).stability.modes.front().mode.eigenvalue;
+    const auto frame = JudgedSlide(scene_with(changes)).stability.modes.front().mode.eigenvalue;
     return -2. * frame.real() * stiffness / std::norm(frame);
   }
 
@@ -112,7 +112,7 @@ TEST(Stribeck, ShearOfTheLayerFeedsABeamAsItFeedsAMesh)
         read_scene((params_folder() / "stability-a.prm").string(),
                    { i == 0 ? "Analysis/Model=beam" : "Analysis/Model=condensed", "Friction/Law=Stribeck",
                      "Friction/Stribeck speed=10", "Drive/Speed=10", "Stability/Position=65", "Stability/Direction=backward" });
-    const auto eigenvalue = CheckedSlide(scene).stability.modes.front().mode.eigenvalue;
+    const auto eigenvalue = JudgedSlide(scene).stability.modes.front().mode.eigenvalue;
     growth[i]             = eigenvalue.real();
     frequency[i]          = eigenvalue.imag();
   }
