@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/effective_system.h"
 
-#include "base/ranges.h"
-
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
-#include <iterator>
 
 namespace sprag
 {
@@ -71,64 +68,12 @@ namespace sprag
     return result;
   }
 
-  namespace
-  {
-    // Forces on the same dofs step after step are answered fastest by responses to single forces; so many that they are not worth
-    // their memory, or ever new ones as a contact moves over a fine face, by one solution for all. Each step earns the right to
-    // one solution for a single force, so that both together cost at most twice the better of them.
-    constexpr unsigned int most_responses = 128;
-  } // namespace
-
   Vector<double> EffectiveSystem::response(const DofLoads &forces) const
   {
     Vector<double> load(interface.n_coordinates());
     for (unsigned int a = 0; a < forces.dofs.size(); ++a)
       interface.add_force(forces.dofs[a], forces.values[a], load);
     return solve(Vector<double>(load.begin(), load.begin() + matrices.coordinates.size()));
-  }
-
-  const Vector<double> &EffectiveSystem::response(const unsigned int dof) const
-  {
-    const auto [found, is_new] = responses.try_emplace(dof);
-    if (is_new)
-    {
-      DofLoads unit{ { dof }, Vector<double>(1) };
-      unit.values[0] = 1.;
-      found->second  = response(unit);
-    }
-    return found->second;
-  }
-
-  void EffectiveSystem::add_response(const DofLoads &forces, Vector<double> &position) const
-  {
-    const auto add = [&](const double factor, const Vector<double> &part)
-    {
-      for (unsigned int i = 0; i < part.size(); ++i)
-        position[i] += part[i] * factor;
-    };
-    const auto unknown = static_cast<unsigned int>(
-        std::count_if(forces.dofs.begin(), forces.dofs.end(), [&](const unsigned int dof) { return responses.count(dof) == 0; }));
-    budget = std::min(budget + 1, most_responses);
-    if (unknown > budget)
-      return add(1., response(forces));
-    budget -= unknown;
-    if (responses.size() + unknown > most_responses)
-      for (auto known = responses.begin(); known != responses.end();)
-        known =
-            std::binary_search(forces.dofs.begin(), forces.dofs.end(), known->first) ? std::next(known) : responses.erase(known);
-    for (unsigned int a = 0; a < forces.dofs.size(); ++a)
-      add(forces.values[a], response(forces.dofs[a]));
-  }
-
-  void EffectiveSystem::serialise_history(Archive &archive)
-  {
-    DofSelection known = mapped(responses, [](const auto &response) { return response.first; });
-    archive(budget, known);
-    if (!archive.reads())
-      return;
-    responses.clear();
-    for (const unsigned int dof : known)
-      response(dof);
   }
 
   FullMatrix<double> EffectiveSystem::interface_compliance() const
@@ -181,7 +126,9 @@ namespace sprag
   {
     const auto &layout = interface.layout();
     Vector<double> with_support(interface.n_coordinates());
-    const auto &lever_response = response(dof);
+    DofLoads unit{ { dof }, Vector<double>(1) };
+    unit.values[0]            = 1.;
+    const auto lever_response = response(unit);
     std::copy(lever_response.begin(), lever_response.end(), with_support.begin());
     const auto displacements = interface.displacements(with_support);
     for (unsigned int i = 0; i < layout.support(); ++i)

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "base/archive.h"
 #include "fe/algebra/mumps.h"
 #include "fe/dynamics/lever_interface.h"
 #include "model/interface/interface_forces.h"
-
-#include <map>
 
 namespace sprag
 {
@@ -33,16 +30,10 @@ namespace sprag
     /// Right-hand side and solution without the support.
     dealii::Vector<double> solve(const dealii::Vector<double> &right_hand_side) const;
 
-    /// Adds the displacement of all coordinates by forces on the interface dofs `forces.dofs`, the support's excepted,
-    /// increasing. Responses to single forces are kept where they are worth it.
-    void add_response(const DofLoads &forces, dealii::Vector<double> &position) const;
-
-    /// Serialises which responses are kept.
-    void serialise_history(Archive &archive);
+    /// Returns the displacements by forces on the interface dofs, the support's excepted, without the support.
+    dealii::Vector<double> response(const DofLoads &forces) const;
 
   private:
-    dealii::Vector<double> response(const DofLoads &forces) const;
-    const dealii::Vector<double> &response(unsigned int dof) const;
     void find_low_rank(double damping_weight);
     void subtract_low_rank(dealii::FullMatrix<double> &compliance) const;
 
@@ -54,9 +45,7 @@ namespace sprag
     const ModalDamping &damping;
     const InertialMatrices::Weights weights;
     Mumps factors;
-    std::vector<dealii::Vector<double>> damped;                       ///< S^-1 M phi, S without modal damping
-    dealii::FullMatrix<double> low_rank;                              ///< (D^-1 + (M phi)^T S^-1 M phi)^-1
-    mutable std::map<unsigned int, dealii::Vector<double>> responses; ///< by dof
-    mutable unsigned int budget = 0;                                  ///< responses that may be found now
+    std::vector<dealii::Vector<double>> damped; ///< S^-1 M phi, S without modal damping
+    dealii::FullMatrix<double> low_rank;        ///< (D^-1 + (M phi)^T S^-1 M phi)^-1
   };
 } // namespace sprag

@@ -337,15 +337,12 @@ namespace sprag
   {
     auto weights = mapped(steps, [](const auto &step) { return step->weights; });
     archive(weights);
-    if (archive.reads())
-    {
-      steps.clear();
-      current = nullptr;
-      for (const auto &step_weights : weights)
-        steps.push_back(make_step(step_weights));
-    }
-    for (const auto &step : steps)
-      step->system->serialise_history(archive);
+    if (!archive.reads())
+      return;
+    steps.clear();
+    current = nullptr;
+    for (const auto &step_weights : weights)
+      steps.push_back(make_step(step_weights));
   }
 
   InterfaceCompliance SparseStructure::interface_compliance(const EffectiveSystem &system, const double support_stiffness) const
@@ -372,19 +369,6 @@ namespace sprag
     for (unsigned int k = 0; k < 3; ++k)
       load += (w.mass() * constants.support_mass * position[k] + constants.support_damping * rate[k]) * q[k];
     return load / effective_support(w);
-  }
-
-  void SparseStructure::add_responses(const Step &step, const InterfaceForces &forces, const double at_support,
-                                      Vector<double> &position) const
-  {
-    // The support's dof is the last.
-    const bool on_support = constants.sprung && !forces.dofs.empty() && forces.dofs.back() == layout().support();
-    const auto n          = static_cast<unsigned int>(forces.dofs.size()) - (on_support ? 1 : 0);
-    step.system->add_response(
-        { { forces.dofs.begin(), forces.dofs.begin() + n }, Vector<double>(forces.values.begin(), forces.values.begin() + n) },
-        position);
-    if (on_support)
-      position[n_lever] += at_support * forces.values[n];
   }
 
   Motion SparseStructure::deform(const InterfaceForces &forces) const
@@ -485,7 +469,11 @@ namespace sprag
     Motion motion;
     motion.drive            = to;
     Vector<double> position = free_motion;
-    add_responses(*current, forces, constants.sprung ? 1. / effective_support(w) : 0., position);
+    const auto moved        = current->system->response({ forces.dofs, forces.values });
+    for (unsigned int i = 0; i < n_lever; ++i)
+      position[i] += moved[i];
+    if (constants.sprung && !forces.dofs.empty() && forces.dofs.back() == layout().support())
+      position[n_lever] += 1. / effective_support(w) * forces.values[forces.values.size() - 1];
     motion.coordinates = unaccelerated(accepted.coordinates, w);
     set_position(motion.coordinates, position, w);
     return motion;

@@ -133,10 +133,6 @@ namespace sprag
 
     void add_support_work(const Kinematic &q_0, const Kinematic &q_1, const StepWeights &w, StepWork &work) const;
 
-    /// Adds the lever's movement under interface forces, and the support's with compliance `at_support`.
-    void add_responses(const Step &step, const InterfaceForces &forces, double at_support,
-                       dealii::Vector<double> &position) const;
-
     const std::shared_ptr<const InertialMatrices> matrices;
     const LeverDynamics constants;
     const LeverInterface lever_interface;
