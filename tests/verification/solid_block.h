@@ -196,8 +196,7 @@ namespace sprag
         , layout(make_layout(block))
         , window(layout, { 1e12, 0., 1. },
                  { { layout.surface, [this](const DofSelection &) { return near.dofs; },
-                     [this](const DofSelection &)
-                     { return std::make_shared<const dealii::FullMatrix<double>>(near.compliance); } } })
+                     [this](const DofSelection &) { return near.compliance; } } })
         , contact(block.friction_face(), make_properties(counterface, layout))
         , elastic(layout.size())
         , placed(layout.size())

@@ -35,8 +35,7 @@ TEST(SolidCompliance, BetweenDofsItIsThatOfTheWholeBody)
     if (const double xi = nodes[dof / 3].position[0]; xi > begin && xi < end)
       inner.push_back(dof);
   LayeredCompliance compliance(body, begin, end);
-  const auto interface_compliance = compliance.among(inner);
-  const auto &found               = *interface_compliance;
+  const auto found = compliance.among(inner);
 
   const auto inner_dof = [&](const unsigned int place) { return nodes[inner[place] / 3].dofs[inner[place] % 3]; };
   double worst = 0., largest = 0.;

@@ -206,7 +206,7 @@ namespace sprag
     const auto structure  = [&](const unsigned int part)
     {
       const auto basis = basis_on(make_layout(*face_part, lever, device), *structures[part], face_dofs(face),
-                                  *lever.compliance->among(part_dofs(*face_part)), *lever.sensors, 3 * face_part->first_node,
+                                  lever.compliance->among(part_dofs(*face_part)), *lever.sensors, 3 * face_part->first_node,
                                   device.cylinder.slope_compliances(), device.spring.stiffness);
       return std::make_unique<ModalStructure>(
           modal_data(truncated(basis, n_modes), make_lever_dynamics(device, relaxation, basis.total_mass)));

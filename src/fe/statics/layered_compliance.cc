@@ -392,39 +392,19 @@ namespace sprag
     return result;
   }
 
-  std::shared_ptr<const FullMatrix<double>> LayeredCompliance::among(const DofSelection &whole_blocks)
+  FullMatrix<double> LayeredCompliance::among(const DofSelection &whole_blocks)
   {
-    const auto n = static_cast<unsigned int>(whole_blocks.size());
-    if (spare_matrix.use_count() != 1)
-      spare_matrix = std::make_shared<FullMatrix<double>>();
-    auto &result = *spare_matrix;
-    result.TableBase<2, double>::reinit({ n, n }, true); // all of it is set below
-    // Copy the contiguous part that the last result has in common with this one.
-    const auto first  = std::find_if(whole_blocks.begin(), whole_blocks.end(),
-                                     [&](const unsigned int surface_dof)
-                                     { return std::binary_search(last_dofs.begin(), last_dofs.end(), surface_dof); });
-    const auto begin  = static_cast<unsigned int>(first - whole_blocks.begin());
-    const auto before = begin < n ? find_index(*first, last_dofs) : 0;
-    unsigned int end  = begin;
-    while (end < n && before + end - begin < last_dofs.size() && last_dofs[before + end - begin] == whole_blocks[end])
-      ++end;
-    for (unsigned int row = begin; row < end; ++row)
-      std::copy_n(&(*last_matrix)(before + row - begin, before), end - begin, &result(row, begin));
-
-    const auto all      = block_numbers(whole_blocks);
-    const auto is_known = [&](const unsigned int place) { return begin <= place && place < end; };
+    FullMatrix<double> result(whole_blocks.size());
+    const auto all = block_numbers(whole_blocks);
     for (unsigned int i = 0, row = 0; i < all.size(); row += blocks[all[i]].end - blocks[all[i]].begin, ++i)
       for (unsigned int j = 0, column = 0; j <= i; column += blocks[all[j]].end - blocks[all[j]].begin, ++j)
-        if (!is_known(row) || !is_known(column))
-        {
-          const auto fresh = block(all[i], all[j]);
-          for (unsigned int a = 0; a < fresh.m(); ++a)
-            for (unsigned int b = 0; b < fresh.n() && column + b <= row + a; ++b)
-              result(row + a, column + b) = result(column + b, row + a) = fresh(a, b);
-        }
-    last_dofs = whole_blocks;
-    std::swap(last_matrix, spare_matrix);
-    return last_matrix;
+      {
+        const auto entries = block(all[i], all[j]);
+        for (unsigned int a = 0; a < entries.m(); ++a)
+          for (unsigned int b = 0; b < entries.n() && column + b <= row + a; ++b)
+            result(row + a, column + b) = result(column + b, row + a) = entries(a, b);
+      }
+    return result;
   }
 
   Vector<double> LayeredCompliance::displacements(const DofSelection &surface_dofs, const DofLoads &forces)

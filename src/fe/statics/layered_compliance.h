@@ -31,7 +31,7 @@ namespace sprag
     DofSelection whole_blocks(const DofSelection &surface_dofs) const;
 
     /// Returns the compliance between dofs that make up whole blocks [mm/N].
-    std::shared_ptr<const dealii::FullMatrix<double>> among(const DofSelection &whole_blocks);
+    dealii::FullMatrix<double> among(const DofSelection &whole_blocks);
 
     /// Returns the displacements of some dofs by forces on others [mm]; negligible entries of G_near are left out.
     dealii::Vector<double> displacements(const DofSelection &surface_dofs, const DofLoads &forces);
@@ -79,9 +79,5 @@ namespace sprag
     std::map<unsigned int, NearColumns> known;              ///< by block
     std::map<unsigned int, std::vector<double>> known_rows; ///< of G_near, by dof
     dealii::FullMatrix<double> basis;                       ///< Z, dofs x attachment modes
-
-    // The last result, from which the next one is mostly copied, and the one before, whose memory it reuses.
-    DofSelection last_dofs;
-    std::shared_ptr<dealii::FullMatrix<double>> last_matrix, spare_matrix;
   };
 } // namespace sprag

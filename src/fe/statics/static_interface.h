@@ -34,8 +34,8 @@ namespace sprag
   struct FaceResponse
   {
     unsigned int n_interface;
-    std::function<DofSelection(const DofSelection &)> whole_blocks; ///< those that hold some dofs
-    std::function<std::shared_ptr<const dealii::FullMatrix<double>>(const DofSelection &whole_blocks)> among; ///< [mm/N]
+    std::function<DofSelection(const DofSelection &)> whole_blocks;                    ///< those that hold some dofs
+    std::function<dealii::FullMatrix<double>(const DofSelection &whole_blocks)> among; ///< [mm/N]
   };
 
   /// Interface of linear levers on linear springs in statics, z = G f(z). The compliance G is dense on the faces of a lever and

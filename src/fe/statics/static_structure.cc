@@ -137,8 +137,7 @@ namespace sprag
     {
       return { 2 * static_cast<unsigned int>(mesh_face.nodes.size()),
                [=](const DofSelection &some) { return (*faces)[i].whole_blocks(some); },
-               [=](const DofSelection &blocks)
-               { return std::make_shared<const FullMatrix<double>>((*faces)[i].among(blocks)); } };
+               [=](const DofSelection &blocks) { return (*faces)[i].among(blocks); } };
     }
   } // namespace
 
