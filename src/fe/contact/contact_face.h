@@ -108,11 +108,10 @@ namespace sprag
     /// Returns Q at the end of the step [N].
     double drive_force(const Evaluation &found) const;
 
-    /// Serialises how far contact is sought and where it was last.
+    /// Serialises how far contact is sought.
     void serialise_history(Archive &archive)
     {
       archive(candidates.factor);
-      grid.serialise_history(archive);
     }
 
   protected:

@@ -195,19 +195,6 @@ namespace sprag
     return static_cast<unsigned int>(found - elements.begin());
   }
 
-  /// The closest element of the undeformed face, or one beside it where the centre has hardly moved: a search of the tree costs
-  /// as much as the contact of some points.
-  template <int dim>
-  unsigned int FaceElements<dim>::element_below(const dealii::Point<dim> &centre) const
-  {
-    if (known_element >= elements.size() || centre.distance(known_centre) > elements[known_element].length)
-    {
-      known_centre  = centre;
-      known_element = tree->found(boost::geometry::index::nearest(centre, 1)).front();
-    }
-    return known_element;
-  }
-
   template <int dim>
   std::vector<unsigned int> FaceElements<dim>::elements_in(const dealii::BoundingBox<dim> &box) const
   {

@@ -82,23 +82,14 @@ namespace sprag
     /// Returns the index of the element that holds a point, by its index.
     unsigned int point_element(unsigned int point) const;
 
-    /// Serialises where the next search begins.
-    void serialise_history(Archive &archive)
-    {
-      archive(known_centre, known_element);
-    }
-
   private:
     struct Tree;
-    unsigned int element_below(const dealii::Point<dim> &centre) const;
     void find_neighbours();
     void find_lines();
 
     std::unique_ptr<const Tree> tree;
     std::vector<Indices> neighbours; ///< of the elements: those that touch them
     Indices other_starts;            ///< of a face of several parts that do not touch: an element of each
-    mutable dealii::Point<dim> known_centre;
-    mutable unsigned int known_element = dealii::numbers::invalid_unsigned_int; ///< below it
   };
 
   inline std::vector<unsigned int> united(const std::vector<unsigned int> &a, const std::vector<unsigned int> &b)
@@ -166,7 +157,7 @@ namespace sprag
               found.push_back(next);
           }
     };
-    search(element_below(centre));
+    search(elements_in({ { centre, centre } }).front());
     for (const unsigned int element : other_starts)
       search(element);
     if (found.empty())
