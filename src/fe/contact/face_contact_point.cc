@@ -11,9 +11,8 @@ namespace sprag
   {
     return [geometry](const double x, const double theta)
     {
-      const auto circle = placed_for_points(geometry, x, theta);
-      return PlacedCounterface([circle](const LeverPoint &point) { return moving_circle_contact(circle, point); },
-                               [circle](const LeverPoint &point) { return circle_gap(circle, point); });
+      return [circle = placed_for_points(geometry, x, theta)](const LeverPoint &point)
+      { return moving_circle_contact(circle, point); };
     };
   }
 

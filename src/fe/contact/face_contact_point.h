@@ -15,42 +15,9 @@
 
 namespace sprag
 {
-  /// A convex body without deformation, at its place.
-  class PlacedCounterface
-  {
-  public:
-    PlacedCounterface() = default;
-
-    /// Takes what tells the kinematics of a point of the lever against it, in the coordinates (displacement along xi, along eta,
-    /// theta, x).
-    template <class Kinematics>
-    PlacedCounterface(Kinematics point_kinematics)
-        : kinematics(std::move(point_kinematics))
-    {
-    }
-
-    /// Takes a faster function of the gap alone as well, for the many points that touch nothing.
-    template <class Kinematics, class Gap>
-    PlacedCounterface(Kinematics point_kinematics, Gap point_gap)
-        : kinematics(std::move(point_kinematics))
-        , gap_alone(std::move(point_gap))
-    {
-    }
-
-    ContactKinematics<4> operator()(const LeverPoint &point) const
-    {
-      return kinematics(point);
-    }
-
-    double gap(const LeverPoint &point) const
-    {
-      return gap_alone ? gap_alone(point) : kinematics(point).gap;
-    }
-
-  private:
-    std::function<ContactKinematics<4>(const LeverPoint &point)> kinematics;
-    std::function<double(const LeverPoint &point)> gap_alone;
-  };
+  /// A convex body without deformation, at its place: the kinematics of a point of the lever against it, in the coordinates
+  /// (displacement along xi, along eta, theta, x).
+  using PlacedCounterface = std::function<ContactKinematics<4>(const LeverPoint &point)>;
 
   /// The body at its position x from the pivot frame's origin and hub rotation theta.
   using Counterface = std::function<PlacedCounterface(double x, double theta)>;

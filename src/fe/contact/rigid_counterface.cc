@@ -85,8 +85,8 @@ namespace sprag
   bool RigidCounterface::place(FacePointState<2> &state)
   {
     state.position = FaceElements<2>::position(face.points[state.index], at_end);
-    last_place     = to_lever_point(state.position);
-    state.gap      = end.gap(last_place);
+    placed         = end(to_lever_point(state.position));
+    state.gap      = placed.gap;
     return true;
   }
 
@@ -133,7 +133,6 @@ namespace sprag
 
   void RigidCounterface::step(FacePointState<2> &state, const ContactHistory &history, const FaceStep &step, ContactSums &sums)
   {
-    placed                   = end(last_place);
     const auto &point        = face.points[state.index];
     const double slip_change = (element_begin_points ? placed.slip - at_begin(state.index).slip : 0.) + step.surface_run;
     auto step_kinematics     = over_step(state, slip_change);
@@ -177,7 +176,6 @@ namespace sprag
 
   void RigidCounterface::slide(FacePointState<2> &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums)
   {
-    placed            = end(last_place);
     const auto &point = face.points[state.index];
     double &speed     = state.slip_change[0];
     speed             = sliding.speed;

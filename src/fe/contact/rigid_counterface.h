@@ -41,7 +41,7 @@ namespace sprag
     /// Returns the gap of a point of the element, by its index in the face, at the beginning of the step [mm].
     double gap_at_begin(const unsigned int point) const
     {
-      return element_begin_points ? at_begin(point).gap : end.gap(last_place);
+      return element_begin_points ? at_begin(point).gap : placed.gap;
     }
 
     /// Response of the point placed last to the step, and its forces.
@@ -100,8 +100,7 @@ namespace sprag
     PlacedCounterface balance; ///< where forces are not those at the end
     unsigned int element = 0;
     FaceElements<2>::Nodal at_end{};
-    LeverPoint last_place{};       ///< of the point placed last
-    ContactKinematics<4> placed{}; ///< of it, once step() or slide() need it
+    ContactKinematics<4> placed{}; ///< of the point placed last
 
     // State at the begin of the step, the same in all its iterations.
     PlacedCounterface begin;

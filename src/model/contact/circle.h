@@ -74,14 +74,6 @@ namespace sprag
   using CircleOfPoints = PlacedCircle<Dual<double, 4>>;
   CircleOfPoints placed_for_points(const Geometry &geometry, double x, double theta);
 
-  /// Returns the gap between a point of the lever and the circle [mm].
-  inline double circle_gap(const CircleOfPoints &circle, const LeverPoint &point)
-  {
-    const double r_1 = point.xi - circle.xi.v;
-    const double r_2 = point.eta - circle.eta.v;
-    return std::sqrt(r_1 * r_1 + r_2 * r_2) - circle.radius;
-  }
-
   /// Returns gap and slip of a point with first and second derivatives, see on_circle().
   ContactKinematics<4> moving_circle_contact(const CircleOfPoints &circle, const LeverPoint &point);
 } // namespace sprag
