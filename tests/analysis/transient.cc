@@ -410,8 +410,8 @@ TEST(RejectedStep, LeavesTheRunWhereTheAcceptedStepsAloneLead)
     for (std::size_t i = 1; i < motions.size(); ++i)
     {
       const auto &expected = motions[i];
-      forces.guess(durations[i], motion.forces);
-      auto outcome = model->step(motion, expected.drive, generalised_alpha(scene.time.spectral_radius, durations[i]));
+      motion.forces        = forces.guess(durations[i]);
+      auto outcome         = model->step(motion, expected.drive, generalised_alpha(scene.time.spectral_radius, durations[i]));
       ASSERT_TRUE(outcome.motion);
       motion = std::move(*outcome.motion);
       forces.accept(motion.forces, durations[i]);

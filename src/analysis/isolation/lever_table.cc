@@ -144,7 +144,7 @@ namespace sprag
       if (before)
         side.motion.forces = before->levers[i].motion->forces;
       else
-        side.forces.guess(h, side.motion.forces);
+        side.motion.forces = side.forces.guess(h);
       outcome             = side.model.step(side.motion, to, weights);
       const double travel = to.x - side.motion.drive.x;
       if (!outcome.motion)

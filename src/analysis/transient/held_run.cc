@@ -85,8 +85,8 @@ namespace sprag
     const double time   = now.motion.drive.time;
     auto weights        = generalised_alpha(spectral_radius, duration);
     weights.wants_error = false;
-    forces.guess(duration, now.motion.forces);
-    auto outcome = model.step(now.motion, path(time + duration), weights);
+    now.motion.forces   = forces.guess(duration);
+    auto outcome        = model.step(now.motion, path(time + duration), weights);
     if (outcome.motion)
     {
       now.motion = std::move(*outcome.motion);

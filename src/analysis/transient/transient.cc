@@ -156,8 +156,8 @@ namespace sprag
           const auto to       = drive.at(clock.step_end());
           auto weights        = generalised_alpha(settings.time.spectral_radius, attempt.dt);
           weights.wants_error = settings.time.tolerance > 0.;
-          forces.guess(attempt.dt, accepted.forces);
-          attempt.outcome = model.step(accepted, to, weights);
+          accepted.forces     = forces.guess(attempt.dt);
+          attempt.outcome     = model.step(accepted, to, weights);
         }
         catch (const AnalysisError &error)
         {

@@ -263,9 +263,8 @@ namespace sprag
   void SurfaceContact::evaluate_sliding(const SlidingState &sliding, FaceEvaluation<3> &found)
   {
     press_slide(sliding, found);
-    set_forces(sliding.request, found.forces);
-    if (sliding.request != Request::forces)
-      complete(found);
+    set_forces(Request::with_tangent, found.forces);
+    complete(found);
   }
 
   LinearisedForces SurfaceContact::linearise(const SlidingState &sliding, FaceEvaluation<3> &found)

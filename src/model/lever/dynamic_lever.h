@@ -156,7 +156,7 @@ namespace sprag
       // There a lever touches without force.
       if (drive.v == 0. && drive.x == 0. && frame.layout.levers == 1)
         return SlidingForces{ 0., 0. };
-      if (slides.follow(drive) == nullptr)
+      if (slides.solve(drive, 1.) == nullptr)
         return {};
       return observed_forces();
     }
@@ -464,7 +464,7 @@ namespace sprag
       const auto is_unique = [&](const double share)
       {
         const auto displacements = slides.last.displacements;
-        return uniqueness({ displacements, drive, speed, nullptr, ContactFriction::sliding, Request::with_tangent, share }) > 0.;
+        return uniqueness({ displacements, drive, speed, nullptr, ContactFriction::sliding, share }) > 0.;
       };
       std::vector<BranchPoint> branch = { { 0., found.penetration() } };
       for (double step = 0.25; branch.back().share < 1. && step > smallest_step;)

@@ -3,10 +3,8 @@
 
 #include "model/contact/circle.h"
 #include "model/contact/contact_of_levers.h"
-#include "model/step/force_history.h"
 #include "model/step/interface_step.h"
 #include "model/step/linearisation.h"
-#include "model/step/modified_newton.h"
 #include "model/step/state_archive.h"
 #include "model/structure/hub_spring.h"
 #include "model/structure/joined_interfaces.h"
@@ -76,24 +74,6 @@ namespace sprag
       return solve_from_last(drive, 1., ContactFriction::sliding, nullptr, share);
     }
 
-    /// Does as solve() for one drive after another: to what a step in time leaves out, from a kept tangent where the contact
-    /// keeps one.
-    const InterfaceForces *follow(const DrivePoint &drive)
-    {
-      if constexpr (Contact::keeps_tangent)
-      {
-        const auto *forces = solve_with_stored_jacobian(drive);
-        if (forces == nullptr)
-          forces = solve(drive, 1.);
-        if (forces != nullptr)
-          followed.accept_at({ forces->dofs, forces->values }, drive.x, goes_on(drive));
-        followed_speed = drive.v;
-        return forces;
-      }
-      else
-        return solve(drive, 1.);
-    }
-
     /// Returns the slip speed of the deformable lever over that of the rigid one, slip(x - h to x + h)/(2 h w_rigid), with
     /// w_rigid the rigid slip speed per drive speed and h in mm.
     double speed_ratio(const DrivePoint &drive, const double h)
@@ -112,8 +92,7 @@ namespace sprag
     /// Serialises the equilibrium from which the next one is sought.
     void serialise_history(Archive &archive)
     {
-      archive(last.displacements, last.forces, last.ideal, followed, followed_speed);
-      serialise(archive, kept);
+      archive(last.displacements, last.forces, last.ideal);
     }
 
   private:
@@ -122,16 +101,6 @@ namespace sprag
     typename Contact::Evaluation &found; ///< the model's
     const LeverFrame &frame;
     HubSpringExcess &hub_spring;
-    ForceHistory followed;      ///< by follow(), where the contact keeps a tangent
-    double followed_speed = 0.; ///< v of the last of them
-    std::shared_ptr<const StoredJacobian> kept;
-    JacobianFactors factors;
-
-    /// Returns true if a drive continues the last one that was followed.
-    bool goes_on(const DrivePoint &drive) const
-    {
-      return followed.size() > 0 && (drive.x - followed.last().place) * drive.v > 0. && drive.v * followed_speed > 0.;
-    }
 
     /// A turn of the hub, from the last equilibrium with the change of ideal contact.
     double guessed_turn(const unsigned int lever, const PerLever &ideal) const
@@ -147,54 +116,6 @@ namespace sprag
       contact.evaluate_sliding(state, found);
       hub_spring.add_forces(lever_rotations(frame.layout, state.displacements), true, found.forces);
       return { &found.forces, found.penetration() };
-    }
-
-    /// See follow(). Null where that does not converge.
-    const InterfaceForces *solve_with_stored_jacobian(const DrivePoint &drive)
-    {
-      if (last.forces.dofs.empty())
-        return nullptr;
-      structure.use_statics();
-      const auto ideal                  = ideal_inclinations(drive.x);
-      const auto &near                  = contact.candidate_dofs(drive.x, ideal);
-      const dealii::Vector<double> free = structure.positions(structure.rest(), near);
-      const bool in_line                = goes_on(drive) && followed.size() > 1;
-      const DofLoads guess              = in_line ? followed.guess_at(drive.x) : turned_forces(free, near, ideal);
-      dealii::Vector<double> z          = free;
-      const double speed                = sliding_speed(frame.geometries.front(), drive.x, drive.v);
-      const auto at                     = [&](const dealii::Vector<double> &displacements, const Request request) {
-        return evaluate({ displacements, drive, speed, nullptr, ContactFriction::sliding, request });
-      };
-      const auto solved = ModifiedNewton({ structure.compliance(), free, frame.lengths, near }, at, StepWeights{}, factors)
-                              .solve(guess, kept, z, left_out_in_time);
-      if (!solved.newton.converged || !found.within_candidates)
-      {
-        kept.reset();
-        return nullptr;
-      }
-      at(z, Request::complete);
-      return accept(z, ideal, *solved.forces);
-    }
-
-    /// The last forces, those of each lever as much larger as its hub turns.
-    DofLoads turned_forces(const dealii::Vector<double> &free, const DofSelection &near, const PerLever &ideal) const
-    {
-      dealii::Vector<double> z(free.size());
-      add_response(structure.compliance(), last.forces.dofs, last.forces.values, near, z);
-      PerLever growth{ { 1., 1. } };
-      for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
-        if (const unsigned int hub = frame.layout.rotation(lever); z[hub] != 0.)
-          growth[lever] = (guessed_turn(lever, ideal) - free[hub]) / z[hub];
-      DofLoads result = last.forces;
-      for (unsigned int i = 0; i < result.dofs.size(); ++i)
-        result.values[i] *= growth[std::min(frame.layout.lever_index(result.dofs[i]), frame.layout.levers - 1)];
-      return result;
-    }
-
-    const InterfaceForces *accept(const dealii::Vector<double> &z, const PerLever &ideal, const InterfaceForces &forces)
-    {
-      last = { z, { forces.dofs, forces.values }, ideal };
-      return &forces;
     }
 
     /// See solve(), from the last equilibrium.
@@ -215,7 +136,7 @@ namespace sprag
 
       const double speed = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
       const auto at      = [&](const dealii::Vector<double> &displacements) {
-        return evaluate({ displacements, drive, speed, nullptr, friction, Request::with_tangent, share });
+        return evaluate({ displacements, drive, speed, nullptr, friction, share });
       };
       const auto solved = solve_interface({ structure.compliance(), free, frame.lengths, near }, at, z);
       if (!solved.newton.converged)
@@ -225,7 +146,8 @@ namespace sprag
         contact.widen_candidates();
         return solve_from_last(drive, ratio, friction, round_off, share);
       }
-      return accept(z, ideal, *solved.forces);
+      last = { z, { solved.forces->dofs, solved.forces->values }, ideal };
+      return solved.forces;
     }
 
     /// Inclinations of the levers in ideal contact [rad].

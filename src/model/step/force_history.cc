@@ -15,8 +15,8 @@ namespace sprag
 
     using Shares = std::array<double, most>;
 
-    /// Shares of the values at the first n places, which differ, in that of the polynomial through them at another, by Lagrange.
-    Shares shares_at(const double place, const std::vector<ForcesAtPlace> &places, const std::size_t n)
+    /// Shares of the values at the first n steps, which differ, in that of the polynomial through them at another, by Lagrange.
+    Shares shares_at(const double time, const std::vector<ForcesAtTime> &steps, const std::size_t n)
     {
       Shares result{};
       for (std::size_t i = 0; i < n; ++i)
@@ -24,7 +24,7 @@ namespace sprag
         result[i] = 1.;
         for (std::size_t j = 0; j < n; ++j)
           if (j != i)
-            result[i] *= (place - places[j].place) / (places[i].place - places[j].place);
+            result[i] *= (time - steps[j].time) / (steps[i].time - steps[j].time);
       }
       return result;
     }
@@ -32,44 +32,32 @@ namespace sprag
 
   void ForceHistory::begin(const DofLoads &forces)
   {
-    time   = 0.;
-    places = { { forces, time } };
+    time  = 0.;
+    steps = { { forces, time } };
   }
 
   void ForceHistory::accept(const DofLoads &forces, const double duration)
   {
-    accept_at(forces, time + 0.5 * duration);
+    if (steps.size() == most)
+      steps.pop_back();
+    steps.insert(steps.begin(), { forces, time + 0.5 * duration });
     time += duration;
   }
 
-  void ForceHistory::guess(const double duration, DofLoads &result) const
+  DofLoads ForceHistory::guess(const double duration) const
   {
-    result = guess_at(time + 0.5 * duration);
-  }
-
-  void ForceHistory::accept_at(const DofLoads &forces, const double place, const bool goes_on)
-  {
-    if (!goes_on)
-      places.clear();
-    if (places.size() == most)
-      places.pop_back();
-    places.insert(places.begin(), { forces, place });
-  }
-
-  DofLoads ForceHistory::guess_at(const double place) const
-  {
-    std::array<Shares, most + 1> shares{}; // of polynomials through so many places
-    for (std::size_t n = 1; n <= places.size(); ++n)
-      shares[n] = shares_at(place, places, n);
+    std::array<Shares, most + 1> shares{}; // of polynomials through so many steps
+    for (std::size_t n = 1; n <= steps.size(); ++n)
+      shares[n] = shares_at(time + 0.5 * duration, steps, n);
     std::array<unsigned int, most> next{}; // of the dofs at each place
-    DofLoads result = places.front().forces;
+    DofLoads result = steps.front().forces;
     for (unsigned int i = 0; i < result.dofs.size(); ++i)
     {
       Shares values{};
       std::size_t n = 0;
-      for (; n < places.size(); ++n)
+      for (; n < steps.size(); ++n)
       {
-        const auto &[dofs, dof_values] = places[n].forces;
+        const auto &[dofs, dof_values] = steps[n].forces;
         while (next[n] < dofs.size() && dofs[next[n]] < result.dofs[i])
           ++next[n];
         if (next[n] == dofs.size() || dofs[next[n]] != result.dofs[i])
@@ -81,7 +69,7 @@ namespace sprag
     return result;
   }
 
-  SPRAG_SERIALISE(ForcesAtPlace, forces, place)
+  SPRAG_SERIALISE(ForcesAtTime, forces, time)
 
-  SPRAG_SERIALISE(ForceHistory, places, time)
+  SPRAG_SERIALISE(ForceHistory, steps, time)
 } // namespace sprag

@@ -19,7 +19,6 @@ namespace sprag
     double speed;                                  ///< of the cylinder's surface along the lever [mm/s], != 0
     const dealii::Vector<double> *rates = nullptr; ///< of the interface, which add to the slip; none: at rest
     ContactFriction friction            = ContactFriction::sliding;
-    Request request                     = Request::with_tangent;
     double friction_share               = 1.; ///< times mu of the law, 0 to 1: a friction on the way to the scene's
   };
 
