@@ -58,7 +58,7 @@ namespace sprag
     /// Returns the largest difference over the reference's peak.
     double compute_error(const Stroke &stroke, const Stroke &reference, double StrokePoint::*force)
     {
-      const double peak = maximum_over(reference.points, [force](const auto &point) { return std::abs(point.*force); });
+      const double peak = largest(reference.points, [force](const auto &point) { return point.*force; });
       double largest    = unknown;
       for (const auto &point : stroke.points)
       {

@@ -115,8 +115,8 @@ namespace sprag
     double overshoot(const Samples &samples, const double window_begin)
     {
       const double scale  = largest_reference(later_than(samples, window_begin));
-      const double excess = maximum_over(later_than(samples, first_crossing(samples, window_begin)), [](const auto &sample)
-                                         { return std::copysign(1., sample.reference) * sample.difference; });
+      const double excess = largest(later_than(samples, first_crossing(samples, window_begin)), [](const auto &sample)
+                                    { return std::max(0., std::copysign(1., sample.reference) * sample.difference); });
       return scale > 0. ? excess / scale : unknown;
     }
 

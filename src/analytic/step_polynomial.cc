@@ -87,7 +87,7 @@ namespace sprag
   {
     constexpr double round_off = 1e-13;
     const auto pieces          = monotone_pieces(polynomial);
-    const double scale         = maximum_over(pieces, [&](const double share) { return std::abs(evaluate(polynomial, share)); });
+    const double scale         = largest(pieces, [&](const double share) { return evaluate(polynomial, share); });
     for (std::size_t i = 1; i < pieces.size(); ++i)
       if (evaluate(polynomial, pieces[i]) < -round_off * scale)
         return Bracket{ pieces[i - 1], pieces[i] };

@@ -55,13 +55,13 @@ namespace sprag
     return result;
   }
 
-  /// Returns the largest value of a function over all items, at least 0; NaN does not count.
+  /// Returns the largest size of a function over all items; 0 without any. NaN does not count.
   template <class Range, class Function>
-  double maximum_over(const Range &items, const Function &function)
+  double largest(const Range &items, const Function &function)
   {
     double result = 0.;
     for (const auto &item : items)
-      result = std::max(result, function(item));
+      result = std::max(result, std::abs(function(item)));
     return result;
   }
 

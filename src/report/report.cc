@@ -193,7 +193,7 @@ namespace sprag
     double residual_share(const std::vector<Row> &rows)
     {
       constexpr Column terms[] = { Column::drive_work, Column::friction_work, Column::spring_energy, Column::kinetic_energy };
-      const double work        = maximum_over(terms, [&](const Column column) { return largest(rows, column); });
+      const double work        = largest(terms, [&](const Column column) { return largest(rows, column); });
       return work > 0. ? largest(rows, Column::energy_residual) / work : 0.;
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/ranges.h"
 #include "results/columns.h"
 
 #include <cmath>
@@ -19,13 +20,6 @@ namespace sprag
       if (const double found = value(row); std::abs(found) > std::abs(result))
         result = found;
     return result;
-  }
-
-  /// Returns the largest size of a value; 0 without any.
-  template <class Rows, class Value>
-  double largest(const Rows &rows, const Value &value)
-  {
-    return std::abs(signed_peak(rows, value));
   }
 
   /// Returns the largest size in a column; 0 without any.

@@ -83,7 +83,7 @@ namespace sprag
 
   double FittedContact::penalty_error() const
   {
-    return maximum_over(points, [&](const Indentation &point) { return fit.exponent * point.penetration / point.local(); });
+    return largest(points, [&](const Indentation &point) { return fit.exponent * point.penetration / point.local(); });
   }
 
   FittedContact indent(const Scene &scene)

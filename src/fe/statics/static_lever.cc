@@ -231,7 +231,7 @@ namespace sprag
     found.near        = step.near;
     found.residual =
         std::visit([&](auto &s) { return s.residual(step.trial.coordinates, found.forces, found.near); }, own_structure);
-    const double penetration = maximum_over(found.levers, [](const auto &lever) { return lever.contact.penetration(); });
+    const double penetration = largest(found.levers, [](const auto &lever) { return lever.contact.penetration(); });
     return { found.residual.norm, penetration, std::move(found) };
   }
 

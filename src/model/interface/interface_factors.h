@@ -18,6 +18,7 @@ namespace sprag
     /// Returns A (1 - G A)^-1 z, the forces that answer to displacements z which those forces have not changed yet.
     dealii::Vector<double> reaction(const dealii::FullMatrix<double> &tangent, const dealii::Vector<double> &displacements) const;
 
+    /// Returns det(1 - G A).
     double determinant() const;
 
   private:

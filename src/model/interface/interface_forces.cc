@@ -57,11 +57,6 @@ namespace sprag
     forces = std::move(result);
   }
 
-  double interface_determinant(const InterfaceCompliance &compliance, const DofSelection &dofs, const FullMatrix<double> &tangent)
-  {
-    return InterfaceFactors(compliance, dofs, tangent).determinant();
-  }
-
   DofSelection all_dofs(const unsigned int number)
   {
     DofSelection result(number);

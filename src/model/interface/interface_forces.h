@@ -44,10 +44,6 @@ namespace sprag
   /// Returns 0 ... number - 1.
   DofSelection all_dofs(unsigned int number);
 
-  /// Returns det(1 - G df/dz) on some dofs.
-  double interface_determinant(const InterfaceCompliance &compliance, const DofSelection &dofs,
-                               const dealii::FullMatrix<double> &tangent);
-
   /// Adds G f to the displacements of the selected dofs.
   void add_response(const InterfaceCompliance &compliance, const DofSelection &dofs, const dealii::Vector<double> &forces,
                     const DofSelection &selected, dealii::Vector<double> &displacements);

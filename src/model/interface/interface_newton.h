@@ -27,13 +27,13 @@ namespace sprag
 
     double smallest_movement() const
     {
-      return round_off * maximum_over(selected, [&](const unsigned int i) { return lengths[i]; });
+      return round_off * largest(selected, [&](const unsigned int i) { return lengths[i]; });
     }
 
     /// The largest movement of a material point that a change means.
     double movement(const dealii::Vector<double> &change) const
     {
-      return maximum_over(selected, [&](const unsigned int i) { return std::abs(lengths[i] * change[i]); });
+      return largest(selected, [&](const unsigned int i) { return lengths[i] * change[i]; });
     }
 
     /// Sets z_free + G f - z.

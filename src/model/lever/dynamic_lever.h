@@ -391,9 +391,10 @@ namespace sprag
     double uniqueness(const SlidingState &slide)
     {
       structure->use_statics();
-      const auto forces = perturbation(slide, true);
-      return interface_determinant(structure->compliance(), forces.dofs, forces.stiffness()) /
-             interface_determinant(structure->compliance(), forces.dofs, forces.pressure);
+      const auto forces      = perturbation(slide, true);
+      const auto determinant = [&](const dealii::FullMatrix<double> &tangent)
+      { return InterfaceFactors(structure->compliance(), forces.dofs, tangent).determinant(); };
+      return determinant(forces.stiffness()) / determinant(forces.pressure);
     }
 
     /// Finds the slide at a ratio of speeds, see SteadySlides::speed_ratio(), from the last equilibrium; none where none is

@@ -276,12 +276,12 @@ namespace sprag
     constexpr double widest     = 1e-10;
     constexpr double free_creep = 1e-10;
     const StateProblem problem(data, forces);
-    const auto pairs     = problem.inverse_pairs();
-    const double largest = maximum_over(pairs, [](const auto &pair) { return std::abs(pair.value); });
+    const auto pairs    = problem.inverse_pairs();
+    const double lowest = largest(pairs, [](const auto &pair) { return pair.value; });
     std::vector<StructureMode> result;
     for (auto pair : pairs)
     {
-      if (std::abs(pair.value) <= widest * largest)
+      if (std::abs(pair.value) <= widest * lowest)
         continue;
       const Complex lambda = std::conj(1. / pair.value);
       // Static shapes creep back without any force on them, which leaves their elastic force 0 / 0.
