@@ -4,6 +4,7 @@
 #include "base/system/interrupt.h"
 #include "base/system/open_mpi.h"
 #include "base/system/supervisor.h"
+#include "base/system/terminal.h"
 #include "input/read.h"
 #include "program/arguments.h"
 #include "program/outcome.h"
@@ -20,6 +21,7 @@
 #include <iostream>
 #include <string>
 #include <sys/resource.h>
+#include <unistd.h>
 
 // The program that one calls. It reads, checks and supervises runs and does itself what formulas answer; for models, which take
 // some 200 shared libraries, it becomes sprag-models. Linking it says what it must not use.
@@ -156,6 +158,7 @@ namespace sprag
 int main(int argc, char **argv)
 {
   using namespace sprag;
+  TerminalLines out(std::cout, STDOUT_FILENO), error(std::cerr, STDERR_FILENO);
   Arguments arguments;
   if (const auto status = read_arguments(argc, argv, arguments))
     return *status;

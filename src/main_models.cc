@@ -6,6 +6,7 @@
 #include "base/system/interrupt.h"
 #include "base/system/open_mpi.h"
 #include "base/system/supervisor.h"
+#include "base/system/terminal.h"
 #include "fe/algebra/first_rank.h"
 #include "fe/fields/help_first_rank.h"
 #include "fe/mesh/geometry_script.h"
@@ -25,8 +26,10 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <iostream>
 #include <stdexcept>
 #include <thread>
+#include <unistd.h>
 
 // This program runs analyses with models and links their libraries; sprag executes it, or mpirun starts it. It does formulas as
 // well.
@@ -161,6 +164,7 @@ namespace sprag
 int main(int argc, char **argv)
 {
   using namespace sprag;
+  TerminalLines out(std::cout, STDOUT_FILENO), error(std::cerr, STDERR_FILENO);
   Arguments arguments;
   if (const auto status = read_arguments(argc, argv, arguments))
     return *status;

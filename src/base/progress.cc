@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/progress.h"
 
+#include "base/system/terminal.h"
 #include "base/text.h"
 
 #include <algorithm>

@@ -29,9 +29,6 @@ namespace sprag
     quiet     ///< nothing
   };
 
-  /// Environment variable that is set if standard error goes to a terminal through another process.
-  inline constexpr const char *terminal_variable = "SPRAG_TERMINAL";
-
   /// Chooses the style for the standard error stream.
   ProgressStyle progress_style(bool quiet);
 

@@ -9,12 +9,16 @@
 #include "base/text.h"
 #include "base/version.h"
 #include "input/read.h"
+#include "input/sections.h"
 #include "program/outcome.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <sstream>
+#include <unistd.h>
 
 namespace sprag
 {
@@ -25,7 +29,8 @@ namespace sprag
       app.add_option("FILE.prm", arguments.file, "The scene: a parameter file; see params/README.md");
       app.add_option("--set", arguments.overrides, "\"Section/Name=value\": overrides a parameter of the file; may be repeated")
           ->allow_extra_args(false);
-      auto *const new_file = app.add_option("--new", arguments.new_file, "Write a scene of a device to begin with, and stop");
+      auto *const new_file = app.add_option(
+          "--new", arguments.new_file, "Write a scene of a device to begin with, asking for its values on a terminal, and stop");
       app.add_option("--from", arguments.shipped_scene, "Scene of sprag that --new copies, as model-a")->needs(new_file);
       app.add_option("--output", arguments.folder, "Folder for results; default output/NAME_OF_THE_FILE");
       app.add_flag("--overwrite", arguments.overwrite, "Replace whatever result is in that folder, and begin anew");
@@ -47,12 +52,13 @@ namespace sprag
           "is written).");
     }
 
-    /// Prints a section or parameter. Returns the exit status.
-    int explain(const std::string &name)
+    /// Reports the mistakes that are found. Returns the exit status.
+    template <class Work>
+    int report_mistakes(const Work &work)
     {
       try
       {
-        std::cout << help_text(name);
+        work();
         return success;
       }
       catch (const InputError &error)
@@ -61,7 +67,47 @@ namespace sprag
       }
     }
 
-    /// Copies a scene of the program to a new file. Returns the exit status.
+    /// Returns the answer to a question on the terminal, a value that the parameter takes; the present one where there is none.
+    std::string answer(const std::string &question, const Parameter &parameter, const std::string &present)
+    {
+      for (std::string typed;;)
+        try
+        {
+          std::cout << question << " [" << present << "]: " << std::flush;
+          if (!std::getline(std::cin, typed) || trim(typed).empty())
+            return present;
+          kept_value(parameter.rule, trim(typed));
+          return escaped(trim(typed));
+        }
+        catch (const InputError &error)
+        {
+          report_error(error);
+        }
+    }
+
+    /// Returns a scene with the values that are typed on the terminal in place of its own.
+    std::string ask_for_values(const std::string &scene)
+    {
+      SceneSettings settings;
+      const auto parameters = scene_parameters(settings);
+      std::istringstream lines(scene);
+      std::string text, section;
+      for (std::string line; std::getline(lines, line); text += line + '\n')
+      {
+        if (line.rfind("subsection ", 0) == 0)
+          section = line.substr(line.find(' ') + 1) + '/';
+        const auto equals = line.find(" = "), comment = line.find(" # ");
+        const auto name = section + trim(line.substr(0, equals)).substr(line.rfind("  set ", 0) == 0 ? 4 : 0);
+        if (const auto *const parameter = find_parameter(parameters, name); parameter != nullptr)
+          line = line.substr(0, equals + 3) +
+                 answer(name + ", " + line.substr(comment + 3), *parameter, trim(line.substr(equals + 3, comment - equals - 3))) +
+                 line.substr(comment);
+      }
+      return text;
+    }
+
+    /// Copies a scene of the program to a new file, and asks for its values where there is a terminal and no scene is named.
+    /// Returns the exit status.
     int write_new_scene(const Arguments &arguments)
     {
       namespace fs           = std::filesystem;
@@ -78,11 +124,16 @@ namespace sprag
             InputError("--from " + name + ": there is no such scene" + did_you_mean(nearest(fs::path(name).stem(), names))));
       if (contains_match(read_whole_file(shipped.string(), 1 << 20), R"(\n\s*set [^#\n]*\.(csv|geo|msh)\b)"))
         return report_error(InputError("--from " + name + ": that scene reads files of its folder; copy it together with them"));
+      const bool asks = name == Arguments().shipped_scene && ::isatty(STDIN_FILENO) != 0 && ::isatty(STDOUT_FILENO) != 0 &&
+                        !fs::exists(arguments.new_file);
+      const auto text = asks ? ask_for_values(read_whole_file(shipped.string(), 1 << 20)) : "";
       if (!fs::copy_file(shipped, arguments.new_file, error))
         return report_error(InputError("--new " + arguments.new_file + ": " + error.message() +
                                        (error == std::errc::file_exists ? "; no file is replaced, name another" : "")));
+      if (asks)
+        std::ofstream(arguments.new_file) << text;
       std::cout << arguments.new_file << ": a copy of " << shipped.filename().string() << ", to be edited and run\n";
-      return success;
+      return asks ? report_mistakes([&] { read_scene(arguments.new_file); }) : success;
     }
 
     /// Returns a message for each word that looks like an option and is none.
@@ -108,7 +159,7 @@ namespace sprag
     catch (const CLI::CallForHelp &help)
     {
       const auto &words = app.get_option("FILE.prm")->results();
-      return words.empty() ? app.exit(help) : explain(words.front());
+      return words.empty() ? app.exit(help) : report_mistakes([&] { std::cout << help_text(words.front()); });
     }
     catch (const CLI::ExtrasError &error)
     {

@@ -5,6 +5,7 @@
 #include "base/system/interrupt.h"
 #include "base/text.h"
 #include "report/report.h"
+#include "report/summary_lines.h"
 #include "report/warnings.h"
 #include "results/result_file.h"
 #include "results/stress_entries.h"
@@ -109,6 +110,10 @@ namespace sprag
     const auto end = writer.finish(status, { summary, meta, {}, accuracy }, warnings);
     if (checkpoint != nullptr)
       checkpoint->finish(status);
+    if (status != "completed" && !quiet && !rows.empty())
+      summary_line(std::cout, "ended early",
+                   "at x = " + mm(rows.back()[Column::x]) + ", t = " + rounded_text(rows.back()[Column::time]) + " s, after " +
+                       formatted("%.0f", 100. * travel / path_length(scene.drive)) + " % of the way");
     return end.summary;
   }
 

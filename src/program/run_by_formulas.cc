@@ -128,7 +128,7 @@ namespace sprag
     }
     catch (const AnalysisError &)
     {
-      print_end("failed, ", warnings, options);
+      print_end(interrupted() ? "interrupted, " : "failed, ", warnings, options);
       throw;
     }
     print_end("completed, ", warnings, options);

@@ -56,6 +56,8 @@ class Install(FolderTest):
     def test_bash_completes_its_words(self):
         self.assertEqual(self.completions("--set", "Lever/Dep"), ["Lever/Depth="])
         self.assertEqual(self.completions("--set", "Mesh/Face\\ s"), ["Mesh/Face\\ size="])
+        self.assertEqual(self.completions("--help", "Lever/Dep"), ["Lever/Depth"])
+        self.assertEqual(self.completions("--new", "own.prm", "--from", "model-"), ["model-a", "model-b"])
         self.assertEqual(self.completions("--over"), ["--overwrite"])
         (self.folder / "own.prm").touch()
         (self.folder / "own.txt").touch()

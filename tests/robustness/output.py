@@ -2,11 +2,14 @@
 """Tests the output of a run: the lines that answer its question, everything with --verbose, and all of it again in run.log. Run with
 /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 
+import fcntl
 import os
 import pty
 import re
+import struct
 import subprocess
 import sys
+import termios
 import unittest
 from pathlib import Path
 
@@ -58,11 +61,13 @@ class Output(RunTest):
             for way, printed in re.findall(r"(forward|backward) (\S+) N", line):
                 self.assertAlmostEqual(float(printed) / file[f"summary/peak_P_{way}"][()], 1, delta=1e-3)
 
-    def on_a_terminal(self, *arguments, **environment):
+    def on_a_terminal(self, *arguments, columns=0, typed="", **environment):
         """Returns the output of a run on a terminal and its exit status."""
         ours, its = pty.openpty()
+        fcntl.ioctl(its, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
+        os.write(ours, typed.encode())
         inherited = {name: value for name, value in os.environ.items() if name != "NO_COLOR"}
-        with subprocess.Popen([SPRAG, *map(str, arguments)], stdout=its, stderr=its, env={**inherited, **environment}) as run:
+        with subprocess.Popen([SPRAG, *map(str, arguments)], stdin=its, stdout=its, stderr=its, env={**inherited, **environment}) as run:
             os.close(its)
             got = b""
             try:
@@ -88,6 +93,28 @@ class Output(RunTest):
         self.assertEqual(status, 2)
         self.assertTrue(text.startswith("\033[31m"), text)
         self.assertNotIn("\033", sprag(self.folder / "none.prm").stderr)
+
+    def test_lines_are_no_wider_than_the_terminal(self):
+        columns = 60
+        settings = [word for setting in SHORT["model-a"] for word in ("--set", setting)]
+        text, status = self.on_a_terminal(SOURCE / "params/model-a.prm", *settings, "--output", self.output, columns=columns)
+        self.assertEqual(status, 0, text)
+        self.assertIn(" %  x ", text)
+        self.assertLessEqual(max(map(len, re.split(r"[\r\n]+", text))), columns)
+        log = (self.output / "run.log").read_text().splitlines()
+        self.assertGreater(max(map(len, log)), columns)
+        self.assertTrue(set(" ".join(log).split()) >= set(text.rpartition("largest P")[2].partition("\033")[0].split()), text)
+
+    def test_a_new_scene_is_asked_for(self):
+        new = self.folder / "press.prm"
+        text, status = self.on_a_terminal("--new", new, typed="40\n12 kg\n22\n150\n\n\n\n170\n" + 20 * "\n")
+        self.assertEqual(status, 0, text)
+        self.assertIn("Geometry/Interface offset, e, from the pivot to the friction face, less than R [12 mm]: ", text)
+        self.assertIn("'kg' has the dimension kg", text)
+        self.assertEqual(sprag(new, "--validate").returncode, 0)
+        scene = new.read_text()
+        for name, value in (("Cylinder radius", "40"), ("Interface offset", "22"), ("Pivot distance", "150"), ("Stroke", "40 mm")):
+            self.assertRegex(scene, rf"set {name} += {value} +# ")
 
     def test_many_reversals_are_a_table_with_an_end(self):
         settings = [word for setting in MANY_TURNS for word in ("--set", setting)]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/system/open_mpi.h"
 
-#include "base/progress.h"
+#include "base/system/terminal.h"
 
 #include <csignal>
 #include <cstdlib>
@@ -48,8 +48,10 @@ namespace sprag
       // Kept where they are set already.
       for (const char *name : { "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS" })
         ::setenv(name, "1", 0);
-      if (::isatty(STDERR_FILENO) != 0)
-        ::setenv(terminal_variable, "1", 1);
+      for (const auto &[descriptor, variable] :
+           { std::pair{ STDERR_FILENO, terminal_variable }, std::pair{ STDOUT_FILENO, output_terminal_variable } })
+        if (::isatty(descriptor) != 0)
+          ::setenv(variable, std::to_string(terminal_width(descriptor)).c_str(), 1);
       if (::geteuid() == 0)
         for (const char *name : { "OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM" })
           ::setenv(name, "1", 0);
