@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Pictures of a vibration analysis: eigenvalues, mode shapes, what feeds the growth and what each ingredient does."""
 
+import re
+import textwrap
+
 import numpy as np
 from matplotlib.ticker import FuncFormatter, NullLocator
 
@@ -27,9 +30,33 @@ def vibration_pictures(result):
         pictures["modes"] = mode_shapes(modes)
     if "verdict" in result.summary:
         pictures["stability"] = stability(result)
+    if searches := {name: group for name, group in result.groups.items() if name.startswith("critical_")}:
+        pictures["critical"] = critical(result, searches)
     if not pictures:
         raise NotAResult(f"{result.folder}: no mode was found")
     return pictures
+
+
+def critical(result, searches):
+    """Growth rate of the worst slide over each parameter, shaded where it vibrates, and where the verdict changes."""
+    figure, panels = plt.subplots(len(searches), 1, figsize=(TWO_COLUMNS, (12 + 48 * len(searches)) * MILLIMETRE), squeeze=False)
+    for axes, (name, tried) in zip(panels.flat, searches.items()):
+        order = np.argsort(tried["value"])
+        values, rates = (np.asarray(tried[column])[order] for column in ("value", "growth_rate"))
+        axes.plot(values, rates, "o-", color=COLOURS[0], markersize=2.5)
+        axes.axhline(0, color="black", linewidth=0.8)
+        axes.margins(x=0)
+        axes.set_ylim(*axes.get_ylim())
+        axes.axhspan(0, max(axes.get_ylim()[1], 0), color=COLOURS[1], alpha=0.12, linewidth=0)
+        changes = [change for entry, change in result.summary.items() if re.fullmatch(rf"{name}_\d+", entry)]
+        for change in changes:
+            axes.axvline(change, color="black", linewidth=0.8, linestyle="--")
+        parameter, _, verdicts = result.summary[f"{name}_verdicts"].partition(" from ")
+        axes.set_title("\n".join(textwrap.wrap(verdicts.partition(": ")[2], 90)), fontsize=8, loc="left")
+        unit = tried["value"].unit
+        axes.set_xlabel(parameter + (f" [{unit}]" if unit != "1" else ""))
+        axes.set_ylabel("growth rate [1/s]")
+    return figure
 
 
 def mode_shapes(modes, most=6):
@@ -154,7 +181,7 @@ def draw_eigenvalues(axes, modes):
         if selected.any():
             axes.plot(modes["growth_rate"][selected], modes["frequency"][selected], marker, color=COLOURS[kind], markersize=4, label=name)
     scale_eigenvalues(axes, modes["growth_rate"], modes["frequency"])
-    axes.legend(loc="upper right", handlelength=1)  # fast modes are damped
+    axes.legend(loc="upper right", handlelength=1, frameon=True, framealpha=1, edgecolor="none")  # fast modes are damped
 
 
 def scale_eigenvalues(axes, rates, frequencies):

@@ -294,12 +294,11 @@ namespace sprag
       if (scene.stability.critical != "none")
       {
         const auto critical = all_critical(whole, maker, options.quiet);
-        append(result.summary, critical_entries(critical));
+        append(result.summary, critical_entries(whole, critical));
+        append(result.groups, critical_groups(critical));
         for (const auto &search : critical)
           if (!search.has_effect)
             idle.push_back(search.range.name);
-        if (!options.quiet)
-          print_critical(std::cout, whole, critical, options.verbose);
       }
       append(warnings, without_effect(idle));
       return result;

@@ -220,6 +220,37 @@ namespace sprag
     {
       return critical.worse.motion.empty() ? "" : ", the levers " + critical.worse.motion;
     }
+
+    /// Returns "flutter, stable from 4.3 mm (worst forward at x = 40 mm)".
+    std::string verdicts_text(const CriticalSearch &search, const bool is_worst)
+    {
+      const auto &range     = search.range;
+      const auto unit       = parameter_unit(range.name);
+      const auto &unchecked = search.not_checked;
+      std::string text      = range.name + " from " + four_digits(range.from) + " to " + with_unit(range.to, unit) + ": " +
+                         (search.first ? kind_name(*search.first) : "cannot be judged");
+      for (const auto &critical : search.changes)
+      {
+        const bool is_friction = range.name == "Friction/Factor" && !std::isnan(critical.mu);
+        // The value that is printed must lie on the better side as well.
+        const bool upward = (critical.above < critical.below) == (range.to > range.from);
+        text += ", " + kind_name(critical.above) + " from " + with_unit(rounded_to(critical.value, upward), unit) +
+                (is_friction ? " (mu = " + four_digits(rounded_to(critical.mu, upward)) + ")" : "") +
+                (critical.worse.motion.empty() ? "" : " (" + critical.worse.motion + ")");
+        if (is_worst && range.name != "Stability/Position")
+          text += std::string(" (worst ") + (critical.worse.drive.v < 0. ? "backward" : "forward") +
+                  " at x = " + with_unit(critical.worse.drive.x, "mm") + ")";
+      }
+      text += std::string(search.first && search.changes.empty() ? " throughout" : "") +
+              (search.has_effect ? "" : ", without effect");
+      if (search.first && !unchecked.empty())
+      {
+        const auto [least, most] = std::minmax_element(unchecked.begin(), unchecked.end());
+        text += "; cannot be judged at " + (*least < *most ? four_digits(*least) + " to " : "") + with_unit(*most, unit) +
+                (*least < *most ? " (" + std::to_string(unchecked.size()) + " values)" : "");
+      }
+      return text;
+    }
   } // namespace
 
   void print_modes(std::ostream &stream, const std::vector<Eigenmode> &modes)
@@ -270,45 +301,6 @@ namespace sprag
       const auto [fed, damped] = extremes(mode.growth);
       stream << cell(mode.mode.eigenvalue.real(), 14) << cell(mode_frequency(mode), 16) << "  " << padded(fed, -32) << damped
              << '\n';
-    }
-  }
-
-  void print_critical(std::ostream &stream, const Scene &scene, const std::vector<CriticalSearch> &searches,
-                      const bool with_spacing)
-  {
-    const bool is_worst = looks_over_stroke(scene);
-    stream << "  Critical values of " << (is_worst ? "the worst slide" : "this slide") << ", all else as it is"
-           << (scene.stability.ranges == "none" ? " (Stability/Ranges looks at ranges of damping and friction)" : "")
-           << "; narrow islands between the values tried may be missed:\n";
-    for (const auto &[range, first, changes, worst, not_checked, reason, spacing, more_values, has_effect] : searches)
-    {
-      const auto unit = parameter_unit(range.name);
-      stream << "    " << range.name << " from " << four_digits(range.from) << " to " << with_unit(range.to, unit) << ": "
-             << (first ? kind_name(*first) : "cannot be judged");
-      for (const auto &critical : changes)
-      {
-        const bool is_friction = range.name == "Friction/Factor" && !std::isnan(critical.mu);
-        // The value that is printed must lie on the better side as well.
-        const bool upward = (critical.above < critical.below) == (range.to > range.from);
-        stream << ", " << kind_name(critical.above) << " from " << with_unit(rounded_to(critical.value, upward), unit)
-               << (is_friction ? " (mu = " + four_digits(rounded_to(critical.mu, upward)) + ")" : "")
-               << (critical.worse.motion.empty() ? "" : " (" + critical.worse.motion + ")");
-        if (is_worst && range.name != "Stability/Position")
-          stream << " (worst " << (critical.worse.drive.v < 0. ? "backward" : "forward")
-                 << " at x = " << with_unit(critical.worse.drive.x, "mm") << ")";
-      }
-      stream << (first && changes.empty() ? " throughout" : "") << (has_effect ? "" : ", without effect");
-      if (first && !not_checked.empty())
-      {
-        const auto [least, most] = std::minmax_element(not_checked.begin(), not_checked.end());
-        stream << "; cannot be judged at " << (*least < *most ? four_digits(*least) + " to " : "") << with_unit(*most, unit)
-               << (*least < *most ? " (" + std::to_string(not_checked.size()) + " values)" : "");
-      }
-      if (with_spacing)
-        stream << "; tried every " << with_unit(spacing, unit);
-      if (with_spacing && more_values > 0)
-        stream << " and " << more_values << " times between, where growth peaks";
-      stream << '\n';
     }
   }
 
@@ -416,7 +408,22 @@ namespace sprag
     return result;
   }
 
-  std::vector<Entry> critical_entries(const std::vector<CriticalSearch> &searches)
+  std::vector<Group> critical_groups(const std::vector<CriticalSearch> &searches)
+  {
+    std::vector<Group> result;
+    for (const auto &search : searches)
+    {
+      const auto &name = search.range.name;
+      result.push_back({ "critical_" + to_identifier(name),
+                         { make_dataset(search.growth, { "value", parameter_unit(name), name + " as tried" },
+                                        [](const auto &tried) { return tried.first; }),
+                           make_dataset(search.growth, { "growth_rate", "1/s", "largest of the slides there" },
+                                        [](const auto &tried) { return tried.second; }) } });
+    }
+    return result;
+  }
+
+  std::vector<Entry> critical_entries(const Scene &scene, const std::vector<CriticalSearch> &searches)
   {
     std::vector<Entry> result;
     for (const auto &search : searches)
@@ -430,7 +437,8 @@ namespace sprag
                            search.range.name + ": from " + kind_name(critical.below) + " to " + kind_name(critical.above) +
                                motion_text(critical) });
       }
-      append<Entry>(result, { { name + "_spacing", search.spacing, unit },
+      append<Entry>(result, { { name + "_verdicts", verdicts_text(search, looks_over_stroke(scene)) },
+                              { name + "_spacing", search.spacing, unit },
                               { name + "_values", static_cast<double>(search.range.points + search.more_values) } });
     }
     return result;

@@ -20,9 +20,6 @@ namespace sprag
   /// Prints the modes that grow most or decay least, with what feeds and damps each of them most.
   void print_growing(std::ostream &stream, std::vector<Eigenmode> modes);
 
-  /// Prints where the verdict changes along each parameter; `with_spacing`: and how closely was tried.
-  void print_critical(std::ostream &stream, const Scene &scene, const std::vector<CriticalSearch> &searches, bool with_spacing);
-
   /// Returns true if a mode grows by more than round-off.
   bool grows(const Eigenmode &mode);
 
@@ -44,5 +41,8 @@ namespace sprag
 
   std::vector<Entry> role_entries(const std::vector<Role> &roles);
 
-  std::vector<Entry> critical_entries(const std::vector<CriticalSearch> &searches);
+  std::vector<Entry> critical_entries(const Scene &scene, const std::vector<CriticalSearch> &searches);
+
+  /// Returns the growth rates over each parameter.
+  std::vector<Group> critical_groups(const std::vector<CriticalSearch> &searches);
 } // namespace sprag

@@ -65,9 +65,11 @@ FACE = np.array((200.0, 0.0, 100.0, 50.0, 150.0))
 GROWING = (-180 + 1047j, 78 + 1162j, -110 + 4467j, -300 + 7700j, -400 + 15000j)
 
 
-def make_stability(folder, eigenvalues=GROWING, xi=FACE, kind="stability", **summary):
+def make_stability(folder, eigenvalues=GROWING, xi=FACE, kind="stability", searched=(), **summary):
     file = new_file(folder, kind)
     fill_modes(file, eigenvalues, xi)
+    for name, values in searched:
+        put(file.require_group("critical_lever_depth"), name, values)
     finish(file, **summary)
     return folder
 
@@ -77,6 +79,8 @@ def role(name, verdict, rate):
 
 
 FLUTTER = {"verdict": "flutter", "growth_rate": 78.0, **role("damping", "flutter", 87.0), **role("flexure", "stable", -81.0)}
+SEARCHED = (("value", np.array((2.0, 12.0, 4.0, 3.0))), ("growth_rate", np.array((80.0, -9.0, np.nan, 20.0))))
+FOUND = {"critical_lever_depth_1": 4.3, "critical_lever_depth_verdicts": "Lever/Depth from 2 to 12 mm: flutter, stable from 4.3 mm"}
 JAMMED = {"verdict": "jammed", **role("damping", "jammed", np.nan), **role("inertia", "jammed", np.nan)}
 
 
@@ -194,6 +198,7 @@ class Vibration(ModePictureTest):
             "modal": (make_stability(self.folder / "modal", 1j * np.imag(GROWING), kind="modal"), ["modes"]),
             "rigid": (make_stability(self.folder / "rigid", GROWING[1:2], np.zeros(1), **FLUTTER), ["modes", "stability"]),
             "roles off": (make_stability(self.folder / "off", verdict="stable", growth_rate=-3.0), ["modes", "stability"]),
+            "searched": (make_stability(self.folder / "searched", searched=SEARCHED, **FLUTTER, **FOUND), ["modes", "stability", "critical"]),
             "jammed": (make_stability(self.folder / "jammed", (), **JAMMED), ["stability"]),
         }
         for name, (run, pictures) in cases.items():

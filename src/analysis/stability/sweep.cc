@@ -237,6 +237,7 @@ namespace sprag
         try
         {
           tried.slide = check_at(value);
+          result.growth.emplace_back(value, tried.slide->growth_rate);
           if (!result.worst || is_worse(*tried.slide, *result.worst))
             result.worst = tried.slide;
         }

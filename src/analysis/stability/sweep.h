@@ -52,6 +52,7 @@ namespace sprag
     double spacing           = 0.;     ///< of the values tried throughout
     unsigned int more_values = 0;      ///< tried between them, where a growth rate peaks
     bool has_effect          = true;   ///< whether any two of the values tried differ in their growth
+    std::vector<std::pair<double, double>> growth = {}; ///< values that were checked, with their largest growth rate [1/s]
   };
 
   /// Returns the values that a search is expected to try beside the points of its range.
