@@ -73,33 +73,39 @@ def loop(result):
 
 
 def transmissibility(result):
-    """Peak and first harmonic of the table's acceleration over the base's, and |z|, over frequency: a line a damper."""
+    """Peak and first harmonic of the table's acceleration over the base's [dB], and |z|, over the frequency in terms of the table's
+    own on its spring alone: a line a damper."""
     varied = varied_parameters(result)
     frequency = next(parameter for parameter in varied if parameter.name == FREQUENCY)
     others = [parameter for parameter in varied if parameter is not frequency]
     settings = np.array([", ".join(p.said(p.texts[row]) for p in others) for row in range(len(frequency.numbers))])
+    value = lambda name: result.table.get(f"isolation_{name.lower()}", float(result.parameter("Isolation", name)))
+    own = np.sqrt(value("Stiffness") / value("Mass")) / (2 * np.pi) + 0 * frequency.numbers
+    ratios = frequency.numbers / own
     figure, panels = plt.subplots(1, 3, figsize=(TWO_COLUMNS, 82 * MILLIMETRE))
     contents = (
-        ("transmissibility_peak", "largest acceleration over the base's"),
-        ("transmissibility_fundamental", "first harmonic over the base's"),
+        ("transmissibility_peak", "largest acceleration over the base's [dB]"),
+        ("transmissibility_fundamental", "first harmonic over the base's [dB]"),
         ("relative_amplitude", "largest $|z|$ [mm]"),
     )
     for axes, (name, said), letter in zip(panels, contents, "abc"):
         for index, setting in enumerate(dict.fromkeys(settings)):
             rows = np.flatnonzero(settings == setting)
-            rows = rows[np.argsort(frequency.numbers[rows], kind="stable")]
-            draw_settled(axes, frequency.numbers[rows], result.table[name][rows], result.table["steady_state"][rows] == 1, index)
+            rows = rows[np.argsort(ratios[rows], kind="stable")]
+            values = np.asarray(result.table[name][rows])
+            shown = values if axes is panels[2] else 20 * np.log10(np.where(values > 0, values, np.nan))
+            draw_settled(axes, ratios[rows], shown, result.table["steady_state"][rows] == 1, index)
         axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_xlim(frequency.numbers.min(), frequency.numbers.max())
-        low, high = axes.get_ylim()
-        axes.set_ylim(max(low, 1e-4 * high), high)
-        axes.set_xlabel("frequency of the base [Hz]")
+        axes.set_xlim(ratios.min(), ratios.max())
+        axes.set_xlabel("$f/f_0$" + (f", $f_0$ = {own[0]:.3g} Hz" if np.ptp(own) == 0 else ""))
         axes.set_ylabel(said)
         plain_logarithms(axes.xaxis)
         panel_letter(axes, letter)
+    panels[2].set_yscale("log")
+    low, high = panels[2].get_ylim()
+    panels[2].set_ylim(max(low, 1e-4 * high), high)
     for axes in panels[:2]:
-        axes.axhline(1, color="black", linewidth=0.5)
+        axes.axhline(0, color="black", linewidth=0.5)
     handles = [plt.Line2D([], [], color=COLOURS[i % len(COLOURS)], linestyle=LINES[i % len(LINES)]) for i in range(len(set(settings)))]
     names = list(dict.fromkeys(settings))
     if (result.table["steady_state"] == 0).any():
@@ -158,7 +164,7 @@ def spectra(result):
         axes.plot(frequency, level, color="0.5", linewidth=0.6)
         axes.annotate(name, (end, level[-1]), xytext=(2, 0), textcoords="offset points", fontsize=6, va="center", annotation_clip=False)
     shown = 1000 * np.array(drawn)[:, (centres >= begin) & (centres <= end)]
-    axes.set_ylim(0.5 * min(np.nanmin(shown), 3), 2 * max(np.nanmax(shown), 60))
+    axes.set_ylim(0.5 * np.clip(np.nanmin(shown), 0.3, 3), 2 * max(np.nanmax(shown), 60))
     axes.set_xlim(begin, end)
     axes.set_xlabel("centre of the one-third octave [Hz]")
     axes.set_ylabel(r"velocity, rms [$\mu$m/s]")
