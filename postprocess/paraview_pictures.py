@@ -44,13 +44,13 @@ def chosen_time(reader, name, folder):
 
 
 def picture(index, path, magnify):
-    """One index as `Warp by Vector` shows it, its outline at rest behind it."""
+    """One index as it opens, magnified, its outline at rest behind it."""
     name = "mode" if index.stem.startswith("mode") else "fields"
     reader = simple.XDMFReader(FileNames=[str(index)])
     time = chosen_time(reader, name, index.parent)
     points, found = read_arrays(reader, time)
-    moved = points + magnify * found["displacement [mm]"]
-    warp = simple.WarpByVector(Input=reader, Vectors=["POINTS", "displacement [mm]"], ScaleFactor=magnify)
+    moved = points + (magnify - 1) * found["displacement [mm]"]  # the nodes are where they are in the frame
+    warp = simple.WarpByVector(Input=reader, Vectors=["POINTS", "displacement [mm]"], ScaleFactor=magnify - 1)
 
     view = simple.CreateView("RenderView")
     view.OrientationAxesVisibility = 0
@@ -93,8 +93,15 @@ def picture(index, path, magnify):
     bar.TitleFontSize, bar.LabelFontSize = 14, 12
     bar.ScalarBarLength = 0.6
     shown.SetScalarBarVisibility(view, True)
+    if name == "fields":  # rigid parts have no stress and are grey
+        rigid = simple.Threshold(Input=warp, Scalars=["POINTS", SHOWN[name]])
+        rigid.ThresholdMethod, rigid.LowerThreshold, rigid.UpperThreshold = "Between", 0.0, 0.0
+        simple.ColorBy(grey := simple.Show(rigid, view), None)
+        grey.DiffuseColor = grey.AmbientColor = [0.75, 0.75, 0.75]
+        grey.Position = [0, 0, 0.01]  # before the colours
 
-    edges = simple.Show(simple.FeatureEdges(Input=simple.ExtractSurface(Input=simple.CleantoGrid(Input=reader))), view)
+    rest = simple.WarpByVector(Input=reader, Vectors=["POINTS", "displacement [mm]"], ScaleFactor=-1)
+    edges = simple.Show(simple.FeatureEdges(Input=simple.ExtractSurface(Input=simple.CleantoGrid(Input=rest))), view)
     simple.ColorBy(edges, None)
     edges.DiffuseColor = edges.AmbientColor = [0.55, 0.55, 0.55]
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -73,11 +73,14 @@ class Seen:
         return self.arrays[f"{number} {name}"]
 
     def now(self, number):
-        """Returns the points that Warp by Vector shows."""
-        return (self.values_at(number, "points") + self.values_at(number, "displacement [mm]"))[:, :2]
+        """Returns the points that a user finds on opening the file."""
+        return self.values_at(number, "points")[:, :2]
 
     def rest(self, number=0):
-        return self.values_at(number, "points")[:, :2]
+        return self.rest_in_space(number)[:, :2]
+
+    def rest_in_space(self, number):
+        return self.values_at(number, "points") - self.values_at(number, "displacement [mm]")
 
 
 def turned(points, pivot, theta, side=1):
@@ -231,8 +234,8 @@ class ParaViewTest(unittest.TestCase):
         axis = np.array((2e-3, 1e-3, 1)) / np.linalg.norm((2e-3, 1e-3, 1))
         for number, row in enumerate(self.rows("solid", seen)):
             part, lever = seen.values_at(number, "part"), seen.values_at(number, "lever")
-            points, elastic = seen.values_at(number, "points"), seen.values_at(number, "elastic_displacement [mm]")
-            now = points + seen.values_at(number, "displacement [mm]")
+            points, elastic = seen.rest_in_space(number), seen.values_at(number, "elastic_displacement [mm]")
+            now = seen.values_at(number, "points")
             body = lever == 1
             self.assertEqual(set(part[body]), {LEVER, LAYER, HUB})
             self.assertAlmostEqual(np.ptp(points[body, 2]), WIDTH)
@@ -256,7 +259,7 @@ class ParaViewTest(unittest.TestCase):
                 np.testing.assert_allclose(seen.values_at(number, "zeta [mm]"), file["face/zeta"][:], atol=1e-5)
                 if not row["P"] > 1:
                     continue
-                now = seen.values_at(number, "points") + seen.values_at(number, "displacement [mm]")
+                now = seen.values_at(number, "points")
                 along, away = from_axis(now, (row["x"], 0, position), axis)
                 over = np.abs(along) < half_length
                 # A point is the mean over half a millimetre, over which the circle falls by 1/2 (1/4)^2/56.
@@ -275,10 +278,10 @@ class ParaViewTest(unittest.TestCase):
             seen = Seen(self.folder / "half", index)
             first, second = np.array_split(np.flatnonzero(seen.values_at(0, "lever") == 1), 2)
             mirror = np.array((1, 1, -1))
-            points = seen.values_at(0, "points")
-            np.testing.assert_allclose(points[second], points[first] * mirror, atol=1e-12)
+            points = seen.rest_in_space(0)
+            np.testing.assert_allclose(points[second], points[first] * mirror, atol=1e-4)
             self.assertGreater(points[first, 2].max(), 0.4 * WIDTH)
-            self.assertGreater(points[first, 2].min(), -1e-9)
+            self.assertGreater(points[first, 2].min(), -1e-4)
             for name in names:
                 values = seen.values_at(0, name)
                 signs = {1: 1, 3: mirror, 9: np.outer(mirror, mirror).ravel()}[1 if values.ndim == 1 else values.shape[1]]
@@ -303,7 +306,7 @@ class ParaViewTest(unittest.TestCase):
         self.assertGreater(modes["twisting"][number], 0.8)
         seen = Seen(self.folder / "twist", f"mode-{number + 1:02}")
         np.testing.assert_allclose(seen.times, np.arange(1, 25) / (24 * modes["frequency"][number]), rtol=1e-9)
-        points, moved = seen.values_at(23, "points"), seen.values_at(23, "displacement [mm]")
+        points, moved = seen.rest_in_space(23), seen.values_at(23, "displacement [mm]")
         body = seen.values_at(0, "lever") == 1
         end = body & (points[:, 0] < points[body, 0].min() + 1)
         arm = points[end] - points[end].mean(axis=0)

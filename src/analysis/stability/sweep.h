@@ -46,13 +46,13 @@ namespace sprag
     ParameterRange range;
     std::optional<SlideKind> first; ///< kind at the smallest value that could be checked; none: none could
     std::vector<CriticalValue> changes;
-    std::optional<CheckedSlide> worst; ///< of all values tried
-    std::vector<double> not_checked;   ///< values that the scene does not admit, or at which the analysis failed
-    std::string reason;                ///< why the last of them was not
-    double spacing           = 0.;     ///< of the values tried throughout
-    unsigned int more_values = 0;      ///< tried between them, where a growth rate peaks
-    bool has_effect          = true;   ///< whether any two of the values tried differ in their growth
-    std::vector<std::pair<double, double>> growth = {}; ///< values that were checked, with their largest growth rate [1/s]
+    std::optional<CheckedSlide> worst;                  ///< of all values tried
+    std::vector<double> not_checked;                    ///< values that the scene does not admit, or at which the analysis failed
+    std::string reason;                                 ///< why the last of them was not
+    double spacing                                = 0.; ///< of the values tried throughout
+    unsigned int more_values                      = 0;  ///< tried between them, where a growth rate peaks
+    bool has_effect                               = true; ///< whether any two of the values tried differ in their growth
+    std::vector<std::pair<double, double>> growth = {};   ///< values that were checked, with their largest growth rate [1/s]
   };
 
   /// Returns the values that a search is expected to try beside the points of its range.

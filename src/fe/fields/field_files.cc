@@ -73,6 +73,20 @@ namespace sprag
              "        </Attribute>\n";
     }
 
+    /// Returns where the nodes are in a frame that has their displacement; none in another.
+    std::optional<Field> position(const FieldMesh &mesh, const std::vector<Field> &fields)
+    {
+      for (const auto &field : fields)
+        if (field.name == "displacement")
+        {
+          Field result{ "position", "mm", "of the nodes: nodes and displacement", 3, field.values };
+          for (std::size_t i = 0; i < result.values.size(); ++i)
+            result.values[i] = static_cast<float>(mesh.nodes[i] + field.values[i]);
+          return result;
+        }
+      return {};
+    }
+
     std::string topology(const unsigned int nodes_per_cell)
     {
       if (nodes_per_cell == 2)
@@ -180,9 +194,13 @@ namespace sprag
     const std::string frame_name = own_file ? "" : formatted("frame-%04u", frame);
     const auto group_path = [&](const Index &index) { return (own_file ? "/" : "/" + frame_name + "/") + index.mesh.name; };
     std::vector<DatasetRows> rows;
+    std::vector<std::optional<Field>> positions;
     std::size_t bytes = field_file_overhead;
-    for (const auto &mesh_fields : fields)
-      bytes += count_bytes(mesh_fields);
+    for (std::size_t i = 0; i < indices.size(); ++i)
+    {
+      positions.push_back(position(indices[i].mesh, fields.at(i)));
+      bytes += count_bytes(fields[i]) + (positions.back() ? count_bytes({ *positions.back() }) : 0);
+    }
     if (own_file)
       require_space(folder + "/" + file_name, bytes);
     else
@@ -199,8 +217,10 @@ namespace sprag
       for (std::size_t i = 0; i < indices.size(); ++i)
       {
         NewGroup group{ hdf5::create_group(place, indices[i].mesh.name), group_path(indices[i]), rows };
-        for (const auto &field : fields.at(i))
+        for (const auto &field : fields[i])
           group.add(field);
+        if (positions[i])
+          group.add(*positions[i]);
       }
     }
     file.close();
@@ -221,6 +241,7 @@ namespace sprag
                                const std::vector<FrameFact> &facts) const
   {
     const auto &mesh              = index.mesh;
+    const bool moves              = position(mesh, fields).has_value();
     const std::size_t n_cells     = mesh.cells.size() / mesh.nodes_per_cell;
     const std::string mesh_path   = mesh_file() + ":/" + mesh.name;
     const std::string element_set = topology(mesh.nodes_per_cell);
@@ -228,7 +249,9 @@ namespace sprag
                        "\"/>\n        <Topology TopologyType=\"" + element_set + "\" NumberOfElements=\"" +
                        std::to_string(n_cells) + "\">" + item(mesh_path + "/cells", n_cells, mesh.nodes_per_cell, "UInt", 4) +
                        "        </Topology>\n        <Geometry GeometryType=\"XYZ\">" +
-                       item(mesh_path + "/nodes", mesh.n_nodes(), 3, "Float", 8) + "        </Geometry>\n";
+                       (moves ? item(place + "/position", mesh.n_nodes(), 3, "Float", 4)
+                              : item(mesh_path + "/nodes", mesh.n_nodes(), 3, "Float", 8)) +
+                       "        </Geometry>\n";
     for (const auto &field : fields)
       text += attribute(field, place, mesh.n_nodes());
     for (const auto &field : mesh.fixed)
