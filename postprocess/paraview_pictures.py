@@ -93,7 +93,7 @@ def picture(index, path, magnify):
     bar.TitleFontSize, bar.LabelFontSize = 14, 12
     bar.ScalarBarLength = 0.6
     shown.SetScalarBarVisibility(view, True)
-    if name == "fields":  # rigid parts have no stress and are grey
+    if name == "fields" and (found[SHOWN[name]] == 0).any():  # rigid parts have no stress and are grey
         rigid = simple.Threshold(Input=warp, Scalars=["POINTS", SHOWN[name]])
         rigid.ThresholdMethod, rigid.LowerThreshold, rigid.UpperThreshold = "Between", 0.0, 0.0
         simple.ColorBy(grey := simple.Show(rigid, view), None)
