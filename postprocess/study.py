@@ -189,7 +189,7 @@ def trade(result):
             axes.plot(cost[rows], error[rows], linestyle="", marker=code.marker, color=code.colour, markersize=3.5)
         axes.set_xscale("log")
         axes.set_yscale("log")
-        axes.margins(0.12)
+        axes.margins(x=0.2, y=0.12)  # room for labels
         plain_logarithms(axes.xaxis)
         plain_logarithms(axes.yaxis)
         draw_front(axes, cost, error, shown & (result.table[f"pareto_{name}"] == 1), sizes)
