@@ -121,11 +121,12 @@ namespace sprag
       Scene damped           = scene;
       damped.contact.damping = high;
       const auto reference   = contact_reference(damped);
-      double loss_factor     = 2. * M_PI * verdict.frequency * reference.relaxation;
+      double loss_factor     = 2. * M_PI * verdict.frequency * reference.relaxation; // at the high end
       if (is_reduced(scene.analysis.model)) // the dashpot stays where a contact law is softer under a smaller P
         loss_factor *= std::pow(reference.P / verdict.P, 1. - 1. / scene.contact.exponent);
       return { { "contact_damping_limit_low", low },
                { "contact_damping_limit_high", high },
+               { "contact_loss_factor_limit_low", loss_factor * low / high },
                { "contact_loss_factor_limit_high", loss_factor },
                { "growth_rate_without_contact_damping", growth_rate_at_none } };
     }

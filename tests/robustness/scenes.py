@@ -93,7 +93,7 @@ UNIT = (
 WITH_UNIT = re.compile(rf"{NUMBER}(?:(?: to|,)? +{NUMBER})? (?:{UNIT})")
 # Numbers that have none.
 PURE = re.compile(
-    rf"\b(?:mu =|n =|delta\^|peak|first harmonic|root mean square|transmissibility|tolerance|[\w /]+/(?:Degree|Modes|Factor|Damping) (?:=|from)) {NUMBER}(?: \(?(?:{NUMBER} )?to {NUMBER})?"
+    rf"\b(?:mu =|n =|delta\^|peak|first harmonic|root mean square|transmissibility|tolerance|loss factor|[\w /]+/(?:Degree|Modes|Factor|Damping) (?:=|from)) {NUMBER}(?: \(?(?:{NUMBER} )?to {NUMBER})?"
     rf"|flutter from {NUMBER} \(|order .*|x = 0\b|of degree \d|[a-z],? \d\."
 )
 
