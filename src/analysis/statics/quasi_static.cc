@@ -46,6 +46,7 @@ namespace sprag
       unsigned int augmentations = 0;
       std::string failure; ///< of the last attempt
       std::string remedy;
+      double shortest = 0.; ///< step after which the last attempt's failure ends the run [mm]
     };
 
     /// Newton from the predictor; if it fails, once more from the stick predictor.
@@ -87,10 +88,11 @@ namespace sprag
       std::optional<Evaluation> found;
       try
       {
-        cost.failure = "Newton's method does not converge";
-        cost.remedy  = "Try a smaller friction coefficient or offset; if it is not the mechanics, a smaller Contact/Penalty or a "
-                       "finer Mesh/Face size.";
-        found        = equilibrate(model, step, stick_first, cost);
+        cost.shortest = settings.minimum_step;
+        cost.failure  = "Newton's method does not converge";
+        cost.remedy = "Try a smaller friction coefficient or offset; if it is not the mechanics, a smaller Contact/Penalty or a "
+                      "finer Mesh/Face size.";
+        found       = equilibrate(model, step, stick_first, cost);
         if (!found)
           return {};
         cost.failure =
@@ -107,8 +109,10 @@ namespace sprag
         cost.failure = error.what(); // an element turned inside out or a singular tangent: a shorter step may avoid it
         return {};
       }
-      cost.failure = model.check_validity(step.trial, *found);
-      cost.remedy  = "Try a smaller friction coefficient, Geometry/Interface offset or Drive/Stroke.";
+      // An equilibrium beyond the model's validity is no matter of convergence.
+      cost.shortest = std::max(settings.minimum_step, 1e-4 * settings.step);
+      cost.failure  = model.check_validity(step.trial, *found);
+      cost.remedy   = "Try a smaller friction coefficient, Geometry/Interface offset or Drive/Stroke.";
       if (!cost.failure.empty())
         return {};
       model.store_history(*found, step.trial);
@@ -173,7 +177,7 @@ namespace sprag
       auto next = attempt();
       while (!next)
       {
-        if (dx * cut < settings.minimum_step)
+        if (dx * cut < cost.shortest)
           give_up(from.row, dx, cost);
         dx *= cut;
         next = attempt();

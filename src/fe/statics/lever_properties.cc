@@ -88,7 +88,7 @@ namespace sprag
     const double mu_e = row[Column::mu] * interface_offset;
     if (drive_direction(drive.v) >= 0 || row[Column::F] >= 0. || s > mu_e)
       return {};
-    return "the lever locks: moving back, s = " + rounded_text(s) + " mm <= mu e = " + rounded_text(mu_e) + " mm";
+    return "the lever locks: moving back, s = " + rounded_text(s) + " mm <= mu e = " + rounded_text(mu_e) + " mm; ";
   }
 
   std::string check_pressure(const double pressure, const double young_modulus)

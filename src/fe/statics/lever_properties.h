@@ -53,7 +53,8 @@ namespace sprag
   /// Returns the properties of the scene's lever, or of both of its full pair, each in its own (the second in mirrored) axes.
   std::vector<LeverProperties> all_lever_properties(const Device &device);
 
-  /// Returns that the lever locks where it moves back with s <= mu e; empty elsewhere. The row holds s, mu and F.
+  /// Returns the beginning of a reason: the lever locks where it moves back with s <= mu e; empty elsewhere. The row holds s, mu
+  /// and F. A lever that bends may stick there for a while and slide on.
   std::string check_locking(const Row &row, double interface_offset, const DrivePoint &drive);
 
   /// Returns that linear elasticity does not hold where the pressure exceeds half of Young's modulus of the friction face [MPa];

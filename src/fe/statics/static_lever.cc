@@ -310,17 +310,15 @@ namespace sprag
                                                const FaceEvaluation<dim> &found) const
   {
     const auto &[properties, contact] = levers[lever];
-    Row row;
-    contact.observe_resultants(found, row);
-    if (const auto locks = check_locking(row, properties.interface_offset, drive); !locks.empty())
-      return locks;
     if (const auto beyond = found.check_validity(); !beyond.empty())
       return beyond;
+    Row row;
+    contact.observe_resultants(found, row);
     // A linear material knows no limit of its own.
     const double pressure = found.penetration() * penalties().normal;
     if (const auto beyond = check_pressure(pressure, own_body.friction_face().young_modulus);
         properties.body.material == MaterialModel::linear && !beyond.empty())
-      return beyond;
+      return check_locking(row, properties.interface_offset, drive) + beyond;
     if constexpr (dim == 3)
       if (const auto [tilt, skew] = contact.slopes_in(found); std::max(std::abs(tilt), std::abs(skew)) > largest_slope)
         return "the shaft lets the cylinder's axis turn to the slopes " + rounded_text(tilt) + " (tilt) and " +
