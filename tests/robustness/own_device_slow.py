@@ -12,6 +12,7 @@ import unittest
 from pathlib import Path
 
 import h5py
+import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from folders import FolderTest  # noqa: E402
@@ -65,6 +66,22 @@ class OwnDevice(FolderTest):
             value = file["summary/" + name]
             return value.asstr()[()] if value.dtype.kind == "O" else float(value[()])
 
+    def largest_growth(self, depth):
+        """Of 400 slides at random over the stroke, both ways, and over the ranges of step 3."""
+        rng, n = np.random.default_rng(43), 400
+        vary = {
+            "Stability/Position": rng.uniform(1, 40, n),
+            "Stability/Direction": rng.choice(["forward", "backward"], n),
+            "Contact/Damping": np.geomspace(0.01, 0.1, n),
+            "Friction/Factor": rng.uniform(0.8, 1.2, n),
+        }
+        lists = "; ".join(f"{name} = {', '.join(map(str, values))}" for name, values in vary.items())
+        study = f"Analysis/Type=study Study/Type=stability Study/Combine=list Stability/Critical=none Analysis/Model=condensed Lever/Depth={depth}"
+        options = [word for setting in (*study.split(), f"Study/Vary={lists}") for word in ("--set", setting)]
+        self.call(shlex.join(["./run", "own/press.prm", *options, "--output", f"own/slides-{depth}"]))
+        with h5py.File(self.folder / "own" / f"slides-{depth}" / "result.h5") as file:
+            return file["table/growth_rate"][:].max()
+
     def test_leads_where_it_says(self):
         self.follow()
         self.assertIn("no warnings", self.printed["--validate"])
@@ -75,6 +92,8 @@ class OwnDevice(FolderTest):
             self.assertAlmostEqual(self.result("strokes", "deviation_Q_" + way), 0.055, delta=0.014)
         self.assertEqual(self.result("slide", "verdict"), "flutter")
         self.assertRegex(self.printed["own/slide"], r"Lever/Depth from 2 to 12 mm: flutter, stable from 4\.2")
+        self.assertLess(self.largest_growth(4.26), 0)
+        self.assertGreater(self.largest_growth(3.8), 0)
         self.assertEqual(self.result("slide-thick", "verdict"), "stable")
         self.assertIn("Friction/Factor from 0.5 to 2: stable, flutter from 1.5", self.printed["own/slide-thick"])
         self.assertEqual(self.result("slide-tapered", "verdict"), "stable")
