@@ -94,6 +94,13 @@ class OwnDevice(FolderTest):
         self.assertRegex(self.printed["own/slide"], r"Lever/Depth from 2 to 12 mm: flutter, stable from 4\.2")
         self.assertLess(self.largest_growth(4.26), 0)
         self.assertGreater(self.largest_growth(3.8), 0)
+        slide = "Stability/Position=40 Stability/Direction=forward Contact/Damping=0.01 Friction/Factor=1.2 Stability/Critical=none"
+        law = "Contact/Stiffness=2070.87 Contact/Exponent=1.55785 Analysis/Model=beam"
+        for number, model in ((-17.5, "Analysis/Model=condensed"), (4.7, law), (-19.9, f"{law} Contact/Tangential~stiffness=1e6")):
+            settings = f"Analysis/Type=stability Lever/Depth=5 {slide} {model}".split()
+            options = [word for setting in settings for word in ("--set", setting.replace("~", " "))]
+            self.call(shlex.join(["./run", "own/press.prm", *options, "--output", f"own/stick{number}"]))
+            self.assertAlmostEqual(self.result(f"stick{number}", "growth_rate"), number, delta=0.1)
         self.assertEqual(self.result("slide-thick", "verdict"), "stable")
         self.assertIn("Friction/Factor from 0.5 to 2: stable, flutter from 1.5", self.printed["own/slide-thick"])
         self.assertEqual(self.result("slide-tapered", "verdict"), "stable")
