@@ -120,6 +120,7 @@ def drawn(scene, picture):
 MAPS = (
     "map-position-depth-a",
     "map-position-depth-b",
+    "map-damping-depth-a",
     "map-friction-depth-a",
     "map-friction-position-a",
     "map-stiffness-depth-a",

@@ -67,7 +67,7 @@ class OwnDevice(FolderTest):
             return value.asstr()[()] if value.dtype.kind == "O" else float(value[()])
 
     def largest_growth(self, depth):
-        """Of 400 slides at random over the stroke, both ways, and over the ranges of step 3."""
+        """Returns that of 400 slides at random over the stroke, both ways, and over the ranges of step 3."""
         rng, n = np.random.default_rng(43), 400
         vary = {
             "Stability/Position": rng.uniform(1, 40, n),
