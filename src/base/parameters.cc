@@ -325,9 +325,22 @@ namespace sprag
           }
           catch (const InputError &broken)
           {
-            mistake(place, name + " = " + value, broken.what());
+            mistake(place, name + " = " + value, broken.what() + other_choice(*found, value));
             settings.invalid.insert(name);
           }
+      }
+
+      /// Names the one other parameter of the section that has this choice.
+      std::string other_choice(const Parameter &parameter, const std::string &value) const
+      {
+        const auto others = filtered(declared,
+                                     [&](const auto &other)
+                                     {
+                                       const auto &choices = other.rule.choices;
+                                       return other.section == parameter.section &&
+                                              std::find(choices.begin(), choices.end(), value) != choices.end();
+                                     });
+        return others.size() == 1 ? "; " + full_name(others[0]) + " can be " + value : "";
       }
 
       /// `name`: with its section, or alone outside of sections.

@@ -109,6 +109,8 @@ TEST(Materials, UnknownOrWithoutEffectAreMistakes)
   const auto unknown = find_mistakes({ "Lever/Made of=stell" });
   ASSERT_EQ(unknown.size(), 1);
   EXPECT_NE(unknown.front().find("did you mean 'steel'?"), std::string::npos) << unknown.front();
+  EXPECT_EQ(find_mistakes({ "Lever/Material=steel" }).front(),
+            "--set: Lever/Material = steel: must be one of linear | neo-Hookean; Lever/Made of can be steel");
   const auto idle = mistakes("subsection Friction layer\nset Made of = PTFE\nset Young's modulus = 20\nset Poisson's ratio = 0\n"
                              "set Density = 2e-10\nend\n");
   ASSERT_EQ(idle.size(), 1);
