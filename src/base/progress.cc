@@ -16,12 +16,14 @@ namespace sprag
   namespace
   {
     constexpr double redraw_interval = 0.1; // [s]
-    constexpr int bar_length         = 20;
+    constexpr int longest_bar        = 20;
 
-    std::string bar(const double share)
+    /// At most `room` characters with its frame.
+    std::string bar(const double share, const int room)
     {
-      const int filled = static_cast<int>(std::floor(bar_length * share));
-      return "[" + std::string(filled, '#') + std::string(bar_length - filled, '.') + "] ";
+      const int length = std::min(room - 3, longest_bar);
+      const int filled = static_cast<int>(std::floor(length * share));
+      return length < 1 ? "" : "[" + std::string(filled, '#') + std::string(length - filled, '.') + "] ";
     }
 
     /// h:mm:ss, or m:ss below an hour.
@@ -52,12 +54,14 @@ namespace sprag
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   }
 
-  Progress::Progress(std::ostream &output, const ProgressStyle chosen_style, const double whole, Clock time_source)
+  Progress::Progress(std::ostream &output, const ProgressStyle chosen_style, const double whole, Clock time_source,
+                     const std::size_t terminal_columns)
       : stream(output)
       , style(chosen_style)
       , total(whole)
       , clock(std::move(time_source))
       , start(clock())
+      , columns(terminal_columns > 0 ? static_cast<int>(terminal_columns) : std::numeric_limits<int>::max())
   {
   }
 
@@ -74,7 +78,12 @@ namespace sprag
       log(share, fields);
     else if (style == ProgressStyle::terminal)
     {
-      latest = bar(share) + line(share, fields);
+      // The last column stays free.
+      const auto room = [&] { return columns - 1 - static_cast<int>(latest.size()); };
+      latest          = line(share, fields);
+      if (room() < 0)
+        latest = line(share, {});
+      latest = bar(share, room()) + latest;
       if (clock() - last_drawn >= redraw_interval)
         redraw();
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/system/terminal.h"
 #include "base/unknown.h"
 
 #include <cstddef>
@@ -8,6 +9,7 @@
 #include <iosfwd>
 #include <limits>
 #include <string>
+#include <unistd.h>
 
 namespace sprag
 {
@@ -42,8 +44,10 @@ namespace sprag
     /// Returns the seconds since any fixed instant.
     using Clock = std::function<double()>;
 
-    /// Shows progress towards `total` > 0, in the unit of update()'s `done`. The stream must outlive the object.
-    Progress(std::ostream &stream, ProgressStyle style, double total, Clock clock = monotonic_seconds);
+    /// Shows progress towards `total` > 0, in the unit of update()'s `done`. The stream must outlive the object. Where the
+    /// columns of a terminal are known, the bar is shorter or the fields are left out, so that share and time fit.
+    Progress(std::ostream &stream, ProgressStyle style, double total, Clock clock = monotonic_seconds,
+             std::size_t columns = terminal_width(STDERR_FILENO));
 
     /// Ends the line, also after an exception.
     ~Progress()
@@ -71,6 +75,7 @@ namespace sprag
     const double total;
     const Clock clock;
     const double start;
+    const int columns;
     double first      = 0.; ///< share that was done before
     double last_drawn = -std::numeric_limits<double>::infinity();
     int logged_tenths = 0;
