@@ -26,7 +26,8 @@ namespace sprag
     // The passage through stick after a reversal is about (|F+| + |F-|) / k_t long; its steps are these shares of it.
     constexpr double first_share   = 0.02;
     constexpr double largest_share = 0.125;
-    constexpr double passages      = 3.; ///< lengths of passage with short steps; then the contact slides fully
+    constexpr double passages      = 3.;    ///< lengths of passage with short steps
+    constexpr double fully_slides  = 0.999; ///< least share of mu P in the friction of a contact that slides everywhere
 
     constexpr unsigned int stick_solutions = 4;    ///< Newton corrections for an equilibrium in stick
     constexpr double displacement_share    = 1e-2; ///< dx of the difference quotient in stick, over the penetration
@@ -110,7 +111,7 @@ namespace sprag
         return {};
       }
       // An equilibrium beyond the model's validity is no matter of convergence.
-      cost.shortest = std::max(settings.minimum_step, 1e-4 * settings.step);
+      cost.shortest = std::max(settings.minimum_step, 1e-2 * settings.step);
       cost.failure  = model.check_validity(step.trial, *found);
       cost.remedy   = "Try a smaller friction coefficient, Geometry/Interface offset or Drive/Stroke.";
       if (!cost.failure.empty())
@@ -158,6 +159,12 @@ namespace sprag
       return { row[Column::x], 2. * std::abs(row.friction_force()) / stick_stiffness };
     }
 
+    /// Returns whether a part of the contact still sticks; a lever that jams sticks long behind a reversal.
+    bool sticks(const Row &row)
+    {
+      return std::abs(row[Column::friction_resultant]) < fully_slides * row[Column::mu] * row[Column::normal_resultant];
+    }
+
     /// An accepted step.
     struct Progression
     {
@@ -168,11 +175,12 @@ namespace sprag
 
     /// Makes one step of at most dx and reduces dx until there is an equilibrium.
     Progression advance(Model &model, const Drive &drive, const QuasiStaticSettings &settings, const Progression &from,
-                        const bool reversed, const bool sticking, double &dx)
+                        const bool reversed, double &dx)
     {
       StepCost cost;
-      const double time  = from.state.drive.time;
-      const auto attempt = [&]
+      const bool sticking = reversed || sticks(from.row);
+      const double time   = from.state.drive.time;
+      const auto attempt  = [&]
       { return solve_step(model, from.state, drive.step(time, dx, largest_speed_change), settings, sticking, cost); };
       auto next = attempt();
       while (!next)
@@ -215,7 +223,7 @@ namespace sprag
         double dx = settings.step;
         for (now.state.drive = approach.at(0.); now.state.drive.time < approach.duration();
              dx              = std::min(settings.step, growth * dx))
-          now = advance(model, approach, settings, now, false, false, dx);
+          now = advance(model, approach, settings, now, false, dx);
       }
       else if (pressed)
         now.found = std::move(*pressed);
@@ -271,10 +279,9 @@ namespace sprag
         if (reported_stiffness == 0.)
           reported_stiffness = stiffness;
       }
-      const bool sticking = std::abs(now.row[Column::x] - passage.begin) < passages * passage.length;
-      if (sticking)
+      if (std::abs(now.row[Column::x] - passage.begin) < passages * passage.length)
         dx = std::clamp(largest_share * passage.length, settings.minimum_step, dx);
-      now = advance(model, drive, settings, now, reversed, sticking, dx);
+      now = advance(model, drive, settings, now, reversed, dx);
       dx  = std::min(settings.step, growth * dx);
     }
   } // namespace
