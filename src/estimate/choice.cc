@@ -111,7 +111,7 @@ namespace sprag
     const Scene chosen  = with_settings(scene, dimension);
     const bool in_space = chosen.analysis.dimension == 3;
     Choice choice;
-    if (scene.accuracy.is_asked_for())
+    if (scene.accuracy.chooses_settings())
       choice = choose_in_plane(in_space ? to_plane(chosen) : chosen, announce);
     choice.settings.insert(choice.settings.begin(), dimension.begin(), dimension.end());
     return choice;
@@ -129,7 +129,7 @@ namespace sprag
 
   void print_choice(std::ostream &stream, const Scene &scene, const Choice &choice)
   {
-    if (!scene.accuracy.is_asked_for())
+    if (!scene.accuracy.chooses_settings())
       stream << "Chosen:\n";
     else
       print_accuracy(stream, scene, choice);

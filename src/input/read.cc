@@ -261,16 +261,16 @@ namespace sprag
         AccuracySettings &accuracy = input.scene.accuracy;
         const auto possible        = accuracy_quantities(run_type());
         const bool is_study        = input.scene.analysis.type == AnalysisType::study;
-        if (accuracy.is_model_open && !accuracy.is_asked_for() && !is_study)
+        if (accuracy.is_model_open && !accuracy.chooses_settings() && !is_study)
           report("Analysis/Model", "auto needs Accuracy/Target or Accuracy/Budget");
         const bool is_model_chosen = input.scene.chosen.count("Analysis/Model") > 0;
-        if (accuracy.is_asked_for() && follows_formulas(input.scene) && !is_study && !is_model_chosen)
+        if (accuracy.chooses_settings() && follows_formulas(input.scene) && !is_study && !is_model_chosen)
           report("Analysis/Model", "must be auto or a model that solves for the contact where an accuracy is asked for");
-        if (accuracy.is_asked_for() && possible.empty())
+        if (accuracy.chooses_settings() && possible.empty())
           report(accuracy.target > 0. ? "Accuracy/Target" : "Accuracy/Budget",
                  "counts only along the drive and for held slides, where errors are told");
         accuracy.quantities = quantities_meant(accuracy.quantity, run_type());
-        const bool is_read  = accuracy.is_asked_for() || !input.dimension; // which is chosen by them
+        const bool is_read  = accuracy.chooses_settings() || !input.dimension; // which is chosen by them
         for (const auto &name : accuracy.quantities)
           if (is_read && std::find(possible.begin(), possible.end(), name) == possible.end())
             report("Accuracy/Quantity", "'" + name + "' is none of " + boost::algorithm::join(possible, ", "));

@@ -341,10 +341,10 @@ namespace sprag
 
   std::vector<Entry> sweep_entries(const SweptSlides &swept)
   {
-    const auto &x             = swept.ways.front().along.range;
+    const auto &x             = swept.sweeps.front().along.range;
     std::vector<Entry> result = { { "looked_from", std::min(x.from, x.to) },
                                   { "looked_to", std::max(x.from, x.to) },
-                                  { "slides_looked_at", static_cast<double>(swept.slides()) } };
+                                  { "slides_looked_at", static_cast<double>(swept.count_slides()) } };
     if (const auto &constants = swept.worst().constants; !constants.empty())
       result.push_back({ "worst_constants", boost::algorithm::join(constants, ", ") });
     for (const auto &[direction, way] :
@@ -353,13 +353,13 @@ namespace sprag
       double growth     = std::nan("");
       bool is_looked_at = false;
       std::vector<UnstableStretch> unstable;
-      for (const auto &swept_way : swept.ways)
+      for (const auto &swept_direction : swept.sweeps)
       {
-        if (swept_way.direction != direction)
+        if (swept_direction.direction != direction)
           continue;
         is_looked_at = true;
-        growth       = std::fmax(growth, swept_way.along.worst->growth_rate);
-        append(unstable, unstable_stretches(swept_way.along));
+        growth       = std::fmax(growth, swept_direction.along.worst->growth_rate);
+        append(unstable, unstable_stretches(swept_direction.along));
       }
       unstable = joined(std::move(unstable));
       if (is_looked_at)

@@ -59,7 +59,8 @@ namespace sprag
     bool is_dimension_open = false;      ///< Analysis/Dimension = auto
     std::vector<std::string> quantities; ///< that `quantity` stands for
 
-    bool is_asked_for() const
+    /// Returns whether the program chooses the settings that the scene leaves open.
+    bool chooses_settings() const
     {
       return target > 0. || budget > 0.;
     }
@@ -67,7 +68,7 @@ namespace sprag
     /// Returns whether the program must choose something of the scene before it runs it.
     bool leaves_open() const
     {
-      return is_dimension_open || is_asked_for();
+      return is_dimension_open || chooses_settings();
     }
   };
 } // namespace sprag

@@ -329,23 +329,23 @@ namespace sprag
   const CheckedSlide &SweptSlides::worst(const Direction direction) const
   {
     const CheckedSlide *result = nullptr;
-    for (const auto &way : ways)
+    for (const auto &swept : sweeps)
     {
-      if (direction != Direction::both && way.direction != direction)
+      if (direction != Direction::both && swept.direction != direction)
         continue;
-      if (!way.along.not_checked.empty())
-        throw AnalysisError(way.along.reason);
-      if (result == nullptr || is_worse(*way.along.worst, *result))
-        result = &*way.along.worst;
+      if (!swept.along.not_checked.empty())
+        throw AnalysisError(swept.along.reason);
+      if (result == nullptr || is_worse(*swept.along.worst, *result))
+        result = &*swept.along.worst;
     }
     return *result;
   }
 
-  unsigned int SweptSlides::slides() const
+  unsigned int SweptSlides::count_slides() const
   {
     unsigned int sum = 0;
-    for (const auto &way : ways)
-      sum += way.along.range.points + way.along.more_values;
+    for (const auto &swept : sweeps)
+      sum += swept.along.range.points + swept.along.more_values;
     return sum;
   }
 
@@ -361,11 +361,11 @@ namespace sprag
       for (const auto direction : directions)
       {
         here.stability.direction = direction;
-        SweptDirection way{ direction, constants,
-                            slides_along(here, dynamics.model(), { in_full ? tolerance : 0., island_steps }) };
-        if (way.along.worst)
-          way.along.worst->constants = constants;
-        result.ways.push_back(std::move(way));
+        SweptDirection swept{ direction, constants,
+                              slides_along(here, dynamics.model(), { in_full ? tolerance : 0., island_steps }) };
+        if (swept.along.worst)
+          swept.along.worst->constants = constants;
+        result.sweeps.push_back(std::move(swept));
       }
     };
     for (const auto &constants : combined_ends(scene))
@@ -375,9 +375,9 @@ namespace sprag
       std::map<Constants, std::vector<Direction>> worst_constants;
       for (const auto direction : held_directions(scene))
       {
-        const auto fails = [&](const SweptDirection &way)
-        { return way.direction == direction && !way.along.not_checked.empty(); };
-        if (std::any_of(result.ways.begin(), result.ways.end(), fails))
+        const auto fails = [&](const SweptDirection &swept)
+        { return swept.direction == direction && !swept.along.not_checked.empty(); };
+        if (std::any_of(result.sweeps.begin(), result.sweeps.end(), fails))
           continue;
         const CheckedSlide worst = result.worst(direction);
         if (in_full || worst.kind == SlideKind::stable)
@@ -395,16 +395,16 @@ namespace sprag
     const auto all          = constant_ranges(scene);
     const auto n_directions = held_directions(scene).size();
     // The scene's own constants stand before those of the corners.
-    const auto worst = [&](const std::size_t corner, const std::size_t way) -> const std::optional<CheckedSlide> &
-    { return swept.ways[(1 + corner) * n_directions + way].along.worst; };
+    const auto worst = [&](const std::size_t corner, const std::size_t direction) -> const std::optional<CheckedSlide> &
+    { return swept.sweeps[(1 + corner) * n_directions + direction].along.worst; };
     std::vector<std::string> result;
     for (std::size_t i = 0; i < all.size(); ++i)
     {
       bool all_equal = true;
       for (std::size_t corner = 0; corner < std::size_t(1) << all.size(); ++corner)
-        for (std::size_t way = 0; way < n_directions; ++way)
+        for (std::size_t direction = 0; direction < n_directions; ++direction)
         {
-          const auto &here = worst(corner, way), &other_end = worst(corner ^ std::size_t(1) << i, way);
+          const auto &here = worst(corner, direction), &other_end = worst(corner ^ std::size_t(1) << i, direction);
           all_equal = all_equal && here && other_end && are_equal(*here, *other_end);
         }
       if (all_equal)

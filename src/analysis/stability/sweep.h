@@ -84,13 +84,13 @@ namespace sprag
   /// constants of the scene, all combinations of the ends of Stability/Ranges and values inside each range.
   struct SweptSlides
   {
-    std::vector<SweptDirection> ways; ///< one for each set of constants and direction
+    std::vector<SweptDirection> sweeps; ///< one for each set of constants and direction
 
     /// Returns the worst slide of one direction or both. Throws AnalysisError if one of them could not be checked.
     const CheckedSlide &worst(Direction direction = Direction::both) const;
 
     /// Returns the number of slides checked.
-    unsigned int slides() const;
+    unsigned int count_slides() const;
   };
 
   /// Checks these slides. Inside each range a reduced lever is checked at seven values, any other in the middle, with the other
