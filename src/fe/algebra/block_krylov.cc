@@ -4,6 +4,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/lapack_templates.h>
 
