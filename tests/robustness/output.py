@@ -99,7 +99,7 @@ class Output(RunTest):
         settings = [word for setting in SHORT["model-a"] for word in ("--set", setting)]
         text, status = self.on_a_terminal(SOURCE / "params/model-a.prm", *settings, "--output", self.output, columns=columns)
         self.assertEqual(status, 0, text)
-        self.assertIn(" %  x ", text)
+        self.assertRegex(text, r" %  +\d+:\d\d left")
         self.assertLessEqual(max(map(len, re.split(r"[\r\n]+", text))), columns)
         log = (self.output / "run.log").read_text().splitlines()
         self.assertGreater(max(map(len, log)), columns)
@@ -144,7 +144,7 @@ class Output(RunTest):
             self.assertIn(line, log)
 
     def test_of_a_progress_bar_the_log_has_the_last_line(self):
-        done = self.run_scene("reversal-a", SPRAG_TERMINAL="1")
+        done = self.run_scene("reversal-a", SPRAG_TERMINAL="100")
         self.assertGreater(done.stderr.count(" %  x "), 1)
         self.assertEqual((self.output / "run.log").read_text().count(" %  x "), 1)
 
