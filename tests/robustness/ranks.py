@@ -103,8 +103,9 @@ class RanksTest(RunTest):
 class Ranks(RanksTest):
     def test_do_not_change_motions(self):
         changes = {"Drive/Stroke": "4.5", "Drive/Start": "4", **PARTS}
-        # In time round-off of the gap meets the contact's stiffness.
-        self.expect_same_data("transient", changes, "table", ("P", "Q", "theta", "sensor_1_left", "sensor_2_right"), 1e-6)
+        # The contact opens, and in time round-off of the gap meets its stiffness: friction factors that differ by 3e-12 to 2e-11 change P
+        # by 2e-8 to 7e-7 of its peak.
+        self.expect_same_data("transient", changes, "table", ("P", "Q", "theta", "sensor_1_left", "sensor_2_right"), 5e-6)
 
     def test_do_not_change_what_is_found(self):
         tables, fields = {}, {}
