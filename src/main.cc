@@ -158,7 +158,7 @@ namespace sprag
 int main(int argc, char **argv)
 {
   using namespace sprag;
-  TerminalLines out(std::cout, STDOUT_FILENO), error(std::cerr, STDERR_FILENO);
+  TerminalLines output(std::cout, STDOUT_FILENO), messages(std::cerr, STDERR_FILENO);
   Arguments arguments;
   if (const auto status = read_arguments(argc, argv, arguments))
     return *status;

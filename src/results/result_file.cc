@@ -140,6 +140,11 @@ namespace sprag
       bool is_made = false;
     };
 
+  } // namespace
+
+  /// Groups of the file that grow by a row at a time.
+  namespace growing
+  {
     /// /table
     class Table
     {
@@ -223,7 +228,10 @@ namespace sprag
       hdf5::Series time, x, pressure, traction;
       std::optional<hdf5::Series> across;
     };
+  } // namespace growing
 
+  namespace
+  {
     /// The row in the order of table_columns(), NaN in place of sensors that the model has not.
     std::vector<double> row_values(const Row &row, const std::size_t n_values)
     {
@@ -280,8 +288,8 @@ namespace sprag
   {
     DiskReserve reserve; // given back after the file is closed
     hdf5::Handle file;
-    Table table;
-    std::optional<Face> face                         = {};
+    growing::Table table;
+    std::optional<growing::Face> face                = {};
     std::chrono::steady_clock::time_point last_flush = {};
 
     void flush()
@@ -324,8 +332,8 @@ namespace sprag
     hdf5::write_attribute(file, "format", std::string(result_format));
     hdf5::write_attribute(file, "format_version", 1.);
     describe(hdf5::write_dataset(file, "parameters", parameters), "", "every parameter as used, in .prm form");
-    Table table(file, columns);
-    std::optional<Face> face;
+    growing::Table table(file, columns);
+    std::optional<growing::Face> face;
     if (!points.xi.empty())
       face.emplace(file, points);
     // From here on others can read along; no object and no attribute can be created any more.
