@@ -160,10 +160,13 @@ namespace sprag
       return result;
     }
 
-    /// Vertex of the parabola through a row that is larger than its neighbours in time, and these.
+    /// Vertex of the parabola through a row that is larger than its neighbours in time, and these. Where one step is over twice
+    /// as long as the other, as before a sudden reversal, the shorter would bend it: the row is its own vertex.
     double vertex(const Row &before, const Row &row, const Row &after, const Column column)
     {
       const double t0 = before[Column::time] - row[Column::time], t1 = after[Column::time] - row[Column::time];
+      if (t1 > -2. * t0 || -t0 > 2. * t1)
+        return row[column];
       const double y0 = before[column] - row[column], y1 = after[column] - row[column];
       const double bend  = (y1 / t1 - y0 / t0) / (t1 - t0);
       const double slope = y0 / t0 - bend * t0;
