@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <ostream>
 #include <unistd.h>
 
@@ -45,8 +44,7 @@ namespace sprag
   {
     if (quiet)
       return ProgressStyle::quiet;
-    const bool terminal = isatty(STDERR_FILENO) != 0 || std::getenv(terminal_variable) != nullptr;
-    return terminal ? ProgressStyle::terminal : ProgressStyle::log;
+    return is_terminal(STDERR_FILENO) ? ProgressStyle::terminal : ProgressStyle::log;
   }
 
   double monotonic_seconds()

@@ -93,6 +93,12 @@ class Output(RunTest):
         self.assertEqual(status, 2)
         self.assertTrue(text.startswith("\033[31m"), text)
         self.assertNotIn("\033", sprag(self.folder / "none.prm").stderr)
+        # On all cores mpirun gives the processes a pseudo-terminal, whatever its own output is.
+        small = [word for name in ("First", "Second") for word in ("--set", f"Map/{name} points=2")]
+        small += ["--set", "Map/Coarsest=1", "--set", "Map/Bisections=0", "--jobs", "2", "--output", self.output / "map"]
+        for show, colours in ((lambda *words: sprag(*words).stdout, 0), (lambda *words: self.on_a_terminal(*words)[0], 1)):
+            text = show(SOURCE / "params/map-offset-inclination.prm", *small, "--overwrite")
+            self.assertEqual((text.count("Warning: defaults_of_model_a"), text.count("\033[33m")), (1, colours), text)
 
     def test_lines_are_no_wider_than_the_terminal(self):
         columns = 60
@@ -144,8 +150,10 @@ class Output(RunTest):
             self.assertIn(line, log)
 
     def test_of_a_progress_bar_the_log_has_the_last_line(self):
-        done = self.run_scene("reversal-a", SPRAG_TERMINAL="100")
-        self.assertGreater(done.stderr.count(" %  x "), 1)
+        scene = (SOURCE / "params/reversal-a.prm", "--set", "Analysis/Model=rigid", "--output", self.output)
+        text, status = self.on_a_terminal(*scene, columns=100)
+        self.assertEqual(status, 0, text)
+        self.assertGreater(text.count(" %  x "), 1)
         self.assertEqual((self.output / "run.log").read_text().count(" %  x "), 1)
 
     def test_the_log_tells_of_a_failure(self):

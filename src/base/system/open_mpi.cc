@@ -50,7 +50,7 @@ namespace sprag
         ::setenv(name, "1", 0);
       for (const auto &[descriptor, variable] :
            { std::pair{ STDERR_FILENO, terminal_variable }, std::pair{ STDOUT_FILENO, output_terminal_variable } })
-        if (::isatty(descriptor) != 0)
+        if (is_terminal(descriptor))
           ::setenv(variable, std::to_string(terminal_width(descriptor)).c_str(), 1);
       if (::geteuid() == 0)
         for (const char *name : { "OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM" })

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/system/terminal.h"
 
+#include "base/system/open_mpi.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <ostream>
@@ -9,12 +11,25 @@
 
 namespace sprag
 {
+  namespace
+  {
+    const char *columns_outside(const int descriptor)
+    {
+      return std::getenv(descriptor == STDERR_FILENO ? terminal_variable : output_terminal_variable);
+    }
+  } // namespace
+
+  bool is_terminal(const int descriptor)
+  {
+    return under_mpi() ? columns_outside(descriptor) != nullptr : ::isatty(descriptor) != 0;
+  }
+
   std::size_t terminal_width(const int descriptor)
   {
     winsize size = {};
     if (::ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
       return size.ws_col;
-    const char *const columns = std::getenv(descriptor == STDERR_FILENO ? terminal_variable : output_terminal_variable);
+    const char *const columns = columns_outside(descriptor);
     return columns == nullptr ? 0 : std::strtoul(columns, nullptr, 10);
   }
 

@@ -11,6 +11,10 @@ namespace sprag
   inline constexpr const char *terminal_variable        = "SPRAG_TERMINAL";
   inline constexpr const char *output_terminal_variable = "SPRAG_OUTPUT_TERMINAL";
 
+  /// Returns whether a standard descriptor is a terminal's. Processes of mpirun ask these variables: it gives them a
+  /// pseudo-terminal in any case.
+  bool is_terminal(int descriptor);
+
   /// Returns the columns of the terminal behind a standard descriptor; 0 where there is none or they are unknown.
   std::size_t terminal_width(int descriptor);
 
