@@ -32,7 +32,7 @@ PICTURES = {
     "plate-reversal-a": (COARSE, {*IN_TIME, "contact", "fields", "sensors"}),
     "plate-a": (WITHOUT_FIELDS, {*FORCES, "contact", "sensors"}),
     "sprag-slip-a": ({}, IN_TIME),
-    "pair-stability-a": ({"Stability/Critical": "Friction/Factor 0.9 1.1"}, {"modes", "stability"}),
+    "pair-stability-a": ({"Stability/Critical": "Friction/Factor 0.9 1.1"}, {"critical", "modes", "stability"}),
     "modal-a": (COARSE, {"modes"}),
     "calibration-a": ({"Mesh/Face size": 4}, {"calibration"}),
     "identification-a": ({}, {"identification"}),
