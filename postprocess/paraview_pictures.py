@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """ParaView pictures of results of sprag, made by ParaView's own Python: pvpython paraview_pictures.py DIR... [-o PICTURE_DIR].
 
-A run is shown at its last frame in time of the largest P, a mode in the phase of its largest displacement. Without a screen:
+A run is shown at its last frame in time of the largest P, a mode in the phase of its largest displacement. The state of ParaView
+goes into the result's folder: paraview --state=DIR/fields.pvsm. Without a screen:
 xvfb-run -a pvpython postprocess/paraview_pictures.py DIR...
 """
 
@@ -10,6 +11,7 @@ import argparse
 import sys
 from pathlib import Path
 
+import numpy
 from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -53,11 +55,13 @@ def picture(index, path, magnify):
     warp = simple.WarpByVector(Input=reader, Vectors=["POINTS", "displacement [mm]"], ScaleFactor=magnify - 1)
 
     view = simple.CreateView("RenderView")
+    simple.AssignViewToLayout(view)
     view.OrientationAxesVisibility = 0
     view.UseColorPaletteForBackground = 0
     view.Background = [1, 1, 1]
     view.ViewTime = time
-    low, high = moved.min(axis=0), moved.max(axis=0)
+    rest = points - found["displacement [mm]"]
+    low, high = (ends((ends(moved, axis=0), ends(rest, axis=0)), axis=0) for ends in (numpy.min, numpy.max))
     span = max(high[:2] - low[:2])
     view.InteractionMode = "2D"
     view.CameraParallelProjection = 1
@@ -100,13 +104,16 @@ def picture(index, path, magnify):
         grey.DiffuseColor = grey.AmbientColor = [0.75, 0.75, 0.75]
         grey.Position = [0, 0, 0.01]  # before the colours
 
-    rest = simple.WarpByVector(Input=reader, Vectors=["POINTS", "displacement [mm]"], ScaleFactor=-1)
-    edges = simple.Show(simple.FeatureEdges(Input=simple.ExtractSurface(Input=simple.CleantoGrid(Input=rest))), view)
+    at_rest = simple.WarpByVector(Input=reader, Vectors=["POINTS", "displacement [mm]"], ScaleFactor=-1)
+    edges = simple.Show(simple.FeatureEdges(Input=simple.ExtractSurface(Input=simple.CleantoGrid(Input=at_rest))), view)
     simple.ColorBy(edges, None)
     edges.DiffuseColor = edges.AmbientColor = [0.55, 0.55, 0.55]
     path.parent.mkdir(parents=True, exist_ok=True)
     simple.SaveScreenshot(str(path), view, ImageResolution=view.ViewSize)
-    simple.Delete(view)
+    simple.GetAnimationScene().AnimationTime = time
+    simple.SaveState(str(index.with_suffix(".pvsm")))
+    for shown_here in (*simple.GetSources().values(), view):
+        simple.Delete(shown_here)
     print(path)
 
 

@@ -62,6 +62,14 @@ def look(folder):
             simple.Delete(reader)
 
 
+def reopen(state, picture):
+    """In pvpython: a picture of a state of ParaView as a user finds it on opening."""
+    from paraview import simple
+
+    simple.LoadState(str(state))
+    simple.SaveScreenshot(str(picture), simple.GetActiveView(), ImageResolution=[700, 400])
+
+
 class Seen:
     """An index as a reader shows it."""
 
@@ -316,6 +324,19 @@ class ParaViewTest(unittest.TestCase):
         self.assertGreater(abs(angle), 0.1)
         np.testing.assert_allclose(seen.values_at(11, "displacement [mm]"), -moved, atol=1e-4)  # half a period later
 
+    @unittest.skipIf(shutil.which("xvfb-run") is None, "without xvfb-run there is no screen")
+    def test_saved_state_opens_with_rigid_parts_grey(self):
+        from PIL import Image  # which ParaView's Python need not have
+
+        folder = self.folder / "lever"
+        seen = folder / "reopened.png"
+        for script in ((SOURCE / "postprocess" / "paraview_pictures.py", folder), (__file__, "--reopen", folder / "fields.pvsm", seen)):
+            subprocess.run(["xvfb-run", "-a", "pvpython", *script], check=True, capture_output=True, timeout=120)
+        pixels = np.asarray(Image.open(seen).convert("RGB")).astype(int)
+        spread, mean = np.ptp(pixels, axis=2), pixels.mean(axis=2)
+        self.assertGreater(((spread < 12) & (mean > 120) & (mean < 220)).mean(), 0.1)
+        self.assertGreater((spread > 40).mean(), 0.02)
+
     def test_mode_swings_for_one_period(self):
         modes = {name: values[:] for name, values in self.result("mode")["modes"].items()}
         for number in range(len(modes["frequency"])):
@@ -341,9 +362,12 @@ class ParaViewTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if sys.argv[1:2] == ["--look"]:
-        for name in sys.argv[2:]:
-            look(Path(name))
+    if sys.argv[1:2] in (["--look"], ["--reopen"]):
+        if sys.argv[1] == "--reopen":
+            reopen(*sys.argv[2:])
+        else:
+            for name in sys.argv[2:]:
+                look(Path(name))
         # Readers that are torn down at the end of the program have been seen to fail there.
         sys.stdout.flush()
         os._exit(0)
