@@ -138,7 +138,8 @@ class Device:
 
 
 def make_device(path, sprag, x):
-    """Throws NotAResult."""
+    """Makes the device of a scene or a result, of a design the lever found. Throws NotAResult."""
+    path = found_lever(path) or path
     with tempfile.TemporaryDirectory(prefix="sprag-device-") as temporary:
         temporary = Path(temporary)
         scene, meshed = path, temporary / "mesh"
@@ -159,6 +160,11 @@ def make_device(path, sprag, x):
         frame, leaf = read_frame(mesh)
         forces, parameters, largest = closed_form(sprag, scene, temporary / "closed form", x)
         return Device(name, {**parse(mesh.parameters), **parameters}, frame, leaf, forces, largest)
+
+
+def found_lever(folder):
+    """Returns the scene of the lever that a design found or came nearest with; None of other results."""
+    return next((path for path in (folder / "design-best.prm", folder / "design-nearest.prm") if path.is_file()), None)
 
 
 def closed_form(sprag, scene, folder, x):

@@ -1,14 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Pictures of designs: the front of two aims with the levers on it, and what judges found over what was expected."""
+"""Pictures of designs: the lever, the front of two aims with the levers on it, and what judges found over what was expected."""
+
+import sys
 
 import numpy as np
 
+from apparatus import found_lever, make_device
+from device import drawing
 from sprag.parameters import slug
+from sprag.program import program
+from sprag.results import NotAResult
 from style import COLOURS, LINES, MARKERS, MILLIMETRE, ONE_COLUMN, TWO_COLUMNS, legend_on_top, panel_letter, parameter_label, plt
 
 
 def design_pictures(result):
     pictures = {}
+    if found_lever(result.folder):
+        try:
+            pictures["device"] = drawing(make_device(result.folder, program(), None))
+        except NotAResult as error:  # as without the program
+            print(f"plot.py: no picture of the lever: {error}", file=sys.stderr)
     if len(result.table["largest_violation"]) > 2:
         pictures["front"] = front(result)
     if "judgements" in result.groups:

@@ -15,6 +15,7 @@ from pictures import SOURCE, PictureTest, draw  # noqa: E402
 import apparatus  # noqa: E402
 import device  # noqa: E402
 import drafting  # noqa: E402
+import plot  # noqa: E402
 from sprag import program  # noqa: E402
 from sprag.results import NotAResult, read_result  # noqa: E402
 from layout import problems  # noqa: E402
@@ -103,6 +104,15 @@ class DeviceTest(PictureTest):
         for name in "PFQ":
             self.assertAlmostEqual(self.said(f"${name}$"), table[name][row], delta=6e-3 * table[name][row])
         self.assertAlmostEqual(self.said(r"$\theta_0$"), 3.213955331, delta=5e-3)
+
+    def test_picture_of_a_design_is_the_lever_found(self):
+        program.run_scene(SPRAG, SCENES / "design-a.prm", self.folder / "run", {"Design/Judges": "none", "Design/Demands": "damping slope = 0.1 +- 0.001; jamming margin >= 0.5"})
+        result = read_result(self.folder / "run")
+        (self.axes,) = plot.draw([result])["device"].axes
+        found = [float(result.table[f"geometry_{name}"][0]) for name in ("cylinder_radius", "interface_offset", "pivot_distance")]
+        for name, value in zip(("$R$", "$e$", "$l$"), found):
+            self.assertAlmostEqual(self.said(name), value, delta=1e-4 * value)
+        self.assertEqual(self.patches("cylinder")[0].radius, found[0])
 
     def test_model_b(self):
         self.expect_geometry(SCENES / "model-b.prm", 21.1, 0, 193.9, 0, 65)
