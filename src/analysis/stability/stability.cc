@@ -95,7 +95,11 @@ namespace sprag
     result.slide = model.hold(drive, ContactFriction::sliding);
     if (!result.slide)
       return result;
-    result.modes        = model.vibrations(*result.slide, true, modes.lowest);
+    if (modes.explained)
+      result.modes = model.vibrations(*result.slide, true, modes.lowest);
+    else
+      for (const auto lambda : model.eigenvalues(*result.slide, modes.lowest))
+        result.modes.emplace_back().mode.eigenvalue = lambda;
     const auto growth   = [](const Eigenmode &mode) { return mode.mode.eigenvalue.real() / std::abs(mode.mode.eigenvalue); };
     const auto is_worse = [&](const Eigenmode &a, const Eigenmode &b)
     {

@@ -27,8 +27,9 @@ namespace sprag
   /// The vibrations that a verdict rests on.
   struct CheckedModes
   {
-    unsigned int lowest;                                    ///< at least so many are found
-    double up_to = std::numeric_limits<double>::infinity(); ///< [Hz]; the model cannot have faster ones
+    unsigned int lowest;                                      ///< at least so many are found
+    double up_to   = std::numeric_limits<double>::infinity(); ///< [Hz]; the model cannot have faster ones
+    bool explained = true;                                    ///< else their eigenvalues alone are found, in half the time
   };
 
   /// Returns those of the scene's model; see highest_beam_frequency().

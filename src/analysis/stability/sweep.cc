@@ -102,11 +102,13 @@ namespace sprag
     CriticalSearch slides_along(const Scene &scene, DynamicModel &model, const SearchEffort &effort)
     {
       const bool over_stroke = looks_over_stroke(scene);
+      auto modes             = checked_modes(scene);
+      modes.explained        = scene.pair.type == PairType::full; // whose motion() the modes say
       const auto check_at    = [&](const double x)
       {
         DrivePoint drive = held_drive(scene);
         drive.x          = x;
-        auto slide       = checked_slide(check_slide(model, drive, checked_modes(scene)), drive);
+        auto slide       = checked_slide(check_slide(model, drive, modes), drive);
         if (over_stroke || !is_reduced(scene.analysis.model)) // where single modes would take long to follow
           slide.growth_rates.clear();
         return slide;

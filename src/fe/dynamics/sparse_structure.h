@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/ranges.h"
 #include "fe/algebra/compressed_rows.h"
 #include "fe/dynamics/effective_system.h"
 #include "fe/dynamics/lever_modes.h"
@@ -81,6 +82,11 @@ namespace sprag
 
     /// Returns the vibrations of lowest frequency under linear forces at the interface.
     std::vector<StructureMode> vibrations(const LinearisedForces &forces, unsigned int number);
+
+    std::vector<std::complex<double>> eigenvalues(const LinearisedForces &forces, const unsigned int number)
+    {
+      return mapped(vibrations(forces, number), &StructureMode::eigenvalue);
+    }
 
     /// v^T C v with the motion's positions as velocities v: twice the power that damping takes.
     double damping_form(const Motion &velocities) const;

@@ -195,7 +195,7 @@ namespace sprag
 
     std::vector<std::complex<double>> eigenvalues(const HeldSlide &slide, const unsigned int number) override
     {
-      return mapped(structure->vibrations(perturbation(sliding_state(slide), true), number), &StructureMode::eigenvalue);
+      return structure->eigenvalues(perturbation(sliding_state(slide), true), number);
     }
 
     Motion perturbed(const HeldSlide &slide, const Eigenmode &eigenmode, const double amplitude) override

@@ -18,6 +18,6 @@ namespace sprag
   };
 
   /// Finds the right eigenpairs of a real square matrix (LAPACK dgeev). Throws AnalysisError if the iteration fails or the matrix
-  /// has an entry that is no number.
-  std::vector<Eigenpair> eigenpairs(const dealii::FullMatrix<double> &matrix);
+  /// has an entry that is no number. Without `vectors` these are empty: it takes half the time.
+  std::vector<Eigenpair> eigenpairs(const dealii::FullMatrix<double> &matrix, bool vectors = true);
 } // namespace sprag

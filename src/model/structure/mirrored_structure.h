@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/ranges.h"
 #include "model/step/dynamic_model.h"
 #include "model/structure/mirrored_interface.h"
 
@@ -145,6 +146,11 @@ namespace sprag
       std::sort(result.begin(), result.end(),
                 [](const auto &a, const auto &b) { return std::abs(a.eigenvalue) < std::abs(b.eigenvalue); });
       return result;
+    }
+
+    std::vector<std::complex<double>> eigenvalues(const LinearisedForces &forces, const unsigned int number)
+    {
+      return mapped(vibrations(forces, number), &StructureMode::eigenvalue);
     }
 
     double damping_form(const Motion &velocities) const

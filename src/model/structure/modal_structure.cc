@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "model/structure/modal_structure.h"
 
+#include "base/ranges.h"
 #include "base/unknown.h"
 #include "model/interface/block_product.h"
 #include "model/structure/modal_vibration.h"
@@ -295,6 +296,12 @@ namespace sprag
   std::vector<StructureMode> ModalStructure::vibrations(const LinearisedForces &forces, const unsigned int /*number*/) const
   {
     return modal_vibrations(data, forces);
+  }
+
+  std::vector<std::complex<double>> ModalStructure::eigenvalues(const LinearisedForces &forces,
+                                                                const unsigned int /*number*/) const
+  {
+    return mapped(modal_vibrations(data, forces, false), &StructureMode::eigenvalue);
   }
 
   namespace

@@ -90,6 +90,9 @@ namespace sprag
     /// Returns all vibrations under linear forces at the interface.
     std::vector<StructureMode> vibrations(const LinearisedForces &forces, unsigned int number) const;
 
+    /// Returns those of the vibrations, in half the time.
+    std::vector<std::complex<double>> eigenvalues(const LinearisedForces &forces, unsigned int number) const;
+
     /// Returns the vibrations of this and another structure under forces that couple them. The other's dofs are counted from the
     /// number of this one's on, and its coordinates and static forces follow this one's.
     std::vector<StructureMode> vibrations_with(const ModalStructure &other, const LinearisedForces &forces) const;

@@ -40,7 +40,7 @@ namespace sprag
       }
 
       /// Eigenpairs of A^-1 E: 1 / lambda.
-      std::vector<Eigenpair> inverse_pairs() const
+      std::vector<Eigenpair> inverse_pairs(const bool vectors) const
       {
         LAPACKFullMatrix<double> a(size());
         LAPACKFullMatrix<double> e(size());
@@ -57,7 +57,7 @@ namespace sprag
         }
         FullMatrix<double> quotient(size(), size());
         quotient = e;
-        return eigenpairs(quotient);
+        return eigenpairs(quotient, vectors);
       }
 
       StructureMode mode(const Complex lambda, const Eigenpair &pair) const
@@ -271,12 +271,12 @@ namespace sprag
     };
   } // namespace
 
-  std::vector<StructureMode> modal_vibrations(const ModalData &data, const LinearisedForces &forces)
+  std::vector<StructureMode> modal_vibrations(const ModalData &data, const LinearisedForces &forces, const bool shapes)
   {
     constexpr double widest     = 1e-10;
     constexpr double free_creep = 1e-10;
     const StateProblem problem(data, forces);
-    const auto pairs    = problem.inverse_pairs();
+    const auto pairs    = problem.inverse_pairs(shapes);
     const double lowest = largest(pairs, [](const auto &pair) { return pair.value; });
     std::vector<StructureMode> result;
     for (auto pair : pairs)
@@ -287,6 +287,11 @@ namespace sprag
       // Static shapes creep back without any force on them, which leaves their elastic force 0 / 0.
       if (std::abs(1. + lambda * data.relaxation) <= free_creep)
         continue;
+      if (!shapes)
+      {
+        result.emplace_back().eigenvalue = lambda;
+        continue;
+      }
       pair.vector[1] *= -1.;
       result.push_back(problem.mode(lambda, pair));
     }

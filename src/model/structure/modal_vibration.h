@@ -12,5 +12,6 @@ namespace sprag
   /// and the tractions of friction's delays.
   /// Eigenvalues more than 1e10 times the smallest are left out, and -1 / relaxation, at which f = 0. Throws AnalysisError if
   /// LAPACK fails or the structure under these forces has a static mode, lambda = 0, exactly.
-  std::vector<StructureMode> modal_vibrations(const ModalData &data, const LinearisedForces &forces);
+  /// Without `shapes` the eigenvalues alone are found.
+  std::vector<StructureMode> modal_vibrations(const ModalData &data, const LinearisedForces &forces, bool shapes = true);
 } // namespace sprag
