@@ -247,7 +247,8 @@ namespace sprag
       {
         const auto [least, most] = std::minmax_element(unchecked.begin(), unchecked.end());
         text += "; cannot be judged at " + (*least < *most ? four_digits(*least) + " to " : "") + with_unit(*most, unit) +
-                (*least < *most ? " (" + std::to_string(unchecked.size()) + " values)" : "");
+                (*least < *most ? " (" + std::to_string(unchecked.size()) + " values)" : "") + ", as " +
+                search.reason.substr(0, search.reason.find('\n'));
       }
       return text;
     }
