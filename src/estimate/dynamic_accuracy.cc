@@ -218,8 +218,11 @@ namespace sprag
       {
         const double scheme = algorithmic_damping(scene.time.spectral_radius, omega * errors.peak_step);
         decay               = { "decay", "it", with_step(decay_parts, scheme * omega / fitted, step), {} };
-        // Steps and passing elements keep the envelope up, to which the decay is fitted; the slide's own decay knows neither.
-        decay.parts.push_back({ "fit", std::abs(decay_rate(found) / fitted - 1.), step });
+        // Passing elements keep the envelope up, to which the decay is fitted; the slide's own decay knows neither.
+        decay.parts.push_back({ "fit", std::abs(decay_rate(found) / fitted - 1.),
+                                is_meshed(scene.analysis.model)
+                                    ? "Try a Mesh/Face size 0.5 times as large."
+                                    : "No setting reduces it: over the window the decay is not that of a single slide." });
       }
       const double faces = largest(rows, Column::contact_width) / scene.mesh.face_size;
       if (is_meshed(scene.analysis.model) && faces < fewest_faces)
