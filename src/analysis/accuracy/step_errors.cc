@@ -54,6 +54,7 @@ namespace sprag
         {
           peak             = excess;
           result.peak_step = longest;
+          result.P = delay = 0.; // P rings from its overshoot on
         }
         result.frequency += error * std::abs(now) * dt;
         weights += std::abs(now) * dt;

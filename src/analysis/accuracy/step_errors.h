@@ -12,7 +12,7 @@ namespace sprag
   struct StepErrors
   {
     double frequency = 0.; ///< relative, mean over the steps weighted by |P - P_quasi_static|
-    double P         = 0.; ///< max |d(P - P_quasi_static)/dt| times the delay accumulated until then [N]
+    double P         = 0.; ///< max |d(P - P_quasi_static)/dt| times the delay accumulated since the overshoot [N]
     double peak_step = 0.; ///< longest step up to the overshoot, the largest excess of P after friction has turned [s]
   };
 
@@ -22,7 +22,7 @@ namespace sprag
                                   const std::function<double(double)> &frequency_error);
 
   /// Returns the largest change of P [N] per relative change of the frequency with which it rings after `begin` [s],
-  ///   max |d(P - P_quasi_static)/dt| (t - begin),
+  ///   max |d(P - P_quasi_static)/dt| (t - time of the overshoot),
   /// up to the last row before `end` in which |P - P_quasi_static| is at least a tenth of its maximum; 0 without rows.
   double change_by_frequency(const std::vector<Row> &rows, double begin, double end);
 } // namespace sprag
