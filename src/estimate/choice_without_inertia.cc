@@ -96,12 +96,9 @@ namespace sprag
     /// elements, which turn over the contact's width.
     double jump_change(const std::string &quantity, const std::vector<Row> &rows, const Row &jump)
     {
-      const Column column   = quantity == "P" ? Column::P : Column::Q;
-      const auto has_turned = friction_has_turned(rows);
-      double peak           = 0.;
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        if (has_turned[i] && drive_direction(rows[i][Column::v]) == drive_direction(jump[Column::v]))
-          peak = std::max(peak, std::abs(rows[i][column]));
+      const Column column = quantity == "P" ? Column::P : Column::Q;
+      const auto counts   = moves_with_friction(rows, drive_direction(jump[Column::v]));
+      const double peak   = std::abs(peak_between_rows(rows, column, counts));
       return peak > 0. ? std::abs(std::abs(jump[column]) - peak) / largest(rows, column) : 0.;
     }
 

@@ -57,6 +57,7 @@ namespace sprag
     TrialRows other; ///< on the mesh of with_compared_mesh() with the same penalty
     TrialRows soft;  ///< on the run's mesh with a third of the penalty; empty where the run augments and has the automatic
                      ///< tangential one
+    std::vector<Row> longer_steps{};       ///< of the passage, on the other mesh by half as many steps
     std::optional<StressChanges> stress{}; ///< on the other mesh
     double pressure_with_stress = 0.;      ///< change of the pressure there in the states whose stress is known
   };
@@ -79,8 +80,9 @@ namespace sprag
   /// from every other row. Stresses are compared in the states whose fields were found and converge with the power of the size
   /// that the degree is; those of the layer are told to be no better than the pressure on it is there. The largest P and Q behind
   /// a reversal are compared over the rows of the passage through stick, and the largest pressure is told to be no better than
-  /// the rows scatter. The lever's inertia, which such a run leaves out, is told apart, by the closed form: J d^2(th)/dt^2 over
-  /// the spring's moment.
+  /// the rows scatter. The part `stick` is what half as many steps through the passage change, as an error of first order does,
+  /// where mu follows the speed; that of a corner between rows is at least as small. The lever's inertia, which such a run leaves
+  /// out, is told apart, by the closed form: J d^2(th)/dt^2 over the spring's moment.
   std::vector<ErrorEstimate> quasi_static_accuracy(const Scene &scene, const std::vector<Row> &rows,
                                                    const std::function<TrialRuns()> &run_trials);
 } // namespace sprag

@@ -66,22 +66,6 @@ namespace sprag
       return result;
     }
 
-    /// Rows of one direction of motion whose friction has turned with it.
-    Rows turned_rows(const std::vector<Row> &rows, const int direction)
-    {
-      const auto has_turned = friction_has_turned(rows);
-      Rows result;
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        if (drive_direction(rows[i]) == direction && has_turned[i] && !rests(rows, i))
-          result.emplace_back(rows[i]);
-      return result;
-    }
-
-    double peak(const Rows &rows, const Column column)
-    {
-      return signed_peak(rows, [&](const Row &row) { return row[column]; });
-    }
-
     double deviation(const Rows &rows, const Column column, const Column reference)
     {
       const double peak = largest(rows, reference);
@@ -123,10 +107,15 @@ namespace sprag
       return scene.spring.rest_angle == 0. && (count_levers(scene) == 1 || scene.pair.cylinder_offset == 0.);
     }
 
-    void add_stroke(const Scene &scene, const Rows &turned, const Rows &settled, const std::string &name,
+    void add_stroke(const Scene &scene, const std::vector<Row> &rows, const int direction, const std::string &name,
                     std::vector<Entry> &entries)
     {
-      append<Entry>(entries, { { "peak_P_" + name, peak(turned, Column::P) }, { "peak_Q_" + name, peak(turned, Column::Q) } });
+      const Rows settled = stroke(rows, direction, settling);
+      auto counts        = moves_with_friction(rows, direction);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        counts[i] = counts[i] && !rests(rows, i);
+      for (const Column column : { Column::P, Column::Q })
+        entries.push_back({ "peak_" + column_info(column).name + "_" + name, peak_between_rows(rows, column, counts) });
       if (begins_closed(scene))
         entries.push_back({ "slope_" + name, slope_at_zero(settled, scene.geometry.cylinder_radius) });
       append<Entry>(entries, { { "deviation_P_" + name, deviation(settled, Column::P, Column::P_closed_form) },
@@ -160,39 +149,6 @@ namespace sprag
       return result;
     }
 
-    /// Vertex of the parabola through a row that is larger than its neighbours in time, and these. Where one step is over twice
-    /// as long as the other, as before a sudden reversal, the shorter would bend it: the row is its own vertex.
-    double vertex(const Row &before, const Row &row, const Row &after, const Column column)
-    {
-      const double t0 = before[Column::time] - row[Column::time], t1 = after[Column::time] - row[Column::time];
-      if (t1 > -2. * t0 || -t0 > 2. * t1)
-        return row[column];
-      const double y0 = before[column] - row[column], y1 = after[column] - row[column];
-      const double bend  = (y1 / t1 - y0 / t0) / (t1 - t0);
-      const double slope = y0 / t0 - bend * t0;
-      return row[column] - 0.25 * slope * slope / bend;
-    }
-
-    /// Value of largest size while moving one way, from where friction has turned with the motion, between rows too.
-    double peak(const std::vector<Row> &rows, const Column column, const int direction)
-    {
-      const auto has_turned = friction_has_turned(rows);
-      const auto counts     = [&](const std::size_t i)
-      { return has_turned[i] && sprag::drive_direction(rows[i][Column::v]) == direction; };
-      double result = 0.;
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        if (counts(i) && std::abs(rows[i][column]) > std::abs(result))
-        {
-          const bool has_both = i > 0 && i + 1 < rows.size() && counts(i - 1) && counts(i + 1);
-          const auto size     = [&](const std::size_t j) { return std::copysign(1., rows[i][column]) * rows[j][column]; };
-          const bool is_peak  = has_both && size(i) > size(i - 1) && size(i) > size(i + 1) &&
-                               rows[i - 1][Column::time] < rows[i][Column::time] &&
-                               rows[i][Column::time] < rows[i + 1][Column::time];
-          result = is_peak ? vertex(rows[i - 1], rows[i], rows[i + 1], column) : rows[i][column];
-        }
-      return result;
-    }
-
     double residual_share(const std::vector<Row> &rows)
     {
       constexpr Column terms[] = { Column::drive_work, Column::friction_work, Column::spring_energy, Column::kinetic_energy };
@@ -203,9 +159,11 @@ namespace sprag
     void add_peaks(const std::vector<Row> &rows, std::vector<Entry> &entries)
     {
       for (const auto &[direction, name] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
-        append<Entry>(entries, { { "peak_P_" + name, peak(rows, Column::P, direction) },
-                                 { "peak_Q_" + name, peak(rows, Column::Q, direction) },
-                                 { "peak_Q_support_" + name, peak(rows, Column::Q_support, direction) } });
+      {
+        const auto counts = moves_with_friction(rows, direction);
+        for (const Column column : { Column::P, Column::Q, Column::Q_support })
+          entries.push_back({ "peak_" + column_info(column).name + "_" + name, peak_between_rows(rows, column, counts) });
+      }
     }
 
     std::string contact_text(const Scene &scene)
@@ -264,7 +222,7 @@ namespace sprag
     for (const auto &[direction, name] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
       if (!stroke(rows, direction, 0.).empty())
       {
-        add_stroke(scene, turned_rows(rows, direction), stroke(rows, direction, settling), name, entries);
+        add_stroke(scene, rows, direction, name, entries);
         if (!begins_closed(scene))
           continue;
         const double mu = sliding_friction(scene, 0., direction * scene.drive.peak_speed()).coefficient;

@@ -58,4 +58,15 @@ namespace sprag
   /// Returns of every row whether friction has turned with the motion: true from the first row of each stroke in which it is 0.9
   /// of what it is in full sliding. In a stroke that ends before, true from where it acts against the motion.
   std::vector<bool> friction_has_turned(const std::vector<Row> &rows);
+
+  /// Returns of every row whether it moves in a direction, +1 or -1, with friction that has turned.
+  std::vector<bool> moves_with_friction(const std::vector<Row> &rows, int direction);
+
+  /// Returns whether a part of the contact sticks: friction is less than 0.999 of what it is in full sliding.
+  bool sticks(const Row &row);
+
+  /// Returns the value of largest size in a column of the rows that count, with its sign, between rows too. Without inertia, just
+  /// behind stick, it is a corner, at which the last point slips: the lines through the rows on both sides meet there. With
+  /// inertia it is the vertex of the parabola over time through three rows.
+  double peak_between_rows(const std::vector<Row> &rows, Column column, const std::vector<bool> &counts);
 } // namespace sprag

@@ -97,19 +97,6 @@ TEST(SampleChanges, AreRelativeToPeaksOrThemselves)
   EXPECT_THROW(relative_change("theta", rows, other), std::out_of_range);
 }
 
-TEST(Passage, TellsHowFarACornerLiesAboveItsRows)
-{
-  // It rises by 4 and then falls by 1 from row to row; the corner lies a quarter behind row 4.
-  std::vector<Row> rows = { row(0., 1., 1., 1.) };
-  for (const double P : { 2., 6., 10., 14., 14.25, 13.25, 12.25 })
-    rows.push_back(row(rows.back()[Column::time] + 1., 0., -1., P));
-  for (std::size_t i = 1; i < rows.size(); ++i)
-    rows[i][Column::x] = 1. - 0.1 * static_cast<double>(i);
-  EXPECT_NEAR(peak_errors(Column::P, passage_rows(rows), passage_rows(rows)).missed, 0.75 / 14.25, 1e-12);
-  EXPECT_EQ(peak_errors(Column::P, passage_rows(rows), passage_rows(rows)).change, 0.);
-  EXPECT_EQ(peak_errors(Column::P, {}, {}).missed, 0.);
-}
-
 TEST(RowSpacing, GoesWithTheRootOfTheErrorAndHoldsIt)
 {
   const Scene scene  = with_coulomb(model_a(), 0.73);

@@ -100,22 +100,7 @@ class AlongDrive:
         if changes.get("Analysis/Dimension") == 3:
             return cls(sprag, scene, {**changes, **FINE_IN_SPACE}, folder)
         sizes = {"Mesh/Face size": run.face_size / FINER, "Cylinder/Face size": CYLINDER_FACE_SIZE / FINER}
-        result = cls(sprag, scene, {**changes, **sizes, **FINE_IN_PLANE}, folder)
-        result.peaks = {(name, way): result.corner(name, value) if way == "backward" else value for (name, way), value in result.peaks.items()}
-        return result
-
-    def corner(self, name, peak):
-        """The peak behind the reversal, with its sign, where lines through the rows on both sides meet: no setting brings rows nearer."""
-        rows = self.strokes[-1]
-        x, values = self.table["x"][rows], self.table[name][rows] * np.sign(peak)
-        at = int(np.argmin(np.abs(values - abs(peak))))
-        result = abs(peak)
-        for i in range(max(at, 2), min(at + 2, len(x) - 1)):
-            rise, fall = (values[i - 1] - values[i - 2]) / (x[i - 1] - x[i - 2]), (values[i + 1] - values[i]) / (x[i + 1] - x[i])
-            place = (values[i] - values[i - 1] + rise * x[i - 1] - fall * x[i]) / (rise - fall)
-            if min(x[i - 1], x[i]) < place < max(x[i - 1], x[i]):
-                result = max(result, values[i] + fall * (place - x[i]))
-        return result * np.sign(peak)
+        return cls(sprag, scene, {**changes, **sizes, **FINE_IN_PLANE}, folder)
 
     def at(self, name, x, stroke):
         """A column over x of a stroke by cubics through four rows: lines between rows would be further off than the run."""
@@ -131,7 +116,6 @@ class AlongDrive:
                     weight *= (x - places[first + j]) / (places[first + i] - places[first + j])
             result += weight * values[first + i]
         return result
-
 
     def errors(self, reference):
         """Without what the strokes remember of their beginning, and where the lever hardly touches, but with the largest P and Q that

@@ -64,3 +64,27 @@ TEST(FrictionHasTurned, OnceItIsNearlyWhatItIsInFullSliding)
                                   sliding(-1., 0.), sliding(1., -5.), sliding(1., 2.) };
   EXPECT_EQ(friction_has_turned(rows), std::vector<bool>({ true, false, false, true, true, false, true }));
 }
+
+// Friction turns over rows 0.1 mm apart, P rises by 4 from row to row and then falls by 1; the corner lies a quarter behind
+// row 3.
+TEST(PeakBetweenRows, IsTheCornerAtWhichTheLastPointSlips)
+{
+  std::vector<Row> rows;
+  for (const auto &[P, friction] : std::vector<std::pair<double, double>>{
+           { 2., 5. }, { 6., 1. }, { 10., -3. }, { 14., -4.8 }, { 14.25, -5. }, { 13.25, -5. }, { 12.25, -5. } })
+  {
+    rows.push_back(sliding(-1., friction));
+    rows.back()[Column::time] = 0.1 * static_cast<double>(rows.size());
+    rows.back()[Column::x]    = -rows.back()[Column::time];
+    rows.back()[Column::P]    = P;
+    rows.back()[Column::Q]    = -P;
+  }
+  const auto counts = moves_with_friction(rows, -1);
+  EXPECT_NEAR(peak_between_rows(rows, Column::P, counts), 15., 1e-12);
+  EXPECT_NEAR(peak_between_rows(rows, Column::Q, counts), -15., 1e-12);
+  EXPECT_EQ(peak_between_rows(rows, Column::P, moves_with_friction(rows, 1)), 0.);
+  // With inertia forces have no corners: it is the vertex of a parabola.
+  for (Row &row : rows)
+    row[Column::kinetic_energy] = 0.;
+  EXPECT_NEAR(peak_between_rows(rows, Column::P, counts), 14.25 + 0.375 * 0.375 / 2.5, 1e-12);
+}

@@ -144,11 +144,12 @@ TEST(Report, PeaksInTimeLieBetweenRows)
   for (unsigned int i = 0; i < 60; ++i)
   {
     Row row;
-    row[Column::time] = 1e-3 * i;
-    row[Column::x]    = 0.112 * i;
-    row[Column::v]    = 112.;
-    row[Column::P]    = 20. + 5. * std::sin(0.31 * i + 0.13);
-    row[Column::Q]    = row[Column::P];
+    row[Column::time]           = 1e-3 * i;
+    row[Column::x]              = 0.112 * i;
+    row[Column::v]              = 112.;
+    row[Column::kinetic_energy] = 0.;
+    row[Column::P]              = 20. + 5. * std::sin(0.31 * i + 0.13);
+    row[Column::Q]              = row[Column::P];
     rows.push_back(row);
   }
   const auto largest_row =

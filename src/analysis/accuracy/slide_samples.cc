@@ -19,10 +19,9 @@ namespace sprag
   {
     using Index = std::size_t;
 
-    constexpr double full_sliding      = 0.999; ///< least |F|/(mu P) of full sliding
-    constexpr double least_P           = 0.02;  ///< of sampled rows, over the largest P
-    constexpr unsigned int most_halves = 6;     ///< halvings of a step
-    constexpr Index passage_limit      = 100;   ///< rows
+    constexpr double least_P           = 0.02; ///< of sampled rows, over the largest P
+    constexpr unsigned int most_halves = 6;    ///< halvings of a step
+    constexpr Index passage_limit      = 100;  ///< rows
 
     /// Returns the value of a row less the linear interpolation over x between two others; 0 if these have the same x.
     double distance_from_line(const Row &before, const Row &row, const Row &after, const Column column)
@@ -36,9 +35,7 @@ namespace sprag
 
     bool slides(const Row &row, const double largest_force)
     {
-      const double friction = std::abs(row[Column::friction_resultant]);
-      return row[Column::v] != 0. && row[Column::P] > least_P * largest_force &&
-             friction >= full_sliding * row[Column::mu] * row[Column::normal_resultant];
+      return row[Column::v] != 0. && row[Column::P] > least_P * largest_force && !sticks(row);
     }
 
     /// Returns the rows in full sliding of the stroke that begins at a row, and the first row after the stroke. Rows before the
@@ -207,7 +204,7 @@ namespace sprag
     const Index last = std::max(largest_P, largest_Q);
     if (!has_turned[last] || last - turn >= passage_limit)
       return {};
-    const Index end = std::min(last + 3, rows.size());
+    const Index end = std::min(last + 5, rows.size());
     return { rows.begin() + static_cast<std::ptrdiff_t>(turn) - 1, rows.begin() + static_cast<std::ptrdiff_t>(end) };
   }
 
@@ -296,47 +293,13 @@ namespace sprag
     return result;
   }
 
-  namespace
+  double peak_change(const Column column, const std::vector<Row> &passage, const std::vector<Row> &other)
   {
-    /// Largest value behind a reversal.
-    struct PassagePeak
-    {
-      double row    = 0.; ///< in a row
-      double corner = 0.; ///< where the lines through the rows on both sides meet
-    };
-
-    PassagePeak passage_peak(const std::vector<Row> &passage, const Column column)
-    {
-      const auto has_turned = friction_has_turned(passage);
-      const auto value      = [&](const std::size_t i) { return std::abs(passage[i][column]); };
-      const auto length     = [&](const std::size_t i) { return std::abs(passage[i][Column::x] - passage[i - 1][Column::x]); };
-      const auto slope      = [&](const std::size_t i) { return (value(i) - value(i - 1)) / length(i); };
-      std::size_t peak      = 0;
-      for (std::size_t i = 1; i < passage.size(); ++i) // row 0 belongs to the previous stroke
-        if (has_turned[i] && (peak == 0 || value(i) > value(peak)))
-          peak = i;
-      if (peak == 0)
-        return {};
-      PassagePeak result{ value(peak), value(peak) };
-      for (std::size_t i = std::max<std::size_t>(peak, 3); i + 1 < std::min(peak + 3, passage.size()); ++i)
-      {
-        const double rise = slope(i - 1), fall = -slope(i + 1);
-        const double share = (slope(i) + fall) / (rise + fall); // of the way between rows i - 1 and i
-        if (rise > 0. && fall > 0. && share > 0. && share < 1.)
-          result.corner = std::max(result.corner, value(i - 1) + rise * share * length(i));
-      }
-      return result;
-    }
-  } // namespace
-
-  PeakErrors peak_errors(const Column column, const std::vector<Row> &passage, const std::vector<Row> &other)
-  {
-    const auto peak   = passage_peak(passage, column);
-    const double size = largest(passage, column);
-    if (!(size > 0.))
-      return {};
-    return { other.empty() ? 0. : std::abs(passage_peak(other, column).corner - peak.corner) / size,
-             (peak.corner - peak.row) / size };
+    if (passage.empty() || other.empty())
+      return 0.;
+    const auto peak = [&](const std::vector<Row> &rows)
+    { return std::abs(peak_between_rows(rows, column, moves_with_friction(rows, drive_direction(rows.back()[Column::v])))); };
+    return std::abs(peak(other) - peak(passage)) / largest(passage, column);
   }
 
   double relative_change(const std::string &quantity, const std::vector<Row> &samples, const std::vector<Row> &other)

@@ -17,7 +17,7 @@ namespace sprag
   /// [s]. Empty without full sliding.
   std::vector<Row> slide_samples(const std::vector<Row> &rows, unsigned int number, const std::vector<double> &times = {});
 
-  /// Returns the rows from the first reversal to two rows behind the largest P and Q, which lie less than the contact's width
+  /// Returns the rows from the first reversal to four rows behind the largest P and Q, which lie less than the contact's width
   /// away. slide_samples() leaves these out although a peak may lie there. Empty without a reversal or for more than 100 rows.
   std::vector<Row> passage_rows(const std::vector<Row> &rows);
 
@@ -50,16 +50,9 @@ namespace sprag
   /// compute_drive_work(). Throws std::out_of_range for other names.
   double relative_change(const std::string &quantity, const std::vector<Row> &samples, const std::vector<Row> &other);
 
-  /// Differences of the peak of P or Q behind a reversal, once friction has changed its direction, over the largest value. The
-  /// peak is a corner, at which the last point slips. It lies where the lines through the rows on both sides meet.
-  struct PeakErrors
-  {
-    double change = 0.; ///< between the corners of two models
-    double missed = 0.; ///< of the corner from the highest row
-  };
-
-  /// Compares two models' rows of the same passage_rows(). Without rows the differences are 0.
-  PeakErrors peak_errors(Column column, const std::vector<Row> &passage, const std::vector<Row> &other);
+  /// Returns the difference of two models' peaks of P, Q or pressure behind a reversal, once friction has changed its direction,
+  /// over the largest value; 0 without rows. Both have the rows of the same passage_rows().
+  double peak_change(Column column, const std::vector<Row> &passage, const std::vector<Row> &other);
 
   /// Returns the largest Analysis/Step [mm], at most a quarter of the stroke, at which rows of the closed form have a relative
   /// error of at most `error` > 0: linear interpolation of P and Q and, if `has_loop`, the loop area by the trapezoidal rule.

@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "model/step/state_archive.h"
 #include "results/result_file.h"
+#include "results/row_statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +27,7 @@ namespace sprag
     // The passage through stick after a reversal is about (|F+| + |F-|) / k_t long; its steps are these shares of it.
     constexpr double first_share   = 0.02;
     constexpr double largest_share = 0.125;
-    constexpr double passages      = 3.;    ///< lengths of passage with short steps
-    constexpr double fully_slides  = 0.999; ///< least share of mu P in the friction of a contact that slides everywhere
+    constexpr double passages      = 3.; ///< lengths of passage with short steps
 
     constexpr unsigned int stick_solutions = 4;    ///< Newton corrections for an equilibrium in stick
     constexpr double displacement_share    = 1e-2; ///< dx of the difference quotient in stick, over the penetration
@@ -159,12 +159,6 @@ namespace sprag
       return { row[Column::x], 2. * std::abs(row.friction_force()) / stick_stiffness };
     }
 
-    /// Returns whether a part of the contact still sticks; a lever that jams sticks long behind a reversal.
-    bool sticks(const Row &row)
-    {
-      return std::abs(row[Column::friction_resultant]) < fully_slides * row[Column::mu] * row[Column::normal_resultant];
-    }
-
     /// An accepted step.
     struct Progression
     {
@@ -178,7 +172,7 @@ namespace sprag
                         const bool reversed, double &dx)
     {
       StepCost cost;
-      const bool sticking = reversed || sticks(from.row);
+      const bool sticking = reversed || sticks(from.row); // a lever that jams sticks long behind a reversal
       const double time   = from.state.drive.time;
       const auto attempt  = [&]
       { return solve_step(model, from.state, drive.step(time, dx, largest_speed_change), settings, sticking, cost); };
