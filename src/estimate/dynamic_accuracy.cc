@@ -9,6 +9,7 @@
 #include "estimate/coarser_scene.h"
 #include "fe/contact/face_contact_point.h"
 #include "results/row_statistics.h"
+#include "scene/analysis_use.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 
@@ -137,9 +138,7 @@ namespace sprag
       scene.stability.position  = scene.drive.at(time).x;
       const bool is_backward    = drive_direction(scene.drive.at(time, Drive::Side::after).v) < 0;
       scene.stability.direction = is_backward ? Direction::backward : Direction::forward;
-      if (scene.analysis.model == ModelType::finite_element)
-        scene.analysis.model = ModelType::condensed;
-      return held_scene(scene);
+      return held_scene(with_condensed_lever(scene));
     }
 
     /// The vibration of a slide that is nearest to a frequency [Hz].

@@ -15,6 +15,7 @@
 #include "run/in_memory.h"
 #include "run/run.h"
 #include "run/vibration_report.h"
+#include "scene/analysis_use.h"
 #include "scene/contact_estimates.h"
 #include "scene/held_slide.h"
 #include "scene/mirrored_pair.h"
@@ -94,7 +95,7 @@ namespace sprag
       {
         if (damping == own)
           return verdict;
-        Scene damped           = scene;
+        Scene damped           = with_condensed_lever(scene);
         damped.contact.damping = damping;
         auto slide             = sweep(damped, maker).worst();
         if (damping == 0.)
@@ -143,7 +144,7 @@ namespace sprag
     {
       constexpr double soft = 0.1, rigid = 1e6;
       double soft_growth = std::nan(""), short_growth = std::nan(""), long_growth = std::nan("");
-      Scene changed = scene;
+      Scene changed = with_condensed_lever(scene);
       if (is_meshed(scene.analysis.model))
         changed.contact.tangential_penalty = rigid * contact_reference(scene).stiffness;
       else
@@ -156,7 +157,7 @@ namespace sprag
       const double rigid_growth = compute_growth(changed, maker);
       if (has_memory(scene))
       {
-        changed                        = scene;
+        changed                        = with_condensed_lever(scene);
         changed.friction.memory_length = 0.1 * scene.friction.memory_length;
         short_growth                   = compute_growth(changed, maker);
         changed.friction.memory_length = 10. * scene.friction.memory_length;

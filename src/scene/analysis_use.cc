@@ -68,6 +68,13 @@ namespace sprag
     return type == AnalysisType::slope || (type == AnalysisType::isolation && !isolates_by_model(scene)) || is_closed || is_ideal;
   }
 
+  Scene with_condensed_lever(Scene scene)
+  {
+    if (scene.analysis.model == ModelType::finite_element)
+      scene.analysis.model = ModelType::condensed;
+    return scene;
+  }
+
   std::vector<std::string> accuracy_quantities(const AnalysisType type)
   {
     if (type == AnalysisType::quasi_static)
