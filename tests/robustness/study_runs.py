@@ -184,7 +184,8 @@ class StudyTest(RunTest):
             self.assertEqual(file["meta/ranks"][()], 2)
 
     def test_interrupted(self):
-        process = self.start(IN_TIME, "--output", self.output, *settings(MANY), "--jobs", 2, "--quiet")
+        more = {**MANY, "Study/Vary": "Lever/Depth = 5 ... 20 : 400"}  # than two processes end before the signal reaches them
+        process = self.start(IN_TIME, "--output", self.output, *settings(more), "--jobs", 2, "--quiet")
         journal = self.output / "study.journal"
         self.wait_until(process, lambda: journal.exists() and len(journal.read_bytes().splitlines()) > 8 or None)
         process.send_signal(signal.SIGINT)
