@@ -144,7 +144,8 @@ namespace sprag
     {
       constexpr double soft = 0.1, rigid = 1e6;
       double soft_growth = std::nan(""), short_growth = std::nan(""), long_growth = std::nan("");
-      Scene changed = with_condensed_lever(scene);
+      const Scene varied = with_condensed_lever(scene);
+      Scene changed      = varied;
       if (is_meshed(scene.analysis.model))
         changed.contact.tangential_penalty = rigid * contact_reference(scene).stiffness;
       else
@@ -157,7 +158,7 @@ namespace sprag
       const double rigid_growth = compute_growth(changed, maker);
       if (has_memory(scene))
       {
-        changed                        = with_condensed_lever(scene);
+        changed                        = varied;
         changed.friction.memory_length = 0.1 * scene.friction.memory_length;
         short_growth                   = compute_growth(changed, maker);
         changed.friction.memory_length = 10. * scene.friction.memory_length;
