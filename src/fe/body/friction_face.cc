@@ -207,6 +207,27 @@ namespace sprag
     return face;
   }
 
+  template <int dim>
+  std::vector<std::vector<unsigned int>> lines_along(const FrictionFace<dim> &face)
+  {
+    std::map<long, std::vector<unsigned int>> by_zeta;
+    for (unsigned int i = 0; i < face.nodes.size(); ++i)
+      by_zeta[dim == 3 ? std::lround(1e6 * face.nodes[i].position[dim - 1]) : 0].push_back(i);
+    std::vector<std::vector<unsigned int>> result;
+    for (auto &line : by_zeta)
+    {
+      auto &nodes = line.second;
+      std::sort(nodes.begin(), nodes.end(),
+                [&](const unsigned int a, const unsigned int b)
+                { return face.nodes[a].position[0] < face.nodes[b].position[0]; });
+      if (nodes.size() >= 3)
+        result.push_back(std::move(nodes));
+    }
+    return result;
+  }
+
+  template std::vector<std::vector<unsigned int>> lines_along(const FrictionFace<2> &);
+  template std::vector<std::vector<unsigned int>> lines_along(const FrictionFace<3> &);
   template FrictionFace<2> find_friction_face(const Mapping<2> &, const DoFHandler<2> &, const AffineConstraints<double> &,
                                               const BodyProperties &, types::boundary_id);
   template FrictionFace<3> find_friction_face(const Mapping<3> &, const DoFHandler<3> &, const AffineConstraints<double> &,

@@ -77,6 +77,10 @@ namespace sprag
     return result;
   }
 
+  /// Returns the nodes of a face line by line, each with three or more nodes along the first axis at one place along the last.
+  template <int dim>
+  std::vector<std::vector<unsigned int>> lines_along(const FrictionFace<dim> &face);
+
   /// Reads the faces marked `boundary`. The integration points are denser than the nodes, about
   /// `BodyProperties::point_spacing` apart, so that a contact narrower than a cell has its resultant in the right place and
   /// direction; at most 48 a cell.

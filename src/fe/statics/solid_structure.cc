@@ -73,21 +73,6 @@ namespace sprag
     return result += strain_residual;
   }
 
-  namespace
-  {
-    std::vector<std::vector<unsigned int>> lines_along(const FrictionFace<3> &face)
-    {
-      std::map<long, std::vector<unsigned int>> by_zeta;
-      for (unsigned int i = 0; i < face.nodes.size(); ++i)
-        by_zeta[std::lround(1e6 * face.nodes[i].position[2])].push_back(i);
-      std::vector<std::vector<unsigned int>> result;
-      for (const auto &line : by_zeta)
-        if (line.second.size() >= 3)
-          result.push_back(line.second);
-      return result;
-    }
-  } // namespace
-
   SolidStructure::SolidStructure(const SolidBody &body_, const double begin, const double end, const InterfaceLayout &layout_,
                                  const JointSprings &springs_)
       : StaticInterface(layout_, springs_,

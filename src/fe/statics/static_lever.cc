@@ -145,6 +145,7 @@ namespace sprag
       , layout(make_layout(own_body, properties))
       , springs(make_springs(properties.front()))
       , own_structure(make_structure(own_body, properties.front(), layout, springs, surroundings))
+      , face_lines(lines_along(own_body.friction_face()))
       , multipliers(own_body.friction_face())
       , excess(layout, properties.front().spring.law, swings, 0.)
       , joint_is_free(swings)
@@ -175,9 +176,68 @@ namespace sprag
       const auto &ideal = levers[i].properties.ideal_theta;
       step.trial.coordinates[rotation(i)] += ideal(end.x - u) - ideal(accepted.drive.x - u);
     }
-    if (has_candidates())
-      look_at(step);
+    if (!has_candidates())
+      return step;
+    look_at(step);
+    if (levers.front().properties.body.material == MaterialModel::linear && !accepted.forces.dofs.empty())
+      shift_faces(step);
     return step;
+  }
+
+  /// Guesses that the displacements of the friction faces travel along them with the contact, u(xi) = u_begin(xi - travel),
+  /// linear between the nodes of a line. Newton's method then begins near the contact that it ends with. A guess without contact
+  /// is dropped: Newton's method would go on from a lever at rest deep in the cylinder.
+  template <int dim>
+  void StaticLever<dim>::shift_faces(Step &step)
+  {
+    const auto unmoved = step.trial.coordinates;
+    const auto end     = interface_displacements(unmoved);
+    const auto &nodes  = own_body.friction_face().nodes;
+    for (unsigned int lever = 0; lever < layout.levers; ++lever)
+    {
+      const double distance = travel(lever, step, end);
+      for (const auto &line : face_lines)
+      {
+        std::vector<unsigned int> dofs; // the first of each node that is looked at
+        std::vector<double> xi;
+        for (const unsigned int node : line)
+          if (const unsigned int dof = layout.first(lever) + dim * node;
+              std::binary_search(step.near.begin(), step.near.end(), dof))
+          {
+            dofs.push_back(dof);
+            xi.push_back(nodes[node].position[0]);
+          }
+        for (std::size_t i = 0; i < dofs.size(); ++i)
+        {
+          const double from = xi[i] - distance;
+          const auto after  = std::upper_bound(xi.begin(), xi.end(), from) - xi.begin();
+          if (after == 0 || after == static_cast<std::ptrdiff_t>(xi.size()))
+            continue;
+          const double share = (from - xi[after - 1]) / (xi[after] - xi[after - 1]);
+          for (unsigned int d = 0; d < dim; ++d)
+            step.trial.coordinates[dofs[i] + d] =
+                (1. - share) * step.displacements[dofs[after - 1] + d] + share * step.displacements[dofs[after] + d];
+        }
+      }
+    }
+    Balance found;
+    const bool is_near = evaluate_levers(step, FrictionMode::cone, found);
+    const auto touches = [](const Found &lever) { return lever.contact.penetration() > 0.; };
+    if (!is_near || !std::all_of(found.levers.begin(), found.levers.end(), touches))
+      step.trial.coordinates = unmoved;
+  }
+
+  /// Returns how far the contact's centre travels along a lever's face up to the trial state [mm].
+  template <int dim>
+  double StaticLever<dim>::travel(const unsigned int lever, const Step &step, const Vector<double> &end) const
+  {
+    const auto &properties = levers[lever].properties;
+    const auto centre      = [&](const double x, const Vector<double> &displacements)
+    {
+      const double theta = properties.spring.rest + displacements[layout.rotation(lever)];
+      return properties.centre(x - support_displacement(displacements), theta).xi;
+    };
+    return centre(step.trial.drive.x, end) - centre(step.start.x, step.displacements);
   }
 
   /// Makes contacts and step look at the candidate dofs of the contacts. New ones of a face begin at the displacements by the
@@ -203,18 +263,16 @@ namespace sprag
   template <int dim>
   DofSelection StaticLever<dim>::find_candidates(const Step &step)
   {
-    const auto end              = interface_displacements(step.trial.coordinates);
-    const double begin_relative = step.start.x - support_displacement(step.displacements);
-    const double relative       = step.trial.drive.x - support_displacement(end);
-    DofSelection result         = step.forces.dofs;
+    const auto end        = interface_displacements(step.trial.coordinates);
+    const double relative = step.trial.drive.x - support_displacement(end);
+    DofSelection result   = step.forces.dofs;
     for (unsigned int i = 0; i < layout.levers; ++i)
     {
       auto &[properties, contact] = levers[i];
-      const double rest = properties.spring.rest, theta = rest + end[layout.rotation(i)];
-      const double travel = properties.centre(relative, theta).xi -
-                            properties.centre(begin_relative, rest + step.displacements[layout.rotation(i)]).xi;
-      const auto to_joined = [&](const unsigned int dof) { return joined_dof(layout, i, dof); };
-      result               = united(result, mapped(contact.candidate_dofs(relative, { { theta } }, travel), to_joined));
+      const double theta          = properties.spring.rest + end[layout.rotation(i)];
+      const auto to_joined        = [&](const unsigned int dof) { return joined_dof(layout, i, dof); };
+      const auto near             = contact.candidate_dofs(relative, { { theta } }, travel(i, step, end));
+      result                      = united(result, mapped(near, to_joined));
     }
     return result;
   }
@@ -235,12 +293,12 @@ namespace sprag
     return { found.residual.norm, penetration, std::move(found) };
   }
 
+  /// Evaluates the contact of each lever. Returns whether they are within the candidates.
   template <int dim>
-  void StaticLever<dim>::evaluate_contacts(Step &step, const FrictionMode mode, Balance &found)
+  bool StaticLever<dim>::evaluate_levers(const Step &step, const FrictionMode mode, Balance &found)
   {
-    auto &trial    = step.trial;
-    const auto end = interface_displacements(trial.coordinates);
-    std::vector<const InterfaceForces *> lever_forces;
+    const auto &trial      = step.trial;
+    const auto end         = interface_displacements(trial.coordinates);
     bool within_candidates = true;
     found.levers.resize(layout.levers);
     for (unsigned int i = 0; i < layout.levers; ++i)
@@ -256,11 +314,16 @@ namespace sprag
       const StepWeights weights{ trial.drive.time - step.start.time, 0., 0., 0., 0. };
       const Vector<double> no_rates;
       lever.evaluate(InterfaceStep{ step.start, history, trial.drive, begin, own_end, no_rates, weights }, contact, terms);
-      lever_forces.push_back(&contact.forces);
       within_candidates = within_candidates && contact.within_candidates;
     }
-    if (within_candidates)
-      return join_forces(layout, lever_forces, found.forces);
+    return within_candidates;
+  }
+
+  template <int dim>
+  void StaticLever<dim>::evaluate_contacts(Step &step, const FrictionMode mode, Balance &found)
+  {
+    if (evaluate_levers(step, mode, found))
+      return join_forces(layout, mapped(found.levers, [](const Found &lever) { return &lever.contact.forces; }), found.forces);
     for (auto &lever : levers)
       lever.contact.widen_candidates();
     look_at(step);

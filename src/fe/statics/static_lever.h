@@ -183,7 +183,10 @@ namespace sprag
     }
 
     void look_at(Step &step);
+    void shift_faces(Step &step);
+    double travel(unsigned int lever, const Step &step, const dealii::Vector<double> &end) const;
     DofSelection find_candidates(const Step &step);
+    bool evaluate_levers(const Step &step, FrictionMode mode, Balance &found);
     void evaluate_contacts(Step &step, FrictionMode mode, Balance &found);
     History joined(const std::function<History(std::size_t)> &history) const;
     History augmented(const Evaluation &evaluation) const;
@@ -221,6 +224,7 @@ namespace sprag
     std::deque<Lever> levers;
     const JointSprings springs;
     Structure own_structure;
+    const std::vector<std::vector<unsigned int>> face_lines; ///< see lines_along()
     const FaceMultipliers<dim> multipliers;
     HubSpringExcess excess;
     const bool joint_is_free;
