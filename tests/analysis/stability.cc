@@ -56,6 +56,14 @@ TEST(Jamming, StiffBeamJamsWhereTheRigidLeverLocks)
   EXPECT_NEAR(*margin.flexible, 1. - 0.73 / margin.critical_mu, 1e-4);
   ASSERT_TRUE(margin.flexible_critical_mu);
   EXPECT_NEAR(*margin.flexible_critical_mu, margin.critical_mu, 0.02 * margin.critical_mu);
+  const auto is_held = [&](const double mu)
+  {
+    scene.friction.law = CoulombFriction{ mu };
+    const auto slide   = make_reduced_lever(scene)->hold({ 0., margin.x, margin.v, 0. }, ContactFriction::sliding);
+    return slide && slide->uniqueness > 0.;
+  };
+  EXPECT_TRUE(is_held(0.9998 * *margin.flexible_critical_mu));
+  EXPECT_FALSE(is_held(1.0002 * *margin.flexible_critical_mu));
 }
 
 // mu falls with speed, and a harmonic motion is slowest where s is shortest.

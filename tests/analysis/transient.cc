@@ -51,6 +51,10 @@ namespace
     {
       return inner->hold(drive, friction);
     }
+    double largest_friction_share(const DrivePoint &drive, const double resolution) override
+    {
+      return inner->largest_friction_share(drive, resolution);
+    }
     std::vector<Eigenmode> vibrations(const HeldSlide &slide, const bool in_contact, const unsigned int number) override
     {
       return inner->vibrations(slide, in_contact, number);

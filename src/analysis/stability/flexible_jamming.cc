@@ -12,8 +12,8 @@ namespace sprag
 {
   namespace
   {
-    /// The scene as a beam moving at x with a constant mu; none where it has no equilibrium, or not a unique one.
-    std::optional<HeldSlide> beam_slide(const Device &device, const JammingMargin &at, const double mu)
+    /// Makes the scene's beam on the law of its layer, with a constant mu.
+    std::unique_ptr<DynamicModel> make_beam(const Device &device, const double mu)
     {
       const auto law         = face_law(device);
       Device beam            = device;
@@ -24,40 +24,27 @@ namespace sprag
       beam.friction.law      = CoulombFriction{ mu };
       beam.support.type      = SupportType::rigid;
       beam.contact.type      = ContactType::compliant;
-      const double v         = std::copysign(device.drive.peak_speed(), at.v);
+      return make_reduced_lever(beam);
+    }
+
+    void add_flexure(const Device &device, JammingMargin &margin)
+    {
+      constexpr double largest_mu = 5., resolution = 2e-5;
+      const DrivePoint drive{ 0., margin.x, std::copysign(device.drive.peak_speed(), margin.v), 0. };
       try
       {
-        auto slide = make_reduced_lever(beam)->hold({ 0., at.x, v, 0. }, ContactFriction::sliding);
+        const auto slide = make_beam(device, margin.mu)->hold(drive, ContactFriction::sliding);
         if (slide && slide->forces.P > 0. && slide->uniqueness > 0.)
-          return slide;
+          margin.flexible = slide->margin;
       }
       catch (const AnalysisError &)
       {
         // No such equilibrium is found.
       }
-      return {};
-    }
-
-    /// Bisection between a mu at which the equilibrium is unique and one at which it is not.
-    std::optional<double> critical_mu(const Device &device, const JammingMargin &at, double unique, double jammed)
-    {
-      const auto is_unique = [&](const double mu) { return beam_slide(device, at, mu).has_value(); };
-      if (!is_unique(unique) || is_unique(jammed))
-        return {};
-      while (jammed - unique > 1e-4 * jammed)
-      {
-        const double middle                   = 0.5 * (unique + jammed);
-        (is_unique(middle) ? unique : jammed) = middle;
-      }
-      return 0.5 * (unique + jammed);
-    }
-
-    void add_flexure(const Device &device, JammingMargin &margin)
-    {
-      constexpr double largest_mu = 5.;
-      if (const auto slide = beam_slide(device, margin, margin.mu))
-        margin.flexible = slide->margin;
-      margin.flexible_critical_mu = critical_mu(device, margin, 0., std::min(3. * margin.critical_mu, largest_mu));
+      const double mu    = std::min(3. * margin.critical_mu, largest_mu);
+      const double share = make_beam(device, mu)->largest_friction_share(drive, resolution);
+      if (share > 0. && share < 1.)
+        margin.flexible_critical_mu = share * mu;
     }
   } // namespace
 

@@ -187,6 +187,11 @@ namespace sprag
       return slide;
     }
 
+    double largest_friction_share(const DrivePoint &drive, const double resolution) override
+    {
+      return grow_friction(drive, resolution).share;
+    }
+
     std::vector<Eigenmode> vibrations(const HeldSlide &slide, const bool in_contact, const unsigned int number) override
     {
       const auto forces = perturbation(sliding_state(slide), in_contact);
@@ -457,9 +462,9 @@ namespace sprag
     /// Follows the equilibrium from no friction to the scene's, in steps that are halved where Newton's method fails or has left
     /// the branch. It jams where the branch ends at a fold, or with a layer pressed too far. Where it ends elsewhere another
     /// branch crosses it, or the method fails.
-    BranchEnd grow_friction(const DrivePoint &drive)
+    BranchEnd grow_friction(const DrivePoint &drive, const double smallest_step = 1e-4)
     {
-      constexpr double smallest_step = 1e-4, near_fold = 1e-2; // shares of the friction
+      constexpr double near_fold = 1e-2; // shares of the friction
       slides.solve(drive, 1., ContactFriction::none);
       const double speed   = sliding_speed(frame.geometries.front(), drive.x, drive.v);
       const auto is_unique = [&](const double share)
@@ -468,14 +473,15 @@ namespace sprag
         return uniqueness({ displacements, drive, speed, nullptr, ContactFriction::sliding, share }) > 0.;
       };
       std::vector<BranchPoint> branch = { { 0., found.penetration() } };
+      bool is_pressed_too_far         = false;
       for (double step = 0.25; branch.back().share < 1. && step > smallest_step;)
       {
-        const double next = std::min(1., branch.back().share + step);
-        const auto before = slides.last;
-        if (slides.solve_with_share(drive, next) != nullptr && is_unique(next))
+        const double next      = std::min(1., branch.back().share + step);
+        const auto before      = slides.last;
+        const bool is_followed = slides.solve_with_share(drive, next) != nullptr && is_unique(next);
+        is_pressed_too_far     = is_followed && indentation() > frame.largest_indentation;
+        if (is_followed && !is_pressed_too_far)
         {
-          if (indentation() > frame.largest_indentation)
-            return { branch.back().share, true };
           branch.push_back({ next, found.penetration() });
           step *= 1.5;
         }
@@ -485,7 +491,7 @@ namespace sprag
           step *= 0.5;
         }
       }
-      return { branch.back().share, !(distance_to_fold(branch) > near_fold) };
+      return { branch.back().share, is_pressed_too_far || !(distance_to_fold(branch) > near_fold) };
     }
 
     std::optional<Motion> sliding(const DrivePoint &drive, const double ratio)
