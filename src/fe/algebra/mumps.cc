@@ -84,8 +84,11 @@ namespace sprag
     mumps.a = mumps.a_loc = nullptr;
   }
 
-  void Mumps::factorise(const dealii::PETScWrappers::SparseMatrix &matrix)
+  void Mumps::factorise(const dealii::PETScWrappers::SparseMatrix &matrix, std::vector<int> order)
   {
+    if (!order.empty())
+      set(7, 1);
+    mumps.perm_in = order.data();
     const MatrixRows rows(matrix);
     MatrixEntries entries;
     entries.size = rows.n;

@@ -2,6 +2,7 @@
 #include "fe/body/elastic_body.h"
 
 #include "base/ranges.h"
+#include "fe/algebra/nested_dissection.h"
 #include "fe/body/cell_elasticity.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -112,7 +113,14 @@ namespace sprag
     Vector<double> forces(n_dofs());
     reinit(stiffness);
     assemble(Vector<double>(n_dofs()), stiffness, forces);
-    factors->factorise(stiffness);
+    std::vector<int> order;
+    if constexpr (dim == 2)
+    {
+      std::vector<Point<2>> places(n_dofs());
+      DoFTools::map_dofs_to_support_points(mapping, dof_handler, places);
+      order = nested_dissection(MatrixRows(stiffness), places);
+    }
+    factors->factorise(stiffness, std::move(order));
     return factors;
   }
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "fe/algebra/matrix_rows.h"
+
+#include <deal.II/base/point.h>
+
+#include <vector>
+
+namespace sprag
+{
+  /// Returns the place in the order of elimination of each unknown of a symmetric matrix, from 1 as MUMPS counts. The unknowns at
+  /// `places` [mm] are halved along the longer side of what they fill until few are left. Those that separate two halves come
+  /// last.
+  std::vector<int> nested_dissection(const MatrixRows &matrix, const std::vector<dealii::Point<2>> &places);
+} // namespace sprag
