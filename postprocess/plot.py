@@ -3,13 +3,14 @@
 """Draws result folders of sprag: forces, contact, fields, sensors, reversals, energies, sweeps, calibrations, comparisons."""
 
 import gc
+import multiprocessing
 import sys
 from pathlib import Path
 
 if __name__ == "__main__":
     gc.disable()  # it would take 6 % of the time, for next to no memory
 
-from arguments import DPI, add_folders, add_output, make_parser, names_picture, save, script
+from arguments import DPI, add_folders, add_output, make_parser, names_picture, script, write_picture
 from calibration import calibration
 from comparison import check_steps, comparisons
 from contact import contact
@@ -33,6 +34,7 @@ from transient import energy, has_reversal, is_transient, reversal
 from vibration import vibration_pictures
 
 
+FORK = multiprocessing.get_context("fork")
 # Types of analysis that are drawn as far as they have come.
 IN_STEPS = ("quasi-static", "transient", "isolation", "sprag slip")
 # A later run in the same folder may have none of these pictures.
@@ -102,10 +104,28 @@ def draw_fields(result):
 
 
 def save_all(pictures, folder, endings=("png",), dpi=DPI):
-    """Every figure in every format, under its name."""
-    for name, figure in pictures.items():
-        save(figure, [folder / f"{name}.{ending}" for ending in endings], dpi)
-        plt.close(figure)
+    """Every figure in every format, under its name. All but the last are written by processes of their own, as drawing takes one
+    core. Where one fails its figure is written here, which tells why."""
+    paths = {name: [folder / f"{name}.{ending}" for ending in endings] for name in pictures}
+    sys.stdout.flush()
+    writers = {name: FORK.Process(target=write_or_fail, args=(pictures[name], paths[name], dpi)) for name in list(pictures)[:-1]}
+    for writer in writers.values():
+        writer.start()
+    for name in reversed(pictures):
+        if name in writers:
+            writers[name].join()
+        if name not in writers or writers[name].exitcode != 0:
+            write_picture(pictures[name], paths[name], dpi)
+        plt.close(pictures[name])
+    for written in paths.values():
+        print(*written, sep="\n")
+
+
+def write_or_fail(figure, paths, dpi):
+    try:
+        write_picture(figure, paths, dpi)
+    except Exception:
+        sys.exit(1)
 
 
 def remove_earlier(pictures, folder, endings):
