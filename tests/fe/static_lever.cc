@@ -200,6 +200,24 @@ TEST(StaticLever, ATriedStepLeavesTheNextStepAsItWas)
     ASSERT_EQ(first.contact[q].traction, second.contact[q].traction);
 }
 
+// In 1 mm the contact moves by more than its half width, and displacements that stayed where they are would let the cylinder three
+// times as deep into the face. Moved along over 30 mm they would lose contact, which no guess may.
+TEST(StaticLever, AStepBeginsWithTheContactMovedAlong)
+{
+  MeshedLever meshed(coarse_scene(Solution::automatic));
+  auto &model           = meshed.model;
+  const auto accepted   = slid(model);
+  const auto guessed_at = [&](const double x)
+  {
+    Step step = model.begin_step(accepted, forward_to(x));
+    return model.evaluate(step, FrictionMode::cone).penetration;
+  };
+  const double penetration = guessed_at(accepted.drive.x);
+  EXPECT_GT(guessed_at(accepted.drive.x + 1.), 0.);
+  EXPECT_LT(guessed_at(accepted.drive.x + 1.), 1.2 * penetration);
+  EXPECT_GT(guessed_at(accepted.drive.x + 30.), 0.);
+}
+
 // P sin th + F cos th is Q by definition of the columns; equilibrium of the hub: the moment of the contact about the pivot is
 // the spring's, with P at the centre of the normal forces but for tractions' arms of the same size as the deflection.
 TEST(StaticLever, MomentOfTheContactIsTheSprings)

@@ -37,7 +37,8 @@ namespace
     return scene;
   }
 
-  /// A column of a run against that of another, up to round-off: both levers of a pair are solved in one system.
+  /// A column of a run against that of another, up to round-off: both levers of a pair are solved in one system. Steps through
+  /// stick lie elsewhere by 1e-9 of x, and slip speeds on an elastic cylinder change there by 4e-7 of their peak.
   template <class Found, class Expected>
   void expect_same(const std::string &name, const std::size_t rows, const Found &found, const Expected &expected)
   {
@@ -48,7 +49,7 @@ namespace
     for (std::size_t i = 0; i < rows; ++i)
       if (!std::isnan(expected(i)))
       {
-        EXPECT_NEAR(found(i), expected(i), 3e-7 * peak + round_off) << name << ", row " << i;
+        EXPECT_NEAR(found(i), expected(i), 1e-6 * peak + round_off) << name << ", row " << i;
       }
   }
 
