@@ -29,7 +29,7 @@ namespace sprag
 
     void add_flexure(const Device &device, JammingMargin &margin)
     {
-      constexpr double largest_mu = 5., resolution = 2e-5;
+      constexpr double largest_mu = 5., resolution = 1e-5;
       const DrivePoint drive{ 0., margin.x, std::copysign(device.drive.peak_speed(), margin.v), 0. };
       try
       {
@@ -41,10 +41,17 @@ namespace sprag
       {
         // No such equilibrium is found.
       }
-      const double mu    = std::min(3. * margin.critical_mu, largest_mu);
-      const double share = make_beam(device, mu)->largest_friction_share(drive, resolution);
-      if (share > 0. && share < 1.)
-        margin.flexible_critical_mu = share * mu;
+      try
+      {
+        const double mu    = std::min(3. * margin.critical_mu, largest_mu);
+        const double share = make_beam(device, mu)->largest_friction_share(drive, resolution);
+        if (share > 0. && share < 1.)
+          margin.flexible_critical_mu = share * mu;
+      }
+      catch (const AnalysisError &)
+      {
+        // The slide cannot be followed.
+      }
     }
   } // namespace
 

@@ -98,6 +98,7 @@ namespace sprag
         if (kind == MatrixKind::general || rows.column[i] >= row)
           entries.add(row, rows.column[i], rows[i]);
     factorise(std::move(entries));
+    mumps.perm_in = nullptr;
   }
 
   dealii::FullMatrix<double> Mumps::factorise_with_schur_complement(const dealii::PETScWrappers::SparseMatrix &matrix,

@@ -86,7 +86,8 @@ namespace sprag
     /// Factorises; the ordering is kept for matrices of the same pattern. To be called by all ranks; frees the entries.
     void factorise(MatrixEntries entries);
 
-    /// Factorises a sequential matrix, eliminating unknowns in an `order` if there is one, see nested_dissection().
+    /// Factorises a sequential matrix. The first time unknowns are eliminated in an `order` if there is one, see
+    /// nested_dissection(); later that order is kept.
     void factorise(const dealii::PETScWrappers::SparseMatrix &matrix, std::vector<int> order = {});
 
     /// Factorises a general matrix and returns its Schur complement on `indices`, which stay in that order: the stiffness left on

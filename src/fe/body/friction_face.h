@@ -77,7 +77,8 @@ namespace sprag
     return result;
   }
 
-  /// Returns the nodes of a face line by line, each with three or more nodes along the first axis at one place along the last.
+  /// Returns the nodes of a face line by line, ordered along the first axis: in three dimensions a line for each place along the
+  /// last axis that has three or more, in a plane one.
   template <int dim>
   std::vector<std::vector<unsigned int>> lines_along(const FrictionFace<dim> &face);
 

@@ -186,7 +186,7 @@ namespace sprag
 
   /// Guesses that the displacements of the friction faces travel along them with the contact, u(xi) = u_begin(xi - travel),
   /// linear between the nodes of a line. Newton's method then begins near the contact that it ends with. A guess without contact
-  /// is dropped: Newton's method would go on from a lever at rest deep in the cylinder.
+  /// is dropped: its correction would return the lever to rest, deep in the cylinder.
   template <int dim>
   void StaticLever<dim>::shift_faces(Step &step)
   {

@@ -189,7 +189,9 @@ namespace sprag
 
     double largest_friction_share(const DrivePoint &drive, const double resolution) override
     {
-      return grow_friction(drive, resolution).share;
+      // The last share that was tried and failed is one to two resolutions beyond the last that was found.
+      const double share = grow_friction(drive, resolution).share;
+      return share > 0. && share < 1. ? share + 0.75 * resolution : share;
     }
 
     std::vector<Eigenmode> vibrations(const HeldSlide &slide, const bool in_contact, const unsigned int number) override

@@ -90,8 +90,8 @@ namespace sprag
     /// The slide held at the drive's x, sliding as it does at its v; none where there is no equilibrium.
     virtual std::optional<HeldSlide> hold(const DrivePoint &drive, ContactFriction friction) = 0;
 
-    /// Largest share of the friction, up to 1, with which the slide can be followed from the one without friction. It is found
-    /// within `resolution`, > 0.
+    /// Largest share of the friction, up to 1, with which the slide can be followed from the one without friction, within
+    /// `resolution`, > 0. Throws AnalysisError where a tangent is singular.
     virtual double largest_friction_share(const DrivePoint &drive, double resolution) = 0;
 
     /// Vibrations about a held slide, by increasing |lambda|: all of a small model, at least the `number` lowest of a large one.
