@@ -200,8 +200,8 @@ TEST(StaticLever, ATriedStepLeavesTheNextStepAsItWas)
     ASSERT_EQ(first.contact[q].traction, second.contact[q].traction);
 }
 
-// In 1 mm the contact moves by more than its half width, and displacements that stayed where they are would let the cylinder three
-// times as deep into the face. Moved along over 30 mm they would lose contact, which no guess may.
+// In 1 mm the contact moves by more than its half width, and displacements that stayed where they are would let the cylinder
+// three times as deep into the face. Moved along over 30 mm they would lose contact, which no guess may.
 TEST(StaticLever, AStepBeginsWithTheContactMovedAlong)
 {
   MeshedLever meshed(coarse_scene(Solution::automatic));
