@@ -11,6 +11,8 @@
 #include "model/structure/lever_frame.h"
 #include "scene/closed_form.h"
 
+#include <map>
+
 namespace sprag
 {
   /// Inclinations of the levers by turns of their hubs [rad].
@@ -75,15 +77,16 @@ namespace sprag
     }
 
     /// Returns the slip speed of the deformable lever over that of the rigid one, slip(x - h to x + h)/(2 h w_rigid), with
-    /// w_rigid the rigid slip speed per drive speed and h in mm.
+    /// w_rigid the rigid slip speed per drive speed and h in mm. The next equilibrium is sought from the mean of both.
     double speed_ratio(const DrivePoint &drive, const double h)
     {
       const bool before = solve(moved(drive, -h), 1.) != nullptr;
-      const auto from   = last.displacements;
+      const auto from   = last;
       const bool after  = solve(moved(drive, h), 1.) != nullptr;
       if (!before || !after)
         return 1.;
-      const double slip = contact.mean_slip(found, from, drive.x - h, last.displacements, drive.x + h);
+      const double slip = contact.mean_slip(found, from.displacements, drive.x - h, last.displacements, drive.x + h);
+      last              = mean(from, last);
       return slip / (2. * h * sliding_speed(frame.geometries.front(), drive.x, 1.));
     }
 
@@ -101,6 +104,25 @@ namespace sprag
     typename Contact::Evaluation &found; ///< the model's
     const LeverFrame &frame;
     HubSpringExcess &hub_spring;
+
+    static Equilibrium mean(const Equilibrium &a, const Equilibrium &b)
+    {
+      Equilibrium result = a;
+      result.displacements.sadd(0.5, 0.5, b.displacements);
+      std::map<unsigned int, double> sum;
+      for (const auto *loads : { &a.forces, &b.forces })
+        for (std::size_t i = 0; i < loads->dofs.size(); ++i)
+          sum[loads->dofs[i]] += 0.5 * loads->values[static_cast<unsigned int>(i)];
+      result.forces = { {}, dealii::Vector<double>(static_cast<unsigned int>(sum.size())) };
+      for (const auto &[dof, value] : sum)
+      {
+        result.forces.values[static_cast<unsigned int>(result.forces.dofs.size())] = value;
+        result.forces.dofs.push_back(dof);
+      }
+      for (std::size_t lever = 0; lever < result.ideal.size(); ++lever)
+        result.ideal[lever] = 0.5 * (a.ideal[lever] + b.ideal[lever]);
+      return result;
+    }
 
     /// A turn of the hub, from the last equilibrium with the change of ideal contact.
     double guessed_turn(const unsigned int lever, const PerLever &ideal) const
