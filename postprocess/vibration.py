@@ -51,6 +51,12 @@ def critical(result, searches):
         changes = [change for entry, change in result.summary.items() if re.fullmatch(rf"{name}_\d+", entry)]
         for change in changes:
             axes.axvline(change, color="black", linewidth=0.8, linestyle="--")
+        for ending, style, label in (("likely", "-.", "for 95 % of the constants"), ("own", ":", "with the scene's constants")):
+            limits = [limit for entry, limit in result.summary.items() if re.fullmatch(rf"{name}_\d+_{ending}", entry)]
+            for limit in limits:
+                axes.axvline(limit, color="black", linewidth=0.8, linestyle=style, label=label if limit == limits[0] else None)
+        if axes.get_legend_handles_labels()[0]:
+            axes.legend(fontsize=7)
         parameter, _, verdicts = result.summary[f"{name}_verdicts"].partition(" from ")
         axes.set_title("\n".join(textwrap.wrap(verdicts.partition(": ")[2], 90)), fontsize=8, loc="left")
         unit = tried["value"].unit

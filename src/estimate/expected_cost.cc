@@ -92,10 +92,10 @@ namespace sprag
       if (scene.analysis.dimension == 3)
         return { 6.5e-7 * std::pow(N, 1.45) + (has_fields ? 1.4e-5 * N : 0.), 0.03 };
       if (!is_meshed(scene.analysis.model))
-        return { 0., 1e-3 };
+        return { 0., 2.5e-4 };
       const bool is_condensed = scene.analysis.model == ModelType::condensed;
       const double basis      = !is_condensed ? 8.25e-7 : scene.analysis.type == AnalysisType::modal ? 2.2e-7 : 4.4e-7;
-      return { basis * std::pow(N, 1.5) + (has_fields ? 1.2 : 0.), is_condensed ? 0.03 : 6e-5 * N };
+      return { basis * std::pow(N, 1.5) + (has_fields ? 1.2 : 0.), is_condensed ? 0.006 : 6e-5 * N };
     }
 
     /// Steps that a beam takes. Finite elements need up to twice as many, as the ripple of passing elements shortens large
@@ -134,7 +134,7 @@ namespace sprag
       HeldWork work;
       if (scene.analysis.type != AnalysisType::stability)
         return work;
-      constexpr double damping_values = 7., stick_limits = 2.;
+      constexpr double damping_values = 3., stick_limits = 2.; // dampings share equilibria
       const double verdict = least_slides(scene);
       work.slides          = verdict;
       if (scene.stability.ranges == "none" && scene.stability.damping && !in_study)
@@ -143,10 +143,10 @@ namespace sprag
         work.slides += 6.;
       for (const auto &range : critical_searches(scene).value_or(std::vector<ParameterRange>()))
       {
-        const double values = range.points + expected_values_between(scene);
-        work.slides += values * (range.name == "Stability/Position" ? 1. : searched_slides(scene));
+        const auto search = expected_work(scene, range);
+        work.slides += range.name == "Stability/Position" ? search.values : search.slides;
         if (is_meshed(scene.analysis.model) && changes_mesh(scene, range))
-          work.meshes += values;
+          work.meshes += search.values;
       }
       return work;
     }
@@ -168,10 +168,12 @@ namespace sprag
       {
         const auto times = slide_times(scene);
         const auto work  = held_work(scene, in_study);
-        return sum({ work.meshes * times.once, times.each }, work.slides);
+        // Neither errors nor fields come from further meshes.
+        const double mesh = 2.2e-7 * std::pow(expected_size(scene).displacements, 1.5);
+        return sum({ times.once + (work.meshes - 1.) * mesh, times.each }, work.slides);
       }
       case AnalysisType::map: // both ways, in models that are kept from cell to cell
-        return sum({ 0., 0.2 * slide_times(scene).each * std::max(2., searched_slides(scene)) },
+        return sum({ 0., 0.7 * slide_times(scene).each * std::max(2., searched_slides(scene)) },
                    scene.map.first.points * scene.map.second.points);
       default:
         return std::numeric_limits<double>::quiet_NaN();

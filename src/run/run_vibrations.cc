@@ -62,13 +62,13 @@ namespace sprag
       const auto ranges = critical_searches(scene).value_or(std::vector<ParameterRange>());
       double expected   = 0.;
       for (const auto &range : ranges)
-        expected += range.points + expected_values_between(scene);
+        expected += expected_work(scene, range).values;
       Progress progress(std::cerr, progress_style(quiet || is_reduced(scene.analysis.model)), std::max(1., expected));
       double begun = 0.;
       std::vector<CriticalSearch> result;
       for (const auto &range : ranges)
       {
-        const double own = range.points + expected_values_between(scene); // where it takes more the bar waits for the end
+        const double own = expected_work(scene, range).values; // where it takes more the bar waits for the end
         double done      = 0.;
         const auto tried = [&] { progress.update(begun + std::min(++done, own - 0.5), {}); };
         // Meshes that serve for one value alone are not worth a place in the cache.
@@ -91,13 +91,16 @@ namespace sprag
       const double own = scene.contact.damping;
       const double end = std::max(largest, own);
       double low = 0., high = end, growth_rate_at_none = std::nan("");
+      SharedEquilibria shared;
       const auto check_at = [&](const double damping)
       {
         if (damping == own)
           return verdict;
         Scene damped           = with_condensed_lever(scene);
         damped.contact.damping = damping;
-        auto slide             = sweep(damped, maker).worst();
+        SweepPart part;
+        part.shared = &shared;
+        auto slide  = sweep(damped, maker, part).worst();
         if (damping == 0.)
           growth_rate_at_none = slide.growth_rate;
         return slide;
@@ -105,7 +108,7 @@ namespace sprag
       const auto range_ends = [&](const double from, const double to)
       {
         std::vector<double> ends;
-        const auto search = search_kinds({ "Contact/Damping", from, to, points }, { accuracy, island_steps }, check_at);
+        const auto search = search_kinds({ "Contact/Damping", from, to, points }, { accuracy, island_steps }, { check_at });
         for (const auto &change : search.changes)
           ends.push_back(change.value);
         ends.insert(ends.end(), search.not_checked.begin(), search.not_checked.end());
@@ -252,7 +255,7 @@ namespace sprag
       RunEnd result;
       SlideStability found;
       bool is_decided   = true;
-      const auto swept  = timed(timer, search_phase, [&] { return sweep(whole, maker, true); });
+      const auto swept  = timed(timer, search_phase, [&] { return sweep(whole, maker, { true }); });
       const Scene scene = slide_scene(whole, swept.worst());
       auto idle         = ranges_without_effect(whole, swept);
       {

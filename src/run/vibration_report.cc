@@ -221,6 +221,24 @@ namespace sprag
       return critical.worse.motion.empty() ? "" : ", the levers " + critical.worse.motion;
     }
 
+    /// Returns "; from 3.94 mm with the scene's constants, from 4.1 mm with 95 % of those in the ranges"; empty without ranges.
+    std::string limits_text(const CriticalSearch &search, const CriticalValue &critical, const bool upward)
+    {
+      const auto &range = search.range;
+      const auto text   = [&](const double value, const std::string &constants)
+      {
+        if (std::isnan(value))
+          return std::string();
+        const bool everywhere = value == (upward ? std::min(range.from, range.to) : std::max(range.from, range.to));
+        return (everywhere ? std::string("throughout")
+                           : "from " + with_unit(rounded_to(value, upward), parameter_unit(range.name))) +
+               " with " + constants;
+      };
+      const auto own    = text(critical.own, "the scene's constants");
+      const auto likely = text(critical.likely, four_digits(100. * probable_share) + " % of those in the ranges");
+      return own.empty() ? "" : "; " + own + (likely.empty() ? "" : ", " + likely);
+    }
+
     /// Returns "flutter, stable from 4.3 mm (worst forward at x = 40 mm)".
     std::string verdicts_text(const CriticalSearch &search, const bool is_worst)
     {
@@ -239,7 +257,7 @@ namespace sprag
                 (critical.worse.motion.empty() ? "" : " (" + critical.worse.motion + ")");
         if (is_worst && range.name != "Stability/Position")
           text += std::string(" (worst ") + (critical.worse.drive.v < 0. ? "backward" : "forward") +
-                  " at x = " + with_unit(critical.worse.drive.x, "mm") + ")";
+                  " at x = " + with_unit(critical.worse.drive.x, "mm") + limits_text(search, critical, upward) + ")";
       }
       text += std::string(search.first && search.changes.empty() ? " throughout" : "") +
               (search.has_effect ? "" : ", without effect");
@@ -437,6 +455,12 @@ namespace sprag
         result.push_back({ name + "_" + std::to_string(i + 1), critical.value, unit,
                            search.range.name + ": from " + kind_name(critical.below) + " to " + kind_name(critical.above) +
                                motion_text(critical) });
+        if (std::isnan(critical.own))
+          continue;
+        result.push_back({ name + "_" + std::to_string(i + 1) + "_own", critical.own, unit, "with the scene's own constants" });
+        if (!std::isnan(critical.likely))
+          result.push_back({ name + "_" + std::to_string(i + 1) + "_likely", critical.likely, unit,
+                             "with 95 % of the constants in the ranges" });
       }
       append<Entry>(result, { { name + "_verdicts", verdicts_text(search, looks_over_stroke(scene)) },
                               { name + "_spacing", search.spacing, unit },

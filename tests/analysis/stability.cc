@@ -216,6 +216,41 @@ TEST(CriticalValues, LookInsideRanges)
   EXPECT_LT(largest_growth(found.changes.front().value + 0.02), 0.);
 }
 
+// Against slides checked one by one: the limits are found to 0.4 % of the depths searched.
+TEST(CriticalValues, HoldForTheSceneAndForMostOfTheRanges)
+{
+  const Scene scene = from_params("stability-a.prm", { "Stability/Position=35", "Stability/Direction=forward",
+                                                       "Stability/Ranges=Friction/Factor 0.8 1.2; Contact/Damping 0.01 0.15" });
+  DynamicsMaker maker;
+  constexpr double resolution = 4e-3 * (25. - 5.);
+  const auto found            = critical_values(scene, { "Lever/Depth", 5., 25., 5 }, 1e-6, maker);
+  ASSERT_EQ(found.changes.size(), 2u); // thinner levers flutter further in
+  const auto &limit  = found.changes.back();
+  const auto kind_at = [&](const double depth, const double factor, const double damping)
+  {
+    return check_slide(variant(scene, { override_text("Lever/Depth", depth), override_text("Friction/Factor", factor),
+                                        override_text("Contact/Damping", damping) }),
+                       maker)
+        .kind;
+  };
+  EXPECT_EQ(kind_at(limit.own, 1., 0.02), SlideKind::stable);
+  EXPECT_EQ(kind_at(limit.own - resolution, 1., 0.02), SlideKind::flutter);
+  constexpr unsigned int n = 16;
+  const auto stable_share  = [&](const double depth)
+  {
+    unsigned int stable = 0;
+    for (unsigned int i = 0; i < n * n; ++i)
+    {
+      const double factor  = 0.8 + 0.4 * (i % n + 0.5) / n;
+      const double damping = 0.01 + 0.14 * (i / n + 0.5) / n;
+      stable += kind_at(depth, factor, damping) == SlideKind::stable ? 1 : 0;
+    }
+    return static_cast<double>(stable) / (n * n);
+  };
+  EXPECT_LT(limit.likely, limit.value - 2. * resolution);
+  EXPECT_NEAR(stable_share(limit.likely), probable_share, 0.02) << limit.likely;
+}
+
 TEST(CriticalValues, TellTheMotionOfAPair)
 {
   // A held joint leaves the levers nothing in common.

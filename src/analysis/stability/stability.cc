@@ -91,8 +91,13 @@ namespace sprag
 
   SlideStability check_slide(DynamicModel &model, const DrivePoint &drive, const CheckedModes &modes)
   {
+    return check_slide(model, model.hold(drive, ContactFriction::sliding), modes);
+  }
+
+  SlideStability check_slide(DynamicModel &model, const std::optional<HeldSlide> &slide, const CheckedModes &modes)
+  {
     SlideStability result;
-    result.slide = model.hold(drive, ContactFriction::sliding);
+    result.slide = slide;
     if (!result.slide)
       return result;
     if (modes.explained)

@@ -81,6 +81,9 @@ namespace sprag
   /// Checks the slide at `drive`.
   SlideStability check_slide(DynamicModel &model, const DrivePoint &drive, const CheckedModes &modes);
 
+  /// Checks a slide that this model holds, or one that differs from it in damping alone; none: it jams.
+  SlideStability check_slide(DynamicModel &model, const std::optional<HeldSlide> &slide, const CheckedModes &modes);
+
   /// Checks the slide at the scene's held_drive(), with its model in held_scene(), which `maker` makes.
   SlideStability check_slide(const Scene &scene, DynamicsMaker &maker);
 

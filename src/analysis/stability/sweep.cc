@@ -35,28 +35,12 @@ namespace sprag
       return result;
     }
 
-    /// Returns whether two slides have bitwise equal growth rates and forces. Slides that jam (NaN) never have.
-    bool are_equal(const CheckedSlide &a, const CheckedSlide &b)
-    {
-      return a.growth_rate == b.growth_rate && a.P == b.P;
-    }
-
-    bool is_unstable(const SlideKind kind)
-    {
-      return kind == SlideKind::flutter || kind == SlideKind::divergence;
-    }
-
-    /// Returns the distance of the range's points; 0 of a single one.
-    double range_spacing(const ParameterRange &range)
-    {
-      return range.points == 1 ? 0. : std::abs(range.to - range.from) / (range.points - 1);
-    }
-
     /// Returns the number of x over the stroke: more for levers that check a slide in milliseconds.
-    unsigned int points_along(const Scene &scene)
+    unsigned int points_along(const Scene &scene, const bool coarsely = false)
     {
-      const bool is_cheap = scene.analysis.model != ModelType::finite_element && scene.analysis.dimension == 2;
-      return is_cheap ? 33 : 9;
+      if (scene.analysis.model == ModelType::finite_element || scene.analysis.dimension == 3)
+        return 9;
+      return coarsely && is_meshed(scene.analysis.model) ? 17 : 33;
     }
 
     using Constants = std::vector<std::string>; ///< see CheckedSlide::constants
@@ -99,7 +83,21 @@ namespace sprag
       return constants;
     }
 
-    CriticalSearch slides_along(const Scene &scene, DynamicModel &model, const SearchEffort &effort)
+    /// Returns the constants without those of damping, on which no equilibrium of a steady slide depends.
+    Constants without_damping(Constants constants)
+    {
+      const auto damps = [](const std::string &constant)
+      {
+        const auto has_name = [&](const char *name) { return constant.rfind(std::string(name) + '=', 0) == 0; };
+        return has_name("Contact/Damping") || has_name("Support/Damping") || has_name("Lever/Modal damping") ||
+               has_name("Lever/Mass damping") || has_name("Lever/Stiffness damping");
+      };
+      constants.erase(std::remove_if(constants.begin(), constants.end(), damps), constants.end());
+      return constants;
+    }
+
+    CriticalSearch slides_along(const Scene &scene, DynamicModel &model, const SearchEffort &effort, const unsigned int points,
+                                SharedEquilibria::mapped_type &equilibria)
     {
       const bool over_stroke = looks_over_stroke(scene);
       auto modes             = checked_modes(scene);
@@ -108,15 +106,20 @@ namespace sprag
       {
         DrivePoint drive = held_drive(scene);
         drive.x          = x;
-        auto slide       = checked_slide(check_slide(model, drive, modes), drive);
+        auto found       = equilibria.find({ drive.x, drive.v });
+        if (found == equilibria.end())
+          found = equilibria.emplace(std::make_pair(drive.x, drive.v), model.hold(drive, ContactFriction::sliding)).first;
+        auto slide = checked_slide(check_slide(model, found->second, modes), drive);
+        if (scene.analysis.model == ModelType::finite_element)
+          equilibria.clear();                                 // they are large
         if (over_stroke || !is_reduced(scene.analysis.model)) // where single modes would take long to follow
           slide.growth_rates.clear();
         return slide;
       };
       if (over_stroke)
-        return search_kinds(stroke_range(scene, points_along(scene)), effort, check_at);
+        return search_kinds(stroke_range(scene, points), effort, { check_at });
       const double x = held_drive(scene).x;
-      return search_kinds({ "Stability/Position", x, x, 1 }, { 0., 0 }, check_at);
+      return search_kinds({ "Stability/Position", x, x, 1 }, { 0., 0 }, { check_at });
     }
 
     /// Returns the scene with a beam in place of a meshed bar, and the contact law of its layer.
@@ -137,195 +140,83 @@ namespace sprag
       { return sweep(beam_instead(variant(scene, { override_text(range.name, value) })), maker).worst(); };
       ParameterRange finer = range;
       finer.points         = 2 * range.points - 1;
-      const auto found     = search_kinds(finer, { 0.01, 4 }, check_at);
+      const auto found     = search_kinds(finer, { 0.01, 4 }, { check_at });
       std::vector<double> hints;
       for (std::size_t i = 1; i < found.changes.size(); ++i)
         if (const double low = found.changes[i - 1].value, high = found.changes[i].value;
-            std::abs(high - low) < range_spacing(range))
+            std::abs(high - low) < 2. * found.spacing) // the range has half as many points
           hints.push_back(0.5 * (low + high));
       return hints;
     }
 
-    /// Holds a value of the parameter and the slide there.
-    struct Tried
-    {
-      double value = 0.;
-      std::optional<CheckedSlide> slide; ///< none where it cannot be checked
+    /// The number of slides grows as the power of three.
+    constexpr std::size_t most_shared_ranges = 3;
 
-      SlideKind kind() const
+    /// Returns the share of the constants in Stability/Ranges, at most most_shared_ranges, for which all slides are stable. All
+    /// values of a range are equally likely. Between its ends and middle growth is a parabola.
+    double stable_share(const Scene &scene, DynamicsMaker &maker)
+    {
+      constexpr std::array<unsigned int, most_shared_ranges + 1> n_samples = { { 1, 1000, 100, 27 } };
+      const auto ranges                                                    = constant_ranges(scene);
+      const std::size_t n_nodes = std::size_t(std::lround(std::pow(3., ranges.size())));
+      SharedEquilibria shared;
+      std::vector<double> growth;
+      for (std::size_t node = 0; node < n_nodes; ++node)
       {
-        return slide->kind;
+        SweepPart part{ false, true, Constants(), {}, &shared };
+        for (std::size_t i = 0, place = node; i < ranges.size(); ++i, place /= 3)
+          part.constants->push_back(
+              override_text(ranges[i].name, ranges[i].from + 0.5 * (place % 3) * (ranges[i].to - ranges[i].from)));
+        growth.push_back(sweep(scene, maker, part).worst().growth_rate);
       }
-    };
-
-    unsigned int rank(const SlideKind kind)
-    {
-      return kind == SlideKind::jammed ? 2 : is_unstable(kind) ? 1 : 0;
+      double largest = 1.;
+      for (const double rate : growth)
+        largest = std::fmax(largest, std::abs(rate));
+      for (double &rate : growth)
+        rate = std::isnan(rate) ? largest : rate; // it jams
+      const unsigned int samples = n_samples[ranges.size()];
+      const std::size_t n_all    = std::size_t(std::lround(std::pow(samples, ranges.size())));
+      std::size_t n_stable       = 0;
+      for (std::size_t sample = 0; sample < n_all; ++sample)
+      {
+        auto values = growth;
+        for (std::size_t i = 0, place = sample; i < ranges.size(); ++i, place /= samples)
+        {
+          const double t = (place % samples + 0.5) / samples;
+          for (std::size_t j = 0; j < values.size() / 3; ++j)
+            values[j] = 2. * (t - 0.5) * (t - 1.) * values[3 * j] + 4. * t * (1. - t) * values[3 * j + 1] +
+                        2. * t * (t - 0.5) * values[3 * j + 2];
+          values.resize(values.size() / 3);
+        }
+        n_stable += values.front() <= 0. ? 1 : 0;
+      }
+      return static_cast<double>(n_stable) / static_cast<double>(n_all);
     }
 
-    using Window = std::array<Tried, 3>;
-    using Height = std::function<double(const Tried &)>;
-
-    /// Returns whether the height may exceed 0 near the window's middle: its peak is bounded by as much above the middle as the
-    /// lower side lies below.
-    bool may_pass_zero(const std::array<double, 3> &height)
+    /// Returns the value to which a check stays stable on the unstable side of a limit of stability, at most up to the next
+    /// change.
+    double stable_limit(const CriticalSearch &search, const CriticalValue &limit,
+                        const std::function<CheckedSlide(double)> &check_at)
     {
-      const double low = std::min(height[0], height[2]);
-      return height[1] >= height[0] && height[1] >= height[2] && height[1] > low && 2. * height[1] - low > 0.;
+      constexpr double tolerance = 4e-3; ///< over the range
+      const auto &range          = search.range;
+      const bool towards_to      = limit.below == SlideKind::stable;
+      if (towards_to == (limit.above == SlideKind::stable))
+        return unknown;
+      double end = towards_to ? range.to : range.from;
+      for (const auto &change : search.changes)
+        if ((change.value - limit.value) * (end - change.value) > 0.)
+          end = change.value;
+      const double distance = std::abs(end - limit.value);
+      if (!(distance > 0.))
+        return limit.value;
+      const auto points = 2 + static_cast<unsigned int>(distance / std::max(search.spacing, tolerance * distance));
+      const auto found  = search_kinds({ range.name, limit.value, end, points },
+                                       { tolerance * std::abs(range.to - range.from) / distance, 0, true }, { check_at });
+      if (!found.changes.empty())
+        return found.changes.front().value;
+      return found.not_checked.empty() && found.first == SlideKind::stable ? end : limit.value;
     }
-
-    struct Search
-    {
-      const ParameterRange &range;
-      const std::function<CheckedSlide(double)> &check_at;
-      const std::function<void()> &value_tried;
-      CriticalSearch result  = { range, {}, {}, {}, {}, {}, range_spacing(range) };
-      std::vector<Tried> all = {}; ///< from one end of the range to the other
-
-      void try_points(const std::vector<double> &hints)
-      {
-        for (unsigned int i = 0; i < range.points; ++i)
-          all.push_back(
-              checked_at(range.points == 1 ? range.from : range.from + (range.to - range.from) * i / (range.points - 1)));
-        for (const double hint : hints)
-          insert(checked_at(hint));
-        if (const auto found = std::find_if(all.begin(), all.end(), [](const Tried &tried) { return tried.slide.has_value(); });
-            found != all.end())
-          result.first = found->kind();
-      }
-
-      /// Looks for islands of the other kind between the points. One may lie where a growth rate peaks among stable slides, or
-      /// where the largest has a dip among unstable ones.
-      void look_for_islands(const unsigned int steps)
-      {
-        const std::vector<Tried> points = all;
-        for (std::size_t i = 1; i + 1 < points.size(); ++i)
-        {
-          const Window window             = { { points[i - 1], points[i], points[i + 1] } };
-          const auto &[low, middle, high] = window;
-          const bool are_checked          = low.slide && middle.slide && high.slide;
-          if (!are_checked || low.kind() != middle.kind() || high.kind() != middle.kind() || middle.kind() == SlideKind::jammed)
-            continue;
-          if (is_unstable(middle.kind()))
-          {
-            climb(window, steps, [](const Tried &tried) { return -tried.slide->growth_rate; });
-            continue;
-          }
-          const auto count_modes  = [](const Tried &tried) { return std::max<std::size_t>(1, tried.slide->growth_rates.size()); };
-          const std::size_t modes = std::min({ count_modes(low), count_modes(middle), count_modes(high) });
-          for (std::size_t k = 0; k < modes; ++k)
-            climb(window, steps,
-                  [k](const Tried &tried)
-                  {
-                    const auto &rates = tried.slide->growth_rates;
-                    return k < rates.size() ? rates[k] : tried.slide->growth_rate;
-                  });
-        }
-      }
-
-      CriticalSearch found(const double tolerance)
-      {
-        const auto is_as_first = [&](const Tried &tried)
-        { return tried.slide && all.front().slide && are_equal(*tried.slide, *all.front().slide); };
-        result.has_effect = all.size() < 2 || !std::all_of(all.begin(), all.end(), is_as_first);
-        for (std::size_t i = 1; i < all.size() && tolerance > 0.; ++i)
-          narrow(all[i - 1], all[i], tolerance * std::abs(result.range.to - result.range.from));
-        return result;
-      }
-
-      Tried checked_at(const double value)
-      {
-        Tried tried{ value, {} };
-        try
-        {
-          tried.slide = check_at(value);
-          result.growth.emplace_back(value, tried.slide->growth_rate);
-          if (!result.worst || is_worse(*tried.slide, *result.worst))
-            result.worst = tried.slide;
-        }
-        catch (const InputError &error)
-        {
-          pass_over(value, error.what());
-        }
-        catch (const AnalysisError &error)
-        {
-          pass_over(value, error.what());
-        }
-        value_tried();
-        return tried;
-      }
-
-      void pass_over(const double value, const std::string &reason)
-      {
-        result.not_checked.push_back(value);
-        result.reason = reason;
-      }
-
-      void insert(const Tried &tried)
-      {
-        const bool rising = result.range.to > result.range.from;
-        const auto place =
-            std::find_if(all.begin(), all.end(),
-                         [&](const Tried &other) { return rising ? other.value > tried.value : other.value < tried.value; });
-        all.insert(place, tried);
-        ++result.more_values;
-      }
-
-      /// Climbs the height by golden sections until the kind changes.
-      void climb(Window window, const unsigned int steps, const Height &height)
-      {
-        constexpr double share = 0.381966;
-        for (unsigned int step = 0; step < steps; ++step)
-        {
-          auto &[low, middle, high] = window;
-          if (!may_pass_zero({ { height(low), height(middle), height(high) } }))
-            return;
-          const bool upper  = std::abs(high.value - middle.value) > std::abs(middle.value - low.value);
-          const auto &side  = upper ? high : low;
-          const Tried added = checked_at(middle.value + share * (side.value - middle.value));
-          if (!added.slide)
-            return;
-          insert(added);
-          if (added.kind() != middle.kind())
-            return;
-          const bool higher = height(added) > height(middle);
-          if (upper)
-            (higher ? low : high) = higher ? middle : added;
-          else
-            (higher ? high : low) = higher ? middle : added;
-          if (higher)
-            middle = added;
-        }
-      }
-
-      /// Narrows a change by bisection or, between growth rates of both signs, by regula falsi (Illinois), every third step of
-      /// which halves the bracket.
-      void narrow(Tried low, Tried high, const double tolerance)
-      {
-        const auto growth = [](const Tried &tried) { return tried.slide ? tried.slide->growth_rate : 0.; };
-        double at_low = growth(low), at_high = growth(high);
-        for (unsigned int step = 1; low.slide && high.slide && low.kind() != high.kind(); ++step)
-        {
-          const double width = std::abs(high.value - low.value);
-          if (width <= tolerance)
-            break;
-          const double least   = 1e-3 * std::max(std::abs(at_low), std::abs(at_high));
-          const bool has_chord = at_low * at_high < 0. && std::min(std::abs(at_low), std::abs(at_high)) > least;
-          const double inside  = std::min(0.5, 0.45 * tolerance / width);
-          const double share   = has_chord && step % 3 != 0 ? std::clamp(at_low / (at_low - at_high), inside, 1. - inside) : 0.5;
-          const Tried middle   = checked_at(low.value + share * (high.value - low.value));
-          const bool moves_low = middle.slide && middle.kind() == low.kind();
-          (moves_low ? low : high)       = middle;
-          (moves_low ? at_low : at_high) = growth(middle);
-          (moves_low ? at_high : at_low) *= 0.5;
-        }
-        if (!low.slide || !high.slide || low.kind() == high.kind())
-          return;
-        const bool worsens = is_worse(*high.slide, *low.slide);
-        result.changes.push_back({ (worsens ? low : high).value, low.kind(), high.kind(), *(worsens ? high : low).slide,
-                                   std::isnan(low.slide->mu) ? high.slide->mu : low.slide->mu });
-      }
-    };
   } // namespace
 
   const CheckedSlide &SweptSlides::worst(const Direction direction) const
@@ -351,12 +242,14 @@ namespace sprag
     return sum;
   }
 
-  SweptSlides sweep(const Scene &scene, DynamicsMaker &maker, const bool in_full)
+  SweptSlides sweep(const Scene &scene, DynamicsMaker &maker, const SweepPart &part)
   {
     constexpr unsigned int island_steps = 4;
     constexpr double tolerance          = 2e-3;
     SweptSlides result;
-    const auto add = [&](const Constants &constants, const std::vector<Direction> &directions)
+    SharedEquilibria own;
+    auto &equilibria = part.shared != nullptr ? *part.shared : own;
+    const auto add   = [&](const Constants &constants, const std::vector<Direction> &directions)
     {
       Scene here          = constants.empty() ? scene : prepared(variant(scene, constants));
       const auto dynamics = maker.make(held_scene(here));
@@ -364,25 +257,32 @@ namespace sprag
       {
         here.stability.direction = direction;
         SweptDirection swept{ direction, constants,
-                              slides_along(here, dynamics.model(), { in_full ? tolerance : 0., island_steps }) };
+                              slides_along(here, dynamics.model(), { part.in_full ? tolerance : 0., island_steps },
+                                           points_along(here, part.coarsely), equilibria[without_damping(constants)]) };
         if (swept.along.worst)
           swept.along.worst->constants = constants;
         result.sweeps.push_back(std::move(swept));
       }
     };
+    const auto directions = part.direction ? std::vector<Direction>{ *part.direction } : held_directions(scene);
+    if (part.constants)
+    {
+      add(*part.constants, directions);
+      return result;
+    }
     for (const auto &constants : combined_ends(scene))
-      add(constants, held_directions(scene));
+      add(constants, directions);
     for (const auto &range : constant_ranges(scene))
     {
       std::map<Constants, std::vector<Direction>> worst_constants;
-      for (const auto direction : held_directions(scene))
+      for (const auto direction : directions)
       {
         const auto fails = [&](const SweptDirection &swept)
         { return swept.direction == direction && !swept.along.not_checked.empty(); };
         if (std::any_of(result.sweeps.begin(), result.sweeps.end(), fails))
           continue;
         const CheckedSlide worst = result.worst(direction);
-        if (in_full || worst.kind == SlideKind::stable)
+        if (part.in_full || worst.kind == SlideKind::stable)
           worst_constants[worst.constants].push_back(direction);
       }
       for (const auto &[constants, directions] : worst_constants)
@@ -424,9 +324,26 @@ namespace sprag
     return n * (looks_over_stroke(scene) ? points_along(scene) : 1);
   }
 
-  unsigned int expected_values_between(const Scene &scene)
+  SearchWork expected_work(const Scene &scene, const ParameterRange &range)
   {
-    return is_reduced(scene.analysis.model) && !looks_over_stroke(scene) ? 40 : 8; // each mode of single slides is followed
+    // Narrowing a change looks at one direction and one set of constants. A limit for the scene's own constants, or for most of
+    // those in the ranges, is found by some six values; sets that differ in damping share equilibria.
+    constexpr double narrowing = 8., limit_values = 6., shared = 0.7;
+    const bool single_slides = is_reduced(scene.analysis.model) && !looks_over_stroke(scene);
+    const double near_peaks  = single_slides ? 32. : 2.; // each mode of single slides is followed
+    const double along       = looks_over_stroke(scene) ? points_along(scene) : 1.;
+    const double coarsely    = looks_over_stroke(scene) ? points_along(scene, true) : 1.;
+    // A verdict may or may not look inside the ranges: the mean of both by ratio.
+    const double verdict  = std::sqrt(static_cast<double>(least_slides(scene)) * least_slides(scene, false));
+    const std::size_t n   = constant_ranges(scene).size();
+    const bool has_share  = n > 0 && n <= most_shared_ranges;
+    const double limits   = (n > 0 ? 1. : 0.) + (has_share ? shared * std::pow(3., n) : 0.);
+    const auto directions = static_cast<double>(held_directions(scene).size());
+    SearchWork work;
+    work.values = range.points + near_peaks + narrowing + limit_values * ((n > 0 ? 1. : 0.) + (has_share ? 1. : 0.));
+    work.slides = verdict * ((range.points + near_peaks) * coarsely / along + 1.) + narrowing * along +
+                  limit_values * limits * directions * coarsely;
+    return work;
   }
 
   bool changes_mesh(const Scene &scene, const ParameterRange &range)
@@ -447,24 +364,37 @@ namespace sprag
   CriticalSearch critical_values(const Scene &scene, const ParameterRange &range, const double tolerance, DynamicsMaker &maker,
                                  const std::function<void()> &tried)
   {
-    const auto check_at = [&](const double value)
-    { return sweep(prepared(variant(scene, { override_text(range.name, value) })), maker).worst(); };
-    return search_kinds(range, { tolerance, is_reduced(scene.analysis.model) ? 14u : 5u }, check_at, beam_hints(scene, range),
-                        tried);
-  }
-
-  bool is_worse(const CheckedSlide &a, const CheckedSlide &b)
-  {
-    return rank(a.kind) != rank(b.kind) ? rank(a.kind) > rank(b.kind) : a.growth_rate > b.growth_rate;
-  }
-
-  CriticalSearch search_kinds(const ParameterRange &range, const SearchEffort &effort,
-                              const std::function<CheckedSlide(double)> &check_at, const std::vector<double> &hints,
-                              const std::function<void()> &tried)
-  {
-    Search search{ range, check_at, tried };
-    search.try_points(hints);
-    search.look_for_islands(effort.island_steps);
-    return search.found(effort.tolerance);
+    const auto at = [&](const double value) { return prepared(variant(scene, { override_text(range.name, value) })); };
+    ValueChecks checks;
+    checks.at      = [&](const double value) { return sweep(at(value), maker, { false, true }).worst(); };
+    checks.closely = [&](const double value) { return sweep(at(value), maker).worst(); };
+    checks.alike   = [&](const double value, const CheckedSlide &slide)
+    {
+      SweepPart part;
+      part.constants = slide.constants;
+      part.direction = slide.drive.v < 0. ? Direction::backward : Direction::forward;
+      return sweep(at(value), maker, part).worst();
+    };
+    checks.tried = tried;
+    auto result =
+        search_kinds(range, { tolerance, is_reduced(scene.analysis.model) ? 14u : 5u }, checks, beam_hints(scene, range));
+    if (constant_ranges(scene).empty())
+      return result;
+    const auto check_own  = [&](const double value) { return sweep(at(value), maker, { false, true, Constants() }).worst(); };
+    const auto check_most = [&](const double value)
+    {
+      const double share = stable_share(at(value), maker);
+      CheckedSlide result;
+      result.kind        = share >= probable_share ? SlideKind::stable : SlideKind::flutter;
+      result.growth_rate = probable_share - share;
+      return result;
+    };
+    for (auto &change : result.changes)
+    {
+      change.own = stable_limit(result, change, check_own);
+      if (constant_ranges(scene).size() <= most_shared_ranges)
+        change.likely = stable_limit(result, change, check_most);
+    }
+    return result;
   }
 } // namespace sprag
