@@ -574,21 +574,4 @@ namespace sprag
   {
     return parameters_text(SceneReader([](const auto &) { return Settings(); }, {}).scene());
   }
-
-  std::string help_text(const std::string &name)
-  {
-    SceneSettings defaults;
-    std::vector<Parameter> found;
-    std::vector<std::string> names;
-    for (const auto &parameter : scene_parameters(defaults))
-    {
-      for (const auto &candidate : { parameter.section, full_name(parameter) })
-        if (boost::algorithm::iequals(candidate, name))
-          found.push_back(parameter);
-      names.insert(names.end(), { parameter.section, full_name(parameter) });
-    }
-    if (found.empty())
-      throw InputError("--help " + name + ": there is no such section or parameter" + did_you_mean(nearest(name, names)));
-    return parameters_text(found, { { time_tolerance, number_text(defaults.scene.time.tolerance) } });
-  }
 } // namespace sprag

@@ -34,8 +34,4 @@ namespace sprag
 
   /// Writes every parameter with its default and documentation, in .prm form, as comments.
   std::string default_parameters_text();
-
-  /// Writes the parameters of a section, or the one "Section/Name", with their defaults and documentation; capitals do not
-  /// matter. Throws InputError with the nearest name where there is none.
-  std::string help_text(const std::string &name);
 } // namespace sprag

@@ -10,6 +10,7 @@
 #include "base/version.h"
 #include "input/read.h"
 #include "input/sections.h"
+#include "program/help.h"
 #include "program/outcome.h"
 
 #include <CLI/CLI.hpp>
@@ -44,8 +45,9 @@ namespace sprag
                    "Let a .geo in Mesh/File do all that you may, not only read its own folder; see meshes/README.md");
       app.add_option("--jobs", arguments.jobs, "Processes that work on a map or study; default: one a core")
           ->check(CLI::Range(1u, 4096u));
-      app.set_help_flag("-h,--help",
-                        "Print this help and stop; with SECTION or SECTION/NAME in place of FILE.prm, what that means");
+      app.set_help_flag(
+          "-h,--help",
+          "Print this help and stop; with SECTION, SECTION/NAME or the name of a result in place of FILE.prm, what that means");
       app.set_version_flag("--version", "sprag " + version());
       app.footer(
           "Exit status: 0 success, 1 the analysis failed or was interrupted (finished steps are kept), 2 bad input (nothing "

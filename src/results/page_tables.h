@@ -22,6 +22,16 @@ namespace sprag
   /// rows it is the one whose `*` stands for least.
   std::optional<PageRow> page_row(const std::string &kind, const std::string &type, const std::string &name);
 
+  /// A row together with the kind of its table and the heading of its section.
+  struct PagePlace
+  {
+    std::string kind, heading;
+    PageRow row;
+  };
+
+  /// Returns the rows for a name in all tables, at most one of each.
+  std::vector<PagePlace> page_places(const std::string &name);
+
   /// Returns the column of one name. Throws std::out_of_range where the pages have none.
   ColumnInfo page_column(const std::string &type, const std::string &name);
 

@@ -398,7 +398,14 @@ class Options(ProgramTest):
         one = sprag("--help", "lever/depth").stdout
         self.assertRegex(one, r"subsection Lever\n(?:  # .*\n)+  set Depth = 20\nend\n")
         self.assertIn(one.partition("set Depth")[0].partition("subsection Lever\n")[2], sprag("Lever", "--help").stdout)
-        self.complains(["--help", "Lever/Dept"], "--help Lever/Dept: there is no such section or parameter; did you mean 'Lever/Depth'?")
+        self.complains(["--help", "Lever/Dept"], "--help Lever/Dept: there is no such section, parameter, result or warning; did you mean 'Lever/Depth'?")
+        entry = sprag("--help", "peak_P_backward").stdout
+        self.assertTrue(entry.startswith("/summary/peak_P_backward [N]\n"), entry)
+        self.assertIn("  meaning: largest normal force while moving backward", entry)
+        self.assertIn("  printed: largest P: backward #, a headline\n", entry)
+        self.assertIn("column Q [N]\n", sprag("--help", "Q").stdout)
+        self.assertIn("remedy: ", sprag("--help", "near_locking").stdout)
+        self.complains(["--help", "lop_area"], "did you mean 'loop_area'?")
         done = sprag("--version")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertRegex(done.stdout, r"^sprag \d+\.\d+")
