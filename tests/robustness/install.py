@@ -89,6 +89,7 @@ class Version(unittest.TestCase):
         printed = subprocess.run([SPRAG, "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
         self.assertIn(f"\n## {printed} ", (SOURCE / "CHANGELOG.md").read_text())
         self.assertIn(f"\nversion: {printed}\n", (SOURCE / "CITATION.cff").read_text())
+        self.assertIn(f" version = {{{printed}}},\n", (SOURCE / "README.md").read_text())
         if not shutil.which("git"):
             return
         tag = subprocess.run(["git", "-C", SOURCE, "describe", "--tags"], capture_output=True, text=True, check=False)
