@@ -20,7 +20,7 @@ namespace sprag
   {
     using Complex = std::complex<double>;
 
-    constexpr double fewest_periods  = 2.;  ///< in a signal, for a frequency
+    constexpr double fewest_periods  = 2.;  ///< of a signal that has a frequency
     constexpr std::size_t padding    = 4;   ///< points of the spectrum per sample, at least
     constexpr double weakest_peak    = 0.1; ///< of a sinusoid, relative to the whole spectrum; side lobes stay below 0.03
     constexpr unsigned int unknowns  = 6;   ///< of the fit
@@ -119,7 +119,7 @@ namespace sprag
       const Signal &signal;
       Vector parameters;
 
-      /// One step of Gauss-Newton; its change of omega, nothing if it cannot be done.
+      /// Does one step of Gauss-Newton. Returns its change of omega, none if the matrix is singular.
       std::optional<double> improve()
       {
         namespace dense              = boost::numeric::ublas;

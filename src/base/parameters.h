@@ -99,7 +99,7 @@ namespace sprag
     std::string meaning;                            ///< with the symbol it has in the paper
     std::function<void(const std::string &)> store; ///< takes a value that keeps the rule
     std::string choice = {}; ///< full name of the choice that it counts with alone; empty: it always counts
-    std::string chosen = {}; ///< there
+    std::string chosen = {}; ///< value of that choice with which it counts
   };
 
   /// Returns "Section/Name".

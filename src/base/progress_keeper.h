@@ -16,15 +16,14 @@ namespace sprag
   public:
     virtual ~ProgressKeeper() = default;
 
-    /// Gives the analysis the progress that an earlier run was left with; returns false where there is none. To be called before
-    /// the first step.
+    /// Restores the progress at which an earlier run ended; returns false where there is none. Is to be called before the first
+    /// step.
     virtual bool take_up(const ProgressSerialiser &progress) = 0;
 
-    /// Is to be called after each accepted step, when it was handed on and nothing of it is left to do. Throws AnalysisError when
-    /// the run is interrupted.
+    /// Is to be called after each accepted step, once the step is recorded. Throws AnalysisError when the run is interrupted.
     virtual void accept_step(const ProgressSerialiser &progress) = 0;
 
-    /// Is to be called behind the last step: what follows may take long, too.
+    /// Is to be called after the last step, as what follows may take long, too.
     virtual void end_steps(const ProgressSerialiser &progress) = 0;
   };
 } // namespace sprag

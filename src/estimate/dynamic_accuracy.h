@@ -12,8 +12,8 @@ namespace sprag
   /// Estimates the errors of growth_rate and frequency of a meshed lever's held slide. The same slide is checked with a third of
   /// the penalty and, over places between the nodes, on its mesh and one of twice the Mesh/Face size. The changes tell the error
   /// by Richardson as in quasi_static_accuracy(), that of the mesh by means over the places, whose scatter on its own mesh adds
-  /// to it. A condensed lever is checked with half its modes too, and what they change counts whole. A frequency that jumps to
-  /// that of another mode counts whole. Empty for levers without a mesh.
+  /// to it. A condensed lever is checked with half its modes too, and what they change counts whole. If another mode
+  /// grows most on one of them, its distance in frequency counts whole. Empty for levers without a mesh.
   ///
   /// `scene` is that of the slide, see held_scene(); `maker` made its model, whose facts are `dynamics`.
   std::vector<ErrorEstimate> vibration_accuracy(const Scene &scene, const SlideStability &found, const MeshedDynamics &dynamics,
@@ -24,13 +24,14 @@ namespace sprag
   ///
   /// The slide behind that reversal is held, and the vibration nearest to the frequency of P checked as vibration_accuracy()
   /// does: that gives the parts of mesh, penalty and modes, to the overshoot alone with the scatter over places. The part of the
-  /// step is what the generalised-alpha method slows it, see estimate_step_errors(). A vibration that is too slow lags behind,
-  /// the more the longer it rings, see change_by_frequency(). The overshoot is wrong as the stiffness is, with the square of the
-  /// frequency, and a peak may lie between two rows. Under a contact of few faces it depends on where between two nodes the drive
-  /// turns. The decay has the parts of the vibration's, for the step the algorithmic damping, and `fit`: how far the envelope's
-  /// decay is from that of the slide. Of reduced levers the step alone is told: what they leave out, only finite elements tell.
+  /// step is the frequency error of the generalised-alpha method, see estimate_step_errors(). A vibration that is too slow lags
+  /// behind, the more the longer it rings, see change_by_frequency(). The overshoot is wrong as the stiffness is, with the square
+  /// of the frequency, and a peak may lie between two rows. Under a contact of few faces it depends on where between two nodes
+  /// the drive turns. The decay has the parts of the vibration's, for the step the algorithmic damping, and `fit`: how far the
+  /// envelope's decay is from that of the slide. Reduced levers have the step's part alone: only finite elements show what they
+  /// leave out.
   ///
-  /// Without estimates in words: drives without a reversal, contacts that open, slides that grow on their own.
+  /// Drives without a reversal, contacts that open and slides that grow on their own have no estimate, but the reason in words.
   std::vector<ErrorEstimate> transient_accuracy(const Scene &scene, const MeshedDynamics &dynamics, const std::vector<Row> &rows,
                                                 DynamicsMaker &maker);
 } // namespace sprag

@@ -25,7 +25,7 @@ namespace sprag
     std::vector<ErrorEstimate> accuracy = {};
   };
 
-  /// Throws InputError where the folder of a run that writes files cannot serve; makes nothing.
+  /// Throws InputError if the run cannot write its files into its folder; makes nothing.
   void require_folder(const RunOptions &options);
 
   /// The file result.h5 of a run of any type, from its first row to its summary, or what a run in memory keeps instead.
@@ -70,8 +70,8 @@ namespace sprag
   /// Writes a text that a run leaves beside its results. Throws AnalysisError where that fails.
   void write_file(const std::string &path, const std::string &text);
 
-  /// Returns the status of a run that ends, which is that of an interrupted one where it was interrupted behind its last step.
-  /// The caller is to throw that then.
+  /// Returns `status` or, if the run was interrupted behind its last step, that of an interrupted run. The caller throws the
+  /// latter.
   std::string status_at_end(const std::string &status);
 
   /// Runs `steps`, then always calls finish(status): with "completed", or with the message of an AnalysisError, which

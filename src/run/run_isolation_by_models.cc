@@ -26,7 +26,7 @@ namespace sprag
     {
     public:
       /// Makes the folder and result file and begins with the rows of an interrupted run. Throws InputError if they cannot be
-      /// written. All must live as long.
+      /// written. The arguments must outlive the recorder.
       TableRecorder(const Scene &scene_, const RunOptions &options, PhaseTimer &timer, Checkpoint &checkpoint_)
           : scene(scene_)
           , checkpoint(checkpoint_)

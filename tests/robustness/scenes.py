@@ -17,7 +17,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from runs import SOURCE, RunTest, counted, sprag  # noqa: E402
 
 SCENES = sorted((SOURCE / "params").glob("*.prm"))
-# Scenes of model B whose like is there for model A, maps over other parameters, and parts and studies that another scene has as well.
+# These analyses and parts occur in another scene as well.
 ALIKE = {
     "accuracy-a", "coulomb-a", "design-front-machine", "isolation-ground-a", "solid-isolation-a", "neo-hookean-a", "onset-a", "pair-modal-a", "plate-a", "plate-reversal-a", "solid-frame-a", "solid-neo-hookean-a",
     "solid-plate-a", "solid-plate-reversal-a", "solid-rib-a", "solid-shaft-a", "solid-stability-a", "solid-tilted-a", "stiff-a", "study-growth-a", "study-offset-a",
@@ -32,7 +32,7 @@ TWINS = {
 }
 ONLY_TWINS = "--twins" in sys.argv
 
-# Long ones are cut down: what they are there for is kept.
+# Long scenes are shortened, but still show what they are made for.
 COARSE = {"Mesh/Face size": "4", "Analysis/Step": "5"}
 MAP = {"Map/First points": "3", "Map/Second points": "3", "Map/Coarsest": "1", "Map/Bisections": "1"}
 SHORT = {"Sprag slip/Continuation": "1", "Sprag slip/Turn": "64", "Sprag slip/Settling time": "0.02"}

@@ -17,8 +17,8 @@ using namespace sprag;
 
 namespace
 {
-  /// Rows of a lever that answers a turn as the closed form does, but only after a millimetre of stick in which its friction goes
-  /// evenly from one sign to the other.
+  /// Rows of the closed form, but for the first millimetre behind a turn: there Q goes linearly from its value before the turn to
+  /// that of the closed form, as in stick.
   std::vector<Row> rows_with_stick(const Scene &scene, const double step)
   {
     std::vector<Row> rows;
@@ -26,14 +26,14 @@ namespace
     double before    = 0.;
     for (DrivePoint point = scene.drive.at(0., Drive::Side::after);; point = scene.drive.step(point.time, step))
     {
-      const auto slide = closed_form(scene, point.x, point.v);
-      const double way = std::abs(point.x - turned_at);
+      const auto slide    = closed_form(scene, point.x, point.v);
+      const double travel = std::abs(point.x - turned_at);
       Row row;
       row[Column::time]               = point.time;
       row[Column::x]                  = point.x;
       row[Column::v]                  = point.v;
       row[Column::P]                  = slide.P;
-      row[Column::Q]                  = way < 1. ? before + way * (slide.Q - before) : slide.Q;
+      row[Column::Q]                  = travel < 1. ? before + travel * (slide.Q - before) : slide.Q;
       row[Column::F]                  = row[Column::Q];
       row[Column::mu]                 = slide.mu;
       row[Column::theta]              = slide.contact.theta;

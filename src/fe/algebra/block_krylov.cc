@@ -26,7 +26,7 @@ namespace sprag
 
     using Columns = std::vector<double>;
 
-    /// A^T B of columns with n numbers, as rows of A's columns.
+    /// Returns A^T B, where the columns of both have n numbers.
     FullMatrix<double> products(const Columns &a, const Columns &b, const std::size_t n)
     {
       const int rows = static_cast<int>(a.size() / n), columns = static_cast<int>(b.size() / n), length = static_cast<int>(n);
@@ -77,7 +77,7 @@ namespace sprag
         return static_cast<unsigned int>(basis.size() / n);
       }
 
-      /// Adds what the operator makes of the last block.
+      /// Applies the operator to the last block and adds the result as the next one.
       void grow()
       {
         add(pencil.inverse_stiffness(last_block(inertia)));
@@ -85,7 +85,7 @@ namespace sprag
 
       struct Ritz
       {
-        Vector<double> values; ///< of the operator, increasing; without the last block, of which it is not known
+        Vector<double> values; ///< eigenvalues, increasing; the last block, whose image is not known yet, is left out
         std::vector<Vector<double>> vectors;
         std::vector<double> residuals; ///< sizes, in the norm of M
       };
@@ -113,8 +113,8 @@ namespace sprag
         return result;
       }
 
-      /// Leaves of all but the last block so many of the vectors with the largest values, which goes on as if these had been
-      /// found first (thick restart).
+      /// Restarts the iteration (thick restart): keeps the last block and, in place of all others, `number` Ritz vectors with the
+      /// largest values.
       void keep(const Ritz &ritz, const unsigned int number)
       {
         FullMatrix<double> vectors(dimension() - width, number);
@@ -152,15 +152,16 @@ namespace sprag
       const Pencil &pencil;
       const std::size_t n;
       Columns basis;
-      Columns inertia;                                    ///< M times this
-      std::vector<std::vector<double>> operator_in_space; ///< of each column, what it becomes by all, the next block's included
+      Columns inertia; ///< M times this
+      std::vector<std::vector<double>>
+          operator_in_space; ///< of each column, its image by coefficients of the basis, the next block included
 
       Columns last_block(const Columns &basis_columns) const
       {
         return Columns(basis_columns.end() - static_cast<std::ptrdiff_t>(width * n), basis_columns.end());
       }
 
-      /// The share of a column of the last block in what the operator makes of a vector of the others.
+      /// Returns the coefficient of a column of the last block in the image of a vector of the other blocks.
       double onto_last_block(const Vector<double> &vector, const unsigned int column) const
       {
         const unsigned int row = vector.size() + column;
@@ -170,14 +171,14 @@ namespace sprag
         return sum;
       }
 
-      /// Adds a block, orthogonal to all and in itself, and notes what it was made of.
+      /// Makes a block orthonormal to the basis and in itself, adds it, and stores its former coefficients as the operator's.
       void add(Columns block)
       {
         const unsigned int before = dimension();
         Columns inertia_block     = pencil.mass(block);
         const auto first          = orthonormalise(block, inertia_block);
-        inertia_block             = pencil.mass(block); // what cancelled in the columns did not do so alike in this
-        const auto second         = orthonormalise(block, inertia_block);
+        inertia_block     = pencil.mass(block); // computed anew, as cancellation left other round-off in it than in the block
+        const auto second = orthonormalise(block, inertia_block);
         for (unsigned int j = 0; j < width && before > 0; ++j)
         {
           auto &coefficients = operator_in_space.emplace_back(before + width, 0.);
@@ -241,7 +242,7 @@ namespace sprag
         const auto ritz          = space.ritz();
         const auto &values       = ritz.values;
         const unsigned int found = values.size();
-        unsigned int first       = found; // of those that are wanted, which have the largest values
+        unsigned int first       = found; // converged pair of the n_modes with the largest values
         while (first > 0 && found - first < n_modes &&
                ritz.residuals[first - 1] < converged * values[first - 1] + round_off * values[found - 1])
           --first;

@@ -9,9 +9,11 @@ namespace sprag
 {
   namespace
   {
-    constexpr std::ptrdiff_t fewest_nodes = 12;   ///< that are not halved
-    constexpr double same_place           = 1e-6; ///< [mm]
+    constexpr std::ptrdiff_t fewest_nodes = 12;   ///< a set of so few nodes is not halved further
+    constexpr double same_place           = 1e-6; ///< unknowns closer than this belong to one node [mm]
 
+    /// Orders unknowns by recursive halving: nodes that couple two halves are eliminated after both. Each set is cut across the
+    /// axis that needs fewer such nodes.
     class Dissection
     {
     public:
@@ -44,7 +46,7 @@ namespace sprag
     private:
       using Iterator = std::vector<unsigned int>::iterator;
 
-      /// Halves before and behind a coordinate, and the nodes behind it that are coupled with those before it.
+      /// A cut of a set of nodes at a coordinate, and the number of nodes behind it that are coupled with those before it.
       struct Cut
       {
         unsigned int axis      = 0;
@@ -120,8 +122,8 @@ namespace sprag
       std::vector<unsigned int> first_unknown; ///< of each node, whose unknowns follow one another
       std::vector<unsigned int> node;          ///< of each unknown
       std::vector<unsigned int> nodes;         ///< in the order of elimination
-      std::vector<unsigned int> marks;         ///< of the nodes: the last that they were given
-      unsigned int mark = 0;                   ///< that counts
+      std::vector<unsigned int> marks;         ///< of the nodes: the last mark each was given
+      unsigned int mark = 0;                   ///< the current one; nodes with an older one count as unmarked
     };
   } // namespace
 

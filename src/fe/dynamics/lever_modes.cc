@@ -16,8 +16,8 @@ namespace sprag
 
   namespace
   {
-    /// The lever in its free elastic displacements, the vibrations of its leaf spring with the hub held and last the rotation of
-    /// its hub. There the stiffness is that of the body, of these vibrations and of the spring, which feel nothing of each other.
+    /// Mass and stiffness of a lever. Its coordinates are the free elastic displacements, the vibrations of its leaf spring with
+    /// the hub held and last the rotation of the hub. The stiffness does not couple these three groups.
     template <int dim>
     class FreeLever
     {
@@ -56,7 +56,7 @@ namespace sprag
         return mass(total);
       }
 
-      /// Along xi and eta, with that of the leaf spring; `impulses` of the motion.
+      /// Returns the momentum along xi and eta, leaf spring included; `impulses` is impulse(q).
       std::array<double, 2> momentum(const double *const q, const Vector<double> &impulses) const
       {
         std::array<double, 2> result{};
@@ -131,7 +131,8 @@ namespace sprag
       std::vector<unsigned int> free;
     };
 
-    /// Returns, by a degree of freedom of the given axes, that on the other side of the middle; empty where not all have one.
+    /// Returns for each degree of freedom its mirror image at the middle plane; empty where one has none. `axes` are their
+    /// directions.
     std::vector<unsigned int> mirrored_dofs(const ElasticBody<3> &body, const std::vector<int> &axes)
     {
       std::vector<Point<3>> places(body.n_dofs());
@@ -160,8 +161,8 @@ namespace sprag
     {
     }
 
-    /// Adds where the kinetic energy of modes with a modal mass of 1 t lies, of which hub and leaf spring move as in a plane. A
-    /// body that is not the same on both sides has no such shares: NaN.
+    /// Adds the shares of the kinetic energy in the plane, in twisting and sideways. Modes have the modal mass 1 t; hub and leaf
+    /// spring move in the plane. The shares are NaN if the body is not symmetric about its middle plane.
     void add_shares(const ElasticBody<3> &body, const BodyMass<3> &mass, LeverModes &modes)
     {
       const auto axes     = turning_axes(body);

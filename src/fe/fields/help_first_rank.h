@@ -5,8 +5,8 @@
 
 namespace sprag
 {
-  /// Builds bodies with the first rank and takes part in their solves and in what is found and written of their fields, as long
-  /// as it has RanksAtHand. To be called by the others.
+  /// Takes part in the work of the first rank as long as that has RanksAtHand: builds its bodies, solves, and finds and writes
+  /// fields. All other ranks call it.
   void help_first_rank(MPI_Comm ranks);
 
   /// Returns the present ranks as those that write fields with this process, the first.

@@ -48,7 +48,7 @@ namespace sprag
       }
     };
 
-    /// "no physical surface 'name', meaning (surfaces found: ...)", where it is not there.
+    /// Adds "no physical surface 'name', meaning (surfaces found: ...)" if the mesh lacks the group.
     void need(const LeverGroup &group, const Found &found, Messages &result, const std::string &wish = "")
     {
       const auto &[name, meaning] = group;
@@ -172,7 +172,7 @@ namespace sprag
 
     constexpr unsigned int most_halved = 100000; ///< elements of a halved mesh, which take about 2 GB with degree 2
 
-    /// Cuts each element in four, and has the result as if it had been read.
+    /// Cuts each element in four. The result has one level of refinement, as a mesh that was read.
     void halve_elements(const std::string &file, Triangulation<2> &triangulation)
     {
       if (4 * triangulation.n_active_cells() > most_halved)

@@ -9,14 +9,14 @@ namespace sprag
 
   void serialise(Archive &archive, std::shared_ptr<const StoredJacobian> &kept)
   {
-    bool there = kept != nullptr;
-    archive(there);
+    bool is_stored = kept != nullptr;
+    archive(is_stored);
     StoredJacobian tangent;
-    if (there && !archive.reads())
+    if (is_stored && !archive.reads())
       tangent = *kept;
     archive(tangent.dofs, tangent.matrix);
     if (archive.reads())
-      kept = there ? std::make_shared<const StoredJacobian>(std::move(tangent)) : nullptr;
+      kept = is_stored ? std::make_shared<const StoredJacobian>(std::move(tangent)) : nullptr;
   }
 
   bool JacobianFactors::use(std::shared_ptr<const StoredJacobian> kept, const InterfaceCompliance &compliance,
