@@ -18,12 +18,14 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import h5py
+import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent / "support"))
 from runs import SOURCE, sprag  # noqa: E402
 
 LIST = SOURCE / "tests" / "pages.toml"
 LONGEST = 3600  # seconds of a run
+PRINTED = "printed.txt"  # output and messages of a run, in its folder
 
 
 def page_text(page):
@@ -37,16 +39,54 @@ def find_zeros(values, places):
     return [float(x + (y - x) * a / (a - b)) for a, b, x, y in pairs if a * b < 0]
 
 
+def read_files(folder, pattern, unit):
+    """The number of files with this pattern in a folder, or their size in MB."""
+    sizes = [path.stat().st_size for path in folder.glob(pattern)]
+    return len(sizes) if unit == "number" else sum(sizes) / 1e6
+
+
+def read_number(text):
+    """The number that a text is, or the text."""
+    return float(text) if re.fullmatch(r"[-+]?[.\d]+(e[-+]?\d+)?", text) else text
+
+
+def read_entry(value):
+    return value.decode() if isinstance(value, bytes) else float(value)
+
+
+def read_printed(folder, pattern):
+    """The group of a regular expression that the output of a run meets once."""
+    found = re.findall(pattern, (folder / PRINTED).read_text(encoding="utf-8"))
+    if len(found) != 1:
+        raise KeyError(f"{len(found)} printed places read {pattern!r}")
+    return read_number(found[0])
+
+
 def read_value(result, name):
-    """The entry of /summary, or of the group that the name begins with; NAME[ROW] is a value of /table, `zero of A over B` where A
-    changes its sign over the parameter B of a study."""
+    """The value of a name in a result, see pages.toml."""
+    if printed := re.fullmatch(r"printed (.*)", name):
+        return read_printed(result.parent, printed[1])
+    if files := re.fullmatch(r"(number|MB) of (\S+)", name):
+        return read_files(result.parent, files[2], files[1])
+    if found := re.fullmatch(r"(.+) ~ (.+)", name):
+        return read_number(re.search(found[2], read_value(result, found[1]))[1])
     with h5py.File(result) as file:
         if zero := re.fullmatch(r"zero of (\w+) over (\w+)", name):
             return find_zeros(*(file["table/" + column][:] for column in zero.groups()))
+        if largest := re.fullmatch(r"largest of (\w+)", name):
+            return float(np.nanmax(np.abs(file["table/" + largest[1]][:])))
         if row := re.fullmatch(r"(.+)\[(\d+)\]", name):
-            return float(file["table/" + row[1]][int(row[2])])
+            return read_entry(file[row[1] if "/" in row[1] else "table/" + row[1]][int(row[2])])
         value = file[name if "/" in name else "summary/" + name][()]
-    return value.decode() if isinstance(value, bytes) else float(value)
+    return read_entry(value)
+
+
+def read_difference(column, result, reference):
+    """The largest difference of a column from that of another run at the same time, in per cent of the latter's peak."""
+    with h5py.File(result) as file, h5py.File(reference) as other:
+        values, expected = (each["table"] for each in (file, other))
+        joined = np.interp(values["time"][:], expected["time"][:], expected[column][:])
+        return 100 * float(np.abs(values[column][:] - joined).max() / np.abs(expected[column][:]).max())
 
 
 def last_digit(printed):
@@ -57,12 +97,16 @@ def last_digit(printed):
 
 def find_problem(entry, printed, name, results):
     """Returns the problem of a printed number, or None. `against` asks for the difference of two runs in per cent."""
-    value = read_value(results[entry["command"]], name)
+    rows = re.fullmatch(r"rows of (\w+)", name)
+    if rows:
+        value = read_difference(rows[1], results[entry["command"]], results[entry["against"]])
+    else:
+        value = read_value(results[entry["command"]], name)
     if isinstance(value, list):
         value = min(value, key=lambda zero: abs(entry.get("times", 1) * zero - float(printed)), default=float("nan"))
     if isinstance(value, str):
         return None if value == printed else f"the run says {value}"
-    if "against" in entry:
+    if "against" in entry and not rows:
         value = 100 * abs(value / read_value(results[entry["against"]], name) - 1)
     value *= entry.get("times", 1)
     printed = printed.replace(" ", "")
@@ -88,12 +132,13 @@ def find_problems(entry, results):
             yield f"{entry['page']}: '{found[0][0]}', {name}: {printed}; {problem}"
 
 
-def run(command, folder):
-    """The result of a command line, whose first word is a scene of params/."""
+def run(command, status, folder):
+    """The result of a command line, whose first word is a scene of params/; it must end with this exit status."""
     scene, *options = shlex.split(command)
     done = sprag(SOURCE / "params" / scene, *options, "--output", folder, "--overwrite", timeout=LONGEST)
-    if done.returncode != 0:
+    if done.returncode != status:
         raise SystemExit(f"{command}\n{done.stderr}")
+    (folder / PRINTED).write_text(done.stdout + done.stderr, encoding="utf-8")
     return folder / "result.h5"
 
 
@@ -103,14 +148,15 @@ def read_entries(thorough, page):
         if thorough or listed_run.get("quick", False):
             for number in listed_run["numbers"]:
                 if page in number["page"]:
-                    yield {"command": listed_run["command"], **number}
+                    yield {"command": listed_run["command"], "status": listed_run.get("status", 0), **number}
 
 
 def compare(thorough, page):
     entries = list(read_entries(thorough, page))
+    statuses = {entry["command"]: entry["status"] for entry in entries}
     commands = sorted({entry[key] for entry in entries for key in ("command", "against") if key in entry})
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor() as pool:
-        files = pool.map(lambda job: run(job[1], Path(folder) / str(job[0])), enumerate(commands))
+        files = pool.map(lambda job: run(job[1], statuses.get(job[1], 0), Path(folder) / str(job[0])), enumerate(commands))
         results = dict(zip(commands, files))
         problems = [problem for entry in entries for problem in find_problems(entry, results)]
     count = sum(len(entry["value"]) if isinstance(entry["value"], list) else 1 for entry in entries)

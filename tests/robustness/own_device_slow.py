@@ -61,9 +61,9 @@ class OwnDevice(FolderTest):
                 name = re.findall(r"as `(own/[\w.-]+)`", before)[-1]
                 (self.folder / name).write_text(block, encoding="utf-8")
 
-    def result(self, run, name):
+    def result(self, run, name, group="summary"):
         with h5py.File(self.folder / "own" / run / "result.h5") as file:
-            value = file["summary/" + name]
+            value = file[f"{group}/{name}"]
             return value.asstr()[()] if value.dtype.kind == "O" else float(value[()])
 
     def largest_growth(self, depth):
@@ -82,16 +82,42 @@ class OwnDevice(FolderTest):
         with h5py.File(self.folder / "own" / f"slides-{depth}" / "result.h5") as file:
             return file["table/growth_rate"][:].max()
 
+    def check_edges(self):
+        """Values and tapers between which the growth rate of the worst slide changes its sign."""
+        ranges = "Stability/Ranges=Contact/Damping {} 0.1; Friction/Factor 0.8 1.2"
+        tapered = (self.folder / "own/tapered.geo").read_text(encoding="utf-8")
+        (self.folder / "own/thinner.geo").write_text(tapered.replace("e + 8", "e + 6").replace("125, e + 6", "125, e + 4"), encoding="utf-8")
+        cases = [
+            ("Rotational spring/Stiffness=4.5e4", 5, 0.01, -1),
+            ("Rotational spring/Stiffness=5.5e4", 5, 0.01, 1),
+            *((f"Geometry/Interface offset={e}", 5, 0.01, sign) for e, sign in ((15.5, -1), (16.5, 1), (23.5, 1), (24.5, -1))),
+            ("Mesh/File=tapered.geo", 2.5, 0.01, -1),
+            ("Mesh/File=thinner.geo", 2.5, 0.02, 1),
+        ]
+        for setting, depth, damping, sign in cases:
+            with self.subTest(setting):
+                settings = ("Analysis/Type=stability", "Analysis/Model=condensed", "Stability/Critical=none", "Stability/Roles=off")
+                words = [word for each in (*settings, setting, f"Lever/Depth={depth}", ranges.format(damping)) for word in ("--set", each)]
+                self.call(shlex.join(["./run", "own/press.prm", *words, "--output", "own/edge", "--overwrite"]))
+                self.assertGreater(sign * self.result("edge", "growth_rate"), 0)
+        self.assertEqual(self.result("edge", "verdict"), "flutter")
+
     def test_leads_where_it_says(self):
         self.follow()
         self.assertIn("no warnings", self.printed["--validate"])
         self.assertTrue((self.folder / "own/press.png").is_file())
         self.assertAlmostEqual(self.result("rigid", "slope_forward"), 0.25, delta=0.005)
         self.assertAlmostEqual(self.result("rigid", "slope_backward"), -0.20, delta=0.005)
-        for way in ("forward", "backward"):
-            self.assertAlmostEqual(self.result("strokes", "deviation_Q_" + way), 0.055, delta=0.014)
+        self.assertIn("a rigid lever locks at mu = 5.6", self.printed["own/rigid"])
+        for way, slope, tapered in (("forward", 0.225, 0.24), ("backward", -0.178, -0.20)):
+            for force in "PQ":
+                self.assertAlmostEqual(self.result("strokes", f"deviation_{force}_{way}"), 0.06, delta=0.025)
+            self.assertAlmostEqual(self.result("strokes", "slope_" + way), slope, delta=0.0006)
+            self.assertAlmostEqual(self.result("tapered", "slope_" + way), tapered, delta=0.005)
+        self.assertAlmostEqual(self.result("strokes", "P", "accuracy"), 0.0005, delta=0.0001)
         self.assertEqual(self.result("slide", "verdict"), "flutter")
-        self.assertRegex(self.printed["own/slide"], r"Lever/Depth from 2 to 12 mm: flutter, stable from 4\.2")
+        self.assertRegex(self.printed["own/slide"], r"Lever/Depth from 2 to 12 mm: flutter, stable from 4\.2[456]")
+        self.assertRegex(self.printed["own/slide"], r"backward +growth at most \S+ 1/s, unstable at x = 2[01]\.\d+ to 40 mm")
         self.assertLess(self.largest_growth(4.26), 0)
         self.assertGreater(self.largest_growth(3.8), 0)
         slide = "Stability/Position=40 Stability/Direction=forward Contact/Damping=0.01 Friction/Factor=1.2 Stability/Critical=none"
@@ -102,8 +128,10 @@ class OwnDevice(FolderTest):
             self.call(shlex.join(["./run", "own/press.prm", *options, "--output", f"own/stick{number}"]))
             self.assertAlmostEqual(self.result(f"stick{number}", "growth_rate"), number, delta=0.1)
         self.assertEqual(self.result("slide-thick", "verdict"), "stable")
-        self.assertIn("Friction/Factor from 0.5 to 2: stable, flutter from 1.5", self.printed["own/slide-thick"])
+        self.assertIn("Friction/Factor from 0.5 to 2: stable, flutter from 1.52", self.printed["own/slide-thick"])
         self.assertEqual(self.result("slide-tapered", "verdict"), "stable")
+        self.assertAlmostEqual(self.result("slide-tapered", "growth_rate"), -20, delta=0.6)
+        self.check_edges()
         self.assertLess(self.result("tapered", "largest_lever_stress"), 20)
         for number, entry in ((2070.87, "stiffness"), (1.55785, "exponent")):
             self.assertAlmostEqual(self.result("law", entry) / number, 1, delta=1e-3)
