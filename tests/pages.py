@@ -138,6 +138,7 @@ def run(command, status, folder):
     done = sprag(SOURCE / "params" / scene, *options, "--output", folder, "--overwrite", timeout=LONGEST)
     if done.returncode != status:
         raise SystemExit(f"{command}\n{done.stderr}")
+    folder.mkdir(exist_ok=True)  # a validation makes none
     (folder / PRINTED).write_text(done.stdout + done.stderr, encoding="utf-8")
     return folder / "result.h5"
 
