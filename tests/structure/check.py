@@ -112,7 +112,7 @@ for path in own_files():
         continue  # pictures
     if (path.suffix in CODE or path.name in ("run", "test")) and len(lines) > MAX_LINES:
         report(path, len(lines), f"{len(lines)} lines; the limit is {MAX_LINES}")
-    if path.suffix in {".cc", ".h", ".py", ".sh", ".geo", ".cmake"} and not any(LICENCE in line for line in lines[:2]):
+    if path.suffix in {".cc", ".h", ".py", ".sh", ".geo", ".cmake", ".in"} and not any(LICENCE in line for line in lines[:2]):
         report(path, 1, f"one of the first two lines must say {LICENCE}")
     for number, line in enumerate(lines, 1):
         if found := UNFINISHED.search(line):
