@@ -230,8 +230,11 @@ namespace sprag
       }
       try
       {
-        const auto identified = variant(scene, joined(unknowns.overrides(found.lever, table),
-                                                      { "Analysis/Type=quasi-static", "Analysis/Model=closed form" }));
+        const auto ranges = unknowns.ranges(mapped(found.found, &FoundNumber::value), mapped(found.found, &FoundNumber::low),
+                                            mapped(found.found, &FoundNumber::high));
+        const auto identified =
+            variant(scene, joined(unknowns.overrides(found.lever, table),
+                                  { "Analysis/Type=quasi-static", "Analysis/Model=closed form", "Stability/Ranges=" + ranges }));
         write_file(folder / "identified.prm",
                    "# What was identified from " + scene.identification.table + '\n' + parameters_text(identified));
       }

@@ -28,7 +28,8 @@ namespace sprag
       std::vector<ParameterRange> result = { { "Friction/Factor", 0., 3., tried } };
       if (!looks_over_stroke(scene))
         result.push_back(stroke_range(scene, tried));
-      if (scene.drive.profile() != DriveProfile::table)
+      const bool has_speed = scene.drive.profile() != DriveProfile::table;
+      if (has_speed && !std::holds_alternative<CoulombFriction>(scene.friction.law)) // else it has no effect
         result.push_back({ "Drive/Speed", 1., 800., tried });
       if (scene.analysis.model == ModelType::beam)
         result.push_back({ "Lever/Depth", 2., 30., tried });

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-only
 """Prints whether targets are met or told to be missed, and what it costs to ask for an accuracy: the CPU time of runs with Accuracy/Target, their true and their told errors, and the cheapest
-settings of a grid whose true error is within the target; see expected-cost.md."""
+settings of a grid whose true error is within the target: along the drive, of held slides and in time; see expected-cost.md."""
 
 import argparse
 import itertools
@@ -9,21 +9,40 @@ import os
 import tempfile
 
 import numpy as np
-from effectivity import AlongDrive, drawn_device
+from effectivity import OF_RINGING, OF_SLIDES, AlongDrive, Held, InTime, drawn_device
 from runs import add_program, print_row
 
 TARGETS = (0.1, 1e-2, 1e-3, 1e-4)
 OF_FORCES = ("P", "Q", "loop_area")
 PRESSURE = ("largest_pressure",)
 DRAWN = [drawn_device(np.random.default_rng(seed)) for seed in (1, 2, 3)]
+CONDENSED = {"Analysis/Model": "condensed"}
+
+
+def backward(device):
+    return {**device, "Stability/Position": 0.9 * device["Drive/Stroke"], "Stability/Direction": "backward"}
+
+
+def before_turning(device):
+    return {**device, **CONDENSED, "Drive/Start": device["Drive/Stroke"] - 10}
+
+
 CASES = [
-    *((scene, {}, quantities) for quantities in (OF_FORCES, PRESSURE) for scene in ("model-a", "model-b")),
-    *(("model-a", device, OF_FORCES) for device in DRAWN),
+    *((AlongDrive, scene, {}, quantities) for quantities in (OF_FORCES, PRESSURE) for scene in ("model-a", "model-b")),
+    *((AlongDrive, "model-a", device, quantities) for device in DRAWN for quantities in (OF_FORCES, PRESSURE)),
+    *((Held, scene, {}, OF_SLIDES) for scene in ("stability-a", "stability-b")),
+    *((Held, "stability-a", backward(device), OF_SLIDES) for device in DRAWN),
+    *((InTime, scene, CONDENSED, tuple(OF_RINGING)) for scene in ("reversal-a", "reversal-b")),
+    *((InTime, "reversal-a", before_turning(device), tuple(OF_RINGING)) for device in DRAWN),
 ]
-FACE_SIZES = (0.125, 0.25, 0.5, 1, 2)
-STEPS = (0.5, 2, 8)
+# Values of each parameter whose combinations are tried by hand.
+GRIDS = {
+    AlongDrive: {"Mesh/Degree": (1, 2), "Mesh/Face size": (0.125, 0.25, 0.5, 1, 2), "Analysis/Step": (0.5, 2, 8), "Mesh/Faces in contact": (0, 4)},
+    Held: {"Mesh/Face size": (0.125, 0.25, 0.5, 1, 2), "Contact/Penalty": ("auto", 1e4)},
+    InTime: {"Mesh/Face size": (0.25, 0.5, 1, 2), "Time/Tolerance": (2e-2, 5e-3, 1e-3)},
+}
 FINE = {"Mesh/Face size": 0.0625, "Analysis/Step": 0.25, "Contact/Enforcement": "augmented Lagrangian"}
-WIDTHS = (34, 10, 10, 10, 10, 8, 12, 8, 0)
+WIDTHS = (40, 10, 10, 10, 10, 8, 12, 8, 0)
 
 
 def measure_cpu(work):
@@ -33,24 +52,23 @@ def measure_cpu(work):
     return result, after.children_user + after.children_system - before.children_user - before.children_system
 
 
-def measured(sprag, scene, changes, quantities, reference, folder):
+def measured(kind, sprag, scene, changes, quantities, reference, folder):
     """CPU time, largest true and told error of a run."""
-    run, cpu = measure_cpu(lambda: AlongDrive(sprag, scene, changes, folder))
+    run, cpu = measure_cpu(lambda: kind(sprag, scene, changes, folder))
     errors = run.errors(reference)
     return cpu, max(errors[name] for name in quantities), max(run.estimates[name] for name in quantities)
 
 
-def grid(sprag, scene, device, quantities, reference, folder):
+def grid(kind, sprag, scene, device, quantities, reference, folder):
     """(CPU time, error, name) of all settings."""
     found = []
-    for degree, size, step in itertools.product((1, 2), FACE_SIZES, STEPS):
-        for faces in (0, 4):
-            changes = {**device, "Mesh/Degree": degree, "Mesh/Face size": size, "Analysis/Step": step, "Mesh/Faces in contact": faces}
-            try:
-                cpu, error, _ = measured(sprag, scene, changes, quantities, reference, folder)
-            except (RuntimeError, KeyError):
-                continue
-            found.append((cpu, error, f"degree {degree}, {size} mm, step {step}, {faces} faces"))
+    for values in itertools.product(*GRIDS[kind].values()):
+        changes = dict(zip(GRIDS[kind], values))
+        try:
+            cpu, error, _ = measured(kind, sprag, scene, {**device, **changes}, quantities, reference, folder)
+        except (RuntimeError, KeyError):
+            continue
+        found.append((cpu, error, ", ".join(f"{name.partition('/')[2]} {value}" for name, value in changes.items())))
     return found
 
 
@@ -62,15 +80,23 @@ def main():
     arguments = parser.parse_args()
     print_row(("asked for", "target", "CPU s", "true", "told", "", "cheapest s", "ratio", "with"), WIDTHS)
     with tempfile.TemporaryDirectory() as folder:
-        for number, (scene, device, quantities) in enumerate(CASES[: arguments.cases]):
-            reference = AlongDrive(arguments.sprag, scene, {**device, **FINE}, folder)
-            settings = [] if arguments.without_grid else grid(arguments.sprag, scene, device, quantities, reference, folder)
+        for kind, scene, device, quantities in CASES[: arguments.cases]:
+            if kind is AlongDrive:
+                reference = kind(arguments.sprag, scene, {**device, **FINE}, folder)
+            else:
+                reference = kind.reference(arguments.sprag, scene, device, folder, kind(arguments.sprag, scene, device, folder))
+            settings = [] if arguments.without_grid else grid(kind, arguments.sprag, scene, device, quantities, reference, folder)
+            number = next((i for i, drawn in enumerate(DRAWN) if drawn.items() <= device.items()), None)
+            name = (scene if number is None else f"device {number}") + " " + ", ".join(quantities)
             for target in TARGETS:
                 asked = {**device, "Accuracy/Target": target, "Accuracy/Quantity": ", ".join(quantities)}
-                cpu, error, estimate = measured(arguments.sprag, scene, asked, quantities, reference, folder)
+                try:
+                    cpu, error, estimate = measured(kind, arguments.sprag, scene, asked, quantities, reference, folder)
+                except RuntimeError as failure:
+                    print(f"{name} {target:.2g}: {failure}", flush=True)
+                    continue
                 cheap = min((each for each in settings if each[1] <= target), default=(float("nan"), 0, "none"))
                 outcome = "met" if error <= target else "told" if not estimate <= target else "missed"
-                name = (f"device {number}" if device else scene) + " " + ", ".join(quantities)
                 print_row((name, f"{target:.2g}", f"{cpu:.2f}", f"{error:.1e}", f"{estimate:.1e}", outcome,
                            f"{cheap[0]:.2f}", f"{cpu / cheap[0]:.2f}", cheap[2]), WIDTHS)
 

@@ -6,6 +6,7 @@
 #include "results/hdf5.h"
 #include "run/run.h"
 #include "scene/closed_form.h"
+#include "scene/held_slide.h"
 #include "scene/scene.h"
 #include "support/temporary_folder.h"
 
@@ -68,6 +69,24 @@ TEST_F(RunIdentification, WritesTheSceneWithWhatItFound)
   EXPECT_NEAR(found.geometry.interface_offset, 45.6, 1e-3);
   EXPECT_NEAR(found.geometry.pivot_height, 0., 1e-3);
   EXPECT_NEAR(kinematics(found.geometry, 0.).theta, 0.0560941, 1e-5);
+  EXPECT_EQ(found.stability.ranges, "none"); // no noise, no interval
+}
+
+TEST_F(RunIdentification, WritesItsIntervalsAsRangesOfAVerdict)
+{
+  const auto shipped = [&](const Changes &changes)
+  {
+    run(read_scene((params_folder() / "identification-a.prm").string(), changes), output);
+    return uncertain_ranges(read_scene(output + "/identified.prm", {})).value();
+  };
+  const auto ranges = shipped({ "Identification/Unknowns=mu, k, e, th0" });
+  ASSERT_EQ(ranges.size(), 4u);
+  EXPECT_EQ(ranges[0].name, "Friction/Coefficient");
+  EXPECT_EQ(ranges[3].name, "Geometry/Pivot height");
+  // k = 7.345e4 +- 1.5e3 N mm/rad
+  EXPECT_EQ(ranges[1].name, "Rotational spring/Stiffness");
+  EXPECT_NEAR(ranges[1].from, 7.197e4, 5.);
+  EXPECT_NEAR(ranges[1].to, 7.492e4, 5.);
 }
 
 TEST_F(RunIdentification, WritesALawOfFrictionAsATable)

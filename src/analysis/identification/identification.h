@@ -121,6 +121,10 @@ namespace sprag
     /// constant mu.
     std::vector<std::string> overrides(IdentifiedLever lever, const std::string &friction_table) const;
 
+    /// Returns, in the form of Stability/Ranges, between which values the scene's parameters lie if each unknown lies between
+    /// `low` and `high`. Offsets, lags and functions mu(v) are no parameters. "none" where none is sought.
+    std::string ranges(const std::vector<double> &values, const std::vector<double> &low, const std::vector<double> &high) const;
+
     /// Returns the rows, speed [mm/s] and mu, of a polynomial or table of mu; empty for another law.
     std::vector<std::pair<double, double>> friction_rows(const std::vector<double> &values) const;
 

@@ -12,6 +12,8 @@
 #include "input/sections.h"
 #include "scene/closed_form.h"
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -340,5 +342,33 @@ namespace sprag
       append(result, { "Friction/Table=" + friction_table, "Friction/Factor=1" });
     }
     return result;
+  }
+
+  std::string LeverUnknowns::ranges(const std::vector<double> &values, const std::vector<double> &low,
+                                    const std::vector<double> &high) const
+  {
+    std::vector<std::string> result;
+    const auto add = [&](const std::string &parameter, const double from, const double to)
+    { result.push_back(parameter + formatted(" %.5g %.5g", std::min(from, to), std::max(from, to))); };
+    constexpr double narrow = 1e-5; // over the unknown's scale: what five digits do not show
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      if (high[i] - low[i] <= narrow * all[i].scale)
+        continue;
+      const auto at = [&](const std::vector<double> &end)
+      {
+        auto changed = values;
+        changed[i]   = end[i];
+        return lever(changed);
+      };
+      if (const auto parameter = lever_parameters.find(all[i].name); parameter != lever_parameters.end())
+      {
+        auto first = at(low), second = at(high);
+        add(parameter->second.name, parameter->second.number(first), parameter->second.number(second));
+      }
+      else if (all[i].name == "mu")
+        add("Friction/Coefficient", low[i], high[i]);
+    }
+    return result.empty() ? "none" : boost::algorithm::join(result, "; ");
   }
 } // namespace sprag
