@@ -238,6 +238,15 @@ namespace sprag
   {
     if (!is_meshed(scene.analysis.model))
       return {};
+    if (scene.analysis.model == ModelType::finite_element)
+    {
+      // The condensed lever of the mesh has these errors, but for those of its modes.
+      const auto condensed = with_condensed_lever(scene);
+      auto estimates       = vibration_accuracy(condensed, check_slide(condensed, maker), dynamics, maker);
+      for (auto &estimate : estimates)
+        estimate.parts = filtered(estimate.parts, [](const ErrorPart &part) { return part.name != "modes"; });
+      return estimates;
+    }
     const auto estimate = [&]
     {
       if (!(found.frequency() > 0.))

@@ -296,7 +296,7 @@ namespace sprag
         append(result.summary, timed(timer, search_phase, [&] { return unmeasured_entries(whole, maker); }));
       }
       if (scene.stability.roles)
-        append(result.summary, role_entries(roles(scene, found, maker)));
+        append(result.summary, role_entries(roles(with_condensed_lever(scene), found, maker)));
       if (scene.stability.critical != "none")
       {
         const auto critical = all_critical(whole, maker, options.quiet);
