@@ -33,16 +33,22 @@ namespace sprag
     constexpr double admitted_share  = 0.25;        ///< of the travel in contact, on which the contact may be narrower
     constexpr double element_error[] = { 5., 0.8 }; ///< of degree 1 and 2
 
+    /// Looks at rows in which friction has turned. While it turns, the pressure stands out where the slip begins: narrow in place
+    /// and travel, and the higher the finer the mesh.
     Peak largest_pressure(const std::vector<Row> &rows)
     {
+      const auto counts = friction_has_turned(rows);
       Peak result;
       const auto look_at = [&](const Row &row, const double value, const double at, const double width, const bool is_second)
       {
         if (value > result.value)
           result = { &row, value, at, width, is_second };
       };
-      for (const Row &row : rows)
+      for (std::size_t i = 0; i < rows.size(); ++i)
       {
+        const Row &row = rows[i];
+        if (!counts[i])
+          continue;
         look_at(row, row[Column::largest_pressure], row[Column::largest_pressure_xi], row[Column::contact_width], false);
         if (!row.second_lever().empty())
           look_at(row, row.second_value(Column::largest_pressure), row.second_value(Column::largest_pressure_xi),

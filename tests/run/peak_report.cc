@@ -37,6 +37,23 @@ TEST(PeakReport, TellsTheLargestPressureAndWhereItIs)
   EXPECT_EQ(std::get<std::string>(entries[2].value), "backward");
 }
 
+// Behind a reversal, while friction turns, the pressure stands out where the slip begins.
+TEST(PeakReport, LooksWhereFrictionHasTurned)
+{
+  auto all = rows;
+  for (const double share : { -1., 0.5, 1. })
+  {
+    all.push_back(row(63.9, -112., share == 0.5 ? 0.5 : 0.31, 2.4));
+    all.back()[Column::mu]                 = 0.6;
+    all.back()[Column::normal_resultant]   = 20.;
+    all.back()[Column::friction_resultant] = -share * 0.6 * 20.;
+  }
+  all.erase(all.begin() + 2);
+  std::vector<Entry> entries;
+  add_largest_pressure(all, entries);
+  EXPECT_EQ(find_value(entries, "largest_pressure"), 0.31);
+}
+
 TEST(PeakReport, IsEmptyWithoutAFace)
 {
   std::vector<Entry> entries;
