@@ -80,6 +80,25 @@ TEST(Report, StickAfterTheTurnsOfATableIsNoDeviation)
   }
 }
 
+// The forces of the second lever are 1.25 times those of the first.
+TEST(Report, TellsTheLargestForcesOfASecondLever)
+{
+  const Scene scene  = moved_by(Drive(DriveProfile::harmonic, 20., 65., 112., 1.));
+  auto rows          = rows_with_stick(scene, 0.25);
+  const auto summary = make_summary(scene, rows);
+  for (Row &row : rows)
+  {
+    Row second = row;
+    for (const Column column : { Column::P, Column::Q })
+      second[column] *= 1.25;
+    row.add_second_lever(second);
+  }
+  std::vector<Entry> pair;
+  add_pair(rows, pair);
+  for (const std::string name : { "peak_P_forward", "peak_P_backward", "peak_Q_forward", "peak_Q_backward" })
+    EXPECT_NEAR(find_value(pair, "second_" + name), 1.25 * find_value(summary, name), 1e-9) << name;
+}
+
 // Without friction the tangential force is that of the lever's tilt and points one way on both strokes.
 TEST(Report, WarnsFarFromTheClosedForm)
 {
