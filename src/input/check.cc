@@ -267,6 +267,10 @@ namespace sprag
     void settings(const Scene &scene, const Use &use, Rules &rules)
     {
       const AnalysisSettings &analysis = scene.analysis;
+      const bool steps_in_time         = use.in_time || use.isolated || use.type == AnalysisType::sprag_slip;
+      rules.need(!steps_in_time || scene.contact.damping_law == DampingLaw::dashpot, "Contact/Damping law", { "Analysis/Type" },
+                 "must be dashpot in time, where vibrations of all frequencies mix: a verdict prints the Contact/Damping of the "
+                 "dashpot that equals the loss factor at its frequency");
       if (analysis.dimension == 3 || scene.accuracy.is_dimension_open)
         check_solid(scene, rules);
       rules.need(analysis.minimum_step <= analysis.step, "Analysis/Minimum step", { "Analysis/Step" },

@@ -129,7 +129,7 @@ namespace sprag
       // Rigid levers and beams alone have these.
       "Lever/Neutral axis offset", "Contact/Type", "Contact/Stiffness", "Contact/Exponent",
       // Damping is added to mass and stiffness.
-      "Lever/Modal damping", "Lever/Mass damping", "Lever/Stiffness damping", "Contact/Damping",
+      "Lever/Modal damping", "Lever/Mass damping", "Lever/Stiffness damping", "Contact/Damping", "Contact/Damping law",
       // The contact's springs join the lever later.
       "Contact/Enforcement", "Contact/Penalty", "Contact/Tangential penalty", "Contact/Penetration tolerance",
       "Contact/Maximum augmentations", "Contact/Tangential stiffness",

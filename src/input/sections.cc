@@ -126,6 +126,7 @@ namespace sprag
       section.number("Stiffness", settings.stiffness, above(0.), "N/mm^n");
       section.number("Exponent", settings.exponent, { 1., 3. });
       section.number("Damping", settings.damping, { 0., 1., true, false });
+      section.choice("Damping law", settings.damping_law);
       section.number_or_auto("Tangential stiffness", settings.tangential_stiffness, above(0.), "N/mm");
     }
 

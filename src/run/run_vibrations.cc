@@ -128,10 +128,15 @@ namespace sprag
       double loss_factor     = 2. * M_PI * verdict.frequency * reference.relaxation; // at the high end
       if (is_reduced(scene.analysis.model)) // the dashpot stays where a contact law is softer under a smaller P
         loss_factor *= std::pow(reference.P / verdict.P, 1. - 1. / scene.contact.exponent);
+      const bool is_law    = scene.contact.damping_law == DampingLaw::loss_factor;
+      const double dashpot = is_law ? 2. * own * high / loss_factor : std::nan(""); // it has the same at the slide's frequency
+      if (is_law)
+        loss_factor = 2. * high;
       return { { "contact_damping_limit_low", low },
                { "contact_damping_limit_high", high },
                { "contact_loss_factor_limit_low", loss_factor * low / high },
                { "contact_loss_factor_limit_high", loss_factor },
+               { "equal_dashpot", dashpot },
                { "growth_rate_without_contact_damping", growth_rate_at_none } };
     }
 

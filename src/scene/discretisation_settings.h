@@ -11,6 +11,9 @@ namespace sprag
   /// Selects the contact of a rigid lever. With ideal contact it always touches, and theta follows from the drive.
   SPRAG_ENUMERATION(ContactType, compliant, ideal)
 
+  /// Says whether the contact's damping is a dashpot, or its loss factor is the same at each vibration's own frequency.
+  SPRAG_ENUMERATION(DampingLaw, dashpot, loss_factor)
+
   /// Selects how the contact of meshed levers is enforced.
   enum class Enforcement
   {
@@ -28,10 +31,11 @@ namespace sprag
     unsigned int maximum_augmentations = 20;
 
     // Contact of the reduced models (rigid, beam): P = k delta^n + c delta'.
-    ContactType type = ContactType::compliant;
-    double stiffness = 2000.;                   ///< k [N/mm^n], > 0
-    double exponent  = 1.;                      ///< n, >= 1
-    double damping   = 0.02;                    ///< ratio to critical damping of the lever on the contact stiffness
+    ContactType type       = ContactType::compliant;
+    double stiffness       = 2000.; ///< k [N/mm^n], > 0
+    double exponent        = 1.;    ///< n, >= 1
+    double damping         = 0.02;  ///< ratio to critical damping of the lever on the contact stiffness, or half the loss factor
+    DampingLaw damping_law = DampingLaw::dashpot;
     std::optional<double> tangential_stiffness; ///< in stick [N/mm]; none: from the layer's shear
   };
 

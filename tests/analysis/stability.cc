@@ -4,7 +4,9 @@
 #include "analysis/stability/stability.h"
 #include "analytic/jamming.h"
 #include "input/read.h"
+#include "model/lever/own_damping.h"
 #include "scene/closed_form.h"
+#include "scene/contact_estimates.h"
 #include "scene/scene.h"
 #include "scenes.h"
 #include "support/params_folder.h"
@@ -249,6 +251,64 @@ TEST(CriticalValues, HoldForTheSceneAndForMostOfTheRanges)
   };
   EXPECT_LT(limit.likely, limit.value - 2. * resolution);
   EXPECT_NEAR(stable_share(limit.likely), probable_share, 0.02) << limit.likely;
+}
+
+// Oscillators of stiffness K over mass 1, all of it with the loss factor eta: with c = eta K/w their lambda is -c/2 + i w, w^2 =
+// K - c^2/4. Static shapes that creep have frequencies by round-off, here a tenth of their rate: below those of the oscillators.
+TEST(LossFactor, IsFoundBesideShapesThatCreep)
+{
+  constexpr double eta                = 0.2;
+  const std::vector<double> stiffness = { 1e4, 9e4 };
+  const auto eigenvalues              = [&](const double relaxation)
+  {
+    std::vector<std::complex<double>> result;
+    for (const double K : stiffness)
+      result.emplace_back(-0.5 * relaxation * K, std::sqrt(K - std::pow(0.5 * relaxation * K, 2)));
+    if (relaxation > 0.)
+      result.emplace_back(-1. / relaxation, 0.1 / relaxation);
+    return result;
+  };
+  const auto found = own_damped_vibrations(eta, 10, eigenvalues);
+  ASSERT_EQ(found.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    const double K       = stiffness[i];
+    const double squared = 0.5 * (K + std::sqrt(K * K - eta * eta * K * K)); // w^4 - K w^2 + eta^2 K^2/4 = 0
+    EXPECT_NEAR(found[i].eigenvalue.imag(), std::sqrt(squared), 1e-6 * std::sqrt(K));
+    EXPECT_NEAR(found[i].eigenvalue.real(), -0.5 * eta * K / std::sqrt(squared), 1e-6 * std::sqrt(K));
+  }
+}
+
+// Contact/Damping refers to w of equation 20. Frequencies are found to 1e-6.
+TEST(LossFactor, IsThatOfADashpotAtTheOwnFrequency)
+{
+  for (const std::vector<std::string> &lever :
+       { std::vector<std::string>{ "Analysis/Model=beam" },
+         { "Analysis/Model=condensed", "Mesh/Face size=2" },
+         { "Analysis/Model=beam", "Mirrored pair/Type=full", "Mirrored pair/Friction ratio=0.9" } })
+  {
+    auto changes = lever;
+    changes.insert(changes.end(),
+                   { "Contact/Damping=0.1", "Contact/Damping law=loss factor", "Contact/Exponent=1", "Contact/Stiffness=1e4" });
+    const Scene scene    = from_params("stability-a.prm", changes);
+    const auto reference = contact_reference(scene);
+    DynamicsMaker maker;
+    const auto found = check_slide(scene, maker);
+    ASSERT_GE(found.modes.size(), 4u);
+    for (const auto &mode : found.modes)
+    {
+      const auto lambda = mode.mode.eigenvalue;
+      if (lambda.imag() == 0.)
+        continue;
+      Scene dashpot               = scene;
+      dashpot.contact.damping_law = DampingLaw::dashpot;
+      dashpot.contact.damping     = 0.1 * 0.2 / reference.relaxation / lambda.imag();
+      double distance             = std::abs(lambda);
+      for (const auto &other : check_slide(dashpot, maker).modes)
+        distance = std::min(distance, std::abs(other.mode.eigenvalue - lambda));
+      EXPECT_LT(distance, 1e-5 * std::abs(lambda)) << changes.front() << " " << lambda;
+    }
+  }
 }
 
 TEST(CriticalValues, TellTheMotionOfAPair)

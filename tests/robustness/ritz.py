@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Growth of random devices against a Ritz beam of this file's own: polynomials over the whole lever, exact geometry of the contact,
 virtual work of pressure and friction, linearised by differences. Nothing is shared with the program.
+Half of the devices have dashpots, half a loss factor at each vibration's own frequency: here a complex stiffness.
 Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources.
 
     ritz.py             # six devices
@@ -8,6 +9,7 @@ Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, th
 
 import sys
 import unittest
+from functools import lru_cache
 from pathlib import Path
 
 import h5py
@@ -39,6 +41,7 @@ NAMES = {
     "v_s": "Friction/Stribeck speed",
     "stroke": "Drive/Stroke",
     "speed": "Drive/Speed",
+    "law": "Contact/Damping law",
     "x": "Stability/Position",
     "way": "Stability/Direction",
 }
@@ -79,6 +82,7 @@ def device(rng):
     d["stroke"], d["speed"] = 0.45 * d["l"], rng.uniform(50, 150)
     d["x"] = d["stroke"] * rng.uniform(0.4, 1.0)
     d["way"] = rng.choice(["forward", "backward"])
+    d["law"] = "dashpot"
     # Numbers that a text holds.
     return {name: value if isinstance(value, str) else float(f"{value:.9g}") for name, value in d.items()}
 
@@ -196,7 +200,23 @@ class RitzBeam:
         return np.concatenate([[1e-7], np.full(self.FUNCTIONS, 1e-5)])
 
     def worst(self):
-        """The eigenvalue of largest real part."""
+        """The eigenvalue of largest real part. A loss factor eta multiplies the contact's stiffness by 1 + eta lambda/|Im lambda|,
+        what a dashpot eta/|Im lambda| times that stiffness does: by 1 + i eta first, then by that of the eigenvalue found."""
+        if self.d["law"] == "dashpot":
+            return max(self.eigenvalues(self.dashpot()), key=lambda value: value.real)
+        eta = 2 * self.d["zeta"]
+        result = []
+        for start in sorted((value for value in self.eigenvalues(0, 1j * eta) if value.imag > 0), key=abs)[:10]:
+            value = start
+            for _ in range(6):
+                value = min(self.eigenvalues(0, eta * value / value.imag), key=lambda other: abs(other - value))
+            result.append(value)
+        return max(result, key=lambda value: value.real)
+
+    @lru_cache
+    def linearised(self, dashpot):
+        """Stiffness and damping without the friction force, that force by displacements and rates, its direction and what it gains
+        with speed; last the contact's compression by displacements and its stiffness."""
         d = self.d
         v = d["speed"] if d["way"] == "forward" else -d["speed"]
         slip, h = v, 1e-3 * d["R"]
@@ -206,11 +226,10 @@ class RitzBeam:
             _, _, along, T, theta = self.contact(q, d["x"])
             cylinder = v * (-np.cos(theta) * T[0] + np.sin(theta) * T[1])
             slip = along @ (after - before) / (2 * h) * v - cylinder
-        c = self.dashpot()
 
         def pressure(q, rate):
             delta, gradient, _, _, _ = self.contact(q, d["x"])
-            return d["k_c"] * delta ** d["n"] + c * (gradient @ rate)
+            return d["k_c"] * delta ** d["n"] + dashpot * (gradient @ rate)
 
         def friction(q, rate):
             speed = slip + self.contact(q, d["x"])[2] @ rate
@@ -228,22 +247,28 @@ class RitzBeam:
         C = jacobian(lambda r: others(q, r), at_rest, 1e5 * sizes)
         f_q = jacobian(lambda p: np.array([friction(p, at_rest)]), q, sizes)[0]
         f_v = jacobian(lambda r: np.array([friction(q, r)]), at_rest, 1e5 * sizes)[0]
-        g, n = along(q), len(q)
-        slope = self.mu_slope(slip) * pressure(q, at_rest)
+        delta, squeeze, _, _, _ = self.contact(q, d["x"])
+        return K, C, f_q, f_v, along(q), slip, self.mu_slope(slip) * pressure(q, at_rest), squeeze, d["n"] * d["k_c"] * delta ** (d["n"] - 1)
+
+    def eigenvalues(self, dashpot, loss=0.0):
+        """Those with a dashpot, or with that share of the contact's stiffness added to it."""
+        K, C, f_q, f_v, g, slip, slope, squeeze, stiffness = self.linearised(dashpot)
+        lost = loss * stiffness * squeeze  # pressure by displacements
+        K, f_q = K + np.outer(squeeze, lost), f_q + self.mu(slip) * np.sign(slip) * lost
         # The spring of stick in series takes a part of the slip, and a mu that falls follows the speed of the faces over a length:
         # L/|v| w' + F'/k_t = g rate - w, F = mu P + mu' P w. The eigenvalues of A over B are one over those of B over A.
-        A, B = np.zeros((2 * n + 2,) * 2), np.zeros((2 * n + 2,) * 2)
+        n = len(g)
+        A, B = np.zeros((2 * n + 2,) * 2, complex), np.zeros((2 * n + 2,) * 2)
         w, traction = 2 * n, 2 * n + 1
         B[:n, :n] = A[:n, n : 2 * n] = np.eye(n)
         B[n : 2 * n, n : 2 * n] = self.M
         A[n : 2 * n, :n], A[n : 2 * n, n : 2 * n], A[n : 2 * n, traction] = -K, -C, -g
         B[w, w] = MEMORY_LENGTH / abs(slip) if slope < 0 else 0
-        B[w, traction] = 1 / d["k_t"]
+        B[w, traction] = 1 / self.d["k_t"]
         A[w, n : 2 * n], A[w, w] = g, -1
         A[traction, :n], A[traction, n : 2 * n], A[traction, w], A[traction, traction] = f_q, f_v - slope * g, slope, -1
         inverse = np.linalg.eigvals(np.linalg.solve(A, B))
-        values = 1 / inverse[np.abs(inverse) > 1e-12]
-        return values[np.argmax(values.real)]
+        return 1 / inverse[np.abs(inverse) > 1e-12]
 
 
 def jacobian(function, at, sizes):
@@ -259,6 +284,7 @@ class Growth(RunTest):
     def test_random_devices_grow_as_a_ritz_beam(self):
         rng = np.random.default_rng(43)
         devices = [device(rng) for _ in range(NUMBER)]
+        devices += [{**d, "law": "loss factor"} for d in devices]
         vary = "; ".join(f"{name} = {', '.join(str(d[key]) for d in devices)}" for key, name in NAMES.items())
         settings = [word for item in {**COMMON, "Study/Vary": vary}.items() for word in ("--set", "=".join(map(str, item)))]
         run = sprag(SOURCE / "params/stability-a.prm", "--output", self.output, "--quiet", *settings)

@@ -221,6 +221,9 @@ namespace sprag
       for (unsigned int j = 0; j < n_lever; ++j)
         data.shapes(i, j) = basis.shapes(i, j);
 
+    data.layer_stiffness.reinit(n, n);
+    if (n_lever > 0)
+      data.layer_stiffness.fill(basis.layer_stiffness);
     // The spring's share of the modes' stiffness is not damped.
     data.damping.reinit(n, n);
     const unsigned int hub = data.layout.rotation();

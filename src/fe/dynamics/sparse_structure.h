@@ -88,6 +88,12 @@ namespace sprag
       return mapped(vibrations(forces, number), &StructureMode::eigenvalue);
     }
 
+    /// Gives the layer another damping over its stiffness [s], for vibrations alone.
+    void use_relaxation(const double relaxation)
+    {
+      constants.relaxation = relaxation;
+    }
+
     /// v^T C v with the motion's positions as velocities v: twice the power that damping takes.
     double damping_form(const Motion &velocities) const;
 
@@ -140,7 +146,7 @@ namespace sprag
     void add_support_work(const Kinematic &q_0, const Kinematic &q_1, const StepWeights &w, StepWork &work) const;
 
     const std::shared_ptr<const InertialMatrices> matrices;
-    const LeverDynamics constants;
+    LeverDynamics constants;
     const LeverInterface lever_interface;
     const unsigned int n_lever; ///< coordinates without the support's
     const dealii::Vector<double> rigid_rotation;

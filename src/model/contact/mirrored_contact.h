@@ -186,7 +186,7 @@ namespace sprag
         const auto displacements = lever_part(lever, state.displacements);
         const auto rates         = state.rates != nullptr ? lever_part(lever, *state.rates) : dealii::Vector<double>();
         evaluate(lever, SlidingState{ displacements, state.drive, state.speed, state.rates != nullptr ? &rates : nullptr,
-                                      state.friction, state.friction_share });
+                                      state.friction, state.friction_share, state.relaxation });
       }
       join(found);
     }

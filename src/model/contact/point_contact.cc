@@ -275,7 +275,8 @@ namespace sprag
     using N                     = Dual<double, 2>; // of the gap and its rate
     const auto gap              = variable<N>(end.gap, 0);
     const auto spring           = spring_force(properties.normal, gap);
-    const auto dashpot          = dashpot_force(properties.damping, spring, gap, variable<N>(end.gap_row * rate, 1));
+    const double damping        = state.relaxation ? -*state.relaxation * spring.d[0] : properties.damping;
+    const auto dashpot          = dashpot_force(damping, spring, gap, variable<N>(end.gap_row * rate, 1));
     const auto pressure         = spring + dashpot;
     found.slip_rate             = state.speed + end.slip_row * rate;
     found.sliding               = slides ? sliding_friction(law, found.slip_rate) : SlidingFriction{};

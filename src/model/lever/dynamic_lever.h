@@ -6,6 +6,7 @@
 #include "model/contact/circle.h"
 #include "model/contact/contact_of_levers.h"
 #include "model/interface/interface_newton.h"
+#include "model/lever/own_damping.h"
 #include "model/lever/steady_slides.h"
 #include "model/step/dynamic_model.h"
 #include "model/step/interface_step.h"
@@ -196,13 +197,26 @@ namespace sprag
 
     std::vector<Eigenmode> vibrations(const HeldSlide &slide, const bool in_contact, const unsigned int number) override
     {
-      const auto forces = perturbation(sliding_state(slide), in_contact);
-      return explained(*structure, structure->vibrations(forces, number), forces, frame.layout);
+      if (frame.loss_factor == 0. || !in_contact)
+        return vibrations_now(sliding_state(slide), in_contact, number);
+      std::vector<Eigenmode> result;
+      for (const auto &own : own_damped(slide, number))
+      {
+        const auto modes = vibrations_now(with_relaxation(slide, own.relaxation), in_contact, number);
+        result.push_back(*std::min_element(modes.begin(), modes.end(),
+                                           [&](const Eigenmode &a, const Eigenmode &b) {
+                                             return std::abs(a.mode.eigenvalue - own.eigenvalue) <
+                                                    std::abs(b.mode.eigenvalue - own.eigenvalue);
+                                           }));
+      }
+      return result;
     }
 
     std::vector<std::complex<double>> eigenvalues(const HeldSlide &slide, const unsigned int number) override
     {
-      return structure->eigenvalues(perturbation(sliding_state(slide), true), number);
+      if (frame.loss_factor == 0.)
+        return structure->eigenvalues(perturbation(sliding_state(slide), true), number);
+      return mapped(own_damped(slide, number), &OwnDamped::eigenvalue);
     }
 
     Motion perturbed(const HeldSlide &slide, const Eigenmode &eigenmode, const double amplitude) override
@@ -372,6 +386,29 @@ namespace sprag
     static SlidingState sliding_state(const HeldSlide &slide)
     {
       return { slide.displacements, slide.drive, slide.speed, nullptr, slide.friction };
+    }
+
+    /// The state of a slide whose contact and layer have another damping over their stiffness [s].
+    SlidingState with_relaxation(const HeldSlide &slide, const double relaxation)
+    {
+      structure->use_relaxation(relaxation);
+      auto state       = sliding_state(slide);
+      state.relaxation = relaxation;
+      return state;
+    }
+
+    std::vector<Eigenmode> vibrations_now(const SlidingState &state, const bool in_contact, const unsigned int number)
+    {
+      const auto forces = perturbation(state, in_contact);
+      return explained(*structure, structure->vibrations(forces, number), forces, frame.layout);
+    }
+
+    std::vector<OwnDamped> own_damped(const HeldSlide &slide, const unsigned int number)
+    {
+      return own_damped_vibrations(
+          frame.loss_factor, number,
+          [&](const double relaxation)
+          { return structure->eigenvalues(perturbation(with_relaxation(slide, relaxation), true), number); });
     }
 
     /// The contact's forces about a held slide, those of the hub's spring and the coupling with a sprung support.

@@ -20,6 +20,7 @@ namespace sprag
     const dealii::Vector<double> *rates = nullptr; ///< of the interface, which add to the slip; none: at rest
     ContactFriction friction            = ContactFriction::sliding;
     double friction_share               = 1.; ///< times mu of the law, 0 to 1: a friction on the way to the scene's
+    std::optional<double> relaxation    = {}; ///< damping of the contact's spring over its stiffness here; none: the model's [s]
   };
 
   /// The law that a slide sees.

@@ -19,6 +19,8 @@ namespace sprag
                       dealii::Vector<double>(layout.size()),
                       device.plate.sensor_stiffness,
                       swings(device) };
+    if (device.contact.damping_law == DampingLaw::loss_factor)
+      frame.loss_factor = 2. * device.contact.damping;
     if (device.layer.thickness > 0.)
       frame.largest_indentation = 0.5 * device.layer.thickness;
     frame.lengths = 1.;

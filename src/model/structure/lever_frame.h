@@ -27,6 +27,8 @@ namespace sprag
     double sensor_stiffness = 0.;    ///< of each force sensor of a friction plate [N/mm]
     bool joined             = false; ///< the springs of a pair meet in a joint that is not supported otherwise
 
+    double loss_factor = 0.; ///< of contact and layer at each vibration's own frequency; 0: they have dashpots
+
     /// Indentation of the layer beyond which a slide counts as jammed [mm]: half its thickness, where the pressure is half of
     /// its Young's modulus and a run without inertia ends, too.
     double largest_indentation = std::numeric_limits<double>::infinity();

@@ -153,6 +153,12 @@ namespace sprag
       return mapped(vibrations(forces, number), &StructureMode::eigenvalue);
     }
 
+    void use_relaxation(const double relaxation)
+    {
+      for (const auto &part : parts)
+        part->use_relaxation(relaxation);
+    }
+
     double damping_form(const Motion &velocities) const
     {
       return parts[0]->damping_form(motion_part(velocities, 0)) + parts[1]->damping_form(motion_part(velocities, 1));

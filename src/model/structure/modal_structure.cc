@@ -298,6 +298,13 @@ namespace sprag
     return modal_vibrations(data, forces);
   }
 
+  void ModalStructure::use_relaxation(const double relaxation)
+  {
+    if (!data.layer_stiffness.empty())
+      data.damping.add(relaxation - data.relaxation, data.layer_stiffness);
+    data.relaxation = relaxation;
+  }
+
   std::vector<std::complex<double>> ModalStructure::eigenvalues(const LinearisedForces &forces,
                                                                 const unsigned int /*number*/) const
   {

@@ -22,10 +22,11 @@ namespace sprag
     dealii::FullMatrix<double> damping; ///< symmetric [1/s]
     dealii::FullMatrix<double> shapes;  ///< a row a dof, a column a mode
     dealii::FullMatrix<double>
-        face_compliance;           ///< static shapes: of the dofs to the last rotation's [mm/N], symmetric; empty without
-    double relaxation       = 0.;  ///< damping of the static shapes, over their stiffness [s]
-    double spring_stiffness = 0.;  ///< of the rotation [N mm/rad], part of `stiffness` already
-    unsigned int support    = -1u; ///< mode that is the support's, the last; -1u without
+        face_compliance;    ///< static shapes: of the dofs to the last rotation's [mm/N], symmetric; empty without
+    double relaxation = 0.; ///< damping of the static shapes, over their stiffness [s]
+    dealii::FullMatrix<double> layer_stiffness; ///< whose product with `relaxation` is in `damping`; empty: nothing is
+    double spring_stiffness = 0.;               ///< of the rotation [N mm/rad], part of `stiffness` already
+    unsigned int support    = -1u;              ///< mode that is the support's, the last; -1u without
   };
 
   /// Response of a ModalData to interface forces f, static or in steps of the generalised-alpha method. With modal coordinates q,
@@ -97,6 +98,9 @@ namespace sprag
     /// number of this one's on, and its coordinates and static forces follow this one's.
     std::vector<StructureMode> vibrations_with(const ModalStructure &other, const LinearisedForces &forces) const;
 
+    /// Gives the layer another damping over its stiffness [s], for vibrations alone.
+    void use_relaxation(double relaxation);
+
     /// v^T C v with the motion's positions as velocities v: twice the power that damping takes.
     double damping_form(const Motion &velocities) const;
 
@@ -144,7 +148,7 @@ namespace sprag
       return -(w.alpha_f - data.relaxation / w.dt) / static_weight(w);
     }
 
-    const ModalData data;
+    ModalData data;
     Step statics;
     std::vector<std::unique_ptr<Step>> steps; ///< the latest last
     const Step *current = nullptr;
