@@ -80,6 +80,7 @@ namespace sprag
       section.number("Joint mass", settings.joint_mass, at_least(0.), "t");
       section.number("Cylinder offset", settings.cylinder_offset, any_number(), "mm");
       section.number("Friction ratio", settings.friction_ratio, above(0.));
+      section.number("Spring ratio", settings.spring_ratio, above(0.));
     }
 
     void calibration(Section section, CalibrationSettings &settings)

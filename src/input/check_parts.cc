@@ -185,7 +185,7 @@ namespace sprag
 
     bool are_equal_levers(const MirroredPair &pair)
     {
-      return pair.cylinder_offset == 0. && pair.friction_ratio == 1.;
+      return pair.cylinder_offset == 0. && pair.friction_ratio == 1. && pair.spring_ratio == 1.;
     }
 
     void analysis(const Scene &scene, Rules &rules)
@@ -209,7 +209,9 @@ namespace sprag
     {
       const auto &pair = scene.pair;
       rules.need(scene.analysis.model != ModelType::finite_element || are_equal_levers(pair),
-                 pair.cylinder_offset != 0. ? "Mirrored pair/Cylinder offset" : "Mirrored pair/Friction ratio",
+                 std::string("Mirrored pair/") + (pair.cylinder_offset != 0.  ? "Cylinder offset"
+                                                  : pair.friction_ratio != 1. ? "Friction ratio"
+                                                                              : "Spring ratio"),
                  { "Mirrored pair/Type", "Analysis/Type", "Analysis/Model" },
                  "must leave the levers alike where a slide is held with finite elements; Analysis/Model = condensed takes "
                  "levers that differ");
@@ -232,6 +234,8 @@ namespace sprag
                  { "Mirrored pair/Type", "Mirrored pair/Joint", "Rotational spring/Type" },
                  std::string("must be ") + (held ? "free" : "clamped or pinned") +
                      " with Mirrored pair/Joint = free, which nothing but the springs holds");
+      rules.need(!leafs || scene.pair.spring_ratio == 1., "Mirrored pair/Spring ratio", { "Rotational spring/Type" },
+                 "must be 1 with leaf springs, whose inertia goes with their stiffness");
       rules.need(scene.pair.joint_mass <= 0. || leafs, "Mirrored pair/Joint mass", { "Rotational spring/Type" },
                  "must be 0 t with a torsional spring, which has no joint");
     }

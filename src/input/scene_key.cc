@@ -133,9 +133,9 @@ namespace sprag
       // The contact's springs join the lever later.
       "Contact/Enforcement", "Contact/Penalty", "Contact/Tangential penalty", "Contact/Penetration tolerance",
       "Contact/Maximum augmentations", "Contact/Tangential stiffness",
-      // So do the support, the cylinder's path and the friction of a second lever.
+      // So do the support, the cylinder's path, friction and spring of a second lever.
       "Support/Type", "Support/Mass", "Support/Stiffness", "Support/Damping", "Mirrored pair/Cylinder offset",
-      "Mirrored pair/Friction ratio",
+      "Mirrored pair/Friction ratio", "Mirrored pair/Spring ratio",
       // Steps in time, where bases are kept, what is written.
       "Time/Step", "Time/Tolerance", "Time/Spectral radius", "Condensed/Cache", "Output/Fields", "Output/Field interval"
     };

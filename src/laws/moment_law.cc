@@ -90,6 +90,19 @@ namespace sprag
     return result;
   }
 
+  MomentLaw MomentLaw::times(const double factor) const
+  {
+    if (factor == 1.)
+      return *this;
+    auto scaled = tabulated.empty() ? std::vector<Sample>{ { -1., -k, k }, { 0., 0., k }, { 1., k, k } } : tabulated;
+    for (auto &sample : scaled)
+    {
+      sample.moment *= factor;
+      sample.stiffness *= factor;
+    }
+    return MomentLaw(k, std::move(scaled)).at_rest_at(rest);
+  }
+
   bool MomentLaw::is_linear() const
   {
     return excess_samples.size() < 2 && rest == 0.;

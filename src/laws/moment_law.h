@@ -27,6 +27,9 @@ namespace sprag
     /// Returns the law of this spring at rest at a turn [rad].
     MomentLaw at_rest_at(double turn) const;
 
+    /// Returns the law of a spring with this many times the moment; k stays, the rest is excess.
+    MomentLaw times(double factor) const;
+
     /// Returns true if there is no excess.
     bool is_linear() const;
 

@@ -76,6 +76,8 @@ namespace sprag
     /// Rotation of the lever from x = 0 at which the spring has no moment [rad], <= 0; below 0 it is preloaded at x = 0.
     double rest_angle = 0.;
 
+    double ratio = 1.; ///< of its moment to that of k; filled in by lever_spring()
+
     LeafSpring leaf;
     LeafBehaviour behaviour; ///< filled in by prepared_spring(), empty for a torsional spring
 
@@ -87,7 +89,7 @@ namespace sprag
   inline MomentLaw moment_law(const RotationalSpring &spring)
   {
     const auto &leaf = spring.behaviour.law;
-    return (leaf.is_linear() ? MomentLaw(spring.stiffness) : leaf).at_rest_at(spring.rest_angle);
+    return (leaf.is_linear() ? MomentLaw(spring.stiffness) : leaf).times(spring.ratio).at_rest_at(spring.rest_angle);
   }
 
   /// Selects the outline of the lever: a bar of constant depth on a rigid hub, or a frame of two parts (LeverFrameShape).
@@ -145,6 +147,7 @@ namespace sprag
     double joint_mass      = 0.; ///< of the spring joint between leaf springs [t], >= 0
     double cylinder_offset = 0.; ///< of the cylinder's path from the mirror plane towards the first lever [mm]
     double friction_ratio  = 1.; ///< mu of the second lever over that of the first, > 0
+    double spring_ratio    = 1.; ///< k of the second lever's spring over that of the first, > 0
   };
 
   /// Selects the cylinder: rigid, or an elastic ring on a rigid shaft of the inner radius.

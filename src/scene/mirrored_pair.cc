@@ -16,6 +16,7 @@ namespace sprag
     Device result   = device;
     result.geometry = lever_geometry(device, lever);
     result.friction = lever_friction(device, lever);
+    result.spring   = lever_spring(device, lever);
     if (lever == 1)
       result.cylinder.tilt = -result.cylinder.tilt;
     return result;
@@ -34,6 +35,17 @@ namespace sprag
     FrictionLaw result = device.friction;
     if (lever == 1)
       result.factor *= device.pair.friction_ratio;
+    return result;
+  }
+
+  RotationalSpring lever_spring(const Device &device, const unsigned int lever)
+  {
+    RotationalSpring result = device.spring;
+    const double ratio      = device.pair.spring_ratio;
+    if (swings(device))
+      result.ratio *= 2. * ratio / (1. + ratio);
+    else if (lever == 1)
+      result.ratio *= ratio;
     return result;
   }
 

@@ -13,12 +13,15 @@ namespace sprag
 
   /// Returns the device that a lever of a full pair stands in, in axes mirrored for the second (lever = 1): an offset of the
   /// cylinder is an offset of the pivot the other way, a tilt of its axis towards the first lever is one away from the second,
-  /// and friction is the lever's own. A single lever stands in the device itself.
+  /// friction and spring are the lever's own. A single lever stands in the device itself.
   Device lever_device(const Device &device, unsigned int lever);
 
-  // These two parts are what differs in it, beside the tilt.
+  // These parts are what differs in it, beside the tilt.
   Geometry lever_geometry(const Device &device, unsigned int lever);
   FrictionLaw lever_friction(const Device &device, unsigned int lever);
+
+  /// Returns a lever's spring. On a free joint that is one of two alike which do what both do in series.
+  RotationalSpring lever_spring(const Device &device, unsigned int lever);
 
   /// Returns the inclination of a lever without moment, which is that of ideal contact at x = 0 with the cylinder in the mirror
   /// plane [rad].

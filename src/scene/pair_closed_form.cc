@@ -50,7 +50,7 @@ namespace sprag
     {
       if (!turn.touches())
         return { { { rest_inclination(device) + turn.lever_rotation(), 0., 0. }, 0., 0., 0., 0., 0. }, false, 0. };
-      const auto law      = moment_law(device.spring);
+      const auto law      = moment_law(lever_spring(device, lever));
       const auto geometry = lever_geometry(device, lever);
       return { closed_form(geometry, lever_friction(device, lever), law.moment(turn.spring), kinematics(geometry, x), v), true,
                law.energy(turn.spring) };

@@ -67,7 +67,7 @@ namespace
 
 TEST(HubSpring, ALinearOneAddsNothing)
 {
-  HubSpringExcess spring(layout, MomentLaw(k));
+  HubSpringExcess spring(layout, { MomentLaw(k) });
   const auto forces = contact_forces({ 1, 2 });
   expect_same(with(spring, forces, PerLever{ { 0.03 } }), forces);
   expect_same(with(spring, forces, PerLever{ { 0.01 } }, PerLever{ { 0.03 } }, generalised_alpha(1., 1e-4)), forces);
@@ -76,7 +76,7 @@ TEST(HubSpring, ALinearOneAddsNothing)
 
 TEST(HubSpring, ActsOnTheRotationBesidesTheContact)
 {
-  HubSpringExcess spring(layout, hardening());
+  HubSpringExcess spring(layout, { hardening() });
   const double turn  = 0.023;
   const double force = -c * std::pow(turn, 3);
   const auto apart   = with(spring, contact_forces({ 1, 2 }), PerLever{ { turn } });
@@ -96,7 +96,7 @@ TEST(HubSpring, ActsOnTheRotationBesidesTheContact)
 /// Work of the force of a step is the change of energy and, with a delay, what the scheme dissipates.
 TEST(HubSpring, ItsForceOfAStepMakesNoEnergy)
 {
-  HubSpringExcess spring(layout, hardening());
+  HubSpringExcess spring(layout, { hardening() });
   for (const double radius : { 1., 0.8, 0. })
     for (const auto &[begin, end] : { std::pair<double, double>{ 0.01, 0.04 }, { 0.03, -0.02 }, { 0.02, 0.02 + 1e-9 } })
     {
@@ -112,7 +112,7 @@ TEST(HubSpring, ItsForceOfAStepMakesNoEnergy)
 
 TEST(HubSpring, ItsTangentOfAStepMatchesDifferences)
 {
-  HubSpringExcess spring(layout, hardening());
+  HubSpringExcess spring(layout, { hardening() });
   const auto weights = generalised_alpha(0.8, 1e-4);
   const double h     = 1e-5;
   for (const double end : { 0.04, -0.013 })
@@ -162,7 +162,7 @@ namespace
 
 TEST(HubSpring, JoinedOnesOpenAgainstTheirMeanTurnAndSwingFreely)
 {
-  HubSpringExcess spring(pair_layout, hardening(), true);
+  HubSpringExcess spring(pair_layout, { hardening(), hardening() }, true);
   const PerLever turns{ { 0.05, 0.01 } };
   const auto forces = with(spring, contact_forces({}), turns);
   ASSERT_EQ(forces.dofs, (std::vector<unsigned int>{ 4, 9 }));
@@ -187,7 +187,7 @@ TEST(HubSpring, JoinedOnesOpenAgainstTheirMeanTurnAndSwingFreely)
 
 TEST(HubSpring, AStepOfJoinedOnesMakesNoEnergyAndItsTangentMatchesDifferences)
 {
-  HubSpringExcess spring(pair_layout, hardening(), true);
+  HubSpringExcess spring(pair_layout, { hardening(), hardening() }, true);
   const PerLever begin{ { 0.01, 0.03 } };
   const PerLever end{ { 0.04, 0.02 } };
   for (const double radius : { 1., 0.8, 0. })
@@ -216,7 +216,7 @@ TEST(HubSpring, AStepOfJoinedOnesMakesNoEnergyAndItsTangentMatchesDifferences)
 
 TEST(HubSpring, EachLeverOfAPairHasItsOwnWhereTheJointIsHeld)
 {
-  HubSpringExcess spring(pair_layout, hardening());
+  HubSpringExcess spring(pair_layout, { hardening(), hardening() });
   const PerLever turns{ { 0.05, 0.01 } };
   const auto forces = with(spring, contact_forces({}), turns);
   for (unsigned int i = 0; i < 2; ++i)

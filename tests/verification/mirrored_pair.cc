@@ -24,6 +24,7 @@ namespace
     SpringJoint joint;
     double offset;
     double friction_ratio;
+    double spring_ratio = 1.;
   };
 
   std::string case_name(const testing::TestParamInfo<Case> &info)
@@ -33,7 +34,7 @@ namespace
            (tested.offset > 0.   ? "OffTheMiddle"
             : tested.offset < 0. ? "OffTheOtherWay"
                                  : "") +
-           (tested.friction_ratio != 1. ? "WithUnequalFriction" : "");
+           (tested.friction_ratio != 1. ? "WithUnequalFriction" : "") + (tested.spring_ratio != 1. ? "OnUnequalSprings" : "");
   }
 
   double second(const Row &row, const Column column)
@@ -41,6 +42,13 @@ namespace
     const auto &per_lever = lever_columns();
     return row.second_lever().at(
         static_cast<std::size_t>(std::find(per_lever.begin(), per_lever.end(), column) - per_lever.begin()));
+  }
+
+  Scene pair_scene(const Case &tested)
+  {
+    Scene scene             = paired(coarse_scene(), tested.joint, tested.offset, tested.friction_ratio);
+    scene.pair.spring_ratio = tested.spring_ratio;
+    return scene;
   }
 
   /// Rows in sliding: 2 mm of every stroke are its passage through stick.
@@ -84,7 +92,7 @@ namespace
   {
   protected:
     PairOfLevers()
-        : scene(paired(coarse_scene(), GetParam().joint, GetParam().offset, GetParam().friction_ratio))
+        : scene(pair_scene(GetParam()))
         , rows(run_scene(scene))
         , slides(sliding(rows))
     {
@@ -137,14 +145,16 @@ TEST_P(PairOfLevers, PushTheCylinderAsideAsTheClosedFormSays)
     EXPECT_NEAR(row.lateral_force(), expected, (2. * unequal + 0.02) * deviation) << "x " << row[Column::x];
     pushed = std::max(pushed, std::abs(expected));
   }
-  if (scene.pair.cylinder_offset != 0. || scene.pair.friction_ratio != 1.)
+  if (scene.pair.cylinder_offset != 0. || scene.pair.friction_ratio != 1. ||
+      (scene.pair.spring_ratio != 1. && scene.pair.joint == SpringJoint::held))
     EXPECT_GT(pushed, 0.3 * deviation);
   else
     EXPECT_LT(largest(rows, [](const Row &row) { return row.lateral_force(); }), 1e-8); // N, of 17; round-off
 }
 
 // Taken about the pivots from the resultants at the centres of pressure, as far as their directions are those of the hub: F of
-// both strokes lies off the face by the indentation, below 0.1 mm of e = 45.6 mm.
+// both strokes lies off the face by the indentation, below 0.1 mm of e = 45.6 mm. Springs k and r k in series turn by the moment
+// of both half turns on 2 r k/(1 + r).
 TEST_P(PairOfLevers, AreHeldByTheMomentsThatTheJointGivesThem)
 {
   const double rest = kinematics(scene.geometry, 0.).theta;
@@ -160,7 +170,10 @@ TEST_P(PairOfLevers, AreHeldByTheMomentsThatTheJointGivesThem)
     const double smallest = 0.02 * scene.spring.stiffness * largest(rows, [&](const Row &r) { return r[Column::theta] - rest; });
     for (unsigned int i = 0; i < 2; ++i)
     {
-      const double moment = scene.spring.stiffness * (scene.pair.joint == SpringJoint::free ? mean : turns[i]);
+      const double ratio  = scene.pair.spring_ratio;
+      const double moment = scene.spring.stiffness * (scene.pair.joint == SpringJoint::free ? 2. * ratio / (1. + ratio) * mean
+                                                      : i == 1                              ? ratio * turns[i]
+                                                                                            : turns[i]);
       EXPECT_NEAR(arms[i], moment, 5e-3 * moment + smallest * 5e-3) << "x " << row[Column::x] << " lever " << i;
     }
   }
@@ -188,5 +201,6 @@ INSTANTIATE_TEST_SUITE_P(MirroredPair, PairOfLevers,
                          testing::Values(Case{ SpringJoint::free, 0., 1. }, Case{ SpringJoint::held, 0., 1. },
                                          Case{ SpringJoint::free, 0.5, 1. }, Case{ SpringJoint::held, 0.5, 1. },
                                          Case{ SpringJoint::held, -0.5, 1. }, Case{ SpringJoint::free, 0., 0.8 },
-                                         Case{ SpringJoint::held, 0., 0.8 }, Case{ SpringJoint::free, 0.5, 0.8 }),
+                                         Case{ SpringJoint::held, 0., 0.8 }, Case{ SpringJoint::free, 0.5, 0.8 },
+                                         Case{ SpringJoint::held, 0., 1., 0.8 }, Case{ SpringJoint::free, 0.5, 1., 0.8 }),
                          case_name);

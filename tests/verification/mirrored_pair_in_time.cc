@@ -86,10 +86,33 @@ TEST(MirroredPairInTime, LedgerClosesForLeversThatDiffer)
       auto scene                 = paired(on_sprung_support(around_a_reversal(in_time(model_a(), model))), joint);
       scene.pair.cylinder_offset = 0.3;
       scene.pair.friction_ratio  = 0.7;
+      scene.pair.spring_ratio    = 0.8;
       const auto run             = run_any_in_time(with_fixed_step(with_spectral_radius(scene, 1.), 5e-5));
       EXPECT_LT(run.report.ledger.share(), 1e-6);
       EXPECT_GT(largest(run.rows, [](const Row &row) { return row.lateral_force(); }), 0.3);
     }
+}
+
+// On a held joint each lever does what a single one does on its spring. Damping and stick, which follow from the largest P of the
+// first lever, are left out and given. The modes of a condensed lever are those on the first spring.
+TEST(MirroredPairInTime, LeversOnUnequalSpringsDoWhatEachDoesAlone)
+{
+  constexpr double ratio = 1.3;
+  for (const auto model : { ModelType::beam, ModelType::condensed })
+  {
+    SCOPED_TRACE(testing::Message() << "model " << static_cast<int>(model));
+    auto soft                         = with_fixed_step(undamped(around_a_reversal(in_time(model_a(), model))), 5e-5);
+    soft.contact.tangential_stiffness = 1000.;
+    auto stiff                        = soft;
+    stiff.spring.stiffness *= ratio;
+    auto both              = paired(soft, SpringJoint::held);
+    both.pair.spring_ratio = ratio;
+    const auto pair        = run_any_in_time(both).rows;
+    const auto second      = run_any_in_time(stiff).rows;
+    ASSERT_EQ(pair.size(), second.size());
+    for (std::size_t i = 0; i < pair.size(); ++i)
+      EXPECT_NEAR(pair[i].second_value(Column::P), second[i][Column::P], 1e-4 * 30.) << "row " << i;
+  }
 }
 
 // A rigid lever on a contact of stiffness k_c: (k + K_c)/J symmetric, K_c/J swinging, K_c with the change of direction in it.

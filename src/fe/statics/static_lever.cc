@@ -147,7 +147,7 @@ namespace sprag
       , own_structure(make_structure(own_body, properties.front(), layout, springs, surroundings))
       , face_lines(lines_along(own_body.friction_face()))
       , multipliers(own_body.friction_face())
-      , excess(layout, properties.front().spring.law, swings, 0.)
+      , excess(layout, mapped(properties, [](const LeverProperties &lever) { return lever.spring.law; }), swings, 0.)
       , joint_is_free(swings)
   {
     for (auto &lever_data : properties)

@@ -72,7 +72,7 @@ namespace sprag
         , contact(std::move(contact_))
         , frame(std::move(frame_))
         , coupling(frame.layout, frame.rest_inclination)
-        , hub_spring(frame.layout, frame.spring, frame.joined)
+        , hub_spring(frame.layout, frame.springs, frame.joined)
         , slides(*structure, *contact, found, frame, hub_spring)
     {
     }
@@ -348,7 +348,7 @@ namespace sprag
     /// Touching at x = 0. Further on as slowly slid there from x = 0, with friction as in a motion forward and mu at rest.
     Motion start_at_rest(const DrivePoint &drive)
     {
-      const bool is_preloaded = frame.spring.moment(0.) > 0.;
+      const bool is_preloaded = frame.springs.front().moment(0.) > 0.;
       if (drive.x > 0. || is_preloaded)
         return pressed_at_rest(drive, ContactFriction::sliding);
       Motion motion = structure->rest();

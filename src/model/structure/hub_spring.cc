@@ -46,12 +46,12 @@ namespace sprag
     }
   } // namespace
 
-  HubSpringExcess::HubSpringExcess(const InterfaceLayout &layout_, MomentLaw moment_law, const bool joined_by_free_joint,
-                                   const double swing_stiffness)
+  HubSpringExcess::HubSpringExcess(const InterfaceLayout &layout_, std::vector<MomentLaw> lever_laws,
+                                   const bool joined_by_free_joint, const double swing_stiffness)
       : layout(layout_)
-      , law(std::move(moment_law))
+      , laws(std::move(lever_laws))
       , joined(joined_by_free_joint)
-      , coupling_stiffness(joined ? (1. - swing_stiffness) * law.linear_stiffness() : 0.)
+      , coupling_stiffness(joined ? (1. - swing_stiffness) * laws.front().linear_stiffness() : 0.)
   {
   }
 
@@ -88,7 +88,7 @@ namespace sprag
     const double delay = weights.delay();
     if (joined)
     {
-      const auto excess = delayed_excess(law, opening(begin), opening(end), delay);
+      const auto excess = delayed_excess(laws.front(), opening(begin), opening(end), delay);
       return spread(excess.value, excess.derivative,
                     coupling_stiffness * (weights.stiffness() * swing(end) + weights.alpha_f * swing(begin)),
                     coupling_stiffness * weights.stiffness());
@@ -96,7 +96,7 @@ namespace sprag
     Moments result;
     for (unsigned int i = 0; i < layout.levers; ++i)
     {
-      const auto excess    = delayed_excess(law, begin[i], end[i], delay);
+      const auto excess    = delayed_excess(laws[i], begin[i], end[i], delay);
       result.values[i]     = -excess.value;
       result.tangent[i][i] = -excess.derivative;
     }
@@ -106,13 +106,13 @@ namespace sprag
   HubSpringExcess::Moments HubSpringExcess::at(const PerLever &turns, const bool swing_is_held) const
   {
     if (joined)
-      return spread(law.excess(opening(turns)), law.excess_stiffness(opening(turns)), coupling_stiffness * swing(turns),
-                    swing_is_held ? coupling_stiffness : 0.);
+      return spread(laws.front().excess(opening(turns)), laws.front().excess_stiffness(opening(turns)),
+                    coupling_stiffness * swing(turns), swing_is_held ? coupling_stiffness : 0.);
     Moments result;
     for (unsigned int i = 0; i < layout.levers; ++i)
     {
-      result.values[i]     = -law.excess(turns[i]);
-      result.tangent[i][i] = -law.excess_stiffness(turns[i]);
+      result.values[i]     = -laws[i].excess(turns[i]);
+      result.tangent[i][i] = -laws[i].excess_stiffness(turns[i]);
     }
     return result;
   }
@@ -132,26 +132,26 @@ namespace sprag
 
   void HubSpringExcess::add_work(const PerLever &begin, const PerLever &end, const StepWeights &weights, StepWork &work) const
   {
-    const auto excess_work = [&](const double from, const double to)
+    const auto excess_work = [&](const MomentLaw &law, const double from, const double to)
     { return weights.delay() * (law.excess(to) - law.excess(from)) * (to - from); };
     if (joined)
     {
       const double change = swing(end) - swing(begin);
       work.algorithmic +=
-          2. * (excess_work(opening(begin), opening(end)) - weights.delay() * coupling_stiffness * change * change);
+          2. * (excess_work(laws.front(), opening(begin), opening(end)) - weights.delay() * coupling_stiffness * change * change);
       return;
     }
     for (unsigned int i = 0; i < layout.levers; ++i)
-      work.algorithmic += excess_work(begin[i], end[i]);
+      work.algorithmic += excess_work(laws[i], begin[i], end[i]);
   }
 
   double HubSpringExcess::energy(const PerLever &turns) const
   {
     if (joined)
-      return 2. * law.excess_energy(opening(turns)) - coupling_stiffness * swing(turns) * swing(turns);
+      return 2. * laws.front().excess_energy(opening(turns)) - coupling_stiffness * swing(turns) * swing(turns);
     double total = 0.;
     for (unsigned int i = 0; i < layout.levers; ++i)
-      total += law.excess_energy(turns[i]);
+      total += laws[i].excess_energy(turns[i]);
     return total;
   }
 

@@ -5,6 +5,9 @@
 #include "model/interface/interface_layout.h"
 #include "model/step/dynamic_model.h"
 
+#include <algorithm>
+#include <vector>
+
 namespace sprag
 {
   /// The rotational springs' moments in excess of k phi of each hub, k the law's linear stiffness, as forces on the hubs'
@@ -16,8 +19,10 @@ namespace sprag
   class HubSpringExcess
   {
   public:
-    /// `joined`: by a free joint; needs two levers. `swing_stiffness`: the share of k then left against swinging.
-    HubSpringExcess(const InterfaceLayout &layout, MomentLaw law, bool joined = false, double swing_stiffness = 1e-6);
+    /// A law for each lever. `joined`: by a free joint; needs two levers, and the first law counts. `swing_stiffness`: the share
+    /// of k then left against swinging.
+    HubSpringExcess(const InterfaceLayout &layout, std::vector<MomentLaw> laws, bool joined = false,
+                    double swing_stiffness = 1e-6);
 
     /// Adds the forces of a step from some turns of the hubs to others: the mean over the turn (discrete gradient) with
     /// generalised-alpha's delay, so that no energy is made.
@@ -49,7 +54,7 @@ namespace sprag
 
     bool is_active() const
     {
-      return joined || !law.is_linear();
+      return joined || !std::all_of(laws.begin(), laws.end(), [](const MomentLaw &law) { return law.is_linear(); });
     }
 
     Moments step_moments(const PerLever &begin, const PerLever &end, const StepWeights &weights) const;
@@ -58,7 +63,7 @@ namespace sprag
     void add(const Moments &moments, InterfaceForces &forces) const;
 
     const InterfaceLayout layout;
-    const MomentLaw law;
+    const std::vector<MomentLaw> laws;
     const bool joined;
     const double coupling_stiffness; ///< stiffness against swinging that the joint takes from the structure's [N mm/rad]
   };

@@ -13,7 +13,7 @@ namespace sprag
     LeverFrame frame{ {},
                       layout,
                       rest_inclination(device),
-                      moment_law(device.spring),
+                      {},
                       layout.levers * device.support.stiffness,
                       layout.levers * support_damping(device.support, lever_mass),
                       dealii::Vector<double>(layout.size()),
@@ -28,7 +28,8 @@ namespace sprag
       frame.lengths[layout.slope(slope)] = 0.5 * device.lever.width;
     for (unsigned int lever = 0; lever < layout.levers; ++lever)
     {
-      frame.geometries.push_back(lever_device(device, lever).geometry);
+      frame.geometries.push_back(lever_geometry(device, lever));
+      frame.springs.push_back(moment_law(lever_spring(device, lever)));
       frame.lengths[layout.rotation(lever)] = device.geometry.pivot_distance;
     }
     return frame;

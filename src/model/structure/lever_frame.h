@@ -20,7 +20,7 @@ namespace sprag
     std::vector<Geometry> geometries; ///< one per lever; the cylinder's offset is included
     InterfaceLayout layout;
     double rest_inclination;         ///< theta without moment [rad]
-    MomentLaw spring;                ///< moment of the rotational spring over the rotation from rest_inclination
+    std::vector<MomentLaw> springs;  ///< one per lever: moment over the rotation from rest_inclination
     double support_stiffness;        ///< k_f of a sprung support under all levers [N/mm]
     double support_damping;          ///< c_f of that support [N s/mm]
     dealii::Vector<double> lengths;  ///< movement per unit of each dof: 1, or an arm for rotations [mm]
