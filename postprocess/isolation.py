@@ -149,12 +149,18 @@ def without_repetition(time, values):
     return time[kept], values[kept]
 
 
+def rows_that_shake(base_acceleration):
+    """The rows up to the last in which the floor is accelerated: behind the end of a record it is not."""
+    shaking = np.flatnonzero(base_acceleration)
+    return slice(shaking[-1] + 1 if len(shaking) else None)
+
+
 def spectra(result):
-    """Velocity of floor and table in one-third octaves beside the VC curves."""
+    """Velocity of floor and table in one-third octaves beside the VC curves, while the floor shakes."""
     figure, axes = plt.subplots(figsize=(ONE_COLUMN, 80 * MILLIMETRE))
-    time, drawn = result.table["time"], []
+    rows, drawn = rows_that_shake(result.table["base_acceleration"]), []
     for index, (name, said) in enumerate((("base_acceleration", "floor"), ("table_acceleration", "table"))):
-        centres, velocity = third_octaves(time, result.table[name])
+        centres, velocity = third_octaves(result.table["time"][rows], result.table[name][rows])
         drawn.append(velocity)
         axes.loglog(centres, 1000 * velocity, label=said, drawstyle="steps-mid", **look(index))
     begin, end = frequency_band(result, centres)

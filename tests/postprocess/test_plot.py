@@ -12,6 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
 from pictures import PictureTest  # noqa: E402
 import forces  # noqa: E402
+import isolation  # noqa: E402
 from sprag import results  # noqa: E402
 import transient  # noqa: E402
 from style import use_print_style  # noqa: E402
@@ -79,6 +80,19 @@ def make_sweep(folder, columns):
     for name, values in columns.items():
         put(table, name, values, "1")
     finish(file)
+
+
+class Spectra(unittest.TestCase):
+    def test_a_record_counts_to_its_end(self):
+        # A sine of 300 Hz at 1 kHz for 2 s of 20: its velocity is a/w. The window lets 1e-3 of it into the other bands.
+        time = np.arange(0, 20, 1e-3)
+        base = np.where(time <= 2, np.sin(2 * np.pi * 300 * time), 0.0)
+        rows = isolation.rows_that_shake(base)
+        centres, velocity = isolation.third_octaves(time[rows], base[rows])
+        expected = np.sqrt(0.5) / (2 * np.pi * 300)
+        at_300 = np.argmin(np.abs(centres - 316))
+        self.assertAlmostEqual(velocity[at_300], expected, delta=1e-3 * expected)
+        self.assertLess(np.max(np.delete(velocity, at_300)), 1e-2 * expected)
 
 
 class Oscillator:
