@@ -89,13 +89,15 @@ namespace sprag
     {
       const double N        = expected_size(scene).displacements;
       const bool has_fields = scene.output.fields != FieldOutput::none;
+      const bool is_dashpot = scene.contact.damping_law == DampingLaw::dashpot;
+      const double solves   = is_dashpot ? 1. : std::max(1., 0.8 * scene.stability.modes); // each vibration has its own
       if (scene.analysis.dimension == 3)
-        return { 6.5e-7 * std::pow(N, 1.45) + (has_fields ? 1.4e-5 * N : 0.), 0.03 };
+        return { 6.5e-7 * std::pow(N, 1.45) + (has_fields ? 1.4e-5 * N : 0.), 0.03 * solves };
       if (!is_meshed(scene.analysis.model))
-        return { 0., 2.5e-4 };
+        return { 0., 2.5e-4 * solves };
       const bool is_condensed = scene.analysis.model == ModelType::condensed;
       const double basis      = !is_condensed ? 8.25e-7 : scene.analysis.type == AnalysisType::modal ? 2.2e-7 : 4.4e-7;
-      return { basis * std::pow(N, 1.5) + (has_fields ? 1.2 : 0.), is_condensed ? 0.006 : 6e-5 * N };
+      return { basis * std::pow(N, 1.5) + (has_fields ? 1.2 : 0.), (is_condensed ? 0.006 : 6e-5 * N) * solves };
     }
 
     /// Steps that a beam takes. Finite elements need up to twice as many, as the ripple of passing elements shortens large
