@@ -80,6 +80,16 @@ namespace sprag
       return result;
     }
 
+    /// Returns the loss factor that a dashpot of some Contact/Damping has at the frequency of a slide.
+    double dashpot_loss_factor(Scene scene, const CheckedSlide &slide, const double damping)
+    {
+      scene.contact.damping  = damping;
+      const auto reference   = contact_reference(scene);
+      const bool has_law     = is_reduced(scene.analysis.model); // the dashpot stays where it is softer under a smaller P
+      const double stiffness = has_law ? std::pow(reference.P / slide.P, 1. - 1. / scene.contact.exponent) : 1.;
+      return 2. * M_PI * slide.frequency * reference.relaxation * stiffness;
+    }
+
     /// Finds over which Contact/Damping the verdict stays what it is, where a search from the scene's own to none and to a large
     /// one first meets another kind, or a value that cannot be checked. That damping is seldom measured, and more of it can make
     /// a slide grow as well as die out. `verdict`: that with the scene's own.
@@ -122,21 +132,12 @@ namespace sprag
       if (own < end)
         for (const double value : range_ends(own, end))
           high = std::min(high, value);
-      Scene damped           = scene;
-      damped.contact.damping = high;
-      const auto reference   = contact_reference(damped);
-      double loss_factor     = 2. * M_PI * verdict.frequency * reference.relaxation; // at the high end
-      if (is_reduced(scene.analysis.model)) // the dashpot stays where a contact law is softer under a smaller P
-        loss_factor *= std::pow(reference.P / verdict.P, 1. - 1. / scene.contact.exponent);
-      const bool is_law    = scene.contact.damping_law == DampingLaw::loss_factor;
-      const double dashpot = is_law ? 2. * own * high / loss_factor : std::nan(""); // it has the same at the slide's frequency
-      if (is_law)
-        loss_factor = 2. * high;
+      const bool is_dashpot    = scene.contact.damping_law == DampingLaw::dashpot;
+      const double loss_factor = is_dashpot ? dashpot_loss_factor(scene, verdict, high) : 2. * high;
       return { { "contact_damping_limit_low", low },
                { "contact_damping_limit_high", high },
                { "contact_loss_factor_limit_low", loss_factor * low / high },
                { "contact_loss_factor_limit_high", loss_factor },
-               { "equal_dashpot", dashpot },
                { "growth_rate_without_contact_damping", growth_rate_at_none } };
     }
 
@@ -294,6 +295,11 @@ namespace sprag
           print_growing(std::cout, found.modes);
       }
       append(result.summary, sweep_entries(swept));
+      if (found.slide && scene.stability.damping && scene.contact.damping_law == DampingLaw::loss_factor)
+      {
+        const double own = scene.contact.damping;
+        result.summary.push_back({ "equal_dashpot", 2. * own * own / dashpot_loss_factor(scene, swept.worst(), own) });
+      }
       if (found.slide && is_decided && scene.stability.damping && whole.stability.ranges == "none" &&
           options.in_memory == nullptr)
       {

@@ -102,7 +102,7 @@ namespace sprag
   DynamicLever<ModalStructure, Contact> with_point_at_interface(ModalData structure, const Contact &contact)
   {
     structure.layout = { 0, false };
-    LeverFrame frame{ { Geometry{} }, structure.layout, 0., {}, 0., 0., dealii::Vector<double>(1) };
+    LeverFrame frame{ { Geometry{} }, structure.layout, 0., { MomentLaw() }, 0., 0., dealii::Vector<double>(1) };
     frame.lengths = 1.;
     return { std::make_unique<ModalStructure>(structure), std::make_unique<Contact>(contact), frame };
   }
