@@ -218,13 +218,13 @@ TEST(CriticalValues, LookInsideRanges)
   EXPECT_LT(largest_growth(found.changes.front().value + 0.02), 0.);
 }
 
-// Against slides checked one by one: the limits are found to 0.4 % of the depths searched.
+// Against slides checked one by one: the limits are found to 0.6 % of the depths searched.
 TEST(CriticalValues, HoldForTheSceneAndForMostOfTheRanges)
 {
   const Scene scene = from_params("stability-a.prm", { "Stability/Position=35", "Stability/Direction=forward",
                                                        "Stability/Ranges=Friction/Factor 0.8 1.2; Contact/Damping 0.01 0.15" });
   DynamicsMaker maker;
-  constexpr double resolution = 4e-3 * (25. - 5.);
+  constexpr double resolution = 6e-3 * (25. - 5.);
   const auto found            = critical_values(scene, { "Lever/Depth", 5., 25., 5 }, 1e-6, maker);
   ASSERT_EQ(found.changes.size(), 2u); // thinner levers flutter further in
   const auto &limit  = found.changes.back();

@@ -198,7 +198,7 @@ namespace sprag
     double stable_limit(const CriticalSearch &search, const CriticalValue &limit,
                         const std::function<CheckedSlide(double)> &check_at)
     {
-      constexpr double tolerance = 4e-3; ///< over the range
+      constexpr double tolerance = 6e-3; ///< over the range
       const auto &range          = search.range;
       const bool towards_to      = limit.below == SlideKind::stable;
       if (towards_to == (limit.above == SlideKind::stable))
@@ -211,8 +211,11 @@ namespace sprag
       if (!(distance > 0.))
         return limit.value;
       const auto points = 2 + static_cast<unsigned int>(distance / std::max(search.spacing, tolerance * distance));
-      const auto found  = search_kinds({ range.name, limit.value, end, points },
-                                       { tolerance * std::abs(range.to - range.from) / distance, 0, true }, { check_at });
+      CheckedSlide at_limit;
+      at_limit.kind    = SlideKind::stable;
+      const auto check = [&](const double value) { return value == limit.value ? at_limit : check_at(value); };
+      const auto found = search_kinds({ range.name, limit.value, end, points },
+                                      { tolerance * std::abs(range.to - range.from) / distance, 0, true }, { check });
       if (!found.changes.empty())
         return found.changes.front().value;
       return found.not_checked.empty() && found.first == SlideKind::stable ? end : limit.value;
