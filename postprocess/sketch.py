@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """The device of a result to scale as SVG, from its parameters alone; device.py draws a lever as it is meshed."""
 
+import re
+
 import numpy as np
 
 from apparatus import Geometry
@@ -8,10 +10,12 @@ from sprag.parameters import slug
 
 FILLS = {"cylinder": "#ececec", "lever": "#d7e3ee", "layer": "#c98f4a", "hub": "#c3ccd6"}
 HUB = 10.0  # depth of the hub beyond the pivot [mm]
+STABLE, UNSTABLE = "#0072b2", "#d55e00"
 
 
 def device_svg(result, parameters):
-    """Draws the device at its worst x if known, else the largest; of a design the best lever. Returns None without contact."""
+    """Draws the device at its worst x if known, else the largest; of a design the best lever. A verdict over the stroke is drawn along the
+    path of the cylinder's centre. Returns None without contact."""
 
     def number(name):
         found = result.summary.get(slug(name))
@@ -26,10 +30,20 @@ def device_svg(result, parameters):
     geometry = Geometry(radius, offset, np.array((distance, height)), x, height)
     if not all(np.isfinite((radius, offset, distance, height, length, depth, layer, x, geometry.theta))):
         return None
-    return drawn(geometry, length, depth, layer)
+    return drawn(geometry, length, depth, layer, stretches(result.summary))
 
 
-def drawn(geometry, length, depth, layer):
+def stretches(summary):
+    """{direction: [(from, to, colour), ...]} of a verdict over the stroke, x in mm; empty of other results."""
+    found = {}
+    for way in ("forward", "backward"):
+        if np.isfinite(summary.get(f"largest_growth_rate_{way}", np.nan)) and summary["looked_to"] > summary["looked_from"]:
+            unstable = re.findall(r"(\S+) to (\S+?)(?: mm|,|$)", str(summary.get(f"unstable_{way}", "")))
+            found[way] = [(float(summary["looked_from"]), float(summary["looked_to"]), STABLE), *((float(a), float(b), UNSTABLE) for a, b in unstable)]
+    return found
+
+
+def drawn(geometry, length, depth, layer, verdict):
     back = geometry.offset + layer + depth
     parts = [
         circle("cylinder", (geometry.x, 0), geometry.radius, FILLS["cylinder"]),
@@ -51,6 +65,16 @@ def drawn(geometry, length, depth, layer):
     path = f'<line x1="{low[0]:.1f}" x2="{high[0]:.1f}" y1="0" y2="0" stroke="#888" stroke-width="0.4" stroke-dasharray="8 2 1.5 2"/>'
     texts = "".join(f'<text x="{middle:.1f}" y="{-up:.1f}" text-anchor="middle" font-size="{size:.1f}">{text}</text>' for up, text in words)
     view = f"{low[0]:.1f} {-high[1]:.1f} {high[0] - low[0]:.1f} {high[1] - low[1]:.1f}"
+    for way, up in (("forward", 0.7 * size), ("backward", -0.7 * size)):
+        for begin, end, colour in verdict.get(way, ()):
+            parts.append(f'<line class="verdict" x1="{begin:.2f}" x2="{end:.2f}" y1="{-up:.2f}" y2="{-up:.2f}" stroke="{colour}" stroke-width="{0.35 * size:.2f}"/>')
+        if way in verdict:
+            arrow = "\N{RIGHTWARDS ARROW} out" if way == "forward" else "\N{LEFTWARDS ARROW} back"
+            texts += f'<text x="{verdict[way][0][1] + 0.4 * size:.1f}" y="{0.3 * size - 1.4 * up:.1f}" font-size="{0.8 * size:.1f}">{arrow}</text>'
+    if verdict:
+        worst = any(colour == UNSTABLE for lines in verdict.values() for _, _, colour in lines)
+        note = "orange: where the slide is not stable" if worst else "blue: stable on all of it"
+        texts += f'<text x="{middle:.1f}" y="{1.5 * size - low[1] - 2.8 * size:.1f}" text-anchor="middle" font-size="{0.8 * size:.1f}">path of the centre; {note}</text>'
     return f'<svg class="device" xmlns="http://www.w3.org/2000/svg" viewBox="{view}" role="img">{path}{"".join(parts)}{texts}</svg>'
 
 

@@ -102,7 +102,7 @@ class ReportTest(PictureTest):
     def test_device_to_scale(self):
         """The lever's face touches the cylinder in the picture."""
         geometry = Geometry(56.0, 45.6, np.array((185.5, 0.0)), 65.0, 0.0)
-        drawing = sketch.drawn(geometry, 210.0, 20.0, 1.0)
+        drawing = sketch.drawn(geometry, 210.0, 20.0, 1.0, {})
         circle = re.search(r'class="cylinder" cx="([\d.-]+)" cy="([\d.-]+)" r="([\d.]+)"', drawing)
         centre, radius = np.array((float(circle[1]), float(circle[2]))), float(circle[3])
         begin, end = np.array([pair.split(",") for pair in re.search(r'class="layer" points="([^"]+)"', drawing)[1].split()], dtype=float)[:2]
@@ -110,6 +110,17 @@ class ReportTest(PictureTest):
         away = centre - begin
         self.assertAlmostEqual(abs(along[0] * away[1] - along[1] * away[0]), radius, delta=2e-3)
         self.assertAlmostEqual(np.linalg.norm(end - begin), 210, delta=2e-3)
+
+    def test_verdict_along_the_path(self):
+        """Stretches that are not stable lie on the line of their direction."""
+        summary = {"looked_from": 3.25, "looked_to": 65.0, "largest_growth_rate_forward": -5.0, "largest_growth_rate_backward": 60.0}
+        found = sketch.stretches({**summary, "unstable_backward": "14.66 to 18.21 mm, 56.3 to 65 mm"})
+        self.assertEqual(found["forward"], [(3.25, 65.0, sketch.STABLE)])
+        self.assertEqual([line[:2] for line in found["backward"]], [(3.25, 65.0), (14.66, 18.21), (56.3, 65.0)])
+        self.assertEqual(sketch.stretches({"growth_rate": 5.0}), {})
+        drawing = sketch.drawn(Geometry(56.0, 45.6, np.array((185.5, 0.0)), 65.0, 0.0), 210.0, 20.0, 1.0, found)
+        lines = re.findall(r'class="verdict" x1="([\d.]+)" x2="([\d.]+)" y1="(-?[\d.]+)"', drawing)
+        self.assertEqual([(float(a), float(b), float(y) > 0) for a, b, y in lines], [(3.25, 65, False), *((*line[:2], True) for line in found["backward"])])
 
     def test_a_run_that_goes_on(self):
         make_run(self.folder / "a")
