@@ -219,6 +219,7 @@ namespace sprag
                             const Identification &found)
     {
       const auto folder = std::filesystem::absolute(options.folder);
+      std::filesystem::remove(folder / "identified.prm"); // of a run before
       std::string table;
       if (const auto rows = unknowns.friction_rows(mapped(found.found, &FoundNumber::value)); !rows.empty())
       {
@@ -230,10 +231,17 @@ namespace sprag
       }
       try
       {
-        const auto ranges = unknowns.ranges(mapped(found.found, &FoundNumber::value), mapped(found.found, &FoundNumber::low),
-                                            mapped(found.found, &FoundNumber::high));
+        auto numbers = found.found;
+        for (auto &one : numbers)
+          if (one.number.name == "rest" && one.low <= 0.) // no clearance where the data admit none, as a scene asks for
+          {
+            one.value = std::min(one.value, 0.);
+            one.high  = std::min(one.high, 0.);
+          }
+        const auto values = mapped(numbers, &FoundNumber::value);
+        const auto ranges = unknowns.ranges(values, mapped(numbers, &FoundNumber::low), mapped(numbers, &FoundNumber::high));
         const auto identified =
-            variant(scene, joined(unknowns.overrides(found.lever, table),
+            variant(scene, joined(unknowns.overrides(unknowns.lever(values), table),
                                   { "Analysis/Type=quasi-static", "Analysis/Model=closed form", "Stability/Ranges=" + ranges }));
         write_file(folder / "identified.prm",
                    "# What was identified from " + scene.identification.table + '\n' + parameters_text(identified));

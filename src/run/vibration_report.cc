@@ -221,7 +221,7 @@ namespace sprag
       return critical.worse.motion.empty() ? "" : ", the levers " + critical.worse.motion;
     }
 
-    /// Returns "; from 3.94 mm with the scene's constants, from 4.1 mm with 95 % of those in the ranges"; empty without ranges.
+    /// Returns "from 3.94 mm with the scene's constants, from 4.1 mm with 95 % of those in the ranges"; empty without ranges.
     std::string limits_text(const CriticalSearch &search, const CriticalValue &critical, const bool upward)
     {
       const auto &range = search.range;
@@ -236,7 +236,7 @@ namespace sprag
       };
       const auto own    = text(critical.own, "the scene's constants");
       const auto likely = text(critical.likely, four_digits(100. * probable_share) + " % of those in the ranges");
-      return own.empty() ? "" : "; " + own + (likely.empty() ? "" : ", " + likely);
+      return own.empty() ? "" : own + (likely.empty() ? "" : ", " + likely);
     }
 
     /// Returns "flutter, stable from 4.3 mm (worst forward at x = 40 mm)".
@@ -255,9 +255,14 @@ namespace sprag
         text += ", " + kind_name(critical.above) + " from " + with_unit(rounded_to(critical.value, upward), unit) +
                 (is_friction ? " (mu = " + four_digits(rounded_to(critical.mu, upward)) + ")" : "") +
                 (critical.worse.motion.empty() ? "" : " (" + critical.worse.motion + ")");
+        std::vector<std::string> more;
         if (is_worst && range.name != "Stability/Position")
-          text += std::string(" (worst ") + (critical.worse.drive.v < 0. ? "backward" : "forward") +
-                  " at x = " + with_unit(critical.worse.drive.x, "mm") + limits_text(search, critical, upward) + ")";
+          more.push_back(std::string("worst ") + (critical.worse.drive.v < 0. ? "backward" : "forward") +
+                         " at x = " + with_unit(critical.worse.drive.x, "mm"));
+        if (const auto limits = limits_text(search, critical, upward); !limits.empty())
+          more.push_back(limits);
+        if (!more.empty())
+          text += " (" + boost::algorithm::join(more, "; ") + ")";
       }
       text += std::string(search.first && search.changes.empty() ? " throughout" : "") +
               (search.has_effect ? "" : ", without effect");

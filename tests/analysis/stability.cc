@@ -311,6 +311,19 @@ TEST(LossFactor, IsThatOfADashpotAtTheOwnFrequency)
   }
 }
 
+// Close to locking no equilibrium is found at 3.885 times the friction; from 4.05 on the lever jams.
+TEST(CriticalValues, AreToldAcrossValuesThatCannotBeChecked)
+{
+  const Scene scene = from_params("stability-a.prm", { "Stability/Position=60", "Lever/Depth=20" });
+  DynamicsMaker maker;
+  const auto found = critical_values(scene, { "Friction/Factor", 0.1, 8., 49 }, 1e-6, maker);
+  ASSERT_FALSE(found.not_checked.empty());
+  ASSERT_EQ(found.changes.size(), 1u);
+  EXPECT_EQ(found.changes.front().above, SlideKind::jammed);
+  EXPECT_GT(found.changes.front().value, 3.7);
+  EXPECT_LT(found.changes.front().value, 3.75);
+}
+
 TEST(CriticalValues, TellTheMotionOfAPair)
 {
   // A held joint leaves the levers nothing in common.

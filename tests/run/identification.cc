@@ -87,6 +87,11 @@ TEST_F(RunIdentification, WritesItsIntervalsAsRangesOfAVerdict)
   EXPECT_EQ(ranges[1].name, "Rotational spring/Stiffness");
   EXPECT_NEAR(ranges[1].from, 7.197e4, 5.);
   EXPECT_NEAR(ranges[1].to, 7.492e4, 5.);
+  // A rest angle of 1.7e-5 +- 3e-5 rad, where a scene admits none above 0.
+  const auto preloaded = shipped({ "Identification/Unknowns=mu, k, rest" });
+  ASSERT_EQ(preloaded.size(), 3u);
+  EXPECT_EQ(preloaded[2].to, 0.);
+  EXPECT_EQ(read_scene(output + "/identified.prm", {}).spring.rest_angle, 0.);
 }
 
 TEST_F(RunIdentification, WritesALawOfFrictionAsATable)

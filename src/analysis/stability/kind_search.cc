@@ -106,9 +106,15 @@ namespace sprag
       {
         const auto is_as_first = [&](const Tried &tried)
         { return tried.slide && all.front().slide && are_equal(*tried.slide, *all.front().slide); };
-        result.has_effect = all.size() < 2 || !std::all_of(all.begin(), all.end(), is_as_first);
-        for (std::size_t i = 1; i < all.size() && tolerance > 0.; ++i)
-          narrow(all[i - 1], all[i], tolerance * std::abs(result.range.to - result.range.from));
+        result.has_effect   = all.size() < 2 || !std::all_of(all.begin(), all.end(), is_as_first);
+        const Tried *before = nullptr;
+        for (const auto &tried : all)
+          if (tried.slide && tolerance > 0.)
+          {
+            if (before != nullptr)
+              narrow(*before, tried, tolerance * std::abs(result.range.to - result.range.from));
+            before = &tried;
+          }
         return result;
       }
 
@@ -191,8 +197,8 @@ namespace sprag
       }
 
       /// Narrows a change by bisection or, between growth rates of both signs, by regula falsi (Illinois), every third step of
-      /// which halves the bracket. Returns false where a value cannot be checked.
-      bool narrow_bracket(Tried &low, Tried &high, const double tolerance, const std::function<Tried(double)> &check)
+      /// which halves the bracket. It ends at a value that cannot be checked.
+      void narrow_bracket(Tried &low, Tried &high, const double tolerance, const std::function<Tried(double)> &check)
       {
         double at_low = low.slide->growth_rate, at_high = high.slide->growth_rate;
         for (unsigned int step = 1; low.kind() != high.kind(); ++step)
@@ -206,56 +212,51 @@ namespace sprag
           const double share   = has_chord && step % 3 != 0 ? std::clamp(at_low / (at_low - at_high), inside, 1. - inside) : 0.5;
           const Tried middle   = check(low.value + share * (high.value - low.value));
           if (!middle.slide)
-            return false;
+            return;
           const bool moves_low           = middle.kind() == low.kind();
           (moves_low ? low : high)       = middle;
           (moves_low ? at_low : at_high) = middle.slide->growth_rate;
           (moves_low ? at_high : at_low) *= 0.5;
         }
-        return low.kind() != high.kind();
       }
 
       /// Narrows the limit of stability by the slides that are like the worst of the unstable side, and checks all where that is.
       /// If another is unstable there, it goes on with slides like that.
-      bool narrow_limit(Tried &low, Tried &high, const double tolerance)
+      void narrow_limit(Tried &low, Tried &high, const double tolerance)
       {
         while (std::abs(high.value - low.value) > tolerance)
         {
           Tried near = low, far = high;
           auto &stable                = low.kind() == SlideKind::stable ? near : far;
-          auto &unstable              = low.kind() == SlideKind::stable ? far : near;
-          const auto worst            = *unstable.slide;
+          const auto worst            = *(low.kind() == SlideKind::stable ? far : near).slide;
           const double checked_stable = stable.value;
-          const auto alike            = [&](const double value)
-          { return checked_alike(value, [&](const double same) { return checks.alike(same, worst); }); };
-          if (!narrow_bracket(near, far, tolerance, alike))
-            return false;
+          narrow_bracket(near, far, tolerance,
+                         [&](const double value)
+                         { return checked_alike(value, [&](const double same) { return checks.alike(same, worst); }); });
           if (stable.value != checked_stable)
             stable = checked(stable.value, checks.closely);
           if (!stable.slide)
-            return false;
-          if (stable.kind() != SlideKind::stable)
+            return;
+          if (stable.kind() == SlideKind::stable)
           {
-            (low.kind() == SlideKind::stable ? high : low) = stable;
-            continue;
+            low  = near;
+            high = far;
+            return;
           }
-          low  = near;
-          high = far;
-          return true;
+          (low.kind() == SlideKind::stable ? high : low) = stable;
         }
-        return true;
       }
 
+      /// Locates the change between two values of different kinds. Where values between cannot be checked, it is known no better
+      /// than these.
       void narrow(Tried low, Tried high, const double tolerance)
       {
-        if (!low.slide || !high.slide || low.kind() == high.kind())
+        if (low.kind() == high.kind())
           return;
-        const bool is_limit = (low.kind() == SlideKind::stable) != (high.kind() == SlideKind::stable);
-        const bool found    = checks.alike && is_limit
-                                  ? narrow_limit(low, high, tolerance)
-                                  : narrow_bracket(low, high, tolerance, [&](const double value) { return checked_at(value); });
-        if (!found)
-          return;
+        if (checks.alike && (low.kind() == SlideKind::stable) != (high.kind() == SlideKind::stable))
+          narrow_limit(low, high, tolerance);
+        else
+          narrow_bracket(low, high, tolerance, [&](const double value) { return checked_at(value); });
         const bool worsens = is_worse(*high.slide, *low.slide);
         result.changes.push_back({ (worsens ? low : high).value, low.kind(), high.kind(), *(worsens ? high : low).slide,
                                    std::isnan(low.slide->mu) ? high.slide->mu : low.slide->mu });
