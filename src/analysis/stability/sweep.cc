@@ -381,7 +381,10 @@ namespace sprag
     checks.tried = tried;
     auto result =
         search_kinds(range, { tolerance, is_reduced(scene.analysis.model) ? 14u : 5u }, checks, beam_hints(scene, range));
-    if (constant_ranges(scene).empty())
+    const auto uncertain = constant_ranges(scene);
+    const bool is_in_them =
+        std::any_of(uncertain.begin(), uncertain.end(), [&](const auto &one) { return one.name == range.name; });
+    if (uncertain.empty() || is_in_them)
       return result;
     const auto check_own  = [&](const double value) { return sweep(at(value), maker, { false, true, Constants() }).worst(); };
     const auto check_most = [&](const double value)
@@ -395,7 +398,7 @@ namespace sprag
     for (auto &change : result.changes)
     {
       change.own = stable_limit(result, change, check_own);
-      if (constant_ranges(scene).size() <= most_shared_ranges)
+      if (uncertain.size() <= most_shared_ranges)
         change.likely = stable_limit(result, change, check_most);
     }
     return result;
