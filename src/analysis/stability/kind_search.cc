@@ -120,12 +120,7 @@ namespace sprag
 
       Tried checked_at(const double value)
       {
-        return checked(value, checks.at);
-      }
-
-      Tried checked(const double value, const std::function<CheckedSlide(double)> &check)
-      {
-        const auto tried = checked_alike(value, check);
+        const auto tried = checked_alike(value, checks.at);
         if (tried.slide)
           result.growth.emplace_back(value, tried.slide->growth_rate);
         return tried;
@@ -234,7 +229,7 @@ namespace sprag
                          [&](const double value)
                          { return checked_alike(value, [&](const double same) { return checks.alike(same, worst); }); });
           if (stable.value != checked_stable)
-            stable = checked(stable.value, checks.closely);
+            stable = checked_at(stable.value);
           if (!stable.slide)
             return;
           if (stable.kind() == SlideKind::stable)

@@ -80,7 +80,6 @@ namespace sprag
     std::function<CheckedSlide(double)> at; ///< returns the worst of its slides
     /// Returns the worst of those alone with the constants and direction of another slide; empty: at() serves.
     std::function<CheckedSlide(double, const CheckedSlide &)> alike = {};
-    std::function<CheckedSlide(double)> closely                     = {}; ///< as at(), of more slides; not empty if alike is not
     std::function<void()> tried                                     = [] {}; ///< called after each value
   };
 

@@ -36,11 +36,10 @@ namespace sprag
     }
 
     /// Returns the number of x over the stroke: more for levers that check a slide in milliseconds.
-    unsigned int points_along(const Scene &scene, const bool coarsely = false)
+    unsigned int points_along(const Scene &scene)
     {
-      if (scene.analysis.model == ModelType::finite_element || scene.analysis.dimension == 3)
-        return 9;
-      return coarsely && is_meshed(scene.analysis.model) ? 17 : 33;
+      const bool is_cheap = scene.analysis.model != ModelType::finite_element && scene.analysis.dimension == 2;
+      return is_cheap ? 33 : 9;
     }
 
     using Constants = std::vector<std::string>; ///< see CheckedSlide::constants
@@ -163,7 +162,7 @@ namespace sprag
       std::vector<double> growth;
       for (std::size_t node = 0; node < n_nodes; ++node)
       {
-        SweepPart part{ false, true, Constants(), {}, &shared };
+        SweepPart part{ false, Constants(), {}, &shared };
         for (std::size_t i = 0, place = node; i < ranges.size(); ++i, place /= 3)
           part.constants->push_back(
               override_text(ranges[i].name, ranges[i].from + 0.5 * (place % 3) * (ranges[i].to - ranges[i].from)));
@@ -261,7 +260,7 @@ namespace sprag
         here.stability.direction = direction;
         SweptDirection swept{ direction, constants,
                               slides_along(here, dynamics.model(), { part.in_full ? tolerance : 0., island_steps },
-                                           points_along(here, part.coarsely), equilibria[without_damping(constants)]) };
+                                           points_along(here), equilibria[without_damping(constants)]) };
         if (swept.along.worst)
           swept.along.worst->constants = constants;
         result.sweeps.push_back(std::move(swept));
@@ -335,7 +334,6 @@ namespace sprag
     const bool single_slides = is_reduced(scene.analysis.model) && !looks_over_stroke(scene);
     const double near_peaks  = single_slides ? 32. : 2.; // each mode of single slides is followed
     const double along       = looks_over_stroke(scene) ? points_along(scene) : 1.;
-    const double coarsely    = looks_over_stroke(scene) ? points_along(scene, true) : 1.;
     // A verdict may or may not look inside the ranges: the mean of both by ratio.
     const double verdict  = std::sqrt(static_cast<double>(least_slides(scene)) * least_slides(scene, false));
     const std::size_t n   = constant_ranges(scene).size();
@@ -344,8 +342,7 @@ namespace sprag
     const auto directions = static_cast<double>(held_directions(scene).size());
     SearchWork work;
     work.values = range.points + near_peaks + narrowing + limit_values * ((n > 0 ? 1. : 0.) + (has_share ? 1. : 0.));
-    work.slides = verdict * ((range.points + near_peaks) * coarsely / along + 1.) + narrowing * along +
-                  limit_values * limits * directions * coarsely;
+    work.slides = verdict * (range.points + near_peaks + 1.) + narrowing * along + limit_values * limits * directions * along;
     return work;
   }
 
@@ -369,9 +366,8 @@ namespace sprag
   {
     const auto at = [&](const double value) { return prepared(variant(scene, { override_text(range.name, value) })); };
     ValueChecks checks;
-    checks.at      = [&](const double value) { return sweep(at(value), maker, { false, true }).worst(); };
-    checks.closely = [&](const double value) { return sweep(at(value), maker).worst(); };
-    checks.alike   = [&](const double value, const CheckedSlide &slide)
+    checks.at    = [&](const double value) { return sweep(at(value), maker).worst(); };
+    checks.alike = [&](const double value, const CheckedSlide &slide)
     {
       SweepPart part;
       part.constants = slide.constants;
@@ -386,7 +382,7 @@ namespace sprag
         std::any_of(uncertain.begin(), uncertain.end(), [&](const auto &one) { return one.name == range.name; });
     if (uncertain.empty() || is_in_them)
       return result;
-    const auto check_own  = [&](const double value) { return sweep(at(value), maker, { false, true, Constants() }).worst(); };
+    const auto check_own  = [&](const double value) { return sweep(at(value), maker, { false, Constants() }).worst(); };
     const auto check_most = [&](const double value)
     {
       const double share = stable_share(at(value), maker);

@@ -40,8 +40,7 @@ namespace sprag
   /// Says which of the slides are checked, and how.
   struct SweepPart
   {
-    bool in_full  = false; ///< also locates the x where the kind changes, and checks unstable directions inside the ranges
-    bool coarsely = false; ///< a condensed lever in the plane at half as many x
+    bool in_full = false; ///< also locates the x where the kind changes, and checks unstable directions inside the ranges
     std::optional<std::vector<std::string>> constants = {};      ///< these alone, see CheckedSlide
     std::optional<Direction> direction                = {};      ///< this alone
     SharedEquilibria *shared                          = nullptr; ///< found by sweeps of scenes that differ in damping alone
