@@ -132,12 +132,6 @@ namespace sprag
       double slides = 1., meshes = 1.;
     };
 
-    /// Slides that a verdict in a search or a map takes: as it may or may not look inside the ranges, the mean of both by ratio.
-    double searched_slides(const Scene &scene)
-    {
-      return std::sqrt(static_cast<double>(least_slides(scene)) * least_slides(scene, false));
-    }
-
     /// A run of a study leaves out for which damping and stick its verdict holds.
     HeldWork held_work(const Scene &scene, const bool in_study)
     {

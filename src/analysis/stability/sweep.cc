@@ -95,7 +95,7 @@ namespace sprag
       return constants;
     }
 
-    CriticalSearch slides_along(const Scene &scene, DynamicModel &model, const SearchEffort &effort, const unsigned int points,
+    CriticalSearch slides_along(const Scene &scene, DynamicModel &model, const SearchEffort &effort,
                                 SharedEquilibria::mapped_type &equilibria)
     {
       const bool over_stroke = looks_over_stroke(scene);
@@ -116,7 +116,7 @@ namespace sprag
         return slide;
       };
       if (over_stroke)
-        return search_kinds(stroke_range(scene, points), effort, { check_at });
+        return search_kinds(stroke_range(scene, points_along(scene)), effort, { check_at });
       const double x = held_drive(scene).x;
       return search_kinds({ "Stability/Position", x, x, 1 }, { 0., 0 }, { check_at });
     }
@@ -260,7 +260,7 @@ namespace sprag
         here.stability.direction = direction;
         SweptDirection swept{ direction, constants,
                               slides_along(here, dynamics.model(), { part.in_full ? tolerance : 0., island_steps },
-                                           points_along(here), equilibria[without_damping(constants)]) };
+                                           equilibria[without_damping(constants)]) };
         if (swept.along.worst)
           swept.along.worst->constants = constants;
         result.sweeps.push_back(std::move(swept));
@@ -326,6 +326,11 @@ namespace sprag
     return n * (looks_over_stroke(scene) ? points_along(scene) : 1);
   }
 
+  double searched_slides(const Scene &scene)
+  {
+    return std::sqrt(static_cast<double>(least_slides(scene)) * least_slides(scene, false));
+  }
+
   SearchWork expected_work(const Scene &scene, const ParameterRange &range)
   {
     // Narrowing a change looks at one direction and one set of constants. A limit for the scene's own constants, or for most of
@@ -334,15 +339,14 @@ namespace sprag
     const bool single_slides = is_reduced(scene.analysis.model) && !looks_over_stroke(scene);
     const double near_peaks  = single_slides ? 32. : 2.; // each mode of single slides is followed
     const double along       = looks_over_stroke(scene) ? points_along(scene) : 1.;
-    // A verdict may or may not look inside the ranges: the mean of both by ratio.
-    const double verdict  = std::sqrt(static_cast<double>(least_slides(scene)) * least_slides(scene, false));
-    const std::size_t n   = constant_ranges(scene).size();
-    const bool has_share  = n > 0 && n <= most_shared_ranges;
-    const double limits   = (n > 0 ? 1. : 0.) + (has_share ? shared * std::pow(3., n) : 0.);
-    const auto directions = static_cast<double>(held_directions(scene).size());
+    const std::size_t n      = constant_ranges(scene).size();
+    const bool has_share     = n > 0 && n <= most_shared_ranges;
+    const double limits      = (n > 0 ? 1. : 0.) + (has_share ? shared * std::pow(3., n) : 0.);
+    const auto directions    = static_cast<double>(held_directions(scene).size());
     SearchWork work;
     work.values = range.points + near_peaks + narrowing + limit_values * ((n > 0 ? 1. : 0.) + (has_share ? 1. : 0.));
-    work.slides = verdict * (range.points + near_peaks + 1.) + narrowing * along + limit_values * limits * directions * along;
+    work.slides = searched_slides(scene) * (range.points + near_peaks + 1.) + narrowing * along +
+                  limit_values * limits * directions * along;
     return work;
   }
 

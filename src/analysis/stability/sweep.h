@@ -57,6 +57,10 @@ namespace sprag
   /// ranges, so that those inside are checked as well.
   unsigned int least_slides(const Scene &scene, bool inside = true);
 
+  /// Returns the slides of a verdict in a search or a map: as it may or may not look inside the ranges, the mean of both by
+  /// ratio.
+  double searched_slides(const Scene &scene);
+
   /// The work that a search of critical values is expected to be.
   struct SearchWork
   {
