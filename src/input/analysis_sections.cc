@@ -66,6 +66,7 @@ namespace sprag
       section.text("Demands", settings.demands);
       section.text("Aim", settings.aim);
       section.text("Second aim", settings.second_aim);
+      section.text("Tolerances", settings.tolerances);
       section.integer("Front points", settings.front_points, { 3., 200. });
       section.text("Judges", settings.checks);
       section.integer("Positions", settings.positions, { 2., 200. });

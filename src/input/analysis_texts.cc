@@ -20,6 +20,7 @@ namespace sprag
     const std::set<std::string> free_sections = { "Geometry",          "Lever",   "Friction layer",
                                                   "Rotational spring", "Contact", "Isolation" };
     const std::string free_friction           = "Friction/Factor";
+    constexpr std::size_t most_toleranced     = 4; ///< whose bounds have 16 combinations
 
     bool can_be_free(const Parameter &parameter)
     {
@@ -45,10 +46,13 @@ namespace sprag
       void read()
       {
         reading = "Free";
-        for (const auto &part : split(settings.free, ';'))
-          read_free(part);
+        read_bounds(settings.free, settings.free_parameters);
         if (settings.free_parameters.empty() && !is_faulty)
           mistake("must name a parameter and its bounds: Section/Name = FROM ... TO");
+        reading = "Tolerances";
+        read_bounds(settings.tolerances, settings.toleranced);
+        if (settings.toleranced.size() > most_toleranced)
+          mistake("must name at most " + std::to_string(most_toleranced) + " parameters");
         reading = "Demands";
         for (const auto &part : split(settings.demands, ';'))
           read_demand(single_spaced(part));
@@ -79,10 +83,15 @@ namespace sprag
         }
       }
 
-      void read_free(const std::string &part)
+      void read_bounds(const std::string &text, std::vector<FreeParameter> &bounds) const
       {
-        if (part.empty())
-          return;
+        for (const auto &part : split(text, ';'))
+          if (!part.empty())
+            read_bounded(part, bounds);
+      }
+
+      void read_bounded(const std::string &part, std::vector<FreeParameter> &bounds) const
+      {
         const auto equals = part.find('='), dots = part.find("...");
         if (dots == std::string::npos || equals > dots)
           return mistake("'" + part + "' must have the form Section/Name = FROM ... TO");
@@ -101,7 +110,7 @@ namespace sprag
             return mistake(name + " = " + number_text(value) + " " + *broken);
         if (!(*from < *to))
           return mistake(name + " must have bounds of which the second is larger");
-        settings.free_parameters.push_back({ name, *from, *to, parameter->rule.unit.empty() ? "1" : parameter->rule.unit });
+        bounds.push_back({ name, *from, *to, parameter->rule.unit.empty() ? "1" : parameter->rule.unit });
       }
 
       const Parameter *free_parameter(const std::string &name) const
@@ -116,8 +125,9 @@ namespace sprag
           mistake("'" + name + "' is no parameter that can be free" + did_you_mean(nearest(name, names)));
           return nullptr;
         }
-        const auto is_same = [&](const FreeParameter &free) { return free.name == name; };
-        if (std::any_of(settings.free_parameters.begin(), settings.free_parameters.end(), is_same))
+        const auto is_same = [&](const FreeParameter &other) { return other.name == name; };
+        const auto is_in = [&](const std::vector<FreeParameter> &list) { return std::any_of(list.begin(), list.end(), is_same); };
+        if (is_in(settings.free_parameters) || is_in(settings.toleranced))
         {
           mistake(name + " must be there once only");
           return nullptr;

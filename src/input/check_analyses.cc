@@ -137,14 +137,22 @@ namespace sprag
     rules.need(scene.analysis.dimension == 2, "Analysis/Dimension", { "Analysis/Type" }, "must be 2 in a design");
     rules.need(scene.spring.type == SpringType::torsional, "Rotational spring/Type", { "Analysis/Type" },
                "must be torsional in a design, which finds k; Analysis/Type = calibration makes a leaf spring of it");
-    rules.need(scene.spring.rest_angle == 0., "Rotational spring/Rest angle", { "Analysis/Type" }, "must be 0 in a design");
     rules.need(scene.pair.type == PairType::half, "Mirrored pair/Type", { "Analysis/Type" },
                "must be half in a design, whose quantities are of one lever");
     rules.need(scene.support.type == SupportType::rigid, "Support/Type", { "Analysis/Type" }, "must be rigid in a design");
     rules.need(scene.contact.type == ContactType::compliant, "Contact/Type", { "Analysis/Type" },
                "must be compliant in a design, whose judges have a contact that yields");
-    if (asks_for(scene.design, is_table_quantity))
-      table(scene, rules);
+    if (!asks_for(scene.design, is_table_quantity))
+      return;
+    table(scene, rules);
+    const auto rests  = [](const FreeParameter &parameter) { return parameter.name == "Rotational spring/Rest angle"; };
+    const auto &free  = scene.design.free_parameters;
+    const auto &bound = scene.design.toleranced;
+    rules.need(scene.spring.rest_angle == 0. && std::none_of(free.begin(), free.end(), rests) &&
+                   std::none_of(bound.begin(), bound.end(), rests),
+               "Rotational spring/Rest angle",
+               { "Analysis/Type", "Design/Demands", "Design/Aim", "Design/Free", "Design/Tolerances" },
+               "must be 0 where quantities of the isolated table are asked for");
   }
 
   void check_identification(const Scene &scene, Rules &rules)

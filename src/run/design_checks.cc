@@ -17,6 +17,8 @@
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -131,12 +133,20 @@ namespace sprag
     }
   } // namespace
 
+  double ModelCheck::worst(const Demand &demand) const
+  {
+    double value = found[demand.term.quantity];
+    for (const auto &at : at_corners)
+      value = worse(demand, value, at[demand.term.quantity]);
+    return value;
+  }
+
   double ModelCheck::violation(const std::vector<Demand> &demands) const
   {
     double largest = -infinite;
     for (const auto &demand : demands)
       if (demand.term.quantity != Q::parameter && !std::isnan(found[demand.term.quantity]))
-        largest = std::max(largest, demand_violation(demand, found[demand.term.quantity]));
+        largest = std::max(largest, demand_violation(demand, worst(demand)));
     return largest;
   }
 
@@ -148,7 +158,8 @@ namespace sprag
   Scene DesignChecks::make_scene(const ModelCheck &check) const
   {
     const std::vector<std::string> without_fields = { "Output/Fields=none" };
-    return prepared(variant(design, joined(joined(check.changes, without_fields), design_overrides(design, check.lever))));
+    const auto changes                            = joined(joined(check.changes, without_fields), check.corner);
+    return prepared(variant(design, joined(changes, design_overrides(design, check.lever))));
   }
 
   ModelCheck DesignChecks::check(const CheckModel by, const Proposal &lever, const bool in_time)
@@ -159,10 +170,9 @@ namespace sprag
     const double begin = PhaseTimer::cpu_seconds();
     try
     {
-      if (by == CheckModel::table)
-        check_table(check);
-      else
-        check_slides(check);
+      compute(check);
+      for (const auto &corner : tolerance_corners(design.design))
+        check_corner(overrides(design.design.toleranced, corner), check);
       if (in_time && check.passes(design.design.demanded))
         follow_in_time(check);
     }
@@ -176,6 +186,26 @@ namespace sprag
     }
     check.cpu_seconds = PhaseTimer::cpu_seconds() - begin;
     return check;
+  }
+
+  void DesignChecks::compute(ModelCheck &check)
+  {
+    if (check.check_model == CheckModel::table)
+      check_table(check);
+    else
+      check_slides(check);
+  }
+
+  void DesignChecks::check_corner(const std::vector<std::string> &corner, ModelCheck &check)
+  {
+    if (!check.failure.empty())
+      return;
+    ModelCheck at = check;
+    at.corner     = corner;
+    compute(at);
+    check.at_corners.push_back(at.found);
+    if (!at.failure.empty())
+      check.failure = at.failure + ", with " + boost::algorithm::join(corner, ", ");
   }
 
   void DesignChecks::check_table(ModelCheck &check) const

@@ -16,14 +16,19 @@ namespace sprag
   {
     CheckModel check_model = CheckModel::beam;
     unsigned int round     = 1;
-    bool in_time           = false;   ///< whether the drive was followed in time
-    Proposal lever;                   ///< with what was expected of it
-    DesignQuantities found;           ///< NaN where the check model has none
-    DesignQuantities overshoot;       ///< of those that are larger in time: over the value of the slides
-    std::string failure;              ///< why there is no result; empty: there is one
-    Warnings warnings;                ///< of the lever in this model
-    std::vector<std::string> changes; ///< of the design's scene, "Section/Name=value", for what was computed last
+    bool in_time           = false;           ///< whether the drive was followed in time
+    Proposal lever;                           ///< with what was expected of it
+    DesignQuantities found;                   ///< NaN where the check model has none
+    std::vector<DesignQuantities> at_corners; ///< `found` at each combination of Design/Tolerances
+    DesignQuantities overshoot;               ///< of those that are larger in time: over the value of the slides
+    std::string failure;                      ///< why there is no result; empty: there is one
+    Warnings warnings;                        ///< of the lever in this model
+    std::vector<std::string> changes;         ///< of the design's scene, "Section/Name=value", for what was computed last
+    std::vector<std::string> corner;          ///< likewise, the combination of Design/Tolerances that is being computed
     double cpu_seconds = 0.;
+
+    /// Returns the value of a demand's quantity that misses it most, within Design/Tolerances.
+    double worst(const Demand &demand) const;
 
     /// Returns the largest violation of demands on quantities of the check model; minus infinity without such.
     double violation(const std::vector<Demand> &demands) const;
@@ -52,6 +57,8 @@ namespace sprag
     InMemory in_memory = run_in_memory();
 
     Scene make_scene(const ModelCheck &check) const;
+    void compute(ModelCheck &check);
+    void check_corner(const std::vector<std::string> &corner, ModelCheck &check);
     void check_table(ModelCheck &check) const;
     void check_slides(ModelCheck &check);
     void follow_in_time(ModelCheck &check);

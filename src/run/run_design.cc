@@ -56,15 +56,32 @@ namespace sprag
                                                                   : design_quantity_info(term.quantity).unit);
     }
 
-    /// Returns the value by the last check model that computes the quantity, or by the closed form if none does.
-    double best_known(const DesignTerm &term, const Proposal &lever, const DesignFindings &findings)
+    /// Returns `value` of the closed form, or that of the last check model that computes the term for this lever.
+    template <class Value>
+    double last_known(const DesignTerm &term, const Proposal &lever, const DesignFindings &findings, double value,
+                      const Value &by_check)
     {
-      double value = term_value(term, lever);
       if (term.quantity != DesignQuantity::parameter)
         for (const auto &check : findings.checks)
           if (check.lever.parameters == lever.parameters && !std::isnan(check.found[term.quantity]))
-            value = check.found[term.quantity];
+            value = by_check(check);
       return value;
+    }
+
+    double best_known(const DesignTerm &term, const Proposal &lever, const DesignFindings &findings)
+    {
+      return last_known(term, lever, findings, term_value(term, lever),
+                        [&](const ModelCheck &check) { return check.found[term.quantity]; });
+    }
+
+    /// Returns the values of the demands where they are missed most within Design/Tolerances.
+    std::vector<double> worst_known(const DesignSettings &design, const DesignFindings &findings)
+    {
+      std::vector<double> values;
+      for (const auto &demand : design.demanded)
+        values.push_back(last_known(demand.term, findings.found->lever, findings, findings.found->lever.worst[values.size()],
+                                    [&](const ModelCheck &check) { return check.worst(demand); }));
+      return values;
     }
 
     std::string lever_text(const DesignSettings &design, const Proposal &lever)
@@ -122,11 +139,14 @@ namespace sprag
       std::vector<double> attainable(design.demanded.size(), unknown);
       for (const auto &stopping : findings.stopping)
         attainable[stopping.demand] = stopping.attainable;
-      return { "demands",
-               { make_dataset(design.demanded, { "value", "", "by the last judge that tells it, or the closed form" },
-                              [&](const Demand &demand) { return best_known(demand.term, lever, findings); }),
-                 { { "attainable", "", "nearest value with all others met; NaN: not stopping" }, attainable, {} } },
-               { make_texts(design.demanded, "demand", "as it was given", [](const Demand &demand) { return demand.text; }) } };
+      return {
+        "demands",
+        { make_dataset(design.demanded, { "value", "", "by the last judge that tells it, or the closed form" },
+                       [&](const Demand &demand) { return best_known(demand.term, lever, findings); }),
+          { { "worst", "", "value within Design/Tolerances that misses the demand most" }, worst_known(design, findings), {} },
+          { { "attainable", "", "nearest value with all others met; NaN: not stopping" }, attainable, {} } },
+        { make_texts(design.demanded, "demand", "as it was given", [](const Demand &demand) { return demand.text; }) }
+      };
     }
 
     void print_checks(std::ostream &stream, const DesignSettings &design, const std::vector<ModelCheck> &checks)
@@ -231,8 +251,7 @@ namespace sprag
       text += "The lever that misses all by the least, " + formatted("%.3g", 100. * findings.found->distance) + " %, has " +
               lever_text(design, findings.found->lever);
       for (const auto i : missed_demands(design, findings.found->lever))
-        text += "; '" + design.demanded[i].text + "' becomes " +
-                rounded_text(term_value(design.demanded[i].term, findings.found->lever)) +
+        text += "; '" + design.demanded[i].text + "' becomes " + rounded_text(findings.found->lever.worst[i]) +
                 term_unit(design, design.demanded[i].term);
       return text;
     }
@@ -246,7 +265,7 @@ namespace sprag
       std::string text = "No lever proposed meets all demands " + by + "; of the last one";
       for (const auto &demand : design.demanded)
         if (demand.term.quantity != DesignQuantity::parameter)
-          if (const double value = check.found[demand.term.quantity]; demand_violation(demand, value) > 0.)
+          if (const double value = check.worst(demand); demand_violation(demand, value) > 0.)
             text += " '" + demand.text + "' becomes " + rounded_text(value) + term_unit(design, demand.term) + ';';
       text.pop_back();
       return text + ". More Design/Rounds may help";
@@ -266,11 +285,14 @@ namespace sprag
       for (const auto &aim : design.aims)
         stream << "  " << padded(aim.text, -34) << rounded_text(best_known(aim.term, lever, findings))
                << term_unit(design, aim.term) << '\n';
-      for (const auto &demand : design.demanded)
+      const auto worst = worst_known(design, findings);
+      for (std::size_t i = 0; i < worst.size(); ++i)
       {
-        const double value = best_known(demand.term, lever, findings);
-        stream << "  " << padded(demand.text, -34) << rounded_text(value) << term_unit(design, demand.term)
-               << (std::isnan(value) || demand_violation(demand, value) <= 1e-9 ? "" : "  MISSED") << '\n';
+        const auto &demand = design.demanded[i];
+        stream << "  " << padded(demand.text, -34) << rounded_text(best_known(demand.term, lever, findings))
+               << term_unit(design, demand.term)
+               << (design.toleranced.empty() ? "" : ", within tolerances " + rounded_text(worst[i]))
+               << (std::isnan(worst[i]) || demand_violation(demand, worst[i]) <= 1e-9 ? "" : "  MISSED") << '\n';
       }
       if (!findings.front.empty())
         stream << "  front of both aims: " << findings.front.size() << " levers\n";
@@ -348,10 +370,10 @@ namespace sprag
       /// A lever less stable than demanded, or jamming; where the demand is kept or there is none a search cannot help.
       bool misses_growth(const ModelCheck &check) const
       {
-        const double growth = check.found[DesignQuantity::growth_rate];
         return std::any_of(design.demanded.begin(), design.demanded.end(),
                            [&](const Demand &demand) {
-                             return demand.term.quantity == DesignQuantity::growth_rate && demand_violation(demand, growth) > 0.;
+                             return demand.term.quantity == DesignQuantity::growth_rate &&
+                                    demand_violation(demand, check.worst(demand)) > 0.;
                            });
       }
 

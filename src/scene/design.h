@@ -19,7 +19,7 @@ namespace sprag
                     reach, inclination, lever_length, transmissibility, relative_amplitude, residual_offset, growth_rate,
                     parameter)
 
-  /// Names a free parameter as in --set, and its bounds.
+  /// Names a free parameter, or one with a tolerance, as in --set, and its bounds.
   struct FreeParameter
   {
     std::string name;
@@ -72,6 +72,7 @@ namespace sprag
     std::string demands = "damping slope = 0.1 +- 0.001";
     std::string aim     = "minimise largest force";
     std::string second_aim; ///< empty: none
+    std::string tolerances; ///< empty: none
     std::string checks        = "none";
     unsigned int front_points = 11;   ///< of the front of two aims
     unsigned int positions    = 5;    ///< x at which beam and condensed check the slide, each both ways
@@ -82,6 +83,7 @@ namespace sprag
 
     // read_design() fills these from the texts.
     std::vector<FreeParameter> free_parameters;
+    std::vector<FreeParameter> toleranced; ///< parameters within whose bounds all demands hold
     std::vector<Demand> demanded;
     std::vector<DesignAim> aims;
     std::vector<CheckModel> check_models;

@@ -106,6 +106,32 @@ TEST(Design, WhatCannotBeMetNamesTheDemandThatStopsIt)
   EXPECT_NEAR(stopping[1].attainable, largest, 1e-3 * largest);
 }
 
+TEST(Design, DemandsHoldWithinTolerances)
+{
+  const TemporaryFolder folder;
+  // c is proportional to mu and k.
+  const auto find = [&](const std::vector<std::string> &more)
+  {
+    std::vector<std::string> changes = { "Design/Free=Rotational spring/Stiffness = 1e3 ... 1e6",
+                                         "Design/Demands=damping slope >= 0.1", "Design/Aim=minimise largest force" };
+    changes.insert(changes.end(), more.begin(), more.end());
+    return best_design(design(folder, changes));
+  };
+  const auto exact = find({}), tolerant = find({ "Design/Tolerances=Friction/Factor = 0.8 ... 1.1" });
+  ASSERT_TRUE(exact.meets_all && tolerant.meets_all);
+  EXPECT_NEAR(tolerant.lever.parameters[0], exact.lever.parameters[0] / 0.8, 1e-4 * exact.lever.parameters[0]);
+  EXPECT_NEAR(tolerant.lever.quantities[DesignQuantity::damping_slope], 0.1 / 0.8, 1e-5);
+  EXPECT_NEAR(tolerant.lever.worst[0], 0.1, 1e-5);
+  // The lever locks at mu = l/e, which a tolerance may reach.
+  EXPECT_FALSE(find({ "Geometry/Interface offset=20", "Design/Tolerances=Friction/Factor = 1 ... 30" }).meets_all);
+  // With a preload Q ends and begins at other values: its slope is that of the closed form near x = 0.
+  const Scene preloaded = design(folder, { "Rotational spring/Rest angle=-0.01" });
+  const auto near       = [&](const double x, const double v) { return closed_form(preloaded, x, v).Q; };
+  const double v = preloaded.drive.peak_speed(), x = 1e-4;
+  EXPECT_NEAR(lever_quantities(preloaded)[DesignQuantity::forward_slope], (near(x, v) - near(0., v)) / x, 1e-6);
+  EXPECT_NEAR(lever_quantities(preloaded)[DesignQuantity::backward_slope], (near(x, -v) - near(0., -v)) / x, 1e-6);
+}
+
 TEST(Design, SearchIsRepeatable)
 {
   const TemporaryFolder folder;

@@ -101,6 +101,29 @@ TEST(RunDesign, WithoutALeverTheNearestIsKept)
   EXPECT_NO_THROW(read_scene(read_output(folder) + "/design-nearest.prm"));
 }
 
+TEST(RunDesign, AJudgeChecksTolerances)
+{
+  const TemporaryFolder folder;
+  run_in(folder,
+         design(folder, { "Lever/Depth=6", "Design/Free=Rotational spring/Stiffness = 1e4 ... 2e5", "Design/Judges=beam",
+                          "Design/Demands=damping slope >= 0.08; largest force <= 30", "Design/Aim=minimise largest force",
+                          "Design/Tolerances=Friction/Factor = 0.9 ... 1.1; Rotational spring/Rest angle = -0.002 ... 0",
+                          "Design/Judge in time=off" }));
+  // The beam itself at the worst corner, with friction's least factor and the lever found.
+  auto least       = best_scene(folder);
+  const auto check = [&](const std::string &rest)
+  {
+    const auto demand = Demand{ { DesignQuantity::damping_slope, 0 }, DemandKind::at_least, 0.08, 0., "" };
+    DesignChecks checks(variant(
+        least, { "Analysis/Type=design", "Design/Tolerances=", "Friction/Factor=0.9", "Rotational spring/Rest angle=" + rest }));
+    const Proposal lever{ { least.spring.stiffness }, {}, {}, {}, {} };
+    return checks.check(CheckModel::beam, lever, false).worst(demand);
+  };
+  const double worst = std::min(check("0"), check("-0.002"));
+  EXPECT_GE(worst, 0.08 * (1. - 1e-6));
+  EXPECT_LE(worst, 0.08 * (1. + 4e-3));
+}
+
 TEST(RunDesign, AJudgeCorrectsTheClosedForm)
 {
   const TemporaryFolder folder;

@@ -76,6 +76,7 @@ TEST(ReadDesign, MistakesNameTheNearestWord)
   expect_message("Design/Demands=damping slope >= 0.1 N", "0.1 N must be a number [N/mm]: 'N' has the dimension");
   expect_message("Design/Demands=growth rate <= 0", "must have beam where a growth rate is asked for");
   expect_message("Design/Aim=reduce largest force", "must be minimise QUANTITY or maximise QUANTITY");
+  expect_message("Design/Tolerances=Lever/Width = 1 ... ", "must have the form Section/Name = FROM ... TO");
   expect_message("Design/Second aim=minimise largest forc", "did you mean 'largest force'?");
   expect_message("Design/Judges=beem", "'beem' is no judge beside others; did you mean 'beam'?");
   expect_message("Design/Judges=table", "table counts only where transmissibility or relative amplitude is asked for");

@@ -47,9 +47,10 @@ namespace sprag
 
     void add_ideal_slopes(const Scene &scene, DesignQuantities &result)
     {
-      const double mu  = sliding_friction(scene, 0., scene.drive.peak_speed()).coefficient;
-      const auto slope = [&](const int direction)
-      { return representative_slope(scene.geometry, scene.spring.stiffness, mu, direction); };
+      const double mu      = sliding_friction(scene, 0., scene.drive.peak_speed()).coefficient;
+      const double preload = moment_law(scene.spring).moment(0.);
+      const auto slope     = [&](const int direction)
+      { return representative_slope(scene.geometry, scene.spring.stiffness, mu, direction, preload); };
       add_slopes(scene, slope(1), slope(-1), result);
     }
 
@@ -138,6 +139,12 @@ namespace sprag
     double counted(const double violation)
     {
       return std::isnan(violation) ? most_counted : std::clamp(violation, -most_counted, most_counted);
+    }
+
+    void store_all(const std::vector<Parameter> &parameters, const std::vector<double> &values)
+    {
+      for (std::size_t i = 0; i < parameters.size(); ++i)
+        parameters[i].store(number_text(values[i]));
     }
 
     double demand_margin(const Demand &demand, const double margin)
@@ -234,18 +241,46 @@ namespace sprag
     return (std::abs(value - demand.target) - demand.tolerance) / scale;
   }
 
+  double worse(const Demand &demand, const double first, const double second)
+  {
+    const bool is_second = std::isnan(first) || demand_violation(demand, second) > demand_violation(demand, first);
+    return is_second ? second : first;
+  }
+
   double term_value(const DesignTerm &term, const Proposal &proposal)
   {
     return term.quantity == DesignQuantity::parameter ? proposal.parameters.at(term.parameter)
                                                       : proposal.quantities[term.quantity];
   }
 
-  std::vector<std::string> design_overrides(const Scene &design, const Proposal &lever)
+  std::vector<std::vector<double>> tolerance_corners(const DesignSettings &design)
+  {
+    if (design.toleranced.empty())
+      return {};
+    std::vector<std::vector<double>> corners = { {} };
+    for (const auto &parameter : design.toleranced)
+    {
+      auto upper = corners;
+      for (auto &corner : corners)
+        corner.push_back(parameter.from);
+      for (auto &corner : upper)
+        corner.push_back(parameter.to);
+      append(corners, upper);
+    }
+    return corners;
+  }
+
+  std::vector<std::string> overrides(const std::vector<FreeParameter> &parameters, const std::vector<double> &values)
   {
     std::vector<std::string> result;
-    for (std::size_t i = 0; i < lever.parameters.size(); ++i)
-      result.push_back(override_text(design.design.free_parameters[i].name, lever.parameters[i]));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      result.push_back(override_text(parameters[i].name, values[i]));
     return result;
+  }
+
+  std::vector<std::string> design_overrides(const Scene &design, const Proposal &lever)
+  {
+    return overrides(design.design.free_parameters, lever.parameters);
   }
 
   DesignProblem::DesignProblem(const Scene &scene)
@@ -256,6 +291,9 @@ namespace sprag
     const auto declared = scene_parameters(*input);
     for (const auto &parameter : base.design.free_parameters)
       free.push_back(*find_parameter(declared, parameter.name));
+    for (const auto &parameter : base.design.toleranced)
+      toleranced.push_back(*find_parameter(declared, parameter.name));
+    corners = tolerance_corners(base.design);
   }
 
   bool DesignProblem::is_expensive() const
@@ -266,9 +304,21 @@ namespace sprag
 
   const Scene &DesignProblem::scene_at(const std::vector<double> &parameters) const
   {
-    for (std::size_t i = 0; i < free.size(); ++i)
-      free[i].store(number_text(parameters[i]));
+    store_all(free, parameters);
+    for (const auto &parameter : toleranced)
+      parameter.store(parameter.default_value);
     return input->scene;
+  }
+
+  DesignQuantities DesignProblem::corrected_quantities(const Scene &scene) const
+  {
+    DesignQuantities result = lever_quantities(scene);
+    add_table_quantities(scene, base.design, result);
+    if (expensive_model)
+      expensive_model(scene, result);
+    for (const auto &[quantity, name, unit, definition] : design_quantities())
+      result[quantity] = or_else(factors[quantity], 1.) * result[quantity] + or_else(differences[quantity], 0.);
+    return result;
   }
 
   Proposal DesignProblem::at(const std::vector<double> &place) const
@@ -283,17 +333,28 @@ namespace sprag
                                                   [](const CheckModel check_model) { return check_model != CheckModel::table; });
     result.rule                     = hardest_rule(scene, is_checked_by_models);
     if (result.rule.violation < 0.)
-    {
-      result.quantities = lever_quantities(scene);
-      add_table_quantities(scene, base.design, result.quantities);
-      if (expensive_model)
-        expensive_model(scene, result.quantities);
-      for (const auto &[quantity, name, unit, definition] : design_quantities())
-        result.quantities[quantity] =
-            or_else(factors[quantity], 1.) * result.quantities[quantity] + or_else(differences[quantity], 0.);
-    }
+      result.quantities = corrected_quantities(scene);
     for (const auto &demand : base.design.demanded)
-      result.violations.push_back(demand_violation(demand, term_value(demand.term, result)));
+    {
+      result.worst.push_back(term_value(demand.term, result));
+      result.violations.push_back(demand_violation(demand, result.worst.back()));
+    }
+    for (const auto &corner : corners)
+    {
+      store_all(toleranced, corner);
+      if (const auto rule = hardest_rule(scene, is_checked_by_models); rule.violation > result.rule.violation)
+        result.rule = rule;
+      if (!(result.rule.violation < 0.))
+        break;
+      const auto quantities = corrected_quantities(scene);
+      for (std::size_t i = 0; i < result.worst.size(); ++i)
+      {
+        const auto &demand = base.design.demanded[i];
+        if (demand.term.quantity != DesignQuantity::parameter)
+          result.worst[i] = worse(demand, result.worst[i], quantities[demand.term.quantity]);
+        result.violations[i] = demand_violation(demand, result.worst[i]);
+      }
+    }
     return result;
   }
 
@@ -336,15 +397,15 @@ namespace sprag
       const bool is_possible = lever.rule.violation < 0.;
       // A lever that breaks a rule violates every demand, by more the more it breaks it, so that the search leads back to
       // possible ones.
-      const auto take = [&](const Demand &demand)
+      const auto take = [&](const Demand &demand, const double violation)
       {
-        const double missed = demand_violation(demand, term_value(demand.term, lever)) + demand_margin(demand, margin);
+        const double missed = violation + demand_margin(demand, margin);
         result.constraints.push_back(is_possible ? counted(missed) : counted(1. + lever.rule.violation));
       };
       for (const auto i : counting)
-        take(base.design.demanded[i]);
+        take(base.design.demanded[i], lever.violations[i]);
       if (limit)
-        take(*limit);
+        take(*limit, demand_violation(*limit, term_value(limit->term, lever)));
       if (aim && is_possible)
         result.objective = (aim->maximises ? -1. : 1.) * term_value(aim->term, lever);
       // A table that the lever does not hold fails the demand.

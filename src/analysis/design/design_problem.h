@@ -90,15 +90,25 @@ namespace sprag
     std::vector<double> parameters; ///< values of the free parameters, in their order and units
     LeverRule rule;                 ///< the one with the largest violation
     DesignQuantities quantities;    ///< corrected, see DesignProblem::correct(); NaN if a rule is violated
-    std::vector<double> violations; ///< demand_violation() of each demand
+    std::vector<double> violations; ///< demand_violation() of each demand, the largest within Design/Tolerances
+    std::vector<double> worst;      ///< value of each demand's quantity where its violation is largest
   };
 
   /// Returns by how much a value misses a demand, over the target (over the tolerance for a target of 0, over 100/s for growth
   /// rates); <= 0: met.
   double demand_violation(const Demand &demand, double value);
 
+  /// Returns the one of two values that misses the demand by more; NaN counts as unknown.
+  double worse(const Demand &demand, double first, double second);
+
   /// Returns the value of a quantity or a free parameter.
   double term_value(const DesignTerm &term, const Proposal &proposal);
+
+  /// Returns all combinations of the bounds of Design/Tolerances, values in their order; none without tolerances.
+  std::vector<std::vector<double>> tolerance_corners(const DesignSettings &design);
+
+  /// Returns parameters with values as overrides of a scene, "Section/Name=value".
+  std::vector<std::string> overrides(const std::vector<FreeParameter> &parameters, const std::vector<double> &values);
 
   /// Returns the lever's parameters as overrides of the scene of the design, "Section/Name=value".
   std::vector<std::string> design_overrides(const Scene &design, const Proposal &lever);
@@ -132,7 +142,7 @@ namespace sprag
     /// Returns the point of the unit cube for values of the free parameters, in their units.
     std::vector<double> search_point(const std::vector<double> &parameters) const;
 
-    /// Returns the scene with the lever's parameters, unchecked.
+    /// Returns the scene with the lever's parameters, unchecked, and those of Design/Tolerances at their nominal values.
     const Scene &scene_at(const std::vector<double> &parameters) const;
 
     /// Returns whether an evaluation takes about 1 ms, with the isolated table or `expensive_model`; else it takes 10 us.
@@ -156,8 +166,13 @@ namespace sprag
 
   private:
     const Scene base;
-    std::unique_ptr<SceneSettings> input; ///< whose scene the stores of the parameters write to
-    std::vector<Parameter> free;
+    std::unique_ptr<SceneSettings> input;    ///< whose scene the stores of the parameters write to
+    std::vector<Parameter> free, toleranced; ///< their default values are those of `base`
+    std::vector<std::vector<double>> corners;
+
+    /// Returns the corrected quantities of a lever that satisfies the rules.
+    DesignQuantities corrected_quantities(const Scene &scene) const;
+
     DesignQuantities factors;     ///< NaN: 1
     DesignQuantities differences; ///< NaN: 0
     std::shared_ptr<std::size_t> count = std::make_shared<std::size_t>(0);
