@@ -62,7 +62,7 @@ def rank_dampers(scene, changes=None, displacement=None, jobs=None):
     for damper, most in strongest.items():
         if found := find_strength(partial(try_strengths, damper), most, displacement):
             strength, through, largest = found
-            is_at_end = any(math.isclose(strength, end, rel_tol=0.05) for end in (most / RANGE, most))
+            is_at_end = any(math.isclose(strength, end, rel_tol=0.05) for end in (most / RANGE, RANGE * most))
             note = ", where the range tried ends" if is_at_end else ""
             ranked.append(RankedDamper(damper, strength, known.parameters[STRENGTHS[damper]].unit, through, largest, note))
     without = RankedDamper("no damper", 0.0, "", float(free.summary["transmissibility_rms"]), float(free.summary["largest_displacement"]))
@@ -72,15 +72,26 @@ def rank_dampers(scene, changes=None, displacement=None, jobs=None):
 
 
 def find_strength(try_strengths, strongest, displacement):
-    """Returns strength, transmissibility and displacement; None where no strength serves."""
-    strengths = np.geomspace(strongest / RANGE, strongest, FIRST_TRIES)
-    for _ in range(3):
+    """Returns strength, transmissibility and displacement; None where no strength serves.
+
+    Where the strongest tried is the best, or none serves, stronger ones are tried, up to RANGE times `strongest`.
+    """
+    lowest, highest = strongest / RANGE, strongest
+    strengths, narrowed = np.geomspace(lowest, highest, FIRST_TRIES), 0
+    while narrowed < 3:
         through, largest = try_strengths(strengths)
         serves = np.isfinite(through) if displacement is None else largest <= displacement
-        if not serves.any():
+        best = None
+        if serves.any():
+            best = int(np.nanargmin(through) if displacement is None else np.argmax(serves))
+            found = float(strengths[best]), float(through[best]), float(largest[best])
+        if narrowed == 0 and best in (None, len(strengths) - 1) and highest < RANGE * strongest:
+            lowest, highest = strengths[-2], highest * math.sqrt(RANGE)
+            strengths = np.geomspace(lowest, highest, FIRST_TRIES)
+            continue
+        if best is None:
             return None
-        best = int(np.nanargmin(through) if displacement is None else np.argmax(serves))
-        found = float(strengths[best]), float(through[best]), float(largest[best])
+        narrowed += 1
         after = best + 1 if displacement is None else best
         strengths = np.geomspace(strengths[max(best - 1, 0)], strengths[min(after, len(strengths) - 1)], 9)
     return found
@@ -89,6 +100,8 @@ def find_strength(try_strengths, strongest, displacement):
 def tell_ranking(ranked, compared):
     """Returns the ranking in words, with the lever's place even where it loses."""
     lines = [f"{place}. {each}" for place, each in enumerate(ranked, 1)] + [f"   {each}" for each in compared]
+    missing = [damper for damper in STRENGTHS if damper not in {each.damper for each in ranked}]
+    lines += [f"   {damper}: none of the strengths tried keeps the table within that displacement" for damper in missing]
     lever = next((each for each in ranked if each.damper == "lever"), None)
     if lever is None:
         verdict = "The lever does not keep the table within that displacement."
