@@ -33,27 +33,33 @@ def program():
     return Path(os.environ.get("SPRAG") or found or beside[0])
 
 
-def run_scene(sprag, scene, output, changes, jobs=None):
+def run_scene(sprag, scene, output, changes, jobs=None, progress=False):
     """Runs a scene with changes {"Section/Name": value} into a folder, replacing what is there. Throws Refused or Failed."""
     count = [] if jobs is None else ["--jobs", str(jobs)]
-    read_output([sprag, scene, "--output", output, "--quiet", "--overwrite", *settings(changes), *count])
+    quiet = [] if progress else ["--quiet"]
+    read_output([sprag, scene, "--output", output, *quiet, "--overwrite", *settings(changes), *count], progress)
 
 
 def settings(changes):
     return [word for parameter, value in changes.items() for word in ("--set", f"{parameter}={value}")]
 
 
-def read_output(command):
-    """Returns the program's output for a scene, the second word of the command. Throws Refused or Failed."""
+def read_output(command, shows=False):
+    """Returns the program's output for a scene, the second word of the command; shows it as it comes. Throws Refused or Failed."""
     sprag, scene, *_ = command
+    lines = []
     try:
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, check=False)
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True) as process:
+            for line in process.stdout or ():
+                lines.append(line)
+                if shows:
+                    print(line, end="", flush=True)
     except OSError as error:
         raise Failed(f"{sprag}: {error.strerror}") from error
-    if done.returncode != 0:
-        kind = Refused if done.returncode == 2 else Failed
-        raise kind(f"{Path(scene).name}: sprag ended with {done.returncode}\n{done.stdout.strip()}")
-    return done.stdout
+    if process.returncode != 0:
+        kind = Refused if process.returncode == 2 else Failed
+        raise kind(f"{Path(scene).name}: sprag ended with {process.returncode}\n{''.join(lines).strip()}")
+    return "".join(lines)
 
 
 class Section:
@@ -103,18 +109,18 @@ class Scene:
         return scene_text(set_apart(self.parameters))
 
 
-def run(scene, changes=None, output=None, jobs=None):
+def run(scene, changes=None, output=None, jobs=None, progress=False):
     """The Result of a scene.
 
     scene: a Scene, or the path of a parameter file. changes: {"Section/Name": value}, in the units of the parameter file. output: folder of the
     result, replaced if it is there; without one it is temporary and goes with the Result. jobs: processes of a study or map.
-    Throws Refused or Failed with the program's message.
+    progress: prints what the program says while it runs. Throws Refused or Failed with the program's message.
     """
     if isinstance(scene, Scene):
         scene, changes = scene.path, {**scene.changes, **(changes or {})}
     folder = Path(output or tempfile.mkdtemp(prefix="sprag-run-"))
     try:
-        run_scene(program(), scene, folder, changes or {}, jobs)
+        run_scene(program(), scene, folder, changes or {}, jobs, progress)
         result = read_result(folder)
     except BaseException:
         if output is None:
@@ -125,10 +131,13 @@ def run(scene, changes=None, output=None, jobs=None):
     return result
 
 
-def sweep(scene, values, changes=None, output=None, jobs=None):
-    """The Result of a study (Type = study) of a scene over all combinations of values {"Section/Name": sequence}; else as run()."""
-    base = scene if isinstance(scene, Scene) else Scene(scene, changes)
-    kind = (changes or {}).get("Analysis/Type") or base.parameters["Analysis/Type"].text
+def sweep(scene, values, changes=None, output=None, jobs=None, progress=False):
+    """The Result of a study of a scene over all combinations of values {"Section/Name": sequence}; else as run(). Each run is of the
+    scene's Analysis/Type, or of that in changes, there Study/Type as well."""
+    known = {**(scene.changes if isinstance(scene, Scene) else {}), **(changes or {})}
+    kind = known.get("Study/Type") or known.get("Analysis/Type")
+    if kind in (None, "study"):
+        kind = Scene(scene.path if isinstance(scene, Scene) else scene, known).parameters["Analysis/Type"].text
     vary = "; ".join(f"{name} = {', '.join(map(str, numbers))}" for name, numbers in values.items())
     study = {"Analysis/Type": "study", "Study/Type": kind, "Study/Vary": vary}
-    return run(scene, {**(changes or {}), **study}, output, jobs)
+    return run(scene, {**(changes or {}), **study}, output, jobs, progress)

@@ -165,7 +165,8 @@ class Result:
         return steps[moving[last]].astype(int)
 
     def face(self, x, way=None):
-        """The FaceState nearest to an x [mm], of "forward" or "backward" motion if one is named. Throws NotAResult."""
+        """The FaceState nearest to an x [mm] of the drive, of "forward" or "backward" motion if one is named. Throws NotAResult, also
+        where the drive does not come to x."""
         face = self.friction_face
         if face is None or len(face.time) == 0:
             raise NotAResult(f"{self.folder}: no friction face in it: its model has none")
@@ -174,6 +175,8 @@ class Result:
             steps = steps[self.ways[face.find_rows(self.table["time"])] == WAYS[way]]
         if len(steps) == 0:
             raise NotAResult(f"{self.folder}: no {way} motion in it")
+        if not face.x[steps].min() - 1e-9 <= x <= face.x[steps].max() + 1e-9:
+            raise NotAResult(f"{self.folder}: x from {face.x[steps].min():.4g} to {face.x[steps].max():.4g} mm, not {x:.4g}")
         step = int(steps[np.abs(face.x[steps] - x).argmin()])
         return FaceState(float(face.time[step]), float(face.x[step]), face.xi, face.zeta, face.pressure[step], face.traction[step])
 

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """The Python package runs scenes, reads results and tells errors; run with /usr/bin/python3."""
 
+import contextlib
 import gc
 import importlib.util
+import io
 import json
 import math
 import operator
@@ -22,6 +24,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from pictures import SOURCE, FolderTest  # noqa: E402
 from test_plot import make_run  # noqa: E402
 import sprag  # noqa: E402
+from sprag.dampers import RankedDamper, find_strength, tell_ranking  # noqa: E402
 from sprag.parameters import document  # noqa: E402
 from sprag.program import program  # noqa: E402
 
@@ -122,6 +125,18 @@ class PackageTest(FolderTest):
         with self.assertRaisesRegex(ValueError, "Base motion must not be none"):
             sprag.rank_dampers(SCENES / "isolation-free-a.prm")
 
+    def test_dampers_stronger_than_the_first_tries(self):
+        def moves_by_strength(strengths):
+            return 1 / strengths + strengths / 1e6, 1 / strengths
+
+        strength, _, displacement = find_strength(moves_by_strength, 1.0, 0.01)
+        self.assertAlmostEqual(strength, 100, delta=5)
+        self.assertLessEqual(displacement, 0.01)
+        self.assertAlmostEqual(find_strength(moves_by_strength, 100.0, None)[0], 1000, delta=50)
+        self.assertIsNone(find_strength(moves_by_strength, 1.0, 1e-6))
+        ranked = [RankedDamper("viscous", 1.0, "N s/mm", 0.9, 5.0)]
+        self.assertIn("lever: none of the strengths tried keeps the table", tell_ranking(ranked, []))
+
     def test_parameter_gui_opens_the_xml(self):
         # Its reader takes sections of parameters with these five elements, and numbers by their patterns.
         scene, parts = SCENES / "design-machine.prm", ["value", "default_value", "documentation", "pattern", "pattern_description"]
@@ -181,12 +196,19 @@ class PackageTest(FolderTest):
         self.assertEqual((fields["nodes"].unit, fields["von_mises_stress"].unit), ("mm", "MPa"))
         with self.assertRaisesRegex(sprag.NotAResult, "no number 99"):
             result.fields(99)
+        with self.assertRaisesRegex(sprag.NotAResult, "x from 0 to .* mm, not 300"):
+            result.face(300)
 
     def test_a_sweep(self):
         result = sprag.sweep(SCENES / "closed-form-a.prm", {"Geometry/Interface offset": [20, 30], "Friction/Factor": [0.9, 1]})
         self.assertEqual(len(result.table["run"]), 4)
         one = sprag.run(SCENES / "closed-form-a.prm", {"Geometry/Interface offset": 30, "Friction/Factor": 0.9})
         chosen = (result.table["geometry_interface_offset"] == 30) & (result.table["friction_factor"] == 0.9)
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            slopes = sprag.sweep(SCENES / "model-a.prm", {"Friction/Factor": [0.9, 1]}, {"Study/Type": "slope"}, progress=True)
+        self.assertTrue(np.isfinite(slopes.table["slope_forward"]).all() if "slope_forward" in slopes.table else len(slopes.table["run"]) == 2)
+        self.assertRegex(printed.getvalue(), "study: 2 runs")
         self.assertAlmostEqual(result.table["loop_area"][chosen][0], one.summary["loop_area"], delta=1e-9 * one.summary["loop_area"])
 
     def test_errors_of_the_program(self):
