@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <sstream>
 #include <unistd.h>
 
@@ -87,23 +88,54 @@ namespace sprag
         }
     }
 
+    /// Lists the parameters of friction laws for which --new asks.
+    const std::map<std::string, std::vector<std::string>> law_parameters = {
+      { "Coulomb", { "Coefficient" } },
+      { "cork on aluminium", {} },
+      { "Stribeck", { "Static coefficient", "Kinetic coefficient", "Stribeck speed" } },
+      { "table", { "Table" } }
+    };
+
+    /// Returns lines that set the parameters of a friction law to values that are typed on the terminal.
+    std::string ask_for_law(const std::vector<Parameter> &parameters, const std::string &law)
+    {
+      std::string text;
+      for (const auto &name : law_parameters.at(law))
+      {
+        const auto &parameter = *find_parameter(parameters, "Friction/" + name);
+        text += "  set " + name + " = " +
+                answer(full_name(parameter) + ", " + parameter.meaning, parameter, parameter.default_value) + '\n';
+      }
+      return text;
+    }
+
     /// Returns a scene with the values that are typed on the terminal in place of its own.
     std::string ask_for_values(const std::string &scene)
     {
       SceneSettings settings;
       const auto parameters = scene_parameters(settings);
       std::istringstream lines(scene);
-      std::string text, section;
+      std::string text, section, law;
       for (std::string line; std::getline(lines, line); text += line + '\n')
       {
         if (line.rfind("subsection ", 0) == 0)
           section = line.substr(line.find(' ') + 1) + '/';
         const auto equals = line.find(" = "), comment = line.find(" # ");
-        const auto name = section + trim(line.substr(0, equals)).substr(line.rfind("  set ", 0) == 0 ? 4 : 0);
-        if (const auto *const parameter = find_parameter(parameters, name); parameter != nullptr)
-          line = line.substr(0, equals + 3) +
-                 answer(name + ", " + line.substr(comment + 3), *parameter, trim(line.substr(equals + 3, comment - equals - 3))) +
-                 line.substr(comment);
+        const auto name             = section + trim(line.substr(0, equals)).substr(line.rfind("  set ", 0) == 0 ? 4 : 0);
+        const auto *const parameter = find_parameter(parameters, name);
+        if (parameter == nullptr)
+          continue;
+        if (name == "Friction/Coefficient" && law != "Coulomb")
+        {
+          line = ask_for_law(parameters, law);
+          line = line.substr(0, line.find_last_not_of('\n') + 1);
+          continue;
+        }
+        const auto typed =
+            answer(name + ", " + line.substr(comment + 3), *parameter, trim(line.substr(equals + 3, comment - equals - 3)));
+        line = line.substr(0, equals + 3) + typed + line.substr(comment);
+        if (name == "Friction/Law")
+          law = typed;
       }
       return text;
     }

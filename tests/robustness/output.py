@@ -121,6 +121,16 @@ class Output(RunTest):
         scene = new.read_text()
         for name, value in (("Cylinder radius", "40"), ("Interface offset", "22"), ("Pivot distance", "150"), ("Stroke", "40 mm")):
             self.assertRegex(scene, rf"set {name} += {value} +# ")
+        # Another law has other parameters.
+        (self.folder / "mu.csv").write_text("speed,mu\n0,0.6\n10,0.65\n30,0.7\n100,0.8\n")
+        for law, asked, typed in (("table", "Table", "mu.csv"), ("Stribeck", "Stribeck speed", "0.8\n0.5\n20"), ("cork on aluminium", "", "")):
+            new = self.folder / f"{law.split()[0]}.prm"
+            text, status = self.on_a_terminal("--new", new, typed=12 * "\n" + f"{law}\n{typed}\n" + 9 * "\n")
+            self.assertEqual(status, 0, text)
+            self.assertIn(f"Friction/{asked}", text)
+            self.assertNotIn("Friction/Coefficient", text)
+            self.assertEqual(sprag(new, "--validate").returncode, 0)
+            self.assertIn(typed.rpartition("\n")[2], new.read_text())
 
     def test_many_reversals_are_a_table_with_an_end(self):
         settings = [word for setting in MANY_TURNS for word in ("--set", setting)]
