@@ -134,8 +134,9 @@ def over_time(results, several, draw_second, numbers=()):
 
 
 def level(result):
+    """Sorts results from coarse to fine: by model, then by degrees of freedom of the mesh."""
     name = parameter(result, "Analysis", "Model", "")
-    return LEVELS.index(name) if name in LEVELS else -1
+    return LEVELS.index(name) if name in LEVELS else -1, result.meta.get("degrees_of_freedom", 0)
 
 
 def choose_views(finest, results):

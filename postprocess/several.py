@@ -66,7 +66,8 @@ def distinguish(results):
     unit = next(parameter.unit for parameter in found if parameter)
     label, others = parameter_label(name, unit), len(different) - 1
     texts = [said(parameter) for parameter in found]
-    if len(set(texts)) < len(texts) and others:
+    has_words = any(parameters.get(each) and parameters[each].number is None for parameters in listings for each in different)
+    if others and (has_words or len(set(texts)) < len(texts)):
         texts = [", ".join(said(parameters.get(each)) for each in different) for parameters in listings]
         return Several(name, ", ".join(map(parameter_label, different)), 0, None, unique(texts, results), looks, numerical)
     if not all(parameter and parameter.number is not None for parameter in found):
