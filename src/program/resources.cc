@@ -275,7 +275,7 @@ namespace sprag
   {
     stream << "Cost:         about ";
     if (cost.unknown.empty())
-      stream << formatted("%.2g", cost.cpu_seconds) << " s of CPU time, ";
+      stream << formatted(cost.cpu_seconds < 99.5 ? "%.2g" : "%.0f", cost.cpu_seconds) << " s of CPU time, ";
     stream << formatted("%.2g", cost.bytes / 1e9) << " GB";
     stream << (cost.unknown.empty() ? "" : "; how long is not told: " + cost.unknown) << '\n';
   }

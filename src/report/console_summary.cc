@@ -181,8 +181,8 @@ namespace sprag
     for (std::size_t line = 0; line < labels.size(); ++line)
       summary_line(stream, labels[line], texts[line]);
     print_errors(stream, errors);
-    summary_line(stream, "cost",
-                 formatted("%.2g", cpu_seconds) + " s of CPU time, " + formatted("%.2g", wall_seconds) + " s of wall time");
+    const auto seconds = [](const double value) { return formatted(value < 99.5 ? "%.2g" : "%.0f", value) + " s of "; };
+    summary_line(stream, "cost", seconds(cpu_seconds) + "CPU time, " + seconds(wall_seconds) + "wall time");
   }
 
   std::optional<SummaryRow> summary_row(const AnalysisType type, const std::string &entry)
