@@ -57,7 +57,39 @@ namespace sprag
       return is_reduced(scene.analysis.model) ? 1e-8 : 1e-3;
     }
 
-    std::vector<CriticalSearch> all_critical(const Scene &scene, DynamicsMaker &maker, const bool quiet)
+    bool limits_stability(const CriticalValue &change)
+    {
+      return (change.below == SlideKind::stable) != (change.above == SlideKind::stable);
+    }
+
+    /// Returns by how much the error of the growth rate moves a limit of stability: that of the slide which decides there, over
+    /// its change with the parameter, a central difference over `spacing`.
+    double limit_error(const Scene &scene, const std::string &name, const CriticalValue &limit, const double spacing)
+    {
+      DynamicsMaker maker;
+      const auto slide_at = [&](const double value)
+      { return held_scene(slide_scene(prepared(variant(scene, { override_text(name, value) })), limit.worse)); };
+      const auto growth_at = [&](const double value) { return check_slide(slide_at(value), maker).growth_rate(); };
+      try
+      {
+        const double slope  = (growth_at(limit.value + 0.5 * spacing) - growth_at(limit.value - 0.5 * spacing)) / spacing;
+        const Scene held    = slide_at(limit.value);
+        const auto dynamics = maker.make(held);
+        const auto found    = check_slide(dynamics.model(), held_drive(held), checked_modes(held));
+        const auto accuracy = vibration_accuracy(held, found, dynamics.meshed, maker);
+        return accuracy.empty() ? std::nan("") : total_error(accuracy.front()) * std::abs(found.growth_rate() / slope);
+      }
+      catch (const InputError &)
+      {
+        return std::nan(""); // the scene does not admit a value beside the limit
+      }
+      catch (const AnalysisError &)
+      {
+        return std::nan("");
+      }
+    }
+
+    std::vector<CriticalSearch> all_critical(const Scene &scene, DynamicsMaker &maker, const bool quiet, const bool with_errors)
     {
       const auto ranges = critical_searches(scene).value_or(std::vector<ParameterRange>());
       double expected   = 0.;
@@ -75,6 +107,9 @@ namespace sprag
         DynamicsMaker passing(false);
         auto &range_maker = is_meshed(scene.analysis.model) && changes_mesh(scene, range) ? passing : maker;
         result.push_back(critical_values(scene, range, search_tolerance(scene), range_maker, tried));
+        for (auto &change : result.back().changes)
+          if (with_errors && is_meshed(scene.analysis.model) && limits_stability(change))
+            change.error = limit_error(scene, range.name, change, result.back().spacing);
         progress.update(begun += own, {});
       }
       return result;
@@ -310,7 +345,7 @@ namespace sprag
         append(result.summary, role_entries(roles(with_condensed_lever(scene), found, maker)));
       if (scene.stability.critical != "none")
       {
-        const auto critical = all_critical(whole, maker, options.quiet);
+        const auto critical = all_critical(whole, maker, options.quiet, estimates_errors(options));
         append(result.summary, critical_entries(whole, critical));
         append(result.groups, critical_groups(critical));
         for (const auto &search : critical)

@@ -221,7 +221,8 @@ namespace sprag
       return critical.worse.motion.empty() ? "" : ", the levers " + critical.worse.motion;
     }
 
-    /// Returns "from 3.94 mm with the scene's constants, from 4.1 mm with 95 % of those in the ranges"; empty without ranges.
+    /// Returns "stable from 3.94 mm with the scene's constants, stable from 4.1 mm with 95 % of those in the ranges"; empty
+    /// without ranges.
     std::string limits_text(const CriticalSearch &search, const CriticalValue &critical, const bool upward)
     {
       const auto &range = search.range;
@@ -230,8 +231,9 @@ namespace sprag
         if (std::isnan(value))
           return std::string();
         const bool everywhere = value == (upward ? std::min(range.from, range.to) : std::max(range.from, range.to));
-        return (everywhere ? std::string("throughout")
-                           : "from " + with_unit(rounded_to(value, upward), parameter_unit(range.name))) +
+        return (everywhere ? std::string("stable throughout")
+                           : (upward ? "stable from " : "stable up to ") +
+                                 with_unit(rounded_to(value, upward), parameter_unit(range.name))) +
                " with " + constants;
       };
       const auto own    = text(critical.own, "the scene's constants");
@@ -253,6 +255,7 @@ namespace sprag
         // The value that is printed must lie on the better side as well.
         const bool upward = (critical.above < critical.below) == (range.to > range.from);
         text += ", " + kind_name(critical.above) + " from " + with_unit(rounded_to(critical.value, upward), unit) +
+                (std::isnan(critical.error) ? "" : " +- " + formatted("%.2g", critical.error)) +
                 (is_friction ? " (mu = " + four_digits(rounded_to(critical.mu, upward)) + ")" : "") +
                 (critical.worse.motion.empty() ? "" : " (" + critical.worse.motion + ")");
         std::vector<std::string> more;
@@ -460,6 +463,9 @@ namespace sprag
         result.push_back({ name + "_" + std::to_string(i + 1), critical.value, unit,
                            search.range.name + ": from " + kind_name(critical.below) + " to " + kind_name(critical.above) +
                                motion_text(critical) });
+        if (!std::isnan(critical.error))
+          result.push_back({ name + "_" + std::to_string(i + 1) + "_error", critical.error, unit,
+                             "by which the error of the growth rate moves it" });
         if (std::isnan(critical.own))
           continue;
         result.push_back({ name + "_" + std::to_string(i + 1) + "_own", critical.own, unit, "with the scene's own constants" });

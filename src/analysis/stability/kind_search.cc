@@ -61,8 +61,7 @@ namespace sprag
       {
         for (unsigned int i = 0; i < range.points; ++i)
         {
-          all.push_back(
-              checked_at(range.points == 1 ? range.from : range.from + (range.to - range.from) * i / (range.points - 1)));
+          all.push_back(checked_at(range_point(range, i)));
           if (first_change && (!all.back().slide || all.back().kind() != all.front().kind()))
             break;
         }
@@ -258,6 +257,11 @@ namespace sprag
       }
     };
   } // namespace
+
+  double range_point(const ParameterRange &range, const unsigned int i)
+  {
+    return range.points == 1 ? range.from : range.from + (range.to - range.from) * i / (range.points - 1);
+  }
 
   bool are_equal(const CheckedSlide &a, const CheckedSlide &b)
   {

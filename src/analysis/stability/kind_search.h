@@ -41,8 +41,9 @@ namespace sprag
     double value = 0.; ///< on the better side, within the tolerance of the search
     SlideKind below;   ///< kind just below the change
     SlideKind above;
-    CheckedSlide worse; ///< the worse of the slides on both sides
-    double mu = 0.;     ///< of the slide below; NaN where there is no equilibrium
+    CheckedSlide worse;     ///< the worse of the slides on both sides
+    double mu    = 0.;      ///< of the slide below; NaN where there is no equilibrium
+    double error = unknown; ///< by which the error of the growth rate moves a limit of stability; NaN: not estimated
     // At the limit of stability within Stability/Ranges also its place
     double own    = unknown; ///< with the constants of the scene
     double likely = unknown; ///< with probable_share of the constants, of which all in the ranges are equally likely
@@ -82,6 +83,9 @@ namespace sprag
     std::function<CheckedSlide(double, const CheckedSlide &)> alike = {};
     std::function<void()> tried                                     = [] {}; ///< called after each value
   };
+
+  /// Returns a point of a range, from 0 on.
+  double range_point(const ParameterRange &range, unsigned int i);
 
   /// Finds the changes of kind along a parameter: at the range's points and `hints`, then near peaks of growth rates that may
   /// cross 0. Changes are located by bisection or regula falsi. A range of another kind narrower than the spacing can be missed.

@@ -151,43 +151,84 @@ namespace sprag
     /// The number of slides grows as the power of three.
     constexpr std::size_t most_shared_ranges = 3;
 
+    /// Returns the largest growth rate at each x of a sweep's ranges, first one direction, then the other: NaN where it jams.
+    std::vector<double> growth_along(const SweptSlides &swept)
+    {
+      std::vector<double> result;
+      for (const auto &[direction, constants, along] : swept.sweeps)
+        for (unsigned int i = 0; i < along.range.points; ++i)
+        {
+          const double x   = range_point(along.range, i);
+          const auto found = std::find_if(along.growth.begin(), along.growth.end(),
+                                          [&](const std::pair<double, double> &tried) { return tried.first == x; });
+          result.push_back(found == along.growth.end() ? unknown : found->second);
+        }
+      return result;
+    }
+
+    /// Returns weights of values at 0, 1/2 and 1 for a place between them: of a parabola, or of two straight lines.
+    std::array<double, 3> interpolation_weights(const double t, const bool is_parabola)
+    {
+      if (is_parabola)
+        return { { 2. * (t - 0.5) * (t - 1.), 4. * t * (1. - t), 2. * t * (t - 0.5) } };
+      return { { std::max(0., 1. - 2. * t), 1. - std::abs(2. * t - 1.), std::max(0., 2. * t - 1.) } };
+    }
+
+    /// Returns the value at t, from 0 to 1 in each dimension, by the products of these weights in all dimensions.
+    double interpolate(std::vector<double> values, const std::vector<double> &t, const bool is_parabola)
+    {
+      for (const double at : t)
+      {
+        const auto weights = interpolation_weights(at, is_parabola);
+        for (std::size_t j = 0; j < values.size() / 3; ++j)
+          values[j] = weights[0] * values[3 * j] + weights[1] * values[3 * j + 1] + weights[2] * values[3 * j + 2];
+        values.resize(values.size() / 3);
+      }
+      return values.front();
+    }
+
     /// Returns the share of the constants in Stability/Ranges, at most most_shared_ranges, for which all slides are stable. All
-    /// values of a range are equally likely. Between its ends and middle growth is a parabola.
+    /// values of a range are equally likely. Between its ends and middle growth at each x is the larger of a parabola and of
+    /// straight lines, as the vibration that grows most may change between them. What stands out between these x counts whole.
     double stable_share(const Scene &scene, DynamicsMaker &maker)
     {
       constexpr std::array<unsigned int, most_shared_ranges + 1> n_samples = { { 1, 1000, 100, 27 } };
       const auto ranges                                                    = constant_ranges(scene);
       const std::size_t n_nodes = std::size_t(std::lround(std::pow(3., ranges.size())));
       SharedEquilibria shared;
-      std::vector<double> growth;
+      std::vector<std::vector<double>> growth; // at each x, of all nodes
+      double between = 0.;
       for (std::size_t node = 0; node < n_nodes; ++node)
       {
         SweepPart part{ false, Constants(), {}, &shared };
         for (std::size_t i = 0, place = node; i < ranges.size(); ++i, place /= 3)
           part.constants->push_back(
               override_text(ranges[i].name, ranges[i].from + 0.5 * (place % 3) * (ranges[i].to - ranges[i].from)));
-        growth.push_back(sweep(scene, maker, part).worst().growth_rate);
+        const auto swept = sweep(scene, maker, part);
+        const auto along = growth_along(swept);
+        growth.resize(along.size(), std::vector<double>(n_nodes));
+        for (std::size_t i = 0; i < along.size(); ++i)
+          growth[i][node] = along[i];
+        between = std::fmax(between, swept.worst().growth_rate - *std::max_element(along.begin(), along.end()));
       }
       double largest = 1.;
-      for (const double rate : growth)
-        largest = std::fmax(largest, std::abs(rate));
-      for (double &rate : growth)
-        rate = std::isnan(rate) ? largest : rate; // it jams
+      for (const auto &at_x : growth)
+        for (const double rate : at_x)
+          largest = std::fmax(largest, std::abs(rate));
+      for (auto &at_x : growth)
+        for (double &rate : at_x)
+          rate = std::isnan(rate) ? largest : rate + between;
       const unsigned int samples = n_samples[ranges.size()];
       const std::size_t n_all    = std::size_t(std::lround(std::pow(samples, ranges.size())));
       std::size_t n_stable       = 0;
       for (std::size_t sample = 0; sample < n_all; ++sample)
       {
-        auto values = growth;
+        std::vector<double> t;
         for (std::size_t i = 0, place = sample; i < ranges.size(); ++i, place /= samples)
-        {
-          const double t = (place % samples + 0.5) / samples;
-          for (std::size_t j = 0; j < values.size() / 3; ++j)
-            values[j] = 2. * (t - 0.5) * (t - 1.) * values[3 * j] + 4. * t * (1. - t) * values[3 * j + 1] +
-                        2. * t * (t - 0.5) * values[3 * j + 2];
-          values.resize(values.size() / 3);
-        }
-        n_stable += values.front() <= 0. ? 1 : 0;
+          t.push_back((place % samples + 0.5) / samples);
+        const auto is_stable = [&](const std::vector<double> &at_x)
+        { return interpolate(at_x, t, true) <= 0. && interpolate(at_x, t, false) <= 0.; };
+        n_stable += std::all_of(growth.begin(), growth.end(), is_stable) ? 1 : 0;
       }
       return static_cast<double>(n_stable) / static_cast<double>(n_all);
     }
