@@ -8,7 +8,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "estimate/coarser_scene.h"
-#include "input/check_parts.h"
+#include "input/check.h"
 #include "report/summary_lines.h"
 #include "results/row_statistics.h"
 #include "scene/analysis_use.h"

@@ -25,9 +25,6 @@ namespace sprag
   /// Unused columns of tables, by the parameter that names the table.
   using UnusedColumns = std::map<std::string, std::vector<std::string>>;
 
-  /// Reads the files that the settings use, whose paths are absolute or empty, and reports what is wrong with them.
-  void read_isolation_tables(IsolationSettings &settings, UnusedColumns &unused, const ReportMistake &report);
-
   /// The words for unknowns and forces in scenes and reports.
   const Choices<Unknown> &unknown_words();
   const Choices<MeasuredForce> &force_words();

@@ -222,6 +222,168 @@ namespace sprag
       section.text("Quantity", settings.quantity);
       section.number("Budget", settings.budget, at_least(0.), "s");
     }
+
+    void spring(Section section, RotationalSpring &settings)
+    {
+      section.choice("Type", settings.type);
+      section.number("Stiffness", settings.stiffness, above(0.), "N mm/rad");
+      section.number("Rest angle", settings.rest_angle, { -0.5, 0. }, "rad");
+    }
+
+    void leaf(Section section, LeafSpring &settings)
+    {
+      section.length("Length", settings.length);
+      section.length("Thickness", settings.thickness);
+      section.length("Width", settings.width);
+      add_material(section, settings);
+      add_plane(section, settings);
+      section.choice("Joint", settings.end,
+                     { { "clamped", LeafEnd::clamped }, { "pinned", LeafEnd::pinned }, { "guided", LeafEnd::guided } });
+      section.choice("Axial", settings.axial);
+      section.number("Clamp distance", settings.clamp_distance, at_least(0.), "mm");
+      section.number("Sagitta", settings.sagitta, any_number(), "mm");
+      section.length("Room", settings.room);
+    }
+
+    void lever_frame(Section section, LeverFrameShape &settings)
+    {
+      section.length("Tip depth", settings.tip_depth);
+      section.length("Flange", settings.flange);
+      section.number("Web", settings.web, at_least(0.), "mm");
+      section.integer("Pockets", settings.pockets, { 0., 50. });
+      section.length("Rib", settings.rib);
+      section.length("Root", settings.root);
+    }
+
+    void friction_plate(Section section, FrictionPlate &settings)
+    {
+      section.choice("Type", settings.type);
+      section.length("Begin", settings.begin);
+      section.length("End", settings.end);
+      section.length("Thickness", settings.thickness);
+      section.length("Spacer", settings.spacer);
+      add_material(section, settings);
+      section.numbers("Sensors", settings.sensors, above(0.), "mm");
+      section.length("Sensor length", settings.sensor_length);
+      section.number("Sensor stiffness", settings.sensor_stiffness, above(0.), "N/mm");
+      section.number_or_auto("Sensors across", settings.sensors_across, above(0.), "mm");
+      section.length("Sensor width", settings.sensor_width);
+      section.length("Guide", settings.guide);
+      section.number("Guide stiffness", settings.guide_stiffness, above(0.), "N/mm");
+    }
+
+    void cylinder(Section section, Cylinder &settings)
+    {
+      section.choice("Type", settings.type);
+      section.length("Inner radius", settings.inner_radius);
+      add_material(section, settings);
+      add_plane(section, settings);
+      section.length("Face size", settings.face_size);
+      section.number("Length", settings.length, at_least(0.), "mm");
+      section.number("Position", settings.position, any_number(), "mm");
+      section.number("Tilt", settings.tilt, { -0.1, 0.1 });
+      section.number("Skew", settings.skew, { -0.1, 0.1 });
+      section.number_or_auto("Tilt stiffness", settings.tilt_stiffness, above(0.), "N mm/rad");
+      section.number_or_auto("Skew stiffness", settings.skew_stiffness, above(0.), "N mm/rad");
+      section.number("Crown radius", settings.crown_radius, at_least(0.), "mm");
+      section.number("Edge radius", settings.edge_radius, at_least(0.), "mm");
+    }
+
+    void mirrored_pair(Section section, MirroredPair &settings)
+    {
+      section.choice("Type", settings.type);
+      section.choice("Joint", settings.joint);
+      section.number("Joint mass", settings.joint_mass, at_least(0.), "t");
+      section.number("Cylinder offset", settings.cylinder_offset, any_number(), "mm");
+      section.number("Friction ratio", settings.friction_ratio, above(0.));
+      section.number("Spring ratio", settings.spring_ratio, above(0.));
+    }
+
+    void calibration(Section section, CalibrationSettings &settings)
+    {
+      section.number_or_auto("Stiffness", settings.stiffness, above(0.), "N mm/rad");
+      section.number_or_auto("Moment of inertia", settings.moment_of_inertia, above(0.), "t mm2");
+      section.choice("Mass", settings.mass);
+    }
+
+    void table_and_damper(Section section, IsolationSettings &settings)
+    {
+      section.number("Mass", settings.mass, above(0.), "t");
+      section.number("Stiffness", settings.stiffness, above(0.), "N/mm");
+      section.integer("Levers", settings.levers, { 1., 1000. });
+      section.choice("Damper", settings.damper);
+      section.number("Friction force", settings.friction_force, at_least(0.), "N");
+      section.number("Friction slope", settings.friction_slope, at_least(0.), "N/mm");
+      section.number("Viscous coefficient", settings.viscous_coefficient, at_least(0.), "N s/mm");
+      section.number("Lever ratio", settings.lever_ratio, at_least(0.));
+      section.number("Friction arm ratio", settings.friction_arm_ratio, at_least(0.));
+      section.text("Loop table", settings.loop_file, Rule::Kind::file);
+    }
+
+    void base_motion(Section section, IsolationSettings &settings)
+    {
+      section.choice("Base motion", settings.base);
+      section.length("Base amplitude", settings.base_amplitude);
+      section.number("Base frequency", settings.base_frequency, above(0.), "Hz");
+      section.number("Final frequency", settings.final_frequency, above(0.), "Hz");
+      section.choice("Sweep", settings.sweep);
+      section.choice("Shock", settings.shock);
+      section.choice("Base spectrum", settings.spectrum,
+                     { { "Kanai-Tajimi", BaseSpectrum::kanai_tajimi }, { "table", BaseSpectrum::table } });
+      section.number("Base acceleration", settings.rms_acceleration, above(0.), "mm/s2");
+      section.number("Ground frequency", settings.ground_frequency, above(0.), "Hz");
+      section.number("Ground damping", settings.ground_damping, above(0.));
+      section.number("Lowest frequency", settings.lowest_frequency, above(0.), "Hz");
+      section.number("Highest frequency", settings.highest_frequency, above(0.), "Hz");
+      section.integer("Spectrum lines", settings.spectrum_lines, { 1., 1e5 });
+      section.integer("Seed", settings.seed, { 0., 4294967295. });
+      section.text("Base table", settings.base_file, Rule::Kind::file);
+      section.choice("Base unit", settings.unit,
+                     { { "from file", AccelerationUnit::from_file },
+                       { "mm/s2", AccelerationUnit::mm_s2 },
+                       { "cm/s2", AccelerationUnit::cm_s2 },
+                       { "m/s2", AccelerationUnit::m_s2 },
+                       { "g", AccelerationUnit::g } });
+      section.choice("Drift correction", settings.corrects_drift, { { "off", false }, { "on", true } });
+    }
+
+    void motion(Section section, IsolationSettings &settings)
+    {
+      section.number("Initial displacement", settings.initial_displacement, any_number(), "mm");
+      section.number("Initial velocity", settings.initial_velocity, any_number(), "mm/s");
+      section.number("Duration", settings.duration, above(0.), "s");
+      section.choice("End", settings.end);
+      section.number("Periodic tolerance", settings.periodic_tolerance, { 0., 0.1, false, true });
+      section.number("Tolerance", settings.tolerance, { 1e-14, 1e-3 });
+      section.number_or_auto("Output step", settings.output_step, above(0.), "s");
+    }
+
+    void design(Section section, DesignSettings &settings)
+    {
+      section.text("Free", settings.free);
+      section.text("Demands", settings.demands);
+      section.text("Aim", settings.aim);
+      section.text("Second aim", settings.second_aim);
+      section.text("Tolerances", settings.tolerances);
+      section.integer("Front points", settings.front_points, { 3., 200. });
+      section.text("Judges", settings.checks);
+      section.integer("Positions", settings.positions, { 2., 200. });
+      section.choice("Judge in time", settings.checks_in_time, { { "on", true }, { "off", false } });
+      section.integer("Rounds", settings.rounds, { 1., 20. });
+      section.integer("Evaluations", settings.evaluations, { 100., 1e7 });
+      section.integer("Seed", settings.seed, { 0., 4294967295. });
+    }
+
+    void identification(Section section, IdentificationSettings &settings)
+    {
+      section.text("Table", settings.table, Rule::Kind::file);
+      section.text("Forces", settings.forces);
+      section.text("Unknowns", settings.unknowns);
+      section.numbers("Friction speeds", settings.friction_speeds, at_least(0.), "mm/s");
+      section.number_or_auto("Reversal window", settings.window, at_least(0.), "mm");
+      section.choice("Loss", settings.loss);
+      section.number("Confidence", settings.confidence, { 0.5, 0.9999 });
+    }
   } // namespace
 
   const Choices<PageCells> &materials()
@@ -246,7 +408,13 @@ namespace sprag
     friction({ all, "Friction" }, settings.friction, scene.friction);
     lever({ all, "Lever" }, scene.lever);
     friction_layer({ all, "Friction layer" }, scene.layer);
-    add_apparatus_parameters(scene, all);
+    spring({ all, "Rotational spring" }, scene.spring);
+    leaf({ all, "Leaf spring" }, scene.spring.leaf);
+    mirrored_pair({ all, "Mirrored pair" }, scene.pair);
+    lever_frame({ all, "Lever frame" }, scene.frame);
+    friction_plate({ all, "Friction plate" }, scene.plate);
+    cylinder({ all, "Cylinder" }, scene.cylinder);
+    calibration({ all, "Calibration" }, scene.calibration);
     support({ all, "Support" }, scene.support);
     contact({ all, "Contact" }, settings);
     time({ all, "Time" }, scene.time, settings.time_tolerance);
@@ -258,7 +426,12 @@ namespace sprag
     map({ all, "Map" }, scene.map);
     study({ all, "Study" }, scene.study);
     sprag_slip({ all, "Sprag slip" }, scene.sprag_slip);
-    add_analysis_parameters(scene, all);
+    const Section isolation{ all, "Isolation" };
+    table_and_damper(isolation, scene.isolation);
+    base_motion(isolation, scene.isolation);
+    motion(isolation, scene.isolation);
+    design({ all, "Design" }, scene.design);
+    identification({ all, "Identification" }, scene.identification);
     accuracy({ all, "Accuracy" }, scene.accuracy);
     return all;
   }

@@ -57,10 +57,4 @@ namespace sprag
   /// Lists every parameter of a scene file. Defaults are the present values in `settings`, where Parameter::store writes to;
   /// `settings` must outlive the result.
   std::vector<Parameter> scene_parameters(SceneSettings &settings);
-
-  /// Adds those of the parts of the apparatus: spring, lever frame, friction plate, cylinder, pair and what is calibrated.
-  void add_apparatus_parameters(Scene &scene, std::vector<Parameter> &all);
-
-  /// Adds those of the isolation system, of what a lever is designed for and of what is found from a measured stroke.
-  void add_analysis_parameters(Scene &scene, std::vector<Parameter> &all);
 } // namespace sprag

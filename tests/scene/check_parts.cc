@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "input/check_parts.h"
+#include "input/check.h"
 
 #include "scene/messages.h"
 #include "scene/scene.h"
