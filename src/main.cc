@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/hdf5_handle.h"
-#include "base/system/exec.h"
+#include "base/system/child_process.h"
 #include "base/system/interrupt.h"
 #include "base/system/open_mpi.h"
 #include "base/system/supervisor.h"

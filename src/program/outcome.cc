@@ -2,7 +2,7 @@
 #include "program/outcome.h"
 
 #include "base/errors.h"
-#include "base/system/coloured.h"
+#include "base/system/terminal.h"
 #include "base/text.h"
 #include "input/read.h"
 #include "report/warnings.h"

@@ -3,7 +3,7 @@
 
 #include "base/pages.h"
 #include "base/ranges.h"
-#include "base/system/coloured.h"
+#include "base/system/terminal.h"
 #include "base/text.h"
 
 #include <boost/algorithm/string/join.hpp>

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <fstream>
 #include <initializer_list>
 #include <poll.h>
@@ -99,6 +100,13 @@ namespace sprag
       throw AnalysisError(interruption);
     answer.failure = all ? describe_failure(status) : "does not come to an end";
     return answer;
+  }
+
+  void execute_beside(const std::string &name, char **arguments)
+  {
+    const auto program = std::filesystem::read_symlink("/proc/self/exe").replace_filename(name);
+    ::execv(program.c_str(), arguments);
+    throw InputError(program.string() + " cannot be run: " + std::strerror(errno) + ": it must lie beside sprag");
   }
 
   void limit_growth(const std::size_t bytes)

@@ -33,6 +33,13 @@ namespace sprag
     return columns == nullptr ? 0 : std::strtoul(columns, nullptr, 10);
   }
 
+  std::string coloured(const std::string &text, const int descriptor, const char *const colour)
+  {
+    const char *const refused = std::getenv("NO_COLOR");
+    const bool has_colours    = is_terminal(descriptor) && (refused == nullptr || *refused == '\0');
+    return has_colours ? std::string("\033[") + colour + 'm' + text + "\033[0m" : text;
+  }
+
   std::string wrapped(std::string line, const std::size_t width)
   {
     const auto first  = line.find_first_not_of(' ');

@@ -18,6 +18,13 @@ namespace sprag
   /// Returns the columns of the terminal behind a standard descriptor; 0 where there is none or they are unknown.
   std::size_t terminal_width(int descriptor);
 
+  // ANSI colours of what a terminal shows.
+  inline constexpr const char *warning_colour = "33";
+  inline constexpr const char *error_colour   = "31";
+
+  /// Returns the text in a colour if the descriptor of its stream is a terminal's and the environment has no NO_COLOR.
+  std::string coloured(const std::string &text, int descriptor, const char *colour);
+
   /// Breaks a line between its words, at most `width` characters each. What continues stands below the text behind a label.
   std::string wrapped(std::string line, std::size_t width);
 
