@@ -43,11 +43,7 @@ namespace sprag
     /// Processes of another program or scene than the first's would wait for what never comes, or give other results.
     void require_equal_arguments(const Scene &scene, const std::string &folder)
     {
-      Fingerprint run_fingerprint;
-      run_fingerprint.add(program_fingerprint());
-      run_fingerprint.add(parameters_text(scene));
-      run_fingerprint.add(folder);
-      const auto fingerprints = gather(MPI_COMM_WORLD, run_fingerprint.text());
+      const auto fingerprints = gather(MPI_COMM_WORLD, fingerprint(program_fingerprint(), parameters_text(scene), folder));
       for (std::size_t rank = 1; rank < fingerprints.size(); ++rank)
         if (fingerprints[rank] != fingerprints[0])
           throw InputError(

@@ -30,23 +30,18 @@ namespace sprag
     return items;
   }
 
-  std::string checksum(const std::string &bytes)
-  {
-    return fingerprint(bytes);
-  }
-
   std::string sealed(const std::string &bytes)
   {
-    return bytes + checksum(bytes);
+    return bytes + fingerprint(bytes);
   }
 
   std::optional<std::string> unsealed(const std::string &bytes)
   {
-    const std::size_t length = checksum({}).size();
+    const std::size_t length = fingerprint().size();
     if (bytes.size() < length)
       return {};
     std::string content = bytes.substr(0, bytes.size() - length);
-    if (bytes.compare(content.size(), length, checksum(content)) != 0)
+    if (bytes.compare(content.size(), length, fingerprint(content)) != 0)
       return {};
     return content;
   }

@@ -110,10 +110,7 @@ namespace sprag
     }
   };
 
-  /// Returns the checksum of bytes, always as long.
-  std::string checksum(const std::string &bytes);
-
-  /// Returns bytes with their checksum behind them.
+  /// Returns bytes with their fingerprint behind them.
   std::string sealed(const std::string &bytes);
 
   /// Returns the bytes that were sealed; none where they are not as they were.

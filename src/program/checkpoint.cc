@@ -127,7 +127,7 @@ namespace sprag
   {
     if (!file.is_open())
       file = OpenFile(path, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND);
-    const std::string sum = checksum(pending.bytes());
+    const std::string sum = fingerprint(pending.bytes());
     std::size_t length    = pending.bytes().size() + sum.size();
     Archive head;
     head(length);

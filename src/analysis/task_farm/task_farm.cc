@@ -43,10 +43,7 @@ namespace sprag
     /// Checksum of a line's content, in the results log of a scene.
     std::string checksum(const std::string &header, const std::string &content)
     {
-      Fingerprint sum;
-      sum.add(header);
-      sum.add(content);
-      return sum.text() + '\n';
+      return fingerprint(header, content) + '\n';
     }
 
     /// With their ends; the last one may lack it.
