@@ -161,7 +161,7 @@ namespace sprag
     static std::string begun;
     const bool is_begun = std::exchange(begun, folder) == folder;
     if (options.is_first && !is_begun && !has_progress(folder, scene))
-      remove_field_files(folder);
+      remove_files(folder, is_field_file);
     if (options.log != nullptr)
       options.log->open(folder, scene);
   }

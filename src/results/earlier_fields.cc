@@ -22,9 +22,4 @@ namespace sprag
     for (const auto &path : found)
       std::filesystem::remove(path);
   }
-
-  void remove_field_files(const std::string &folder)
-  {
-    remove_files(folder, is_field_file);
-  }
 } // namespace sprag

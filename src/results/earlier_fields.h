@@ -12,7 +12,4 @@ namespace sprag
 
   /// Removes the files of a folder that are named so.
   void remove_files(const std::string &folder, const std::function<bool(const std::string &)> &is_named_so);
-
-  /// Removes what FieldFiles of any run left in a folder.
-  void remove_field_files(const std::string &folder);
 } // namespace sprag

@@ -89,6 +89,6 @@ TEST_F(FieldFilesTest, OnlyFieldsAreRemoved)
   for (const std::string name : { "fields-0012.h5", "fields-mesh.h5", "fields.xdmf", "face.xdmf", "leaf-0000.h5", "mode-01.h5",
                                   "mode-01.xdmf", "fields.png", "result.h5", "fields-of-mine.h5", "modes.png" })
     std::ofstream(folder / name) << "something";
-  remove_field_files(folder);
+  remove_files(folder, is_field_file);
   EXPECT_EQ(names(), (std::set<std::string>{ "fields.png", "result.h5", "fields-of-mine.h5", "modes.png" }));
 }
