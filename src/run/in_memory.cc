@@ -40,11 +40,6 @@ namespace sprag
     return options;
   }
 
-  bool estimates_errors(const RunOptions &options)
-  {
-    return options.in_memory == nullptr;
-  }
-
   std::shared_ptr<DynamicsMaker> dynamics_maker(const RunOptions &options)
   {
     return options.in_memory != nullptr ? options.in_memory->dynamics : std::make_shared<DynamicsMaker>();

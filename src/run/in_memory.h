@@ -38,9 +38,6 @@ namespace sprag
   /// Returns the options of a run in memory, which prints nothing.
   RunOptions make_options(InMemory &in_memory);
 
-  /// Returns whether a run estimates its errors by further runs. Runs in memory do not: a study has finer runs anyway.
-  bool estimates_errors(const RunOptions &options);
-
   /// Returns the maker of models in time; all runs in memory share one.
   std::shared_ptr<DynamicsMaker> dynamics_maker(const RunOptions &options);
 

@@ -11,6 +11,7 @@
 #include "levers/prepared_scene.h"
 #include "program/output_folder.h"
 #include "program/resources.h"
+#include "program/result_writer.h"
 #include "report/warnings.h"
 #include "run/study_runs.h"
 #include "scene/analysis_use.h"
@@ -106,6 +107,8 @@ namespace sprag
                                                       { AnalysisType::design, run_design },
                                                       { AnalysisType::identification, run_identification },
                                                       { AnalysisType::study, run_study } };
+    if (!works_in_parallel(scene.analysis.type)) // there the first rank alone makes the folder
+      require_folder(options);
     if (follows_formulas(scene))
       run_formulas(scene, options, warnings);
     else

@@ -63,7 +63,6 @@ namespace sprag
   void run_calibration(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     PhaseTimer timer;
-    require_folder(options);
     const auto parts      = calibrate_parts(scene);
     const auto reduced    = reduced_constants(parts.scene);
     const auto calibrated = variant(scene, joined(parts.overrides, { in_time, "Analysis/Model=condensed" }));

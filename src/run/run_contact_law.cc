@@ -23,7 +23,6 @@ namespace sprag
   void run_contact_law(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     PhaseTimer timer;
-    require_folder(options);
     const auto law = indent(scene);
     ResultWriter writer(scene, options, timer, page_columns("contact law", "P approach bending local P_fitted"));
     for (const auto &point : law.points)

@@ -257,7 +257,6 @@ namespace sprag
   void run_identification(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     PhaseTimer timer;
-    require_folder(options);
     const MeasuredMotion motion(scene);
     const LeverUnknowns unknowns(scene, motion);
     const StrokeFit fit(scene, motion, unknowns);

@@ -143,7 +143,7 @@ namespace sprag
             recorder.stress = fields->finish();
             if constexpr (in_space<Lever>)
               timed(timer, "exactness", [&] { meta = joined(meta, samples.entries(levers)); });
-            if (status == "completed" && estimates_errors(options))
+            if (status == "completed" && options.in_memory == nullptr)
             {
               const PhaseTimer::Scope scope(timer, "accuracy");
               const auto trial_runs = [&] { return make_trial_runs(recorder.recorded(), settings, fields->stress_samples()); };
@@ -182,7 +182,6 @@ namespace sprag
   void run_quasi_static_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     PhaseTimer timer;
-    require_folder(options);
     const auto meshes = static_meshes(options);
     const Mesh *mesh  = nullptr; // in a plane
     timed(timer, "mesh", [&] { mesh = &meshes->cached_mesh(scene); });

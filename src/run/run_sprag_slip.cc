@@ -283,7 +283,6 @@ namespace sprag
 
   void run_sprag_slip(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    require_folder(options);
     const auto shared   = dynamics_maker(options);
     auto &maker         = *shared;
     const Scene held    = held_scene(scene);

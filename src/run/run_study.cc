@@ -31,13 +31,6 @@ namespace sprag
 {
   namespace
   {
-    /// The finished runs of a study, a row each.
-    struct StudyTable
-    {
-      std::vector<Dataset> numbers;   ///< parameters, costs, errors, the numbers of the runs' summaries; NaN where a run has none
-      std::vector<TextDataset> texts; ///< parameters, outcome, reason, warnings, the texts of the summaries
-    };
-
     using StudyRows = std::vector<const StudyRecord *>;
 
     /// A study and what it has found.
@@ -87,7 +80,7 @@ namespace sprag
       return numeric ? (number ? number->value : unknown) : static_cast<double>(index);
     }
 
-    void add_parameters(const StudyFindings &findings, StudyTable &table)
+    void add_parameters(const StudyFindings &findings, Group &table)
     {
       SceneSettings settings;
       const auto declared = scene_parameters(settings);
@@ -98,18 +91,19 @@ namespace sprag
         const Rule &rule   = find_parameter(declared, varied.name)->rule;
         const bool numeric = is_number(rule) || rule.kind == Rule::Kind::numbers;
         const auto meaning = varied.name + (numeric ? "" : ": place among its values");
-        table.numbers.push_back(make_dataset(findings.rows,
-                                             { to_identifier(varied.name), rule.unit.empty() ? "1" : rule.unit, meaning },
-                                             [&](const StudyRecord *row) { return varied_number(varied, index(row), numeric); }));
+        table.datasets.push_back(
+            make_dataset(findings.rows, { to_identifier(varied.name), rule.unit.empty() ? "1" : rule.unit, meaning },
+                         [&](const StudyRecord *row) { return varied_number(varied, index(row), numeric); }));
         table.texts.push_back(make_texts(findings.rows, to_identifier(varied.name), varied.name,
                                          [&](const StudyRecord *row) { return varied.values[index(row)]; }));
       }
     }
 
-    void add_costs(const StudyRows &rows, StudyTable &table)
+    void add_costs(const StudyRows &rows, Group &table)
     {
-      const auto add = [&](const std::string &name, const auto &value) {
-        table.numbers.push_back(
+      const auto add = [&](const std::string &name, const auto &value)
+      {
+        table.datasets.push_back(
             make_dataset(rows, page_column("study", name), [&](const StudyRecord *row) { return value(*row); }));
       };
       add("run", [](const StudyRecord &row) { return static_cast<double>(row.run); });
@@ -127,14 +121,14 @@ namespace sprag
                                  [](const StudyRecord *row) { return boost::algorithm::join(row->warnings, ", "); }) };
     }
 
-    void add_errors(const StudyTrade &trade, StudyTable &table)
+    void add_errors(const StudyTrade &trade, Group &table)
     {
       for (const auto &measured : trade.measured)
       {
         const auto &name = measured.measure.name;
-        table.numbers.push_back({ { "error_" + name, "1", measured.measure.meaning }, measured.errors, {} });
-        table.numbers.push_back(make_dataset(measured.front, { "pareto_" + name, "1", "1: nobody cheaper is as exact" },
-                                             [](const bool best) { return best ? 1. : 0.; }));
+        table.datasets.push_back({ { "error_" + name, "1", measured.measure.meaning }, measured.errors, {} });
+        table.datasets.push_back(make_dataset(measured.front, { "pareto_" + name, "1", "1: nobody cheaper is as exact" },
+                                              [](const bool best) { return best ? 1. : 0.; }));
       }
     }
 
@@ -150,12 +144,12 @@ namespace sprag
       return all;
     }
 
-    void add_summaries(const StudyRows &rows, StudyTable &table)
+    void add_summaries(const StudyRows &rows, Group &table)
     {
       for (const auto &entry : all_entries(rows))
         if (std::holds_alternative<double>(entry.value))
-          table.numbers.push_back(make_dataset(rows, entry_column(entry),
-                                               [&](const StudyRecord *row) { return entry_value(*row, entry.name, unknown); }));
+          table.datasets.push_back(make_dataset(rows, entry_column(entry),
+                                                [&](const StudyRecord *row) { return entry_value(*row, entry.name, unknown); }));
         else
           table.texts.push_back(make_texts(rows, entry.name, entry.description,
                                            [&](const StudyRecord *row) { return entry_value(*row, entry.name, std::string()); }));
@@ -171,14 +165,16 @@ namespace sprag
           columns.end());
     }
 
-    StudyTable study_table(const StudyFindings &findings)
+    /// Returns the finished runs, a row each: parameters, costs, outcome, errors and the summaries of the runs; NaN where a run
+    /// has no such number.
+    Group study_table(const StudyFindings &findings)
     {
-      StudyTable table;
+      Group table{ "runs", {} };
       add_costs(findings.rows, table);
       add_parameters(findings, table);
       add_errors(findings.trade, table);
       add_summaries(findings.rows, table);
-      drop_repeated(table.numbers, [](const Dataset &column) { return column.info.name; });
+      drop_repeated(table.datasets, [](const Dataset &column) { return column.info.name; });
       drop_repeated(table.texts, [](const TextDataset &column) { return column.name; });
       return table;
     }
@@ -413,9 +409,9 @@ namespace sprag
       const auto findings = make_findings(scene.study, runs.points(), records);
       const auto table    = study_table(findings);
       PhaseTimer timer;
-      ResultWriter writer(scene, options, timer, mapped(table.numbers, &Dataset::info));
-      for (std::size_t row = 0; row < table.numbers.front().values.size(); ++row)
-        writer.append(mapped(table.numbers, [row](const Dataset &column) { return column.values[row]; }));
+      ResultWriter writer(scene, options, timer, mapped(table.datasets, &Dataset::info));
+      for (std::size_t row = 0; row < table.datasets.front().values.size(); ++row)
+        writer.append(mapped(table.datasets, [row](const Dataset &column) { return column.values[row]; }));
       std::vector<Group> groups = {
         { "runs", {}, table.texts },
         { "headlines", {}, { { "name", "columns of the table that say most", main_entries(findings) } } },

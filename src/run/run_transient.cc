@@ -91,7 +91,6 @@ namespace sprag
 
   void run_transient_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    require_folder(options);
     const auto shared   = dynamics_maker(options);
     auto &maker         = *shared;
     auto &timer         = maker.timer();
@@ -146,7 +145,7 @@ namespace sprag
         },
         [&]
         {
-          if (is_complete && estimates_errors(options))
+          if (is_complete && options.in_memory == nullptr)
           {
             const PhaseTimer::Scope scope(timer, "accuracy");
             recorder.accuracy = transient_accuracy(scene, dynamics.meshed, recorder.recorded(), maker);

@@ -316,7 +316,7 @@ namespace sprag
           if (found.beyond)
             append(warnings, beam_warnings(scene, mode_frequency(*found.beyond), found.beyond->mode.eigenvalue.real()));
         }
-        if (estimates_errors(options))
+        if (options.in_memory == nullptr)
           result.accuracy = timed(timer, "accuracy", [&] { return vibration_accuracy(held, found, dynamics.meshed, maker); });
         // A slide that jams is decided without its growth rate.
         is_decided = found.kind == SlideKind::jammed || result.accuracy.empty() || !(total_error(result.accuracy.front()) > 1.);
@@ -345,7 +345,7 @@ namespace sprag
         append(result.summary, role_entries(roles(with_condensed_lever(scene), found, maker)));
       if (scene.stability.critical != "none")
       {
-        const auto critical = all_critical(whole, maker, options.quiet, estimates_errors(options));
+        const auto critical = all_critical(whole, maker, options.quiet, options.in_memory == nullptr);
         append(result.summary, critical_entries(whole, critical));
         append(result.groups, critical_groups(critical));
         for (const auto &search : critical)
@@ -359,7 +359,6 @@ namespace sprag
 
   void run_vibrations(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    require_folder(options);
     const auto shared   = dynamics_maker(options);
     auto &maker         = *shared;
     const bool undamped = scene.analysis.type == AnalysisType::modal;
