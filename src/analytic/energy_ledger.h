@@ -63,8 +63,7 @@ namespace sprag
   /// Counts the steps of a run in time and holds its energy ledger.
   struct TransientReport
   {
-    unsigned int steps    = 0;
-    unsigned int rejected = 0;
+    unsigned int steps = 0;
     LedgerReport ledger;
   };
 } // namespace sprag

@@ -398,14 +398,16 @@ TEST(RejectedStep, LeavesTheRunWhereTheAcceptedStepsAloneLead)
     Failing failing(scene);
     std::vector<Motion> motions;
     std::vector<double> durations;
+    double rejected      = 0.;
     const auto reference = contact_reference(scene);
     const auto keep      = [&](const Motion &motion, const Row &row)
     {
       motions.push_back(motion);
       durations.push_back(row[Column::time_step]);
+      rejected += std::fmax(0., row[Column::rejected_steps]); // NaN at the start
     };
-    const auto report = run_transient(failing, scene.drive, { scene.time, reference.P, reference.stiffness }, keep);
-    EXPECT_GT(report.rejected, 50u);
+    run_transient(failing, scene.drive, { scene.time, reference.P, reference.stiffness }, keep);
+    EXPECT_GT(rejected, 50.);
 
     const auto model = make_reduced_lever(scene);
     Motion motion    = motions.front();

@@ -188,8 +188,7 @@ namespace sprag
     void serialise(Archive &archive, SolverState &solver)
     {
       auto &[motion, forces, ledger, control, clock, quasi_static, report] = solver;
-      auto &[steps, rejected, largest_gap]                                 = report;
-      archive(motion, forces, ledger, control.error, control.small, clock, quasi_static.samples, steps, rejected, largest_gap);
+      archive(motion, forces, ledger, control.error, control.small, clock, quasi_static.samples, report.steps, report.ledger);
     }
 
     Row begin(DynamicModel &model, const Drive &drive, SolverState &solver)
@@ -221,7 +220,6 @@ namespace sprag
       quasi_static.fill(row);
 
       ++report.steps;
-      report.rejected += attempt.rejected;
       report.ledger = ledger.report();
       clock.advance();
       const bool recovers = settings.time.tolerance == 0. && attempt.rejected == 0;
