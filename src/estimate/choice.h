@@ -42,11 +42,6 @@ namespace sprag
   /// Returns the scene in the plane, its cylinder true.
   Scene to_plane(Scene scene);
 
-  /// Chooses two or three dimensions for Analysis/Dimension = auto by a trial run, the same coarse mesh in both: three where the
-  /// plane is off by more than Accuracy/Target, or 1 %, in one of Accuracy/Quantity. Throws AnalysisError where a trial run has
-  /// no equilibrium.
-  ChosenSetting choose_dimension(const Scene &scene);
-
   /// Called with a sentence about a dear trial run and the CPU time that it is expected to take [s]; returns whether to solve it.
   using Announce = std::function<bool(const std::string &, double)>;
 

@@ -2,6 +2,7 @@
 #include "estimate/coarser_scene.h"
 
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "scene/analysis_use.h"
 #include "scene/scene.h"
 
@@ -33,10 +34,10 @@ namespace sprag
     {
       reason = "the mesh to compare with cannot serve: " + std::string(error.what()) + '.';
     }
-    std::vector<ErrorEstimate> result;
-    for (const auto &quantity : quantities)
-      result.push_back({ quantity, "", {}, "No estimate: " + reason });
-    return result;
+    return mapped(quantities,
+                  [&](const std::string &quantity) {
+                    return ErrorEstimate{ quantity, "", {}, "No estimate: " + reason };
+                  });
   }
 
   Scene with_penalties(Scene scene, const ContactPenalties &penalties, const double share)

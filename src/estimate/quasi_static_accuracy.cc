@@ -259,13 +259,6 @@ namespace sprag
       return result;
     }
 
-    /// Adds the scatter of the rows, where it is more than what the mesh is told to change.
-    ErrorEstimate with_scatter(ErrorEstimate estimate, const double scatter)
-    {
-      estimate.parts.front().value = std::max(estimate.parts.front().value, scatter);
-      return estimate;
-    }
-
     constexpr double follows_pressure = 0.05; ///< error of the largest pressure to which a mesh follows it, see peak_report.h
 
     ErrorEstimate unless_narrow(ErrorEstimate estimate, const double faces, const bool is_followed)
@@ -299,9 +292,7 @@ namespace sprag
                              const QuasiStaticSettings &settings, const std::vector<StressSample> &stresses)
   {
     TrialRuns result;
-    std::vector<double> times;
-    for (const auto &sample : stresses)
-      times.push_back(sample.time);
+    const auto times   = mapped(stresses, &StressSample::time);
     const double start = rows.front()[Column::x];
     const auto chosen  = choose_rows(rows, samples_per_stroke, times, result.run);
     Mesh mesh;
@@ -362,8 +353,10 @@ namespace sprag
       const double scatter     = smoothed_largest_pressure(rows, scene.mesh.face_size).scatter;
       const auto make_estimate = [&](const std::string &quantity, const std::string &relative_to, const bool is_followed)
       {
-        const double least = quantity == "largest_pressure" ? scatter : 0.;
-        return unless_narrow(with_scatter(estimate(scene, trial_runs, quantity, relative_to), least), faces, is_followed);
+        auto found = estimate(scene, trial_runs, quantity, relative_to);
+        if (quantity == "largest_pressure") // where its scatter is more than what the mesh is told to change
+          found.parts.front().value = std::max(found.parts.front().value, scatter);
+        return unless_narrow(std::move(found), faces, is_followed);
       };
       std::vector<ErrorEstimate> result = { make_estimate("P", "its peak", forces_follow),
                                             make_estimate("Q", "its peak", forces_follow),

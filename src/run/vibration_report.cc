@@ -209,10 +209,9 @@ namespace sprag
     /// Returns "14.66 to 18.21 mm, 56.3 to 65 mm", rounded outwards.
     std::string to_text(const std::vector<UnstableStretch> &stretches)
     {
-      std::vector<std::string> texts;
-      for (const auto &stretch : stretches)
-        texts.push_back(four_digits(rounded_to(stretch.from, false)) + " to " + with_unit(rounded_to(stretch.to, true), "mm"));
-      return boost::algorithm::join(texts, ", ");
+      const auto text = [](const UnstableStretch &stretch)
+      { return four_digits(rounded_to(stretch.from, false)) + " to " + with_unit(rounded_to(stretch.to, true), "mm"); };
+      return boost::algorithm::join(mapped(stretches, text), ", ");
     }
 
     /// Which motion of a pair's levers is unstable on one side.

@@ -3,6 +3,7 @@
 
 #include "analytic/closed_form.h"
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "results/row_statistics.h"
 #include "scene/drive.h"
@@ -176,10 +177,7 @@ namespace sprag
           chosen.insert(i);
       begin = end;
     }
-    std::vector<Row> result;
-    for (const Index i : chosen)
-      result.push_back(rows[i]);
-    return result;
+    return mapped(chosen, [&](const Index i) { return rows[i]; });
   }
 
   std::vector<Row> passage_rows(const std::vector<Row> &rows)
@@ -238,19 +236,13 @@ namespace sprag
 
   std::vector<double> sample_times(const std::vector<Row> &rows)
   {
-    std::vector<double> result;
-    for (const Row &row : rows)
-      result.push_back(row[Column::time]);
-    return result;
+    return mapped(rows, [](const Row &row) { return row[Column::time]; });
   }
 
   std::vector<Row> rows_at(const std::vector<double> &times, const std::vector<Row> &rows)
   {
-    std::vector<Row> result;
-    for (const Row &row : rows)
-      if (std::find(times.begin(), times.end(), row[Column::time]) != times.end())
-        result.push_back(row);
-    return result;
+    return filtered(rows,
+                    [&](const Row &row) { return std::find(times.begin(), times.end(), row[Column::time]) != times.end(); });
   }
 
   std::vector<Row> drive_samples(const Drive &drive)

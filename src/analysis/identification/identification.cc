@@ -186,19 +186,17 @@ namespace sprag
         return (candidate.scales_Q && is_Q ? (1. + candidate.by) * force : force) / deviations[value.channel];
       };
       const Candidate own{ {}, found.lever, 1. };
-      std::vector<double> residuals;
-      for (const auto &value : found.used)
-        residuals.push_back(value.value / deviations[value.channel] - computed_force(own, value));
+      auto residuals       = mapped(found.used, [&](const UsedValue &value)
+                                    { return value.value / deviations[value.channel] - computed_force(own, value); });
       const double noise   = noise_squares(found.used, residuals, channels.size());
       residuals            = beside(basis, residuals);
       const double squares = product(residuals, residuals) - noise;
       std::vector<OneMoreUnknown> result;
       for (auto &candidate : candidates(scene, found.lever))
       {
-        std::vector<double> change;
-        for (const auto &value : found.used)
-          change.push_back((computed_force(candidate, value) - computed_force(own, value)) / candidate.by);
-        change              = beside(basis, change);
+        const auto change =
+            beside(basis, mapped(found.used, [&](const UsedValue &value)
+                                 { return (computed_force(candidate, value) - computed_force(own, value)) / candidate.by; }));
         const double length = product(change, change), along = product(change, residuals);
         candidate.unknown.change = along / length;
         candidate.unknown.share  = along * along / (length * squares);
@@ -345,12 +343,10 @@ namespace sprag
 
       std::vector<double> robust_weights() const
       {
-        std::vector<double> weights;
         if (settings.loss == IdentificationLoss::least_squares || result.rounds == 0)
-          return weights;
-        for (const double residual : residuals())
-          weights.push_back(residual == 0. ? 1. : influence(settings.loss, residual) / residual);
-        return weights;
+          return {};
+        return mapped(residuals(),
+                      [&](const double residual) { return residual == 0. ? 1. : influence(settings.loss, residual) / residual; });
       }
 
       void finish()

@@ -64,9 +64,7 @@ namespace sprag
 
   Scene reference_scene(const Scene &study)
   {
-    std::vector<std::string> settings;
-    for (const auto &[name, values] : study.study.reference_values)
-      settings.push_back(name + "=" + values.front());
-    return make_run_scene(study, settings);
+    const auto setting = [](const VariedParameter &one) { return one.name + "=" + one.values.front(); };
+    return make_run_scene(study, mapped(study.study.reference_values, setting));
   }
 } // namespace sprag
