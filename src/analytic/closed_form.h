@@ -6,6 +6,7 @@
 #include "scene/closed_form.h"
 
 #include <functional>
+#include <vector>
 
 namespace sprag
 {
@@ -24,4 +25,17 @@ namespace sprag
   /// form. At turning points two rows, before and after. Works are integrals over each step by Gauss' rule. Throws AnalysisError
   /// where the contact would have to pull.
   TransientReport run_ideal_contact(const Scene &scene, double inertia, const std::function<void(const Row &)> &sink);
+
+  /// A table of a sweep.
+  struct Sweep
+  {
+    std::vector<ColumnInfo> columns;
+    std::vector<std::vector<double>> rows;
+  };
+
+  /// Representative slope C_Q over mu from 0 to Slope/Maximum coefficient at the scene's geometry (Fig. 10): mu, slopes forward
+  /// and backward [N/mm] and without dimension; or over th0 for each e/R of Slope/Offset ratios at the scene's mu, that of the
+  /// drive's peak speed (Fig. 11): th0 [rad], e/R, slopes without dimension. The latter's curves break off at
+  /// Slope/Maximum inclination or where the cylinder reaches the pivot, sin th0 = 1 - e/R, whichever comes first.
+  Sweep slope_sweep(const Scene &scene);
 } // namespace sprag

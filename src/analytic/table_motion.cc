@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/table_motion.h"
 
-#include "analytic/step_polynomial.h"
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "scene/scene.h"
 
+#include <boost/math/tools/roots.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
 #include <algorithm>
@@ -28,6 +29,123 @@ namespace sprag
     int signum(const double value)
     {
       return value < 0. ? -1 : 1;
+    }
+
+    /// A polynomial over the share of a step, 0 to 1: the coefficients of its powers, the constant first.
+    using StepPolynomial = std::vector<double>;
+
+    double evaluate(const StepPolynomial &polynomial, const double share)
+    {
+      double value = 0.;
+      for (auto c = polynomial.rbegin(); c != polynomial.rend(); ++c)
+        value = value * share + *c;
+      return value;
+    }
+
+    StepPolynomial differentiate(const StepPolynomial &polynomial)
+    {
+      StepPolynomial result;
+      for (std::size_t i = 1; i < polynomial.size(); ++i)
+        result.push_back(static_cast<double>(i) * polynomial[i]);
+      return result;
+    }
+
+    /// An end of a step: a quantity with its first and second derivative over the share.
+    struct StepEnd
+    {
+      double value, first, second;
+    };
+
+    /// Returns the quintic through both ends.
+    StepPolynomial quintic(const StepEnd &begin, const StepEnd &end)
+    {
+      const double half = begin.second / 2.;
+      const double d0   = end.value - begin.value - begin.first - half;
+      const double d1   = end.first - begin.first - begin.second;
+      const double d2   = end.second - begin.second;
+      return {
+        begin.value, begin.first, half, 10. * d0 - 4. * d1 + d2 / 2., -15. * d0 + 7. * d1 - d2, 6. * d0 - 3. * d1 + d2 / 2.
+      };
+    }
+
+    /// Returns the cubic through values and first derivatives of both ends.
+    StepPolynomial cubic(const StepEnd &begin, const StepEnd &end)
+    {
+      const double rise = end.value - begin.value;
+      return { begin.value, begin.first, 3. * rise - 2. * begin.first - end.first, begin.first + end.first - 2. * rise };
+    }
+
+    /// Returns the quartic through values at 0, 1/4, 1/2, 3/4 and 1.
+    StepPolynomial quartic(const std::vector<double> &y)
+    {
+      return { y[0], (-25. * y[0] + 48. * y[1] - 36. * y[2] + 16. * y[3] - 3. * y[4]) / 3.,
+               (70. * y[0] - 208. * y[1] + 228. * y[2] - 112. * y[3] + 22. * y[4]) / 3.,
+               (-80. * y[0] + 288. * y[1] - 384. * y[2] + 224. * y[3] - 48. * y[4]) / 3.,
+               (32. * y[0] - 128. * y[1] + 192. * y[2] - 128. * y[3] + 32. * y[4]) / 3. };
+    }
+
+    /// The root of a function that is positive at `from` and negative at `to`, to round-off.
+    template <class Function>
+    double falling_root(const Function &function, const double from, const double to)
+    {
+      const double before = function(from), behind = function(to);
+      if (before <= 0.)
+        return from;
+      if (behind >= 0.)
+        return to;
+      boost::uintmax_t most = 100;
+      const auto found      = boost::math::tools::toms748_solve(function, from, to, before, behind,
+                                                                boost::math::tools::eps_tolerance<double>(), most);
+      return 0.5 * (found.first + found.second);
+    }
+
+    /// Returns the places strictly between 0 and 1 where the polynomial changes its sign, increasing, to round-off. Between its
+    /// own turns, 0 and 1 it is monotone.
+    std::vector<double> sign_changes(const StepPolynomial &polynomial);
+
+    /// Between which a polynomial rises or falls: 0, its turns, 1.
+    std::vector<double> monotone_pieces(const StepPolynomial &polynomial)
+    {
+      std::vector<double> result = { 0. };
+      if (polynomial.size() > 2)
+        for (const double turn : sign_changes(differentiate(polynomial)))
+          result.push_back(turn);
+      result.push_back(1.);
+      return result;
+    }
+
+    std::vector<double> sign_changes(const StepPolynomial &polynomial)
+    {
+      std::vector<double> result;
+      const auto pieces = monotone_pieces(polynomial);
+      const auto value  = [&](const double share) { return evaluate(polynomial, share); };
+      for (std::size_t i = 1; i < pieces.size(); ++i)
+      {
+        const double from = pieces[i - 1], to = pieces[i], before = value(from), behind = value(to);
+        if (!((before < 0. && behind > 0.) || (before > 0. && behind < 0.)))
+          continue;
+        result.push_back(falling_root([&](const double share) { return before > 0. ? value(share) : -value(share); }, from, to));
+      }
+      return result;
+    }
+
+    /// Encloses a sign change, as fractions of the step from 0 to 1.
+    struct Bracket
+    {
+      double from, to;
+    };
+
+    /// Returns the first stretch without a turn on which the polynomial falls below 0 by more than round-off; none where it never
+    /// does.
+    std::optional<Bracket> first_fall(const StepPolynomial &polynomial)
+    {
+      constexpr double round_off = 1e-13;
+      const auto pieces          = monotone_pieces(polynomial);
+      const double scale         = largest(pieces, [&](const double share) { return evaluate(polynomial, share); });
+      for (std::size_t i = 1; i < pieces.size(); ++i)
+        if (evaluate(polynomial, pieces[i]) < -round_off * scale)
+          return Bracket{ pieces[i - 1], pieces[i] };
+      return {};
     }
 
     class TableMotion : public IsolatedTable

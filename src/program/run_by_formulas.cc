@@ -2,7 +2,6 @@
 #include "program/run_by_formulas.h"
 
 #include "analytic/closed_form.h"
-#include "analytic/slope.h"
 #include "base/errors.h"
 #include "base/system/interrupt.h"
 #include "laws/friction.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analytic/slope.h"
+#include "analytic/closed_form.h"
 
 #include "scene/closed_form.h"
 #include "scene/scene.h"
