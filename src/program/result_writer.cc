@@ -7,6 +7,7 @@
 #include "base/system/process_time.h"
 #include "base/version.h"
 #include "input/read.h"
+#include "input/sections.h"
 #include "program/run_options.h"
 #include "report/console_summary.h"
 #include "report/report.h"
@@ -85,7 +86,7 @@ namespace sprag
 
   RunEnd ResultWriter::finish(const std::string &status, RunEnd end, Warnings &warnings)
   {
-    describe_summary(scene.analysis.type, end.summary);
+    describe_entries("entry", to_word(scene.analysis.type), end.summary);
     sprag::append(warnings, target_warnings(scene.accuracy, end.accuracy));
     if (options.in_memory != nullptr)
     {
@@ -96,7 +97,7 @@ namespace sprag
     if (!options.chosen.empty())
       end.meta.push_back({ "chosen_settings", options.chosen });
     sprag::append(end.meta, process_entries(timer));
-    describe_facts(end.meta);
+    describe_entries("fact", "", end.meta);
     const auto answer = answer_lines(scene.analysis.type, end.summary);
     end.groups.push_back(answer);
     file->finish(end.summary, end.meta, warnings, end.groups, accuracy_entries(end.accuracy));

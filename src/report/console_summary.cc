@@ -32,21 +32,6 @@ namespace sprag
       return estimate.left_out.empty() ? "" : " The model leaves out: " + to_text(estimate.left_out) + '.';
     }
 
-    void describe(const std::string &kind, const std::string &type, std::vector<Entry> &entries)
-    {
-      for (auto &entry : entries)
-      {
-        const auto row = page_row(kind, type, entry.name);
-        if (kind == "entry" && (!row || !entry.description.empty() || row->cells.at("printed").rfind('!', 0) == 0))
-          entry.attributes.emplace_back("headline", "yes");
-        if (row)
-        {
-          entry.unit        = entry.unit.empty() ? row->cells.at("unit") : entry.unit;
-          entry.description = row->cells.at("meaning") + (entry.description.empty() ? "" : "; " + entry.description);
-        }
-      }
-    }
-
     constexpr int most_numbered = 12; ///< lines of reversals
 
     /// Returns the text behind the label of a line; empty where nothing is known.
@@ -202,13 +187,18 @@ namespace sprag
     return row;
   }
 
-  void describe_summary(const AnalysisType type, std::vector<Entry> &entries)
+  void describe_entries(const std::string &kind, const std::string &type, std::vector<Entry> &entries)
   {
-    describe("entry", to_word(type), entries);
-  }
-
-  void describe_facts(std::vector<Entry> &entries)
-  {
-    describe("fact", "", entries);
+    for (auto &entry : entries)
+    {
+      const auto row = page_row(kind, type, entry.name);
+      if (kind == "entry" && (!row || !entry.description.empty() || row->cells.at("printed").rfind('!', 0) == 0))
+        entry.attributes.emplace_back("headline", "yes");
+      if (row)
+      {
+        entry.unit        = entry.unit.empty() ? row->cells.at("unit") : entry.unit;
+        entry.description = row->cells.at("meaning") + (entry.description.empty() ? "" : "; " + entry.description);
+      }
+    }
   }
 } // namespace sprag

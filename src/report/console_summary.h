@@ -46,9 +46,8 @@ namespace sprag
   /// Finds the row of an entry among those of an analysis.
   std::optional<SummaryRow> summary_row(AnalysisType type, const std::string &entry);
 
-  /// Completes the entries of the summary of a run, or of its /meta, that have a row on the pages: with its unit where they have
-  /// none, and with its meaning before their own description. Entries of a summary that are marked by `!`, or that the analysis
-  /// describes itself, as they are named by the scene, get the attribute `headline`.
-  void describe_summary(AnalysisType type, std::vector<Entry> &entries);
-  void describe_facts(std::vector<Entry> &entries);
+  /// Completes the entries of the summary of a run of a `type`, of kind "entry", or of its /meta, "fact", that have a row on the
+  /// pages: with its unit where they have none, and with its meaning before their own description. Entries of a summary that are
+  /// marked by `!`, or that the analysis describes itself, as they are named by the scene, get the attribute `headline`.
+  void describe_entries(const std::string &kind, const std::string &type, std::vector<Entry> &entries);
 } // namespace sprag

@@ -340,7 +340,7 @@ TEST(Oscillation, EntriesSayWhatTheyAre)
   const Drive quick(DriveProfile::triangle, 0., 6.5, 112., 1.5, duration);
   const auto found = oscillations(rows_with(sinusoid(8., 290., -45.), quick), quick);
   auto entries     = oscillation_entries(found);
-  describe_summary(AnalysisType::transient, entries);
+  describe_entries("entry", "transient", entries);
   const auto entry = [&](const std::string &name)
   { return *std::find_if(entries.begin(), entries.end(), [&](const Entry &e) { return e.name == name; }); };
   EXPECT_EQ(std::get<double>(entry("reversal_1_frequency").value), found[0].frequency);

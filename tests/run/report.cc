@@ -219,7 +219,7 @@ TEST(SummaryTable, FindsTheRowWhoseStarStandsForLeast)
   EXPECT_EQ(unit(AnalysisType::stability, "critical_lever_depth_2"), "");
   EXPECT_FALSE(summary_row(AnalysisType::quasi_static, "reversal_1_frequency"));
   std::vector<Entry> entries = { { "peak_P_forward", 2. }, { "critical_x_1", 3., "mm", "own" }, { "own", 1., "s", "own" } };
-  describe_summary(AnalysisType::stability, entries);
+  describe_entries("entry", "stability", entries);
   EXPECT_EQ(entries[0].description, "");
   EXPECT_EQ(entries[1].unit + entries[1].description,
             "mmvalue at which the verdict changes along the parameter, on the better side; own");
@@ -227,7 +227,7 @@ TEST(SummaryTable, FindsTheRowWhoseStarStandsForLeast)
 
   // Headlines are what `!` marks and what an analysis describes itself.
   entries = { { "growth_rate", 1. }, { "x", 65. }, { "critical_x_1", 3., "mm", "own" }, { "critical_x_spacing", 1. } };
-  describe_summary(AnalysisType::stability, entries);
+  describe_entries("entry", "stability", entries);
   std::string headlines;
   for (const auto &entry : entries)
     headlines += entry.attributes.empty() ? '0' : '1';
