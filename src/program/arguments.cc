@@ -14,8 +14,8 @@
 #include "results/page_tables.h"
 #include "scene/scene.h"
 
+#include <boost/algorithm/string/erase.hpp>
 #include <boost/algorithm/string/predicate.hpp>
-#include <boost/algorithm/string/replace.hpp>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
