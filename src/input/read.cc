@@ -367,8 +367,8 @@ namespace sprag
         if (is_invalid("Analysis/Type") || input.scene.analysis.type != AnalysisType::study)
           return;
         StudySettings &study   = input.scene.study;
-        const auto varied      = parse_variation(study.vary, parameters, input.scene.folder);
-        const auto reference   = parse_settings(study.reference, parameters, input.scene.folder);
+        const auto varied      = parse_variation(study.vary, parameters, input.scene.folder, true);
+        const auto reference   = parse_variation(study.reference, parameters, input.scene.folder, false);
         study.varied           = varied.parameters;
         study.reference_values = reference.parameters;
         for (const auto &mistake : varied.mistakes.empty() ? combination_mistakes(study) : varied.mistakes)
@@ -393,17 +393,11 @@ namespace sprag
       {
         const auto numeric = [](const Parameter &p)
         { return p.rule.kind == Rule::Kind::number || p.rule.kind == Rule::Kind::number_or_auto; };
-        std::vector<std::string> names;
-        const Parameter *parameter_found = nullptr;
-        for (const auto &candidate : parameters)
-          if (numeric(candidate))
-          {
-            names.push_back(full_name(candidate));
-            if (names.back() == range.name)
-              parameter_found = &candidate;
-          }
+        const auto candidates      = filtered(parameters, numeric);
+        const auto parameter_found = find_parameter(candidates, range.name);
         if (parameter_found == nullptr)
-          return report(parameter, range.name + " is no parameter with a number" + did_you_mean(nearest(range.name, names)));
+          return report(parameter, range.name + " is no parameter with a number" +
+                                       did_you_mean(nearest(range.name, mapped(candidates, full_name))));
         if (!counts(*parameter_found))
           return report(parameter, range.name + " counts only with " + parameter_found->choice + " = " + parameter_found->chosen +
                                        (parameter_found->section == "Friction" ? "; Friction/Factor multiplies any law" : ""));

@@ -187,25 +187,17 @@ namespace sprag
       }
     };
 
-    Variation read(const std::string &text, const std::vector<Parameter> &declared, const std::string &folder, const bool lists)
-    {
-      VariationReader reader{ declared, folder, lists };
-      reader.read(text);
-      return reader.result;
-    }
   } // namespace
 
-  Variation parse_variation(const std::string &text, const std::vector<Parameter> &declared, const std::string &folder)
+  Variation parse_variation(const std::string &text, const std::vector<Parameter> &declared, const std::string &folder,
+                            const bool lists)
   {
-    auto result = read(text, declared, folder, true);
-    if (result.parameters.empty() && result.mistakes.empty())
+    VariationReader reader{ declared, folder, lists };
+    reader.read(text);
+    auto &result = reader.result;
+    if (lists && result.parameters.empty() && result.mistakes.empty())
       result.mistakes.push_back("must name a parameter and its values: Section/Name = VALUES");
     return result;
-  }
-
-  Variation parse_settings(const std::string &text, const std::vector<Parameter> &declared, const std::string &folder)
-  {
-    return read(text, declared, folder, false);
   }
 
   std::vector<std::string> combination_mistakes(const StudySettings &study)

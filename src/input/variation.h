@@ -22,10 +22,9 @@ namespace sprag
   /// Reads "Section/Name = VALUES; ...", where VALUES are separated by commas and may be ranges, FIRST ... LAST : NUMBER, which
   /// hold both ends and go by equal differences, or with "log" behind the number by equal ratios. Names must be declared and
   /// belong to a run, values keep their rule. Files are relative to `folder`; their values become paths.
-  Variation parse_variation(const std::string &text, const std::vector<Parameter> &declared, const std::string &folder);
-
-  /// Reads "Section/Name = VALUE; ..." likewise, one value each, which may hold commas.
-  Variation parse_settings(const std::string &text, const std::vector<Parameter> &declared, const std::string &folder);
+  /// Without `lists` there is one value each, which may hold commas, or no parameter.
+  Variation parse_variation(const std::string &text, const std::vector<Parameter> &declared, const std::string &folder,
+                            bool lists);
 
   /// Returns what keeps a study's parameters from being combined; none where nothing does.
   std::vector<std::string> combination_mistakes(const StudySettings &study);
@@ -33,6 +32,6 @@ namespace sprag
   /// Returns what is wrong with a study's asking for a reference; none where nothing is.
   std::vector<std::string> reference_mistakes(const StudySettings &study);
 
-  /// Writes the text that parse_variation() and parse_settings() read.
+  /// Writes the text that parse_variation() reads.
   std::string variation_text(const std::vector<VariedParameter> &parameters);
 } // namespace sprag
