@@ -7,8 +7,8 @@
 #include "report/report.h"
 #include "report/summary_lines.h"
 #include "report/warnings.h"
+#include "results/entries.h"
 #include "results/result_file.h"
-#include "results/stress_entries.h"
 #include "scene/scene.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "estimate/dynamic_accuracy.h"
 #include "levers/dynamics.h"
 #include "program/recorder.h"
-#include "results/stress_entries.h"
+#include "results/entries.h"
 #include "run/field_recorder.h"
 #include "run/in_memory.h"
 #include "run/run.h"

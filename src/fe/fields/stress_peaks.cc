@@ -2,7 +2,7 @@
 #include "fe/fields/stress_peaks.h"
 
 #include "base/unknown.h"
-#include "results/stress_entries.h"
+#include "results/entries.h"
 
 namespace sprag
 {
