@@ -3,6 +3,7 @@
 
 #include "base/errors.h"
 #include "base/parameters.h"
+#include "base/ranges.h"
 #include "base/table_file.h"
 #include "base/text.h"
 #include "base/unknown.h"
@@ -117,11 +118,8 @@ namespace sprag
 
       const Parameter *free_parameter(const std::string &name) const
       {
-        std::vector<std::string> names;
+        const auto names       = mapped(filtered(declared, can_be_free), full_name);
         const Parameter *found = find_parameter(declared, name);
-        for (const auto &parameter : declared)
-          if (can_be_free(parameter))
-            names.push_back(full_name(parameter));
         if (found == nullptr || !can_be_free(*found))
         {
           mistake("'" + name + "' is no parameter that can be free" + did_you_mean(nearest(name, names)));
@@ -145,11 +143,7 @@ namespace sprag
         for (std::size_t i = 0; i < free.size(); ++i)
           if (free[i].name == name)
             return DesignTerm{ DesignQuantity::parameter, i };
-        std::vector<std::string> names;
-        for (const auto &info : design_quantities())
-          names.push_back(info.name);
-        for (const auto &parameter : free)
-          names.push_back(parameter.name);
+        const auto names = joined(mapped(design_quantities(), &DesignQuantityInfo::name), mapped(free, &FreeParameter::name));
         mistake("'" + name + "' is neither a quantity nor a free parameter" + did_you_mean(nearest(name, names)));
         return {};
       }
@@ -222,13 +216,6 @@ namespace sprag
           mistake("table counts only where transmissibility or relative amplitude is asked for");
       }
     };
-
-    /// Reads the texts of the settings into free parameters, demands, aims and check models, and reports mistakes. Free can be
-    /// numbers of the lever, its contact and the isolated table, but not of the drive, which is the demand.
-    void read_design(DesignSettings &settings, const std::vector<Parameter> &declared, const ReportMistake &report)
-    {
-      DesignReader{ settings, declared, report }.read();
-    }
 
     constexpr double standard_gravity = 9806.65; ///< [mm/s^2]
 
@@ -384,7 +371,7 @@ namespace sprag
     if (type == AnalysisType::isolation || type == AnalysisType::design)
       read_isolation_tables(scene.isolation, scene.unused_columns, report);
     if (type == AnalysisType::design)
-      read_design(scene.design, declared, report);
+      DesignReader{ scene.design, declared, report }.read();
     if (type == AnalysisType::identification)
       read_identification(scene.identification, scene.unused_columns, report);
   }

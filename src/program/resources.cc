@@ -208,11 +208,6 @@ namespace sprag
     /// Bytes of all matrices of a body in three dimensions, likewise.
     constexpr double solid_bytes = 215.;
 
-    double solid_factor_bytes(const Scene &scene)
-    {
-      return factor_bytes * std::pow(expected_size(scene).displacements, 4. / 3.);
-    }
-
     double matrix_bytes(const Scene &scene)
     {
       const auto [displacements, n_interface] = expected_size(scene);
@@ -324,7 +319,7 @@ namespace sprag
     if (!can_be_in_files || folder.empty() || needed <= available.bytes)
       return std::nullopt;
     FactorFiles result{ (std::filesystem::path(folder) / ".sprag-factors").string(), needed, available, 0.,
-                        solid_factor_bytes(scene) };
+                        factor_bytes * std::pow(expected_size(scene).displacements, 4. / 3.) };
     result.memory_with_files = needed - kept_in_files * result.bytes;
     const bool fits          = result.memory_with_files <= available.bytes && disk_share * result.bytes <= free_on_disk(folder) &&
                       result.folder.size() < longest_folder;

@@ -57,12 +57,6 @@ namespace sprag
       throw AnalysisError(path + " cannot be written");
   }
 
-  void require_folder(const RunOptions &options)
-  {
-    if (options.in_memory == nullptr)
-      require_writable(options.folder);
-  }
-
   ResultWriter::ResultWriter(const Scene &scene_, const RunOptions &options_, PhaseTimer &timer_,
                              const std::vector<ColumnInfo> &columns, const FacePoints &points)
       : scene(scene_)

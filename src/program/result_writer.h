@@ -25,9 +25,6 @@ namespace sprag
     std::vector<ErrorEstimate> accuracy = {};
   };
 
-  /// Throws InputError if the run cannot write its files into its folder; makes nothing.
-  void require_folder(const RunOptions &options);
-
   /// The file result.h5 of a run of any type, from its first row to its summary, or what a run in memory keeps instead.
   class ResultWriter
   {

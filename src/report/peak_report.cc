@@ -154,12 +154,8 @@ namespace sprag
       mean.x += (rows[i][Column::x] - mean.x) / mean.rows;
       mean.pressure += (pressure_at(i) - mean.pressure) / mean.rows;
     }
-    std::vector<double> x, pressure;
-    for (const auto &[number, mean] : means)
-    {
-      x.push_back(mean.x);
-      pressure.push_back(mean.pressure);
-    }
+    const auto x        = mapped(means, [](const auto &bin_mean) { return bin_mean.second.x; });
+    const auto pressure = mapped(means, [](const auto &bin_mean) { return bin_mean.second.pressure; });
     if (x.size() < 4 * reach)
       return { peak.value, 0. };
     const auto smooth  = locally_fitted(x, pressure, 2. * reach * bin);

@@ -52,15 +52,10 @@ namespace sprag
       return rounded_text(std::round(1000. * share) / 10.) + " %";
     }
 
-    std::string direction_text(const Row &row)
-    {
-      return row[Column::v] < 0. ? "backward" : "forward";
-    }
-
     /// "at x = 65 mm backward".
     std::string place(const Row &row)
     {
-      return "at x = " + mm(row[Column::x]) + ' ' + direction_text(row);
+      return "at x = " + mm(row[Column::x]) + (row[Column::v] < 0. ? " backward" : " forward");
     }
 
     /// The rows have penetration of a mesh and compression of the layer both.

@@ -44,9 +44,4 @@ namespace sprag
   {
     return options.in_memory != nullptr ? options.in_memory->dynamics : std::make_shared<DynamicsMaker>();
   }
-
-  std::shared_ptr<StaticMeshes> static_meshes(const RunOptions &options)
-  {
-    return options.in_memory != nullptr ? options.in_memory->meshes : std::make_shared<StaticMeshes>();
-  }
 } // namespace sprag

@@ -40,7 +40,4 @@ namespace sprag
 
   /// Returns the maker of models in time; all runs in memory share one.
   std::shared_ptr<DynamicsMaker> dynamics_maker(const RunOptions &options);
-
-  /// Returns the maker of meshes for runs without inertia; all runs in memory share one.
-  std::shared_ptr<StaticMeshes> static_meshes(const RunOptions &options);
 } // namespace sprag

@@ -11,7 +11,6 @@
 #include "levers/prepared_scene.h"
 #include "program/output_folder.h"
 #include "program/resources.h"
-#include "program/result_writer.h"
 #include "report/warnings.h"
 #include "run/study_runs.h"
 #include "scene/analysis_use.h"
@@ -107,8 +106,8 @@ namespace sprag
                                                       { AnalysisType::design, run_design },
                                                       { AnalysisType::identification, run_identification },
                                                       { AnalysisType::study, run_study } };
-    if (!works_in_parallel(scene.analysis.type)) // there the first rank alone makes the folder
-      require_folder(options);
+    if (options.in_memory == nullptr && !works_in_parallel(scene.analysis.type)) // there the first rank alone checks the folder
+      require_writable(options.folder);
     if (follows_formulas(scene))
       run_formulas(scene, options, warnings);
     else

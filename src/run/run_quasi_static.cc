@@ -182,7 +182,7 @@ namespace sprag
   void run_quasi_static_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     PhaseTimer timer;
-    const auto meshes = static_meshes(options);
+    const auto meshes = options.in_memory != nullptr ? options.in_memory->meshes : std::make_shared<StaticMeshes>();
     const Mesh *mesh  = nullptr; // in a plane
     timed(timer, "mesh", [&] { mesh = &meshes->cached_mesh(scene); });
     if (scene.analysis.dimension == 2)

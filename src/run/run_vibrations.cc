@@ -51,12 +51,6 @@ namespace sprag
       return result;
     }
 
-    /// Accuracy of a critical value, over the distance searched.
-    double search_tolerance(const Scene &scene)
-    {
-      return is_reduced(scene.analysis.model) ? 1e-8 : 1e-3;
-    }
-
     bool limits_stability(const CriticalValue &change)
     {
       return (change.below == SlideKind::stable) != (change.above == SlideKind::stable);
@@ -91,8 +85,9 @@ namespace sprag
 
     std::vector<CriticalSearch> all_critical(const Scene &scene, DynamicsMaker &maker, const bool quiet, const bool with_errors)
     {
-      const auto ranges = critical_searches(scene).value_or(std::vector<ParameterRange>());
-      double expected   = 0.;
+      const double tolerance = is_reduced(scene.analysis.model) ? 1e-8 : 1e-3; // of a value, over the distance searched
+      const auto ranges      = critical_searches(scene).value_or(std::vector<ParameterRange>());
+      double expected        = 0.;
       for (const auto &range : ranges)
         expected += expected_work(scene, range).values;
       Progress progress(std::cerr, progress_style(quiet || is_reduced(scene.analysis.model)), std::max(1., expected));
@@ -106,7 +101,7 @@ namespace sprag
         // Meshes that serve for one value alone are not worth a place in the cache.
         DynamicsMaker passing(false);
         auto &range_maker = is_meshed(scene.analysis.model) && changes_mesh(scene, range) ? passing : maker;
-        result.push_back(critical_values(scene, range, search_tolerance(scene), range_maker, tried));
+        result.push_back(critical_values(scene, range, tolerance, range_maker, tried));
         for (auto &change : result.back().changes)
           if (with_errors && is_meshed(scene.analysis.model) && limits_stability(change))
             change.error = limit_error(scene, range.name, change, result.back().spacing);
@@ -152,12 +147,8 @@ namespace sprag
       };
       const auto range_ends = [&](const double from, const double to)
       {
-        std::vector<double> ends;
         const auto search = search_kinds({ "Contact/Damping", from, to, points }, { accuracy, island_steps }, { check_at });
-        for (const auto &change : search.changes)
-          ends.push_back(change.value);
-        ends.insert(ends.end(), search.not_checked.begin(), search.not_checked.end());
-        return ends;
+        return joined(mapped(search.changes, &CriticalValue::value), search.not_checked);
       };
       if (own > 0.)
         for (const double value : range_ends(0., own))

@@ -214,12 +214,6 @@ namespace sprag
       return boost::algorithm::join(mapped(stretches, text), ", ");
     }
 
-    /// Which motion of a pair's levers is unstable on one side.
-    std::string motion_text(const CriticalValue &critical)
-    {
-      return critical.worse.motion.empty() ? "" : ", the levers " + critical.worse.motion;
-    }
-
     /// Returns "stable from 3.94 mm with the scene's constants, stable from 4.1 mm with 95 % of those in the ranges"; empty
     /// without ranges.
     std::string limits_text(const CriticalSearch &search, const CriticalValue &critical, const bool upward)
@@ -461,7 +455,7 @@ namespace sprag
         const auto &critical = search.changes[i];
         result.push_back({ name + "_" + std::to_string(i + 1), critical.value, unit,
                            search.range.name + ": from " + kind_name(critical.below) + " to " + kind_name(critical.above) +
-                               motion_text(critical) });
+                               (critical.worse.motion.empty() ? "" : ", the levers " + critical.worse.motion) });
         if (!std::isnan(critical.error))
           result.push_back({ name + "_" + std::to_string(i + 1) + "_error", critical.error, unit,
                              "by which the error of the growth rate moves it" });

@@ -81,7 +81,7 @@ namespace sprag
     unsigned int evaluations  = 4000; ///< of the closed form in the global search
     unsigned int seed         = 1;
 
-    // read_design() fills these from the texts.
+    // read_analysis_texts() fills these from the texts.
     std::vector<FreeParameter> free_parameters;
     std::vector<FreeParameter> toleranced; ///< parameters within whose bounds all demands hold
     std::vector<Demand> demanded;

@@ -135,17 +135,12 @@ namespace sprag
       return rows;
     }
 
-    bool is_one_stroke(const Row &a, const Row &b)
-    {
-      return a[Column::v] * b[Column::v] > 0.;
-    }
-
     /// Returns the largest error of interpolating a row between its neighbours, over the column's peak.
     double interpolation_error(const std::vector<Row> &rows, const Column column)
     {
       double result = 0.;
       for (std::size_t i = 1; i + 1 < rows.size(); ++i)
-        if (is_one_stroke(rows[i - 1], rows[i + 1]))
+        if (rows[i - 1][Column::v] * rows[i + 1][Column::v] > 0.) // in one stroke
           result = std::max(result, std::abs(distance_from_line(rows[i - 1], rows[i], rows[i + 1], column)));
       return result / largest(rows, column);
     }

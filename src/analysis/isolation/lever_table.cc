@@ -28,11 +28,6 @@ namespace sprag
 
     constexpr double same_place = 1e-7; ///< of the cylinder for a lever that touches nothing [mm]
 
-    double find_shortest_period(const double m, const double K, const BaseMotion &base)
-    {
-      return std::min(2. * M_PI * std::sqrt(m / K), base.shortest_period);
-    }
-
     double rounded(const double duration)
     {
       int exponent          = 0;
@@ -59,9 +54,10 @@ namespace sprag
       , settings(settings_)
       , base_excitation(base_motion(scene.isolation))
       , largest_z(scene.drive.maximum())
-      , longest_step(adapts() ? std::min(first_step_limit * settings.time.step,
-                                         find_shortest_period(m, K, base_excitation) / steps_per_period)
-                              : settings.time.step)
+      , longest_step(adapts()
+                         ? std::min(first_step_limit * settings.time.step,
+                                    std::min(2. * M_PI * std::sqrt(m / K), base_excitation.shortest_period) / steps_per_period)
+                         : settings.time.step)
       , travel_tolerance(travel_share * settings.force_scale / settings.contact_stiffness * settings.local_tolerance())
       , sides{ { { outward, 1, {}, {}, {} }, { inward, -1, {}, {}, {} } } }
   {

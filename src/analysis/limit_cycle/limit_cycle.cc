@@ -3,6 +3,7 @@
 
 #include "analytic/ringing.h"
 #include "base/least_squares.h"
+#include "base/ranges.h"
 #include "base/unknown.h"
 
 #include <algorithm>
@@ -480,14 +481,10 @@ namespace sprag
   {
     if (sizes.size() < 3)
       return { unknown, unknown, unknown };
-    std::vector<double> times, logarithms;
-    for (const auto &size : sizes)
-    {
-      times.push_back(size.time);
-      logarithms.push_back(std::log(size.value));
-    }
-    const auto line = fitted_line(times, logarithms);
-    double squares  = 0.;
+    const auto times      = mapped(sizes, &Sample::time);
+    const auto logarithms = mapped(sizes, [](const Sample &size) { return std::log(size.value); });
+    const auto line       = fitted_line(times, logarithms);
+    double squares        = 0.;
     for (std::size_t i = 0; i < times.size(); ++i)
       squares += std::pow(logarithms[i] - line.at(times[i]), 2);
     return { line.slope, std::exp(line.at(0.)), std::sqrt(squares / static_cast<double>(sizes.size())) };
