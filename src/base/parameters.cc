@@ -24,7 +24,7 @@ namespace sprag
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    bool contains(const Interval &interval, const double value)
+    bool lies_in(const Interval &interval, const double value)
     {
       return (interval.has_low ? value >= interval.low : value > interval.low) &&
              (interval.has_high ? value <= interval.high : value < interval.high);
@@ -53,7 +53,7 @@ namespace sprag
       if (number && !number->rest.empty())
         return "must be " + description(rule) + " and nothing else";
       const bool whole = rule.kind != Rule::Kind::integer || (number && number->value == std::floor(number->value));
-      if (!number || !whole || !contains(rule.interval, number->value))
+      if (!number || !whole || !lies_in(rule.interval, number->value))
         return "must be " + description(rule) + in_brackets(rule.unit);
       return std::nullopt;
     }
@@ -96,7 +96,7 @@ namespace sprag
 
     std::optional<std::string> choice_violation(const Rule &rule, const std::string &value)
     {
-      if (std::find(rule.choices.begin(), rule.choices.end(), value) != rule.choices.end())
+      if (contains(rule.choices, value))
         return std::nullopt;
       return "must be " + description(rule) + did_you_mean(nearest(value, rule.choices));
     }
@@ -333,13 +333,8 @@ namespace sprag
       /// Names the one other parameter of the section that has this choice.
       std::string other_choice(const Parameter &parameter, const std::string &value) const
       {
-        const auto others = filtered(declared,
-                                     [&](const auto &other)
-                                     {
-                                       const auto &choices = other.rule.choices;
-                                       return other.section == parameter.section &&
-                                              std::find(choices.begin(), choices.end(), value) != choices.end();
-                                     });
+        const auto others = filtered(declared, [&](const auto &other)
+                                     { return other.section == parameter.section && contains(other.rule.choices, value); });
         return others.size() == 1 ? "; " + full_name(others[0]) + " can be " + value : "";
       }
 

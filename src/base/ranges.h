@@ -46,6 +46,13 @@ namespace sprag
     return found == std::end(items) ? nullptr : &*found;
   }
 
+  /// Returns whether an item equals the value.
+  template <class Range, class Value>
+  bool contains(const Range &items, const Value &value)
+  {
+    return std::find(std::begin(items), std::end(items), value) != std::end(items);
+  }
+
   /// Returns the sum of a function over all items, from the first to the last.
   template <class Range, class Function>
   double sum_over(const Range &items, const Function &function)

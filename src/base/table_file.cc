@@ -416,8 +416,7 @@ namespace sprag
     {
       Names own;
       boost::algorithm::split(own, lower(name), [](const unsigned char c) { return std::isalnum(c) == 0; });
-      return std::any_of(words.begin(), words.end(),
-                         [&](const auto &word) { return std::find(own.begin(), own.end(), lower(word)) != own.end(); });
+      return std::any_of(words.begin(), words.end(), [&](const auto &word) { return contains(own, lower(word)); });
     }
 
     /// A column with other words beside its name, as in "sliding speed", which is not that of `other`.
@@ -473,7 +472,7 @@ namespace sprag
       for (std::size_t i = 0; i < columns.size(); ++i)
       {
         table.names.push_back(columns[i].name);
-        if (std::find(chosen.begin(), chosen.end(), i) == chosen.end())
+        if (!contains(chosen, i))
           table.unused.push_back(columns[i].name);
       }
       for (const auto &index : chosen)

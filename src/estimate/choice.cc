@@ -183,8 +183,7 @@ namespace sprag
 
   bool is_requested(const Scene &scene, const std::string &quantity)
   {
-    const auto &requested = scene.accuracy.quantities;
-    return std::find(requested.begin(), requested.end(), quantity) != requested.end();
+    return contains(scene.accuracy.quantities, quantity);
   }
 
   Scene to_plane(Scene scene)

@@ -194,17 +194,16 @@ namespace sprag
         const auto models = enumerators<CheckModel>();
         const auto names  = words_in(models);
         for (const auto &[word, check_model] : models)
-          if (std::find(listed.begin(), listed.end(), word) != listed.end())
+          if (contains(listed, word))
             settings.check_models.push_back(check_model);
         for (const auto &word : listed)
-          if (std::find(names.begin(), names.end(), word) == names.end())
+          if (!contains(names, word))
             mistake("'" + word + "' is no judge beside others" + did_you_mean(nearest(word, names)));
       }
 
       void check_models() const
       {
-        const auto &models = settings.check_models;
-        const auto has = [&](const CheckModel model) { return std::find(models.begin(), models.end(), model) != models.end(); };
+        const auto has = [&](const CheckModel model) { return contains(settings.check_models, model); };
         for (const auto &aim : settings.aims)
           if (aim.term.quantity == DesignQuantity::growth_rate)
             report(&aim == &settings.aims.front() ? "Design/Aim" : "Design/Second aim",

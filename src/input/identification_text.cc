@@ -2,6 +2,7 @@
 #include "input/analysis_texts.h"
 
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "base/table_file.h"
 #include "base/text.h"
 
@@ -23,12 +24,6 @@ namespace sprag
 
     const std::vector<Unknown> friction_unknowns = { Unknown::friction_constant, Unknown::friction_polynomial,
                                                      Unknown::friction_table, Unknown::friction_factor };
-
-    template <class T>
-    bool contains(const std::vector<T> &all, const T &one)
-    {
-      return std::find(all.begin(), all.end(), one) != all.end();
-    }
 
     /// Reads words separated by commas.
     template <class T>

@@ -272,7 +272,7 @@ namespace sprag
         accuracy.quantities = quantities_meant(accuracy.quantity, run_type());
         const bool is_read  = accuracy.chooses_settings() || !input.dimension; // which is chosen by them
         for (const auto &name : accuracy.quantities)
-          if (is_read && std::find(possible.begin(), possible.end(), name) == possible.end())
+          if (is_read && !contains(possible, name))
             report("Accuracy/Quantity", "'" + name + "' is none of " + boost::algorithm::join(possible, ", "));
       }
 

@@ -18,7 +18,6 @@
 #include <boost/algorithm/string/predicate.hpp>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -157,7 +156,7 @@ namespace sprag
       for (const auto &entry : fs::directory_iterator(folder, error))
         if (entry.path().extension() == ".prm")
           names.push_back(entry.path().stem());
-      if (std::find(names.begin(), names.end(), name) == names.end())
+      if (!contains(names, name))
         return report_error(
             InputError("--from " + name + ": there is no such scene" + did_you_mean(nearest(fs::path(name).stem(), names))));
       if (contains_match(read_whole_file(shipped.string(), 1 << 20), R"(\n\s*set [^#\n]*\.(csv|geo|msh)\b)"))

@@ -110,9 +110,8 @@ namespace sprag
     std::string missed, remedy;
     for (const auto &estimate : estimates)
     {
-      const bool is_requested =
-          std::find(accuracy.quantities.begin(), accuracy.quantities.end(), estimate.quantity) != accuracy.quantities.end();
-      const bool is_unknown = estimate.parts.empty();
+      const bool is_requested = contains(accuracy.quantities, estimate.quantity);
+      const bool is_unknown   = estimate.parts.empty();
       if (!(accuracy.target > 0.) || !is_requested || !(is_unknown || total_error(estimate) > accuracy.target))
         continue;
       missed +=

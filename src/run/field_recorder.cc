@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "run/field_recorder.h"
 
+#include "base/ranges.h"
 #include "model/step/state_archive.h"
 #include "results/result_file.h"
 #include "scene/mirrored_pair.h"
@@ -190,7 +191,7 @@ namespace sprag
     if (largest != nullptr && frames)
       left[largest->state->row[Column::time]].second = true;
     for (const auto &[time, state] : left)
-      if (std::find(written.begin(), written.end(), time) == written.end())
+      if (!contains(written, time))
         find(*state.first, state.second);
     best.clear();
     return peaks.entries(count_levers(scene));

@@ -101,8 +101,7 @@ namespace sprag
       if (std::any_of(found->values.begin(), found->values.end(), [](const double kind) { return std::isnan(kind); }))
         return std::nan("");
       const auto counted =
-          std::count_if(found->values.begin(), found->values.end(),
-                        [&](const double kind) { return std::find(kinds.begin(), kinds.end(), kind) != kinds.end(); });
+          std::count_if(found->values.begin(), found->values.end(), [&](const double kind) { return contains(kinds, kind); });
       return static_cast<double>(counted) / static_cast<double>(found->values.size());
     }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/analysis_use.h"
 
+#include "base/ranges.h"
 #include "base/text.h"
 #include "scene/scene.h"
 
-#include <algorithm>
 #include <tuple>
 
 namespace sprag
@@ -40,9 +40,7 @@ namespace sprag
 
   bool is_checked_by_mesh(const Scene &scene)
   {
-    const auto &checks = scene.design.check_models;
-    return scene.analysis.type == AnalysisType::design &&
-           std::find(checks.begin(), checks.end(), CheckModel::condensed) != checks.end();
+    return scene.analysis.type == AnalysisType::design && contains(scene.design.check_models, CheckModel::condensed);
   }
 
   bool identifies_by_model(const Scene &scene)

@@ -168,7 +168,7 @@ namespace sprag
       const auto [sliding, end] = stroke_from(rows, begin, largest_force);
       choose_evenly(rows, sliding, number, chosen);
       for (const Index i : sliding)
-        if (std::find(times.begin(), times.end(), rows[i][Column::time]) != times.end())
+        if (contains(times, rows[i][Column::time]))
           chosen.insert(i);
       begin = end;
     }
@@ -236,8 +236,7 @@ namespace sprag
 
   std::vector<Row> rows_at(const std::vector<double> &times, const std::vector<Row> &rows)
   {
-    return filtered(rows,
-                    [&](const Row &row) { return std::find(times.begin(), times.end(), row[Column::time]) != times.end(); });
+    return filtered(rows, [&](const Row &row) { return contains(times, row[Column::time]); });
   }
 
   std::vector<Row> drive_samples(const Drive &drive)

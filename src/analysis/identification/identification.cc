@@ -105,8 +105,7 @@ namespace sprag
     std::vector<Candidate> candidates(const Scene &scene, const IdentifiedLever &lever)
     {
       const auto &settings = scene.identification;
-      const auto is_sought = [&](const Unknown unknown)
-      { return std::find(settings.sought.begin(), settings.sought.end(), unknown) != settings.sought.end(); };
+      const auto is_sought = [&](const Unknown unknown) { return contains(settings.sought, unknown); };
       std::vector<Candidate> result;
       const double dR = small_change * lever.geometry.cylinder_radius;
       result.push_back({ { "Geometry/Cylinder radius", "mm", 0., 0. }, lever, dR });

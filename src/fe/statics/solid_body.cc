@@ -3,6 +3,7 @@
 
 #include "base/errors.h"
 #include "base/messages.h"
+#include "base/ranges.h"
 #include "fe/body/solid_stiffness.h"
 #include "fe/statics/lever_properties.h"
 #include "scene/analysis_use.h"
@@ -233,7 +234,7 @@ namespace sprag
     for (unsigned int dof = 0; dof < n_dofs(); ++dof)
       if (in_near_layer[dof] && !elsewhere[dof])
         near_number[dof] = static_cast<int>(n_near_dofs++);
-    const bool is_all = std::find(elsewhere.begin(), elsewhere.end(), 1) == elsewhere.end();
+    const bool is_all = !contains(elsewhere, 1);
     if (n_near_dofs == 0 || is_all)
       near_number.clear();
     return is_bonded || near_number.empty();
