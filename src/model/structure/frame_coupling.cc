@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "model/structure/frame_coupling.h"
 
+#include "base/dual.h"
+
 #include <cmath>
 
 namespace sprag
@@ -9,14 +11,6 @@ namespace sprag
 
   namespace
   {
-    /// Positions, rates and accelerations of the dofs of a lever that the coupling acts on: momentum along eta and xi, support.
-    struct Local
-    {
-      double theta = 0., theta_rate = 0.;
-      double p_eta_rate = 0., p_xi_rate = 0., u_rate = 0.;
-      double p_eta_acceleration = 0., p_xi_acceleration = 0., u_acceleration = 0.;
-    };
-
     double mix(const double begin, const double end, const double alpha)
     {
       return (1. - alpha) * end + alpha * begin;
@@ -27,23 +21,6 @@ namespace sprag
       Kinematic result = unaccelerated(begin, w);
       set_position(result, end, w);
       return result;
-    }
-
-    Local weighted(const InterfaceLayout &layout, const unsigned int lever, const double rest, const Kinematic &begin,
-                   const Kinematic &end, const StepWeights &w)
-    {
-      const auto rate         = [&](const unsigned int dof) { return mix(begin.velocity[dof], end.velocity[dof], w.alpha_f); };
-      const auto acceleration = [&](const unsigned int dof)
-      { return mix(begin.acceleration[dof], end.acceleration[dof], w.alpha_m); };
-      const unsigned int hub = layout.rotation(lever);
-      return { rest + mix(begin.position[hub], end.position[hub], w.alpha_f),
-               rate(hub),
-               rate(layout.momentum_eta(lever)),
-               rate(layout.momentum_xi(lever)),
-               rate(layout.support()),
-               acceleration(layout.momentum_eta(lever)),
-               acceleration(layout.momentum_xi(lever)),
-               acceleration(layout.support()) };
     }
 
     /// Mass products of the coupling with the accelerations of (p_eta, p_xi, u).
@@ -70,6 +47,14 @@ namespace sprag
   {
   }
 
+  /// Returns theta where the forces of a step are balanced.
+  double FrameCoupling::inclination(const unsigned int lever, const Kinematic &begin, const Kinematic &end,
+                                    const StepWeights &w) const
+  {
+    const unsigned int hub = layout.rotation(lever);
+    return rest + mix(begin.position[hub], end.position[hub], w.alpha_f);
+  }
+
   void FrameCoupling::add_forces(const Kinematic &begin, const Vector<double> &end, const StepWeights &w,
                                  InterfaceForces &forces) const
   {
@@ -77,38 +62,27 @@ namespace sprag
       return;
     const Kinematic at = at_end(begin, end, w);
     add_dofs(coupled_dofs(), forces);
-    const auto place = [&](const unsigned int dof) { return find_index(dof, forces.dofs); };
     for (unsigned int lever = 0; lever < layout.levers; ++lever)
     {
-      const Local q       = weighted(layout, lever, rest, begin, at, w);
-      const double s      = std::sin(q.theta);
-      const double c      = std::cos(q.theta);
-      const double across = c * q.p_eta_rate + s * q.p_xi_rate;
-
-      const unsigned int hub = place(layout.rotation(lever)), eta = place(layout.momentum_eta(lever)),
-                         xi = place(layout.momentum_xi(lever)), u = place(layout.support());
-      forces.values[eta] -= s * q.u_acceleration + c * q.theta_rate * q.u_rate;
-      forces.values[xi] += c * q.u_acceleration - s * q.theta_rate * q.u_rate;
-      forces.values[hub] += q.u_rate * across;
-      forces.values[u] -= s * q.p_eta_acceleration - c * q.p_xi_acceleration + q.theta_rate * across;
-
-      if (!forces.has_tangent)
-        continue;
-      const double m = w.mass();
-      const double r = w.damping();
-      const double k = w.stiffness();
-      forces.tangent(eta, u) -= s * m + c * q.theta_rate * r;
-      forces.tangent(eta, hub) -= k * (c * q.u_acceleration - s * q.theta_rate * q.u_rate) + r * c * q.u_rate;
-      forces.tangent(xi, u) += c * m - s * q.theta_rate * r;
-      forces.tangent(xi, hub) += k * (-s * q.u_acceleration - c * q.theta_rate * q.u_rate) - r * s * q.u_rate;
-      forces.tangent(hub, u) += r * across;
-      forces.tangent(hub, eta) += r * q.u_rate * c;
-      forces.tangent(hub, xi) += r * q.u_rate * s;
-      forces.tangent(hub, hub) += k * q.u_rate * (-s * q.p_eta_rate + c * q.p_xi_rate);
-      forces.tangent(u, eta) -= s * m + q.theta_rate * c * r;
-      forces.tangent(u, xi) -= -c * m + q.theta_rate * s * r;
-      forces.tangent(u, hub) -= k * (c * q.p_eta_acceleration + s * q.p_xi_acceleration) + r * across +
-                                k * q.theta_rate * (-s * q.p_eta_rate + c * q.p_xi_rate);
+      using N                   = Dual<double, 4>; // of the dofs
+      const unsigned int dofs[] = { layout.momentum_eta(lever), layout.momentum_xi(lever), layout.rotation(lever),
+                                    layout.support() };
+      const auto rate           = [&](const unsigned int i)
+      { return variable<N>(mix(begin.velocity[dofs[i]], at.velocity[dofs[i]], w.alpha_f), i, w.damping()); };
+      const auto acceleration = [&](const unsigned int i)
+      { return variable<N>(mix(begin.acceleration[dofs[i]], at.acceleration[dofs[i]], w.alpha_m), i, w.mass()); };
+      const N theta = variable<N>(inclination(lever, begin, at, w), 2, w.stiffness());
+      const N s = sine(theta), c = cosine(theta), u_rate = rate(3), u_acceleration = acceleration(3);
+      const N across  = c * rate(0) + s * rate(1);
+      const N moved[] = { -(s * u_acceleration + c * rate(2) * u_rate), c * u_acceleration - s * rate(2) * u_rate,
+                          u_rate * across, -(s * acceleration(0) - c * acceleration(1) + rate(2) * across) };
+      for (unsigned int i = 0; i < 4; ++i)
+      {
+        const unsigned int row = find_index(dofs[i], forces.dofs);
+        forces.values[row] += moved[i].v;
+        for (unsigned int j = 0; j < 4 && forces.has_tangent; ++j)
+          forces.tangent(row, find_index(dofs[j], forces.dofs)) += moved[i].d[j];
+      }
     }
   }
 
@@ -147,7 +121,7 @@ namespace sprag
     const Kinematic after = at_end(begin, end, w);
     PerLever theta{};
     for (unsigned int lever = 0; lever < layout.levers; ++lever)
-      theta[lever] = weighted(layout, lever, rest, begin, after, w).theta;
+      theta[lever] = inclination(lever, begin, after, w);
     work.algorithmic +=
         inertial_dissipation(begin, after, mass_product(layout, theta, begin), mass_product(layout, theta, after), w);
   }

@@ -30,6 +30,8 @@ namespace sprag
     double kinetic_energy(const Kinematic &motion) const;
 
   private:
+    double inclination(unsigned int lever, const Kinematic &begin, const Kinematic &end, const StepWeights &weights) const;
+
     const InterfaceLayout layout;
     const double rest;
   };
