@@ -67,61 +67,47 @@ namespace sprag
     }
   }
 
-  /// Moments of joined springs: an excess against opening, and a moment that swings.
-  HubSpringExcess::Moments HubSpringExcess::spread(const double excess, const double stiffness, const double moment,
-                                                   const double moment_stiffness) const
+  /// Returns moments by what `excess`(law, turn) finds, turn(turns) being that of a spring: of joined springs the opening, with a
+  /// moment that swings.
+  template <class Excess>
+  HubSpringExcess::Moments HubSpringExcess::find_moments(const Excess &excess, const double moment,
+                                                         const double moment_stiffness) const
   {
     Moments result;
-    for (unsigned int i = 0; i < 2; ++i)
-    {
-      const double side = i == 0 ? 1. : -1.;
-      result.values[i]  = side * moment - excess;
-      for (unsigned int j = 0; j < 2; ++j)
-        result.tangent[i][j] = 0.5 * ((i == j ? moment_stiffness : -moment_stiffness) - stiffness);
-    }
-    return result;
-  }
-
-  HubSpringExcess::Moments HubSpringExcess::step_moments(const PerLever &begin, const PerLever &end,
-                                                         const StepWeights &weights) const
-  {
-    const double delay = weights.delay();
-    if (joined)
-    {
-      const auto excess = delayed_excess(laws.front(), opening(begin), opening(end), delay);
-      return spread(excess.value, excess.derivative,
-                    coupling_stiffness * (weights.stiffness() * swing(end) + weights.alpha_f * swing(begin)),
-                    coupling_stiffness * weights.stiffness());
-    }
-    Moments result;
+    const auto opened = joined ? excess(laws.front(), opening) : MeanExcess{};
     for (unsigned int i = 0; i < layout.levers; ++i)
-    {
-      const auto excess    = delayed_excess(laws[i], begin[i], end[i], delay);
-      result.values[i]     = -excess.value;
-      result.tangent[i][i] = -excess.derivative;
-    }
+      if (joined)
+      {
+        result.values[i] = (i == 0 ? moment : -moment) - opened.value;
+        for (unsigned int j = 0; j < 2; ++j)
+          result.tangent[i][j] = 0.5 * ((i == j ? moment_stiffness : -moment_stiffness) - opened.derivative);
+      }
+      else
+      {
+        const auto own       = excess(laws[i], [i](const PerLever &turns) { return turns[i]; });
+        result.values[i]     = -own.value;
+        result.tangent[i][i] = -own.derivative;
+      }
     return result;
   }
 
   HubSpringExcess::Moments HubSpringExcess::at(const PerLever &turns, const bool swing_is_held) const
   {
-    if (joined)
-      return spread(laws.front().excess(opening(turns)), laws.front().excess_stiffness(opening(turns)),
-                    coupling_stiffness * swing(turns), swing_is_held ? coupling_stiffness : 0.);
-    Moments result;
-    for (unsigned int i = 0; i < layout.levers; ++i)
-    {
-      result.values[i]     = -laws[i].excess(turns[i]);
-      result.tangent[i][i] = -laws[i].excess_stiffness(turns[i]);
-    }
-    return result;
+    const auto excess = [&](const MomentLaw &law, const auto &turn) {
+      return MeanExcess{ law.excess(turn(turns)), law.excess_stiffness(turn(turns)) };
+    };
+    return find_moments(excess, coupling_stiffness * swing(turns), swing_is_held ? coupling_stiffness : 0.);
   }
 
   void HubSpringExcess::add_forces(const PerLever &begin, const PerLever &end, const StepWeights &weights,
                                    InterfaceForces &forces) const
   {
+    const auto excess = [&](const MomentLaw &law, const auto &turn)
+    { return delayed_excess(law, turn(begin), turn(end), weights.delay()); };
     if (is_active())
-      add(step_moments(begin, end, weights), forces);
+      add(find_moments(excess, coupling_stiffness * (weights.stiffness() * swing(end) + weights.alpha_f * swing(begin)),
+                       coupling_stiffness * weights.stiffness()),
+          forces);
   }
 
   void HubSpringExcess::add_forces(const PerLever &turns, const bool swing_is_held, InterfaceForces &forces) const
@@ -160,10 +146,10 @@ namespace sprag
   {
     if (!is_active())
       return;
-    const auto moments = at(turns, true);
+    const auto excess = at(turns, true);
     for (unsigned int i = 0; i < layout.levers; ++i)
       for (unsigned int j = 0; j < layout.levers; ++j)
-        stiffness(find_index(layout.rotation(i), dofs), find_index(layout.rotation(j), dofs)) += moments.tangent[i][j];
+        stiffness(find_index(layout.rotation(i), dofs), find_index(layout.rotation(j), dofs)) += excess.tangent[i][j];
   }
 
   DofSelection HubSpringExcess::loaded_dofs() const

@@ -57,9 +57,9 @@ namespace sprag
       return joined || !std::all_of(laws.begin(), laws.end(), [](const MomentLaw &law) { return law.is_linear(); });
     }
 
-    Moments step_moments(const PerLever &begin, const PerLever &end, const StepWeights &weights) const;
+    template <class Excess>
+    Moments find_moments(const Excess &excess, double moment, double moment_stiffness) const;
     Moments at(const PerLever &turns, bool swing_is_held) const;
-    Moments spread(double excess, double stiffness, double moment, double moment_stiffness) const;
     void add(const Moments &moments, InterfaceForces &forces) const;
 
     const InterfaceLayout layout;
