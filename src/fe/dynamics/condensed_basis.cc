@@ -59,13 +59,7 @@ namespace sprag
       Vector<double> forces(body.n_dofs());
       body.reinit(stiffness);
       body.assemble(Vector<double>(body.n_dofs()), stiffness, forces);
-      LAPACKFullMatrix<double> inverse(static_cast<unsigned int>(surface.size()));
-      inverse = Mumps().factorise_with_schur_complement(stiffness, surface);
-      inverse.set_property(LAPACKSupport::symmetric);
-      inverse.invert();
-      FullMatrix<double> result(surface.size());
-      result = inverse;
-      return result;
+      return inverse(Mumps().factorise_with_schur_complement(stiffness, surface), true);
     }
   } // namespace
 

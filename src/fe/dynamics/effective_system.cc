@@ -1,25 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/effective_system.h"
 
-#include <deal.II/lac/lapack_full_matrix.h>
-
 #include <algorithm>
 
 namespace sprag
 {
   using namespace dealii;
-
-  namespace
-  {
-    void invert(FullMatrix<double> &matrix)
-    {
-      LAPACKFullMatrix<double> lapack(static_cast<unsigned int>(matrix.m()));
-      lapack = matrix;
-      lapack.set_property(LAPACKSupport::symmetric);
-      lapack.invert();
-      matrix = lapack;
-    }
-  } // namespace
 
   EffectiveSystem::EffectiveSystem(const InertialMatrices &matrices_, const LeverInterface &interface_,
                                    const ModalDamping &damping_, const InertialMatrices::Weights &weights_,
@@ -34,12 +20,8 @@ namespace sprag
     PETScWrappers::SparseMatrix matrix;
     matrices.sum(weights, matrix);
     factors.factorise(matrix);
-    if (damping_weight > 0. && !damping.directions.empty())
-      find_low_rank(damping_weight);
-  }
-
-  void EffectiveSystem::find_low_rank(const double damping_weight)
-  {
+    if (!(damping_weight > 0.) || damping.directions.empty())
+      return;
     const auto n = static_cast<unsigned int>(damping.directions.size());
     low_rank.reinit(n, n);
     for (unsigned int j = 0; j < n; ++j)
@@ -50,7 +32,7 @@ namespace sprag
         low_rank(i, j) = damping.directions[i] * damped[j];
       low_rank(j, j) += 1. / (damping_weight * damping.factors[j]);
     }
-    invert(low_rank);
+    low_rank = inverse(low_rank, true);
   }
 
   Vector<double> EffectiveSystem::solve(const Vector<double> &right_hand_side) const
@@ -82,8 +64,7 @@ namespace sprag
     Mumps condensing;
     PETScWrappers::SparseMatrix matrix;
     matrices.sum(weights, matrix);
-    FullMatrix<double> face_compliance = condensing.factorise_with_schur_complement(matrix, interface.face_coordinates());
-    invert(face_compliance);
+    auto face_compliance = inverse(condensing.factorise_with_schur_complement(matrix, interface.face_coordinates()), true);
     interface.transform(face_compliance);
     FullMatrix<double> result(layout.dofs_per_lever(), layout.dofs_per_lever());
     for (unsigned int i = 0; i < face_compliance.m(); ++i)

@@ -34,7 +34,6 @@ namespace sprag
     dealii::Vector<double> response(const DofLoads &forces) const;
 
   private:
-    void find_low_rank(double damping_weight);
     void subtract_low_rank(dealii::FullMatrix<double> &compliance) const;
 
     /// Sets row and column of a dof that is not a coordinate.

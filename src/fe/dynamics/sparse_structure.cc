@@ -66,7 +66,8 @@ namespace sprag
     return product * v;
   }
 
-  std::vector<StructureMode> SparseStructure::vibrations(const LinearisedForces &forces, const unsigned int number)
+  std::vector<StructureMode> SparseStructure::vibrations(const LinearisedForces &forces, const unsigned int number,
+                                                         const bool /*shapes*/)
   {
     use_statics();
     const auto solve = [this](const Vector<double> &load, Vector<double> &q)
@@ -176,23 +177,18 @@ namespace sprag
     work.algorithmic += inertial_dissipation(q_0, q_1, begin_products.mass[2], end_products.mass[2], w) +
                         w.delay() * (product(end_products.stiffness[0], strain) - product(begin_products.stiffness[0], strain) +
                                      constants.spring_stiffness * turn * turn);
-    if (constants.sprung)
-      add_support_work(q_0, q_1, w, work);
-  }
-
-  void SparseStructure::add_support_work(const Kinematic &q_0, const Kinematic &q_1, const StepWeights &w, StepWork &work) const
-  {
+    if (!constants.sprung)
+      return;
     const auto support_motion = [this](const Kinematic &q)
     {
       const auto entry = [&](const Vector<double> &values) { return Vector<double>(values.begin() + n_lever, values.end()); };
       return Kinematic{ entry(q.position), entry(q.velocity), entry(q.acceleration) };
     };
-    const auto u_0      = support_motion(q_0);
-    const auto u_1      = support_motion(q_1);
-    const double change = u_1.position[0] - u_0.position[0];
-    work.damping += constants.support_damping * change * (w.stiffness() * u_1.velocity[0] + w.alpha_f * u_0.velocity[0]);
+    const auto u_0 = support_motion(q_0), u_1 = support_motion(q_1);
+    const double moved = u_1.position[0] - u_0.position[0];
+    work.damping += constants.support_damping * moved * (w.stiffness() * u_1.velocity[0] + w.alpha_f * u_0.velocity[0]);
     work.algorithmic += constants.support_mass * inertial_dissipation(u_0, u_1, u_0.acceleration, u_1.acceleration, w) +
-                        w.delay() * constants.support_stiffness * change * change;
+                        w.delay() * constants.support_stiffness * moved * moved;
   }
 
   StoredEnergy SparseStructure::stored_energy(const Motion &motion) const
@@ -430,23 +426,18 @@ namespace sprag
         amount -= rate[k] * motion_products.modal[k][i + 1];
       load.add(damping.factors[i] * amount, damping.directions[i]);
     }
-    add_spring_forces(start, w, load);
-    return load;
-  }
 
-  /// Adds the forces of lever, layer and rotational spring at the weighted mean of begin and drifted position.
-  void SparseStructure::add_spring_forces(const Kinematic &start, const StepWeights &w, Vector<double> &load) const
-  {
+    // Forces of lever, layer and rotational spring at the weighted mean of begin and drifted position.
     const Share drifted = drifted_position(w);
-    Vector<double> mean(n_lever);
+    Vector<double> mean(n_lever), force(n_lever);
     for (unsigned int i = 0; i < n_lever; ++i)
       mean[i] = start.position[i] + w.stiffness() * (drifted[1] * start.velocity[i] + drifted[2] * start.acceleration[i]);
     const double rotation = mean[n_lever - 1];
-    Vector<double> force(n_lever);
     mean.add(-rotation, rigid_rotation);
     stiffness.multiply<1>({ { &mean } }, { { &force } });
     load -= force;
     load[n_lever - 1] -= constants.spring_stiffness * rotation;
+    return load;
   }
 
   Vector<double> SparseStructure::free_displacements(const Motion &accepted, const DofSelection &) const

@@ -81,12 +81,7 @@ namespace sprag
     dealii::Vector<double> local_error(const Motion &begin, const Motion &end) const;
 
     /// Returns the vibrations of lowest frequency under linear forces at the interface.
-    std::vector<StructureMode> vibrations(const LinearisedForces &forces, unsigned int number);
-
-    std::vector<std::complex<double>> eigenvalues(const LinearisedForces &forces, const unsigned int number)
-    {
-      return mapped(vibrations(forces, number), &StructureMode::eigenvalue);
-    }
+    std::vector<StructureMode> vibrations(const LinearisedForces &forces, unsigned int number, bool shapes = true);
 
     /// Gives the layer another damping over its stiffness [s], for vibrations alone.
     void use_relaxation(const double relaxation)
@@ -136,14 +131,10 @@ namespace sprag
     double free_support(const Kinematic &start, const StepWeights &w) const;
     dealii::Vector<double> motion_load(const Kinematic &start, const Products &motion_products, const StepWeights &w) const;
 
-    void add_spring_forces(const Kinematic &start, const StepWeights &w, dealii::Vector<double> &load) const;
-
     // Products with all coordinates, the support's included.
     void mass_product(const dealii::Vector<double> &q, dealii::Vector<double> &result) const;
     void damping_product(const dealii::Vector<double> &q, dealii::Vector<double> &result) const;
     void stiffness_product(const dealii::Vector<double> &q, dealii::Vector<double> &result) const;
-
-    void add_support_work(const Kinematic &q_0, const Kinematic &q_1, const StepWeights &w, StepWork &work) const;
 
     const std::shared_ptr<const InertialMatrices> matrices;
     LeverDynamics constants;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "model/interface/interface_compliance.h"
 
+#include <deal.II/lac/lapack_full_matrix.h>
+
 #include <algorithm>
 
 namespace sprag
@@ -10,6 +12,18 @@ namespace sprag
   unsigned int find_index(const unsigned int dof, const DofSelection &dofs)
   {
     return static_cast<unsigned int>(std::lower_bound(dofs.begin(), dofs.end(), dof) - dofs.begin());
+  }
+
+  FullMatrix<double> inverse(const FullMatrix<double> &matrix, const bool is_symmetric)
+  {
+    dealii::LAPACKFullMatrix<double> lapack(static_cast<unsigned int>(matrix.m()));
+    lapack = matrix;
+    if (is_symmetric)
+      lapack.set_property(dealii::LAPACKSupport::symmetric);
+    lapack.invert();
+    FullMatrix<double> result(matrix.m(), matrix.n());
+    result = lapack;
+    return result;
   }
 
   void InterfaceCompliance::append(std::shared_ptr<const FullMatrix<double>> matrix)

@@ -215,7 +215,7 @@ namespace sprag
     std::vector<std::complex<double>> eigenvalues(const HeldSlide &slide, const unsigned int number) override
     {
       if (frame.loss_factor == 0.)
-        return structure->eigenvalues(perturbation(sliding_state(slide), true), number);
+        return eigenvalues_now(sliding_state(slide), number);
       return mapped(own_damped(slide, number), &OwnDamped::eigenvalue);
     }
 
@@ -375,11 +375,17 @@ namespace sprag
       return completed(structure->deform(*forces), drive, *forces);
     }
 
-    /// Forces on the first lever at the last evaluation of the contact.
-    SlidingForces observed_forces() const
+    /// Columns of the contact of the first lever at its last evaluation.
+    Row observed_contact() const
     {
       Row row;
       contact->observe(found, row, 0);
+      return row;
+    }
+
+    SlidingForces observed_forces() const
+    {
+      const Row row = observed_contact();
       return { row[Column::P], row[Column::Q] };
     }
 
@@ -403,12 +409,16 @@ namespace sprag
       return explained(*structure, structure->vibrations(forces, number), forces, frame.layout);
     }
 
+    std::vector<std::complex<double>> eigenvalues_now(const SlidingState &state, const unsigned int number)
+    {
+      return mapped(structure->vibrations(perturbation(state, true), number, false), &StructureMode::eigenvalue);
+    }
+
     std::vector<OwnDamped> own_damped(const HeldSlide &slide, const unsigned int number)
     {
-      return own_damped_vibrations(
-          frame.loss_factor, number,
-          [&](const double relaxation)
-          { return structure->eigenvalues(perturbation(with_relaxation(slide, relaxation), true), number); });
+      return own_damped_vibrations(frame.loss_factor, number,
+                                   [&](const double relaxation)
+                                   { return eigenvalues_now(with_relaxation(slide, relaxation), number); });
     }
 
     /// The contact's forces about a held slide, those of the hub's spring and the coupling with a sprung support.
@@ -471,9 +481,8 @@ namespace sprag
       slide.friction      = friction;
       slide.speed         = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
       slide.penetration   = found.penetration();
-      Row row;
-      contact->observe(found, row, 0);
-      slide.indentation = row[Column::indentation];
+      const Row row       = observed_contact();
+      slide.indentation   = row[Column::indentation];
       if (with_friction && slide.indentation > frame.largest_indentation)
         return {};
       slide.margin     = 1.;
@@ -488,14 +497,6 @@ namespace sprag
     {
       return AnalysisError("no equilibrium found at x = " + std::to_string(drive.x) + " mm beyond " + std::to_string(share) +
                            " times the friction, where the lever does not jam. Try another mesh or Stability/Position.");
-    }
-
-    /// Physical compression of the layer in the last equilibrium [mm].
-    double indentation() const
-    {
-      Row row;
-      contact->observe(found, row, 0);
-      return row[Column::indentation];
     }
 
     /// Follows the equilibrium from no friction to the scene's, in steps that are halved where Newton's method fails or has left
@@ -518,7 +519,7 @@ namespace sprag
         const double next      = std::min(1., branch.back().share + step);
         const auto before      = slides.last;
         const bool is_followed = slides.solve_with_share(drive, next) != nullptr && is_unique(next);
-        is_pressed_too_far     = is_followed && indentation() > frame.largest_indentation;
+        is_pressed_too_far     = is_followed && observed_contact()[Column::indentation] > frame.largest_indentation;
         if (is_followed && !is_pressed_too_far)
         {
           branch.push_back({ next, found.penetration() });

@@ -63,12 +63,7 @@ namespace sprag
       return joined(parts[0]->deform(mirrored.forces(forces, 0)), parts[1]->deform(mirrored.forces(forces, 1)));
     }
 
-    dealii::Vector<double> positions(const Motion &motion) const
-    {
-      return mirrored.displacements(parts[0]->positions(motion_part(motion, 0)), parts[1]->positions(motion_part(motion, 1)));
-    }
-
-    dealii::Vector<double> positions(const Motion &motion, const DofSelection &selected) const
+    dealii::Vector<double> positions(const Motion &motion, const DofSelection &selected = {}) const
     {
       const auto local = mirrored.structure_dofs(selected);
       return mirrored.displacements(parts[0]->positions(motion_part(motion, 0), local),
@@ -131,7 +126,7 @@ namespace sprag
     }
 
     /// Vibrations of both motions. Forces that do not mirror as the levers do couple them, which must be small structures then.
-    std::vector<StructureMode> vibrations(const LinearisedForces &forces, const unsigned int number)
+    std::vector<StructureMode> vibrations(const LinearisedForces &forces, const unsigned int number, bool /*shapes*/ = true)
     {
       const auto both = mirrored.on_both(forces);
       std::vector<StructureMode> result;
@@ -146,11 +141,6 @@ namespace sprag
       std::sort(result.begin(), result.end(),
                 [](const auto &a, const auto &b) { return std::abs(a.eigenvalue) < std::abs(b.eigenvalue); });
       return result;
-    }
-
-    std::vector<std::complex<double>> eigenvalues(const LinearisedForces &forces, const unsigned int number)
-    {
-      return mapped(vibrations(forces, number), &StructureMode::eigenvalue);
     }
 
     void use_relaxation(const double relaxation)

@@ -16,16 +16,6 @@ namespace sprag
 
   namespace
   {
-    FullMatrix<double> inverse_matrix(const FullMatrix<double> &matrix)
-    {
-      LAPACKFullMatrix<double> lapack(static_cast<unsigned int>(matrix.m()));
-      lapack = matrix;
-      lapack.invert();
-      FullMatrix<double> result(matrix.m(), matrix.n());
-      result = lapack;
-      return result;
-    }
-
     double product(const FullMatrix<double> &matrix, const Vector<double> &a, const Vector<double> &b)
     {
       return a.size() == 0 ? 0. : matrix.matrix_scalar_product(a, b);
@@ -75,15 +65,6 @@ namespace sprag
         if (std::abs(force) <= small)
           force = 0.;
     }
-
-    /// Face forces of which a share is carried on; reduced levers have none.
-    Vector<double> scaled(Vector<double> forces, const double share)
-    {
-      if (forces.size() > 0)
-        forces *= share;
-      return forces;
-    }
-
   } // namespace
 
   ModalStructure::ModalStructure(ModalData modal_data)
@@ -137,7 +118,7 @@ namespace sprag
     effective.add(weights.damping(), data.damping);
     for (unsigned int i = 0; i < n_modes(); ++i)
       effective(i, i) += weights.mass() + weights.stiffness() * data.stiffness[i];
-    step->inverse    = inverse_matrix(effective);
+    step->inverse    = inverse(effective);
     step->compliance = interface_compliance(step->inverse, 1. / static_weight(weights));
     return step;
   }
@@ -167,11 +148,6 @@ namespace sprag
     return motion;
   }
 
-  Vector<double> ModalStructure::positions(const Motion &motion) const
-  {
-    return positions(motion, all_dofs(n_interface()));
-  }
-
   void ModalStructure::add_positions(const Vector<double> &coordinates, const DofSelection &selected,
                                      Vector<double> &result) const
   {
@@ -185,6 +161,8 @@ namespace sprag
 
   Vector<double> ModalStructure::positions(const Motion &motion, const DofSelection &selected) const
   {
+    if (selected.empty())
+      return positions(motion, all_dofs(n_interface()));
     Vector<double> result(n_interface());
     add_positions(motion.coordinates.position, selected, result);
     add_static_displacements(data.face_compliance, motion.face_force, 1., selected, result);
@@ -247,7 +225,9 @@ namespace sprag
     motion.coordinates = unaccelerated(accepted.coordinates, w);
     set_position(motion.coordinates, position, w);
 
-    motion.face_force = scaled(accepted.face_force, kept_share(w));
+    motion.face_force = accepted.face_force; // a share of which is carried on
+    if (motion.face_force.size() > 0)
+      motion.face_force *= kept_share(w);
     for (unsigned int a = 0; a < forces.dofs.size(); ++a)
       if (forces.dofs[a] < motion.face_force.size())
         motion.face_force[forces.dofs[a]] += forces.values[a] / static_weight(w);
@@ -293,9 +273,10 @@ namespace sprag
     return energy;
   }
 
-  std::vector<StructureMode> ModalStructure::vibrations(const LinearisedForces &forces, const unsigned int /*number*/) const
+  std::vector<StructureMode> ModalStructure::vibrations(const LinearisedForces &forces, const unsigned int /*number*/,
+                                                        const bool shapes) const
   {
-    return modal_vibrations(data, forces);
+    return modal_vibrations(data, forces, shapes);
   }
 
   void ModalStructure::use_relaxation(const double relaxation)
@@ -303,12 +284,6 @@ namespace sprag
     if (!data.layer_stiffness.empty())
       data.damping.add(relaxation - data.relaxation, data.layer_stiffness);
     data.relaxation = relaxation;
-  }
-
-  std::vector<std::complex<double>> ModalStructure::eigenvalues(const LinearisedForces &forces,
-                                                                const unsigned int /*number*/) const
-  {
-    return mapped(modal_vibrations(data, forces, false), &StructureMode::eigenvalue);
   }
 
   namespace

@@ -65,8 +65,7 @@ namespace sprag
     /// Motion and interface displacements at rest under forces, after use_statics().
     Motion deform(const InterfaceForces &forces) const;
 
-    dealii::Vector<double> positions(const Motion &motion) const;
-    dealii::Vector<double> positions(const Motion &motion, const DofSelection &selected) const;
+    dealii::Vector<double> positions(const Motion &motion, const DofSelection &selected = {}) const; ///< none selected: all
 
     /// Returns position and rate of one dof, without the static shapes' rate.
     DofState dof_state(const Motion &motion, unsigned int dof) const;
@@ -88,11 +87,8 @@ namespace sprag
     /// Returns the displacements by the local error of a step, of the dofs selected in free_displacements().
     dealii::Vector<double> local_error(const Motion &begin, const Motion &end) const;
 
-    /// Returns all vibrations under linear forces at the interface.
-    std::vector<StructureMode> vibrations(const LinearisedForces &forces, unsigned int number) const;
-
-    /// Returns those of the vibrations, in half the time.
-    std::vector<std::complex<double>> eigenvalues(const LinearisedForces &forces, unsigned int number) const;
+    /// Returns all vibrations under linear forces at the interface; without `shapes` their eigenvalues alone, in half the time.
+    std::vector<StructureMode> vibrations(const LinearisedForces &forces, unsigned int number, bool shapes = true) const;
 
     /// Returns the vibrations of this and another structure under forces that couple them. The other's dofs are counted from the
     /// number of this one's on, and its coordinates and static forces follow this one's.
