@@ -124,14 +124,6 @@ namespace sprag
       return result;
     }
 
-    /// A turn of the hub, from the last equilibrium with the change of ideal contact.
-    double guessed_turn(const unsigned int lever, const PerLever &ideal) const
-    {
-      const unsigned int hub = frame.layout.rotation(lever);
-      return (last.displacements.size() > 0 ? last.displacements[hub] - last.ideal[lever] : -frame.rest_inclination) +
-             ideal[lever];
-    }
-
     /// Evaluates the contact at interface displacements.
     InterfaceEvaluation evaluate(const SlidingState &state)
     {
@@ -145,7 +137,9 @@ namespace sprag
                                            const dealii::Vector<double> *round_off, const double share = 1.)
     {
       structure.use_statics();
-      const auto ideal            = ideal_inclinations(drive.x);
+      PerLever ideal{};
+      for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
+        ideal[lever] = kinematics(frame.geometries[lever], drive.x).theta;
       const auto &near            = contact.candidate_dofs(drive.x, ideal);
       dealii::Vector<double> free = structure.positions(structure.rest(), near);
       if (round_off != nullptr)
@@ -154,7 +148,12 @@ namespace sprag
       dealii::Vector<double> z = free;
       add_response(structure.compliance(), last.forces.dofs, last.forces.values, near, z);
       for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
-        z[frame.layout.rotation(lever)] = guessed_turn(lever, ideal);
+      {
+        // The hub turns on from the last equilibrium as ideal contact does.
+        const unsigned int hub = frame.layout.rotation(lever);
+        z[hub] = (last.displacements.size() > 0 ? last.displacements[hub] - last.ideal[lever] : -frame.rest_inclination) +
+                 ideal[lever];
+      }
 
       const double speed = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
       const auto at      = [&](const dealii::Vector<double> &displacements) {
@@ -170,15 +169,6 @@ namespace sprag
       }
       last = { z, { solved.forces->dofs, solved.forces->values }, ideal };
       return solved.forces;
-    }
-
-    /// Inclinations of the levers in ideal contact [rad].
-    PerLever ideal_inclinations(const double x) const
-    {
-      PerLever result{};
-      for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
-        result[lever] = kinematics(frame.geometries[lever], x).theta;
-      return result;
     }
   };
 } // namespace sprag

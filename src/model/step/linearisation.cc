@@ -60,15 +60,14 @@ namespace sprag
       : dofs(std::move(on_dofs))
   {
     const auto n = static_cast<unsigned int>(dofs.size());
-    for (auto *const matrix : { &pressure, &friction, &pressure_rate, &friction_rate, &inertia })
-      matrix->reinit(n, n);
+    for (const auto matrix : force_matrices)
+      (this->*matrix).reinit(n, n);
   }
 
   void LinearisedForces::add(const LinearisedForces &other)
   {
     const auto places = mapped(other.dofs, [&](const unsigned int dof) { return find_index(dof, dofs); });
-    for (const auto matrix : { &LinearisedForces::pressure, &LinearisedForces::friction, &LinearisedForces::pressure_rate,
-                               &LinearisedForces::friction_rate, &LinearisedForces::inertia })
+    for (const auto matrix : force_matrices)
       for (unsigned int i = 0; i < places.size(); ++i)
         for (unsigned int j = 0; j < places.size(); ++j)
           (this->*matrix)(places[i], places[j]) += (other.*matrix)(i, j);

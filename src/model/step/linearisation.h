@@ -6,6 +6,8 @@
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <array>
+
 namespace sprag
 {
   /// Complex amplitudes of some dofs.
@@ -91,5 +93,11 @@ namespace sprag
       ComplexAmplitudes by_velocity;
     };
     DelayedForces by_delays(std::complex<double> lambda, const ComplexAmplitudes &z) const;
+  };
+
+  /// The matrices of linearised forces.
+  inline constexpr std::array<dealii::FullMatrix<double> LinearisedForces::*, 5> force_matrices{
+    { &LinearisedForces::pressure, &LinearisedForces::friction, &LinearisedForces::pressure_rate,
+      &LinearisedForces::friction_rate, &LinearisedForces::inertia }
   };
 } // namespace sprag

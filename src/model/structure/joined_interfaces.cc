@@ -26,11 +26,6 @@ namespace sprag
 
   void join_forces(const InterfaceLayout &layout, const std::vector<const InterfaceForces *> &per_lever, InterfaceForces &result)
   {
-    if (per_lever.size() == 1)
-    {
-      result = *per_lever.front();
-      return;
-    }
     result.dofs.clear();
     for (unsigned int lever = 0; lever < per_lever.size(); ++lever)
       for (const unsigned int dof : per_lever[lever]->dofs)

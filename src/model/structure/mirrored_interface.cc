@@ -11,9 +11,6 @@ namespace sprag
 
   namespace
   {
-    constexpr auto matrices = { &LinearisedForces::pressure, &LinearisedForces::friction, &LinearisedForces::pressure_rate,
-                                &LinearisedForces::friction_rate, &LinearisedForces::inertia };
-
     FullMatrix<double> coupled_compliance(const FullMatrix<double> &symmetric, const FullMatrix<double> &antisymmetric)
     {
       const auto n = symmetric.m();
@@ -101,19 +98,6 @@ namespace sprag
     return result;
   }
 
-  FullMatrix<double> MirroredInterface::transformation(const DofSelection &both_dofs, const DofSelection &paired) const
-  {
-    FullMatrix<double> result(paired.size(), both_dofs.size());
-    for (unsigned int a = 0; a < paired.size(); ++a)
-    {
-      const unsigned int dof                = structure_dof(paired[a]);
-      result(a, find_index(dof, both_dofs)) = share();
-      if (!is_support(paired[a]))
-        result(a, find_index(structure_size() + dof, both_dofs)) = paired[a] < pair.first(1) ? share() : -share();
-    }
-    return result;
-  }
-
   LinearisedForces MirroredInterface::on_both(const LinearisedForces &paired) const
   {
     if (paired.dofs.empty())
@@ -124,8 +108,15 @@ namespace sprag
       if (dof != pair.dofs_per_lever())
         result.dofs.push_back(structure_size() + dof);
     const auto n = static_cast<unsigned int>(result.dofs.size());
-    const auto T = transformation(result.dofs, paired.dofs);
-    for (const auto matrix : matrices)
+    FullMatrix<double> T(paired.dofs.size(), n);
+    for (unsigned int a = 0; a < paired.dofs.size(); ++a)
+    {
+      const unsigned int dof             = structure_dof(paired.dofs[a]);
+      T(a, find_index(dof, result.dofs)) = share();
+      if (!is_support(paired.dofs[a]))
+        T(a, find_index(structure_size() + dof, result.dofs)) = paired.dofs[a] < pair.first(1) ? share() : -share();
+    }
+    for (const auto matrix : force_matrices)
     {
       (result.*matrix).reinit(n, n);
       (result.*matrix).triple_product(paired.*matrix, T, T, true, false);
@@ -173,7 +164,7 @@ namespace sprag
       result.dofs.push_back(both.dofs[a] % structure_size());
     if (result.dofs.empty())
       return result;
-    for (const auto matrix : matrices)
+    for (const auto matrix : force_matrices)
     {
       (result.*matrix).reinit(end - begin, end - begin);
       (result.*matrix).fill(both.*matrix, 0, 0, begin, begin);

@@ -80,7 +80,6 @@ namespace sprag
       return pair.sprung && pair_dof == pair.support();
     }
 
-    dealii::FullMatrix<double> transformation(const DofSelection &both_dofs, const DofSelection &paired) const;
     std::pair<unsigned int, unsigned int> range(const LinearisedForces &both, unsigned int motion) const;
     bool acts_on_first_lever(const DofSelection &dofs, const FrictionDelay &delay) const;
   };
