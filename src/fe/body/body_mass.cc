@@ -87,7 +87,7 @@ namespace sprag
 
   template <int dim>
   BodyMass<dim>::BodyMass(const ElasticBody<dim> &body, const LeverInertia &inertia)
-      : BodyMass(body, inertia, inertia.tip_mass > 0. ? tip_faces(body.dofs()) : CellFaces<dim>())
+      : BodyMass(body, inertia, inertia.tip_mass > 0. ? end_face(body.dofs()) : CellFaces<dim>())
   {
   }
 
@@ -136,6 +136,8 @@ namespace sprag
   template <int dim>
   void BodyMass<dim>::add_tip(const ElasticBody<dim> &body, const double tip_mass, const CellFaces<dim> &tip)
   {
+    if (tip_mass > 0. && tip.empty())
+      throw InputError("the mesh has no straight end face across the lever to carry Lever/Tip mass");
     const double area = total_measure<dim>(tip);
     const auto &fe    = body.dofs().get_fe();
     FEFaceValues<dim> values(body.cell_mapping(), fe, QGauss<dim - 1>(fe.degree + 1), update_values | update_JxW_values);

@@ -96,7 +96,16 @@ namespace sprag
       elasticity.assemble(cell_matrix, cell_forces);
       constraints.distribute_local_to_global(cell_matrix, cell_forces, indices, matrix, forces);
     }
-    add_connectors(displacement, matrix, forces);
+    for (const auto &spring : springs)
+    {
+      const double force = spring.stiffness * spring.compression(displacement);
+      for (const auto &[i, weight_i] : spring.row)
+      {
+        forces[i] += weight_i * force;
+        for (const auto &[j, weight_j] : spring.row)
+          matrix.add(i, j, spring.stiffness * weight_i * weight_j);
+      }
+    }
     for (const auto &line : constraints.get_lines())
     {
       matrix.add(line.index, line.index, 1.);
@@ -122,22 +131,6 @@ namespace sprag
     }
     factors->factorise(stiffness, std::move(order));
     return factors;
-  }
-
-  template <int dim>
-  void ElasticBody<dim>::add_connectors(const Vector<double> &displacement, PETScWrappers::SparseMatrix &matrix,
-                                        Vector<double> &forces) const
-  {
-    for (const auto &spring : springs)
-    {
-      const double force = spring.stiffness * spring.compression(displacement);
-      for (const auto &[i, weight_i] : spring.row)
-      {
-        forces[i] += weight_i * force;
-        for (const auto &[j, weight_j] : spring.row)
-          matrix.add(i, j, spring.stiffness * weight_i * weight_j);
-      }
-    }
   }
 
   template <int dim>

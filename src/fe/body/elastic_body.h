@@ -117,8 +117,6 @@ namespace sprag
 
   private:
     void find_constraints(const Constrain &constrain);
-    void add_connectors(const dealii::Vector<double> &displacement, dealii::PETScWrappers::SparseMatrix &matrix,
-                        dealii::Vector<double> &forces) const;
 
     const BodyProperties properties;
     const dealii::FESystem<dim> fe;

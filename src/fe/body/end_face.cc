@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/body/end_face.h"
 
-#include "base/errors.h"
 #include "base/ranges.h"
 #include "fe/body/body_properties.h"
 
@@ -40,23 +39,13 @@ namespace sprag
   }
 
   template <int dim>
-  CellFaces<dim> tip_faces(const DoFHandler<dim> &dofs)
-  {
-    auto result = end_face(dofs);
-    if (result.empty())
-      throw InputError("the mesh has no straight end face across the lever to carry Lever/Tip mass");
-    return result;
-  }
-
-  template <int dim>
   double total_measure(const CellFaces<dim> &faces)
   {
     return sum_over(faces, [](const auto &face) { return face.first->face(face.second)->measure(); });
   }
 
   template CellFaces<2> end_face(const DoFHandler<2> &);
-  template CellFaces<2> tip_faces(const DoFHandler<2> &);
-  template CellFaces<3> tip_faces(const DoFHandler<3> &);
+  template CellFaces<3> end_face(const DoFHandler<3> &);
   template double total_measure<2>(const CellFaces<2> &);
   template double total_measure<3>(const CellFaces<3> &);
 } // namespace sprag

@@ -27,10 +27,6 @@ namespace sprag
   template <int dim>
   CellFaces<dim> end_face(const dealii::DoFHandler<dim> &dofs);
 
-  /// Finds those that carry a tip mass. Throws InputError where there are none.
-  template <int dim>
-  CellFaces<dim> tip_faces(const dealii::DoFHandler<dim> &dofs);
-
   /// Returns the sum of the faces' measures [mm] or, in 3D, [mm^2].
   template <int dim>
   double total_measure(const CellFaces<dim> &faces);

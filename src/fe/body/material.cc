@@ -27,6 +27,17 @@ namespace sprag
                     transpose(displacement_gradient) * displacement_gradient);
     }
 
+    /// Adds `derivative`(i, a, k, b) to each entry dP_ia/dF_kb of a tangent.
+    template <int dim, class Derivative>
+    void add_tangent(const Derivative &derivative, Stress<dim> &stress)
+    {
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int a = 0; a < dim; ++a)
+          for (unsigned int k = 0; k < dim; ++k)
+            for (unsigned int b = 0; b < dim; ++b)
+              stress.tangent[i * dim + a][k * dim + b] += derivative(i, a, k, b);
+    }
+
     template <int dim>
     Stress<dim> linear_elastic(const Lame &constants, const Tensor<2, dim> &displacement_gradient)
     {
@@ -52,19 +63,18 @@ namespace sprag
       const double J = determinant(F);
       if (!(J > 0.))
         throw AnalysisError("an element turned inside out");
-      const auto [lambda, mu] = constants;
-      const double pressure   = lambda * std::log(J);
-      const auto inverse_t    = transpose(invert(F));
+      const double lambda = constants.lambda, mu = constants.mu;
+      const double pressure = lambda * std::log(J);
+      const auto inverse_t  = transpose(invert(F));
 
       Stress<dim> stress;
-      stress.piola = mu * (F - inverse_t) + pressure * inverse_t;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int a = 0; a < dim; ++a)
-          for (unsigned int k = 0; k < dim; ++k)
-            for (unsigned int b = 0; b < dim; ++b)
-              stress.tangent[i * dim + a][k * dim + b] = (i == k && a == b ? mu : 0.) +
-                                                         lambda * inverse_t[i][a] * inverse_t[k][b] +
-                                                         (mu - pressure) * inverse_t[i][b] * inverse_t[k][a];
+      stress.piola          = mu * (F - inverse_t) + pressure * inverse_t;
+      const auto derivative = [&](const auto i, const auto a, const auto k, const auto b)
+      {
+        return (i == k && a == b ? mu : 0.) + lambda * inverse_t[i][a] * inverse_t[k][b] +
+               (mu - pressure) * inverse_t[i][b] * inverse_t[k][a];
+      };
+      add_tangent(derivative, stress);
       return stress;
     }
 
@@ -79,7 +89,7 @@ namespace sprag
     template <int dim>
     Stress<dim> st_venant_kirchhoff(const Lame &constants, const Tensor<2, dim> &displacement_gradient)
     {
-      const auto [lambda, mu]   = constants;
+      const double lambda = constants.lambda, mu = constants.mu;
       const Tensor<2, dim> unit = dealii::unit_symmetric_tensor<dim>();
       const auto strain         = green_lagrange(displacement_gradient);
       const auto F              = deformation_gradient(displacement_gradient);
@@ -87,13 +97,10 @@ namespace sprag
       const Tensor<2, dim> b    = F * transpose(F);
 
       Stress<dim> stress;
-      stress.piola = F * S;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int a = 0; a < dim; ++a)
-          for (unsigned int k = 0; k < dim; ++k)
-            for (unsigned int c = 0; c < dim; ++c)
-              stress.tangent[i * dim + a][k * dim + c] =
-                  (i == k ? S[a][c] : 0.) + lambda * F[i][a] * F[k][c] + mu * ((a == c ? b[i][k] : 0.) + F[i][c] * F[k][a]);
+      stress.piola          = F * S;
+      const auto derivative = [&](const auto i, const auto a, const auto k, const auto c)
+      { return (i == k ? S[a][c] : 0.) + lambda * F[i][a] * F[k][c] + mu * ((a == c ? b[i][k] : 0.) + F[i][c] * F[k][a]); };
+      add_tangent(derivative, stress);
       return stress;
     }
 
@@ -156,11 +163,8 @@ namespace sprag
     stress.piola += pressure * slope;
     if (model == MaterialModel::linear)
       return stress;
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int a = 0; a < dim; ++a)
-        for (unsigned int k = 0; k < dim; ++k)
-          for (unsigned int b = 0; b < dim; ++b)
-            stress.tangent[i * dim + a][k * dim + b] -= pressure * slope[i][b] * slope[k][a];
+    add_tangent([&](const auto i, const auto a, const auto k, const auto b) { return -pressure * slope[i][b] * slope[k][a]; },
+                stress);
     return stress;
   }
 

@@ -100,7 +100,13 @@ namespace sprag
       matrix->reinit(pattern);
     for (unsigned int axis = 0; axis < 2; ++axis)
       momentum[axis] = coordinates.collect(body_mass(body_mass.translation(axis)));
-    assemble_mass(body_mass);
+    for (const auto &[unit, density, dofs] : body_mass.cells())
+    {
+      FullMatrix<double> local = *unit;
+      local *= density;
+      for (unsigned int axis = 0; axis < 2; ++axis)
+        coordinates.scatter(mapped(dofs, [axis](const auto &node_dofs) { return node_dofs[axis]; }), local, mass);
+    }
     assemble_stiffness(body);
     attach(body_mass.hub, leaf);
     for (auto *const matrix : { &mass, &stiffness, &layer_stiffness })
@@ -149,17 +155,6 @@ namespace sprag
         throw AnalysisError("the matrices of the lever cannot be added");
     result.add(coordinates.rotation(), coordinates.rotation(), weights.rotation);
     result.compress(VectorOperation::add);
-  }
-
-  void InertialMatrices::assemble_mass(const BodyMass<2> &body_mass)
-  {
-    for (const auto &[unit, density, dofs] : body_mass.cells())
-    {
-      FullMatrix<double> local = *unit;
-      local *= density;
-      for (unsigned int axis = 0; axis < 2; ++axis)
-        coordinates.scatter(mapped(dofs, [axis](const auto &node_dofs) { return node_dofs[axis]; }), local, mass);
-    }
   }
 
   void InertialMatrices::assemble_stiffness(const ElasticBody<2> &body)

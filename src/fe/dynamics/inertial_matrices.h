@@ -109,7 +109,6 @@ namespace sprag
   private:
     InertialMatrices(const ElasticBody<2> &body, const BodyMass<2> &body_mass, const LeafBehaviour &leaf);
     void find_pattern(const ElasticBody<2> &body);
-    void assemble_mass(const BodyMass<2> &body_mass);
     void assemble_stiffness(const ElasticBody<2> &body);
     void attach(double hub_inertia, const LeafBehaviour &leaf);
 

@@ -69,28 +69,26 @@ namespace sprag
         return result;
       }
 
-      void multiply_mass(const double *const q, double *const result) const
-      {
-        const auto impulses = impulse(q);
-        for (std::size_t i = 0; i < free.size(); ++i)
-          result[i] = impulses[free[i]];
-        double hub_inertia = mass.arms * impulses + mass.hub * rotation(q);
-        for (std::size_t i = 0; i < leaf.modes.size(); ++i)
-        {
-          const double vibration  = q[free.size() + i];
-          result[free.size() + i] = vibration + leaf.modes[i].participation * rotation(q);
-          hub_inertia += leaf.modes[i].participation * vibration;
-        }
-        result[free.size() + leaf.modes.size()] = hub_inertia;
-      }
-
       /// M q of motions, one after another.
       std::vector<double> inertia(const std::vector<double> &motions) const
       {
-        std::vector<double> result(motions.size());
+        std::vector<double> all(motions.size());
         for (std::size_t begin = 0; begin < motions.size(); begin += size())
-          multiply_mass(&motions[begin], &result[begin]);
-        return result;
+        {
+          const double *const q = &motions[begin];
+          double *const result  = &all[begin];
+          const auto impulses   = impulse(q);
+          for (std::size_t i = 0; i < free.size(); ++i)
+            result[i] = impulses[free[i]];
+          double &hub_inertia = result[size() - 1] = mass.arms * impulses + mass.hub * rotation(q);
+          for (std::size_t i = 0; i < leaf.modes.size(); ++i)
+          {
+            const double vibration  = q[free.size() + i];
+            result[free.size() + i] = vibration + leaf.modes[i].participation * rotation(q);
+            hub_inertia += leaf.modes[i].participation * vibration;
+          }
+        }
+        return all;
       }
 
       /// K^-1 f of forces, one after another.
@@ -157,10 +155,6 @@ namespace sprag
       return result;
     }
 
-    void add_shares(const ElasticBody<2> &, const BodyMass<2> &, LeverModes &)
-    {
-    }
-
     /// Adds the shares of the kinetic energy in the plane, in twisting and sideways. Modes have the modal mass 1 t; hub and leaf
     /// spring move in the plane. The shares are NaN if the body is not symmetric about its middle plane.
     void add_shares(const ElasticBody<3> &body, const BodyMass<3> &mass, LeverModes &modes)
@@ -225,7 +219,8 @@ namespace sprag
       result.leaf.emplace_back(mode.end() - 1 - static_cast<std::ptrdiff_t>(inertia.leaf.modes.size()), mode.end() - 1);
       result.momentum.push_back(lever.momentum(mode.data(), lever.impulse(mode.data())));
     }
-    add_shares(body, mass, result);
+    if constexpr (dim == 3)
+      add_shares(body, mass, result);
     result.layer_stiffness          = project_layer_stiffness(body, result.displacements);
     static_cast<MassSums &>(result) = mass;
     return result;

@@ -134,7 +134,23 @@ namespace sprag
   {
     for (auto &mesh : meshes)
       indices.push_back({ folder + "/" + mesh.name + ".xdmf", std::move(mesh) });
-    write_mesh_file();
+    std::size_t bytes = field_file_overhead;
+    for (const auto &[path, mesh, grids] : indices)
+      bytes += 8 * mesh.nodes.size() + 8 * mesh.cells.size() + count_bytes(mesh.fixed);
+    require_space(folder + "/" + mesh_file(), bytes);
+    auto file = hdf5::create_file(folder + "/" + mesh_file());
+    std::vector<DatasetRows> rows;
+    for (const auto &[path, mesh, grids] : indices)
+    {
+      NewGroup group{ hdf5::create_group(file, mesh.name), "/" + mesh.name, rows };
+      describe(group.add("nodes", mesh.nodes, 3), "mm",
+               "positions at rest: x along the cylinder's path towards the pivot, y up, z across");
+      group.add("cells", mesh.cells, mesh.nodes_per_cell);
+      for (const auto &field : mesh.fixed)
+        group.add(field);
+    }
+    file.close();
+    write_rows(folder + "/" + mesh_file(), rows, writers);
     for (const auto &index : indices)
       write_index(index.path, index.grids);
   }
@@ -163,27 +179,6 @@ namespace sprag
       ;
     for (const auto &index : indices)
       write_index(index.path, index.grids);
-  }
-
-  void FieldFiles::write_mesh_file() const
-  {
-    std::size_t bytes = field_file_overhead;
-    for (const auto &[path, mesh, grids] : indices)
-      bytes += 8 * mesh.nodes.size() + 8 * mesh.cells.size() + count_bytes(mesh.fixed);
-    require_space(folder + "/" + mesh_file(), bytes);
-    auto file = hdf5::create_file(folder + "/" + mesh_file());
-    std::vector<DatasetRows> rows;
-    for (const auto &[path, mesh, grids] : indices)
-    {
-      NewGroup group{ hdf5::create_group(file, mesh.name), "/" + mesh.name, rows };
-      describe(group.add("nodes", mesh.nodes, 3), "mm",
-               "positions at rest: x along the cylinder's path towards the pivot, y up, z across");
-      group.add("cells", mesh.cells, mesh.nodes_per_cell);
-      for (const auto &field : mesh.fixed)
-        group.add(field);
-    }
-    file.close();
-    write_rows(folder + "/" + mesh_file(), rows, writers);
   }
 
   void FieldFiles::write(const double time, const std::vector<std::vector<Field>> &fields, const std::vector<FrameFact> &facts)

@@ -75,7 +75,6 @@ namespace sprag
       std::map<double, std::string> grids = {}; ///< of the frames written, by their time [s]
     };
 
-    void write_mesh_file() const;
     std::string mesh_file() const;
     std::string frame_file(unsigned int frame) const;
     std::string grid(const Index &index, double time, const std::string &place, const std::vector<Field> &fields,
