@@ -37,7 +37,7 @@ TEST(ElementTravel, BoundsHowMuchNearerAnyPointComes)
         const auto pose    = cylinder.pose(Bed::x + (k % 2 == 0 ? 0.01 * k : 0.), 0.085 - 1e-4 * k, { { slope, -slope } });
         travel.go_to(nodes, pose, cylinder.shape);
         for (unsigned int q = element.begin; q < element.end; ++q)
-          gaps[q - element.begin] = cylinder.gap(pose, Elements::position(grid.points[q], nodes));
+          gaps[q - element.begin] = cylinder.gap_and_gradient(pose, Elements::position(grid.points[q], nodes)).first;
         if (k == 0)
         {
           first = gaps;

@@ -75,7 +75,6 @@ TEST(RigidCylinder, RowsAndCurvaturesAreDerivatives)
     EXPECT_NEAR(changes[0], found.gap_row * moved, 1e-12);
     for (unsigned int s = 0; s < 2; ++s)
       EXPECT_NEAR(changes[1 + s], found.slip_row[s] * moved, 1e-12);
-    EXPECT_EQ(cylinder.gap(pose, point), found.gap);
     EXPECT_NEAR(cylinder.slip(pose, point), found.slip[0], 1e-12);
     EXPECT_NEAR(gap, found.gap, 1e-12);
     for (unsigned int d = 0; d < 3; ++d)
@@ -111,8 +110,8 @@ TEST(RigidCylinder, BeyondItsEndsNothingTouches)
   cylinder.length = 30.;
   const RigidCylinder rounded(model_a().geometry, cylinder);
   const auto pose = rounded.pose(64., 0.086);
-  EXPECT_LT(rounded.gap(pose, { 121., 45., 14.9 }), 0.);
-  EXPECT_NEAR(rounded.gap(pose, { 121., 45., 17. }), 2., 1e-12);
+  EXPECT_LT(rounded.gap_and_gradient(pose, { 121., 45., 14.9 }).first, 0.);
+  EXPECT_NEAR(rounded.gap_and_gradient(pose, { 121., 45., 17. }).first, 2., 1e-12);
 }
 
 // Half of a slope by the scene and half by the shaft is the whole by the scene.

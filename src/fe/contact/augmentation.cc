@@ -11,12 +11,6 @@ namespace sprag
 
   namespace
   {
-    /// A coordinate along the face in nanometres, by which corners of neighbouring cells are known to be one.
-    long along_face(const double coordinate)
-    {
-      return std::lround(1e6 * coordinate);
-    }
-
     /// Coordinates in the plane of the face, that along xi first.
     template <int dim>
     std::array<double, dim - 1> in_face(const Point<dim> &place)
@@ -41,9 +35,9 @@ namespace sprag
       Share cell_share;
       for (unsigned int c = 0; c < n_corners; ++c)
       {
-        std::array<long, dim - 1> place;
+        std::array<long, dim - 1> place; // in nanometres, by which corners of neighbouring cells are known to be one
         for (unsigned int d = 0; d < dim - 1; ++d)
-          place[d] = along_face((c >> d) % 2 == 0 ? first[d] : last[d]);
+          place[d] = std::lround(1e6 * ((c >> d) % 2 == 0 ? first[d] : last[d]));
         cell_share.corners[c] = numbers.try_emplace(place, static_cast<unsigned int>(numbers.size())).first->second;
       }
       areas.resize(numbers.size());

@@ -8,21 +8,12 @@ namespace sprag
   using dealii::Tensor;
   using dealii::Vector;
 
-  namespace
-  {
-    LeverPoint find_first_node(const FrictionFace<2> &face)
-    {
-      const auto position = face.edges.front().nodes.front().position;
-      return { position[0], position[1] };
-    }
-  } // namespace
-
   ElasticCounterface::ElasticCounterface(const FrictionFace<2> &lever, const FrictionFace<2> &cylinder,
                                          const FaceElements<2> &face_, const FaceProperties<2> &properties_)
       : face(face_)
       , properties(properties_)
       , pair(lever, cylinder)
-      , first_node(find_first_node(cylinder))
+      , first_node(cylinder.edges.front().nodes.front().position)
   {
   }
 
@@ -38,8 +29,13 @@ namespace sprag
       begin_facets.clear();
     }
     begin_side.at.at = places.begin;
-    if (!places.balanced_at_end())
-      enter_balance();
+    if (places.balanced_at_end())
+      return;
+    between = *places.begin.displacement;
+    between.sadd(1. - places.balance, places.balance, *places.end.displacement);
+    const double theta = places.balanced(places.begin.theta, places.end.theta);
+    const double x     = places.balanced(places.begin.x, places.end.x);
+    balance_side.at    = pair.configuration({ &between, theta, x, properties.centre(x, theta) });
   }
 
   FaceElements<2>::Indices ElasticCounterface::near(const PairConfiguration &at) const
@@ -51,16 +47,7 @@ namespace sprag
 
   double ElasticCounterface::first_slip(const FaceConfiguration &at) const
   {
-    return properties.counterface(at.x, at.theta)({ at.centre.xi + first_node.xi, at.centre.eta + first_node.eta }).slip;
-  }
-
-  void ElasticCounterface::enter_balance()
-  {
-    between = *places.begin.displacement;
-    between.sadd(1. - places.balance, places.balance, *places.end.displacement);
-    const double theta = places.balanced(places.begin.theta, places.end.theta);
-    const double x     = places.balanced(places.begin.x, places.end.x);
-    balance_side.at    = pair.configuration({ &between, theta, x, properties.centre(x, theta) });
+    return properties.counterface(at.x, at.theta)({ at.centre.xi + first_node[0], at.centre.eta + first_node[1] }).slip;
   }
 
   const ElementFacets &ElasticCounterface::facets_at_begin(const unsigned int element_index)

@@ -52,7 +52,6 @@ namespace sprag
 
     double first_slip(const FaceConfiguration &at) const;
     FaceElements<2>::Indices near(const PairConfiguration &at) const;
-    void enter_balance();
     const ElementFacets &facets_at_begin(unsigned int element_index);
     double slip_at_begin(unsigned int point);
 
@@ -82,7 +81,7 @@ namespace sprag
     const FaceElements<2> &face;
     const FaceProperties<2> &properties;
     const FacePair pair;
-    const LeverPoint first_node; ///< of the cylinder's face, about its centre
+    const dealii::Point<2> first_node; ///< of the cylinder's face, about its centre
     StepPlaces places{};
     Side end;
 

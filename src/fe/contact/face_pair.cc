@@ -53,11 +53,6 @@ namespace sprag
       chain.push_back({ copy(edge, static_cast<unsigned int>(lever_face.nodes.size())), length });
       length += arc_to(1., chain.back().undeformed);
     }
-    check_chain();
-  }
-
-  void FacePair::check_chain()
-  {
     if (chain.empty())
       throw InputError("the elastic cylinder has no face that could touch the lever");
     degree = chain.front().n_nodes - 1;

@@ -198,7 +198,6 @@ namespace sprag
       return edge_curve(edge.n_nodes, deformed(edge, displacements).data());
     }
 
-    void check_chain();
     static void average(const ElementFacets &element_facets, Facet &facet);
 
     /// Signed distance of a position along xi from a vertex of the chain.

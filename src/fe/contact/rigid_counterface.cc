@@ -221,28 +221,13 @@ namespace sprag
     values += point.weight * spread(point, force);
   }
 
-  void RigidCounterface::add_tangent(const FaceElements<2>::Point &point, const Tensor<2, 4> &point_tangent,
-                                     LocalMatrix &sum) const
+  void RigidCounterface::add_tangent(const FaceElements<2>::Point &point, const Tensor<2, 4> &point_tangent, LocalMatrix &sum)
   {
-    const unsigned int n_nodes        = face.elements[element].n_nodes;
-    constexpr unsigned int rest[2][2] = { { 2, theta_index }, { 3, x_index } };
-    for (const auto &[i, row] : rest)
-      for (const auto &[j, column] : rest)
-        sum[row][column] += point.weight * point_tangent[i][j];
-    for (unsigned int a = 0; a < n_nodes; ++a)
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        const unsigned int row = 2 * a + d;
-        const double weight    = point.weight * point.shapes[a];
-        for (const auto &[j, column] : rest)
-        {
-          sum[row][column] += weight * point_tangent[d][j];
-          sum[column][row] += weight * point_tangent[j][d];
-        }
-        for (unsigned int b = 0; b < n_nodes; ++b)
-          for (unsigned int e = 0; e < 2; ++e)
-            sum[row][2 * b + e] += weight * point.shapes[b] * point_tangent[d][e];
-      }
+    const auto share      = [&](const unsigned int i) { return i < theta_index ? point.shapes[i / 2] : 1.; };
+    const auto coordinate = [](const unsigned int i) { return i < theta_index ? i % 2 : i - theta_index + 2; };
+    for (unsigned int i = 0; i < n_local; ++i)
+      for (unsigned int j = 0; j < n_local; ++j)
+        sum[i][j] += point.weight * share(i) * share(j) * point_tangent[coordinate(i)][coordinate(j)];
   }
 
   /// Returns the interface coordinates of the element.

@@ -89,7 +89,7 @@ namespace sprag
     void add_slope(unsigned int point, double traction_by_slope);
     static Local spread(const FaceElements<2>::Point &point, const dealii::Tensor<1, 4> &row);
     void add_force(const FaceElements<2>::Point &point, const dealii::Tensor<1, 4> &force);
-    void add_tangent(const FaceElements<2>::Point &point, const dealii::Tensor<2, 4> &point_tangent, LocalMatrix &sum) const;
+    static void add_tangent(const FaceElements<2>::Point &point, const dealii::Tensor<2, 4> &point_tangent, LocalMatrix &sum);
     InterfaceCoordinates interface_coordinates() const;
 
     const FaceElements<2> &face;

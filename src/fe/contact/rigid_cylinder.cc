@@ -62,11 +62,6 @@ namespace sprag
     return on_axis(along) + radius * to_tensor(std::cos(angle) * axes_at_rest.right + std::sin(angle) * axes_at_rest.upward);
   }
 
-  double RigidCylinder::gap(const Pose &pose, const Point<3> &point) const
-  {
-    return seen(shape, pose, to_triple(point)).gap;
-  }
-
   std::pair<double, Tensor<1, 3>> RigidCylinder::gap_and_gradient(const Pose &pose, const Point<3> &point) const
   {
     using N = Dual<double, 3>;

@@ -147,10 +147,8 @@ namespace sprag
     const AxisSlopes slopes;  ///< of the axis in the scene
     const bool has_free_axis; ///< whether the shaft lets the axis yield
 
-    /// Returns the gap of a point of the lever; beyond the cylinder's ends it is at least the distance from them [mm].
-    double gap(const Pose &pose, const dealii::Point<3> &point) const;
-
-    /// Returns it and its gradient by the place of the point, in lever axes.
+    /// Returns the gap of a point of the lever, beyond the cylinder's ends at least the distance from them [mm], and its gradient
+    /// by the place of the point, in lever axes.
     std::pair<double, dealii::Tensor<1, 3>> gap_and_gradient(const Pose &pose, const dealii::Point<3> &point) const;
 
     /// Returns the slip coordinate of a point round the cylinder [mm].
