@@ -27,31 +27,9 @@ namespace sprag
         for (PetscInt k = rows.begin[i]; k < rows.begin[i + 1]; ++k)
           pattern.add(first_coordinate(lever) + static_cast<unsigned int>(i),
                       first_coordinate(lever) + static_cast<unsigned int>(rows.column[k]));
-    couple_interface();
-    for (unsigned int lever = 0; lever < layout.levers; ++lever)
-      find_places(lever);
-  }
 
-  void FullStiffness::find_places(const unsigned int lever)
-  {
-    const MatrixRows rows(body_stiffness), all(*free_matrix());
-    const auto first = static_cast<PetscInt>(first_coordinate(lever));
-    for (PetscInt i = 0; i < rows.n; ++i)
-    {
-      PetscInt place = all.begin[first + i];
-      for (PetscInt k = rows.begin[i]; k < rows.begin[i + 1]; ++k)
-      {
-        while (all.column[place] < first + rows.column[k])
-          ++place;
-        places.push_back(static_cast<std::size_t>(place));
-      }
-    }
-  }
-
-  /// Hubs and support with everything that the contact touches, and an elastic cylinder's face with all of both faces: the
-  /// material of the lever slides along it.
-  void FullStiffness::couple_interface()
-  {
+    // Hubs and support are coupled with everything that the contact touches, and an elastic cylinder's face with all of both
+    // faces: the material of the lever slides along it.
     const auto couple = [&](const unsigned int dof, const unsigned int other)
     {
       pattern.add(coordinate(dof), coordinate(other));
@@ -155,9 +133,16 @@ namespace sprag
       forces[first + dof] -= internal[dof];
 
     const MatrixRows from(body_stiffness), to(matrix);
-    const std::size_t n = places.size() / layout.levers;
-    for (std::size_t k = 0; k < n; ++k)
-      to[places[lever * n + k]] += from[k];
+    for (PetscInt i = 0; i < from.n; ++i)
+    {
+      PetscInt place = to.begin[first + i];
+      for (PetscInt k = from.begin[i]; k < from.begin[i + 1]; ++k)
+      {
+        while (to.column[place] < static_cast<PetscInt>(first) + from.column[k])
+          ++place;
+        to[static_cast<std::size_t>(place)] += from[static_cast<std::size_t>(k)];
+      }
+    }
   }
 
   void FullStiffness::serialise_history(Archive &archive)
@@ -201,9 +186,9 @@ namespace sprag
     return result;
   }
 
-  void FullStiffness::observe_sensors(const unsigned int lever, const Vector<double> &coordinates, const DofLoads &,
-                                      Row &row) const
+  std::vector<double> FullStiffness::sensor_forces(const unsigned int lever, const Vector<double> &coordinates,
+                                                   const DofLoads &) const
   {
-    row.sensor_forces = body.sensor_forces(body_displacement(lever, coordinates));
+    return body.sensor_forces(body_displacement(lever, coordinates));
   }
 } // namespace sprag

@@ -41,8 +41,8 @@ namespace sprag
     std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
                                                            const DofLoads &forces) const;
 
-    /// Writes the forces of the sensors of a lever into a row [N].
-    void observe_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const DofLoads &forces, Row &row) const;
+    /// Returns the forces of the sensors of a lever [N].
+    std::vector<double> sensor_forces(unsigned int lever, const dealii::Vector<double> &coordinates, const DofLoads &) const;
 
     /// Serialises what the factors' ordering was found for, on which their round-off depends.
     void serialise_history(Archive &archive);
@@ -53,8 +53,6 @@ namespace sprag
       return lever * (body.n_dofs() + 1);
     }
 
-    void couple_interface();
-    void find_places(unsigned int lever);
     std::shared_ptr<dealii::PETScWrappers::SparseMatrix> free_matrix();
     dealii::Vector<double> body_displacement(unsigned int lever, const dealii::Vector<double> &coordinates) const;
     void add_body(unsigned int lever, const dealii::Vector<double> &coordinates, dealii::PETScWrappers::SparseMatrix &matrix,
@@ -68,7 +66,6 @@ namespace sprag
     dealii::PETScWrappers::SparseMatrix body_stiffness; ///< stiffness of a lever's body
     dealii::DynamicSparsityPattern pattern;
     std::vector<std::shared_ptr<dealii::PETScWrappers::SparseMatrix>> matrices; ///< each allocated for a tangent
-    std::vector<std::size_t> places; ///< of the entries of each lever's body in such a matrix
 
     // State of the first tangent, for which the factors are ordered.
     bool is_ordered = false;

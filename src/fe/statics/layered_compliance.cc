@@ -312,12 +312,6 @@ namespace sprag
     return result;
   }
 
-  const LayeredCompliance::NearColumns &LayeredCompliance::near_columns(const unsigned int block_index)
-  {
-    const auto found = known.find(block_index);
-    return found != known.end() ? found->second : known.emplace(block_index, find_near_columns(block_index)).first->second;
-  }
-
   /// Returns true if the representative's columns hold for this row: it has the same distance to the representative's block.
   bool LayeredCompliance::is_represented(const unsigned int row_block, const unsigned int column_block) const
   {
@@ -327,36 +321,17 @@ namespace sprag
            rounded(blocks[other].xi - blocks[representative].xi) == rounded(blocks[row_block].xi - blocks[column_block].xi);
   }
 
-  /// Returns the block whose columns are used for a pair of blocks.
-  unsigned int LayeredCompliance::source_block(const unsigned int row_block, const unsigned int column_block) const
-  {
-    return is_represented(row_block, column_block) ? blocks[column_block].representative : column_block;
-  }
-
   /// Returns the block of G_near; null if it is negligible.
   const FullMatrix<double> *LayeredCompliance::near_block(const unsigned int row_block, const unsigned int column_block)
   {
-    const auto &columns    = near_columns(source_block(row_block, column_block));
+    const unsigned int source = is_represented(row_block, column_block) ? blocks[column_block].representative : column_block;
+    auto found                = known.find(source);
+    if (found == known.end())
+      found = known.emplace(source, find_near_columns(source)).first;
+    const auto &columns    = found->second;
     const int number       = static_cast<int>(row_block) - static_cast<int>(column_block) - columns.first;
     const bool is_far_away = number < 0 || number >= static_cast<int>(columns.block_matrices.size());
     return is_far_away ? nullptr : &columns.block_matrices[number];
-  }
-
-  /// Returns a row of G_near: the displacement of a dof by a unit force on each dof.
-  const std::vector<double> &LayeredCompliance::near_row(const unsigned int surface_dof)
-  {
-    const auto [found, is_new] = known_rows.try_emplace(surface_dof, dofs.size());
-    if (const int own = body.number_near(dofs[surface_dof]); is_new && own >= 0)
-    {
-      SparseColumns load;
-      load.add(static_cast<unsigned int>(own), 1.);
-      load.end_column();
-      const auto response = body.respond_near(load);
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-        if (const int number = body.number_near(dofs[i]); number >= 0)
-          found->second[i] = response[number];
-    }
-    return found->second;
   }
 
   FullMatrix<double> LayeredCompliance::block(const unsigned int row_block, const unsigned int column_block)
@@ -384,18 +359,12 @@ namespace sprag
     return result;
   }
 
-  std::vector<unsigned int> LayeredCompliance::block_numbers(const DofSelection &whole_blocks) const
-  {
-    std::vector<unsigned int> result;
-    for (unsigned int place = 0; place < whole_blocks.size(); place += blocks[result.back()].end - blocks[result.back()].begin)
-      result.push_back(containing_block(whole_blocks[place]));
-    return result;
-  }
-
   FullMatrix<double> LayeredCompliance::among(const DofSelection &whole_blocks)
   {
     FullMatrix<double> result(whole_blocks.size());
-    const auto all = block_numbers(whole_blocks);
+    std::vector<unsigned int> all; // numbers of the blocks
+    for (unsigned int place = 0; place < whole_blocks.size(); place += blocks[all.back()].end - blocks[all.back()].begin)
+      all.push_back(containing_block(whole_blocks[place]));
     for (unsigned int i = 0, row = 0; i < all.size(); row += blocks[all[i]].end - blocks[all[i]].begin, ++i)
       for (unsigned int j = 0, column = 0; j <= i; column += blocks[all[j]].end - blocks[all[j]].begin, ++j)
       {
@@ -417,23 +386,12 @@ namespace sprag
     {
       for (unsigned int j = 0; j < basis.n(); ++j)
         result[i] += basis(surface_dofs[i], j) * amplitudes[j];
-      result[i] += near_displacement(surface_dofs[i], forces);
-    }
-    return result;
-  }
-
-  /// Returns the displacement of a dof by G_near. Without a representative one row is computed, cheaper than a block's columns.
-  double LayeredCompliance::near_displacement(const unsigned int surface_dof, const DofLoads &forces)
-  {
-    const unsigned int to = containing_block(surface_dof);
-    double result         = 0.;
-    for (unsigned int a = 0; a < forces.dofs.size(); ++a)
-    {
-      const unsigned int by = forces.dofs[a], from = containing_block(by);
-      if (!is_represented(to, from))
-        result += near_row(surface_dof)[by] * forces.values[a];
-      else if (const auto *const block = near_block(to, from))
-        result += (*block)(surface_dof - blocks[to].begin, by - blocks[from].begin) * forces.values[a];
+      const unsigned int to = containing_block(surface_dofs[i]);
+      double near_part      = 0.;
+      for (unsigned int a = 0; a < forces.dofs.size(); ++a)
+        if (const unsigned int by = forces.dofs[a], from = containing_block(by); const auto *const near = near_block(to, from))
+          near_part += (*near)(surface_dofs[i] - blocks[to].begin, by - blocks[from].begin) * forces.values[a];
+      result[i] += near_part;
     }
     return result;
   }

@@ -63,21 +63,15 @@ namespace sprag
     void find_blocks(double surroundings);
     void find_basis(double begin, double end, double spacing);
     bool is_represented(unsigned int row_block, unsigned int column_block) const;
-    unsigned int source_block(unsigned int row_block, unsigned int column_block) const;
-    const std::vector<double> &near_row(unsigned int surface_dof);
-    double near_displacement(unsigned int surface_dof, const DofLoads &forces);
     const dealii::FullMatrix<double> *near_block(unsigned int row_block, unsigned int column_block);
     dealii::FullMatrix<double> block(unsigned int row_block, unsigned int column_block);
-    const NearColumns &near_columns(unsigned int block_index);
     NearColumns find_near_columns(unsigned int block_index) const;
     unsigned int containing_block(unsigned int surface_dof) const;
-    std::vector<unsigned int> block_numbers(const DofSelection &whole_blocks) const;
 
     const SolidBody &body;
     const std::vector<unsigned int> dofs; ///< of the body, by number on the face
     std::vector<Block> blocks;
-    std::map<unsigned int, NearColumns> known;              ///< by block
-    std::map<unsigned int, std::vector<double>> known_rows; ///< of G_near, by dof
-    dealii::FullMatrix<double> basis;                       ///< Z, dofs x attachment modes
+    std::map<unsigned int, NearColumns> known; ///< by block
+    dealii::FullMatrix<double> basis;          ///< Z, dofs x attachment modes
   };
 } // namespace sprag

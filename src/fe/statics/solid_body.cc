@@ -159,7 +159,12 @@ namespace sprag
       , ElasticBody<3>(mesh, to_whole(solid.body, half))
       , near_depth(solid.near_layer_depth)
   {
-    find_ends();
+    for (const auto &edge : friction_face().edges)
+      for (const auto &node : edge.nodes)
+      {
+        face_begin = std::min(face_begin, node.position[0]);
+        face_end   = std::max(face_end, node.position[0]);
+      }
     find_near_layer();
   }
 
@@ -188,18 +193,6 @@ namespace sprag
   SolidBody::~SolidBody()
   {
     call_others(SharedTask::release);
-  }
-
-  void SolidBody::find_ends()
-  {
-    face_begin = std::numeric_limits<double>::max();
-    face_end   = -face_begin;
-    for (const auto &edge : friction_face().edges)
-      for (const auto &node : edge.nodes)
-      {
-        face_begin = std::min(face_begin, node.position[0]);
-        face_end   = std::max(face_end, node.position[0]);
-      }
   }
 
   /// Makes the near-surface layer shallower until it is bonded everywhere; where it never is, there is none.

@@ -127,13 +127,12 @@ namespace sprag
                                            const std::string &folder) const;
     void factorise();
     void release();
-    void find_ends();
     void find_near_layer();
     bool number_near_layer();
 
-    double near_depth;      ///< [mm]
-    double face_begin = 0.; ///< along xi [mm]
-    double face_end   = 0.;
+    double near_depth;                                      ///< [mm]
+    double face_begin = std::numeric_limits<double>::max(); ///< along xi [mm]
+    double face_end   = -face_begin;
     std::vector<int> near_number;
     unsigned int n_near_dofs = 0; ///< such numbers
     std::unique_ptr<Mumps> factors;

@@ -30,12 +30,6 @@ namespace sprag
     /// Vertices, cells, and the sides that have an id.
     using Description = std::tuple<std::vector<Point<3>>, std::vector<CellData<3>>, std::vector<CellData<2>>>;
 
-    /// Corners of the side of a plane cell, in increasing order.
-    std::pair<unsigned int, unsigned int> sorted_corners(const unsigned int a, const unsigned int b)
-    {
-      return std::minmax(a, b);
-    }
-
     /// Builds one mesh of the layers of another.
     struct Extrusion
     {
@@ -88,7 +82,7 @@ namespace sprag
         std::map<std::pair<unsigned int, unsigned int>, types::material_id> result;
         for (const auto &cell : cells)
           for (const auto &[a, b] : { std::pair(0, 1), std::pair(0, 2), std::pair(1, 3), std::pair(2, 3) })
-            result[sorted_corners(cell.vertices[a], cell.vertices[b])] = cell.material_id;
+            result[std::minmax(cell.vertices[a], cell.vertices[b])] = cell.material_id;
         return result;
       }
 
@@ -99,7 +93,7 @@ namespace sprag
           for (unsigned int layer = 0; layer < n_layers(); ++layer)
           {
             const auto [a, b] = std::pair(line.vertices[0], line.vertices[1]);
-            if (line.boundary_id != 0 && is_there(materials.at(sorted_corners(a, b)), layer))
+            if (line.boundary_id != 0 && is_there(materials.at(std::minmax(a, b)), layer))
               add_side({ { vertex(a, layer), vertex(b, layer), vertex(a, layer + 1), vertex(b, layer + 1) } }, line.boundary_id,
                        result);
           }

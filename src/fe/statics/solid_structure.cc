@@ -26,13 +26,6 @@ namespace sprag
       }
   }
 
-  const Vector<double> &FiniteStrain::cell_values(const Cell &cell, const Vector<double> &displacement)
-  {
-    for (unsigned int i = 0; i < cell.dofs.size(); ++i)
-      cell_displacement[i] = displacement[cell.dofs[i]];
-    return cell_displacement;
-  }
-
   void FiniteStrain::add(const DofLoads &on_face, std::vector<double> &loads) const
   {
     for (unsigned int i = 0; i < on_face.dofs.size(); ++i)
@@ -46,7 +39,9 @@ namespace sprag
     Vector<double> internal(cell_displacement.size()), stiffness_forces(cell_displacement.size());
     for (const auto &cell : cells)
     {
-      elasticity.reinit(cell.cell, cell_values(cell, displacement));
+      for (unsigned int i = 0; i < cell.dofs.size(); ++i)
+        cell_displacement[i] = displacement[cell.dofs[i]];
+      elasticity.reinit(cell.cell, cell_displacement);
       elasticity.find_forces(internal);
       cell.stiffness->vmult(stiffness_forces, cell_displacement);
       internal -= stiffness_forces;
@@ -140,19 +135,10 @@ namespace sprag
     return result;
   }
 
-  void SolidStructure::observe_sensors(const unsigned int lever, const Vector<double> &coordinates, const DofLoads &forces,
-                                       Row &row) const
+  std::vector<double> SolidStructure::sensor_forces(const unsigned int lever, const Vector<double> &coordinates,
+                                                    const DofLoads &forces) const
   {
-    tell_sides(finite ? body.sensor_forces(lever_displacement(coordinates, lever)) : sensors(on_surface(forces, lever)),
-               body.is_half(), row);
-  }
-
-  const std::vector<unsigned int> &SolidStructure::line_at(const double zeta) const
-  {
-    const auto &nodes    = body.friction_face().nodes;
-    const auto distance  = [&](const auto &line) { return std::abs(nodes[line.front()].position[2] - zeta); };
-    const auto is_closer = [&](const auto &a, const auto &b) { return distance(a) < distance(b); };
-    return *std::min_element(node_lines.begin(), node_lines.end(), is_closer);
+    return finite ? body.sensor_forces(lever_displacement(coordinates, lever)) : sensors(on_surface(forces, lever));
   }
 
   /// Returns the dofs and shares of three nodes of a line by which the displacement along eta between nodes follows.
@@ -191,10 +177,14 @@ namespace sprag
         result[i] = coordinates[first_body_coordinate(lever) + surface[some[i]]];
       return result;
     };
-    const auto &line   = line_at(row.across[4]);
-    const double s     = row[Column::s];
-    const double aside = 0.5 * row[Column::contact_width] + 4. * thickness;
-    const auto at      = [&](const double xi)
+    // The indentation is that where the pressure is largest.
+    const auto distance = [&](const auto &some)
+    { return std::abs(body.friction_face().nodes[some.front()].position[2] - row.across[4]); };
+    const auto is_closer = [&](const auto &a, const auto &b) { return distance(a) < distance(b); };
+    const auto &line     = *std::min_element(node_lines.begin(), node_lines.end(), is_closer);
+    const double s       = row[Column::s];
+    const double aside   = 0.5 * row[Column::contact_width] + 4. * thickness;
+    const auto at        = [&](const double xi)
     {
       const auto shares = interpolation(line, xi);
       return shares.values * displacements(shares.dofs);

@@ -38,7 +38,6 @@ namespace sprag
       const dealii::FullMatrix<double> *stiffness; ///< without load
     };
 
-    const dealii::Vector<double> &cell_values(const Cell &cell, const dealii::Vector<double> &displacement);
     void add(const DofLoads &on_face, std::vector<double> &loads) const;
 
     const SolidBody &body;
@@ -60,8 +59,6 @@ namespace sprag
   public:
     /// The body must outlive this. `begin` and `end`: where on the face forces may act [mm].
     SolidStructure(const SolidBody &body, double begin, double end, const InterfaceLayout &layout, const JointSprings &springs);
-    SolidStructure(const SolidStructure &)            = delete;
-    SolidStructure &operator=(const SolidStructure &) = delete;
 
     unsigned int n_coordinates() const
     {
@@ -79,8 +76,9 @@ namespace sprag
     std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
                                                            const DofLoads &forces) const;
 
-    /// Writes the forces of the sensors of a lever into a row [N].
-    void observe_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const DofLoads &forces, Row &row) const;
+    /// Returns the forces of the sensors of a lever, see SensorForces [N].
+    std::vector<double> sensor_forces(unsigned int lever, const dealii::Vector<double> &coordinates,
+                                      const DofLoads &forces) const;
 
     /// Returns the deflection of a lever's face where the pressure is largest over that aside of the contact [mm]; 0 without a
     /// layer. The row holds place and width of the contact.
@@ -118,7 +116,6 @@ namespace sprag
 
     dealii::Vector<double> lever_displacement(const dealii::Vector<double> &coordinates, unsigned int lever) const;
     std::vector<double> responses(const std::vector<DofLoads> &on_faces) const;
-    const std::vector<unsigned int> &line_at(double zeta) const;
     DofLoads interpolation(const std::vector<unsigned int> &line, double xi) const;
 
     const SolidBody &body;

@@ -50,6 +50,7 @@ namespace sprag
 
     /// `faces`: those of a lever in the order of their dofs, the same for both of a pair.
     StaticInterface(const InterfaceLayout &layout, const JointSprings &springs, std::vector<FaceResponse> faces);
+    StaticInterface &operator=(StaticInterface &&) = delete;
 
     unsigned int n_coordinates() const
     {

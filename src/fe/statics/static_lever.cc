@@ -440,11 +440,17 @@ namespace sprag
     const double support       = properties.support_stiffness.value_or(0.);
     row[Column::theta]         = theta;
     row[Column::spring_energy] = properties.spring.law.energy(turn);
+    const auto sensor_forces =
+        std::visit([&](const auto &s) { return s.sensor_forces(lever, state.coordinates, state.forces); }, own_structure);
     if constexpr (dim == 2)
+    {
       contact.observe(found, row);
+      row.sensor_forces = sensor_forces;
+    }
     else
     {
       contact.observe_contact(found, row);
+      tell_sides(sensor_forces, own_body.is_half(), row);
       row[Column::indentation] = std::get<SolidStructure>(own_structure)
                                      .indentation(lever, properties.layer_thickness, state.coordinates, state.forces, row);
     }
@@ -458,7 +464,6 @@ namespace sprag
       row[Column::elastic_energy] = own_body.energy(body_displacements(state.coordinates, state.forces)[lever]);
     if (is_linear || dim == 3) // a body in a plane has its elastic cylinder
       row[Column::elastic_energy] += cylinder_energy(lever, state);
-    std::visit([&](const auto &s) { s.observe_sensors(lever, state.coordinates, state.forces, row); }, own_structure);
   }
 
   /// Returns the energy of a linear elastic cylinder or of the rigid one's shaft [mJ]: half of the work of the interface forces

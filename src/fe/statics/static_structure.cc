@@ -174,8 +174,9 @@ namespace sprag
     return result;
   }
 
-  void StaticStructure::observe_sensors(const unsigned int lever, const Vector<double> &, const DofLoads &forces, Row &row) const
+  std::vector<double> StaticStructure::sensor_forces(const unsigned int lever, const Vector<double> &,
+                                                     const DofLoads &forces) const
   {
-    row.sensor_forces = sensors(on_surface(forces, lever));
+    return sensors(on_surface(forces, lever));
   }
 } // namespace sprag

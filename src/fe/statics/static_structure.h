@@ -56,15 +56,13 @@ namespace sprag
   public:
     /// The body must outlive this.
     StaticStructure(const ElasticBody<2> &body, const InterfaceLayout &layout, const JointSprings &springs);
-    StaticStructure(const StaticStructure &)            = delete;
-    StaticStructure &operator=(const StaticStructure &) = delete;
 
     /// Returns the displacement of the whole body of each lever under interface forces, by a back-substitution.
     std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
                                                            const DofLoads &forces) const;
 
-    /// Writes the forces of the sensors of a lever into a row [N].
-    void observe_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const DofLoads &forces, Row &row) const;
+    /// Returns the forces of the sensors of a lever [N].
+    std::vector<double> sensor_forces(unsigned int lever, const dealii::Vector<double> &, const DofLoads &forces) const;
 
     /// Serialises what it knows of the compliance.
     void serialise_history(Archive &archive);
