@@ -52,7 +52,13 @@ namespace sprag
     const StepPlaces places{ configuration(step.begin.position, step.from.x), configuration(step.end, step.to.x),
                              step.weights.stiffness(), statics.has_value() };
     set_places(places);
-    visit_elements(near_step(step.history, places, found),
+    // If forces are means over the step, elements near and in contact when it began belong to it.
+    auto elements = near_end();
+    if (!places.balanced_at_end())
+      elements = united(elements, near_begin);
+    if (!places.static_end)
+      elements = united(elements, touched_elements(grid, step.history));
+    visit_elements(candidates.clip(std::move(elements), found.within_candidates),
                    [&](auto &below, const unsigned int element) { step_element(below, element, face_step, found); });
     sum_forces(found.sums.loaded, dof_places, found.forces);
     found.sums.work.drive -= found.sums.force_on_counterface * (step.to.x - step.from.x);
@@ -70,18 +76,6 @@ namespace sprag
             near_begin = below.near_begin();
         },
         counterface);
-  }
-
-  /// Finds the elements of a step. Where forces are means over it, those near and in contact when it began belong to them.
-  FaceElements<2>::Indices FaceContact::near_step(const std::vector<ContactHistory> &history, const StepPlaces &places,
-                                                  FaceEvaluation<2> &found) const
-  {
-    auto elements = near_end();
-    if (!places.balanced_at_end())
-      elements = united(elements, near_begin);
-    if (!places.static_end)
-      elements = united(elements, touched_elements(grid, history));
-    return candidates.clip(std::move(elements), found.within_candidates);
   }
 
   FacePointState<2> &FaceContact::add_point(const unsigned int element, const unsigned int point, FaceEvaluation<2> &found)

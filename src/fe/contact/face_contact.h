@@ -53,9 +53,6 @@ namespace sprag
                      const dealii::Vector<double> &to, double to_x) const;
 
   private:
-    FaceElements<2>::Indices near_step(const std::vector<ContactHistory> &history, const StepPlaces &places,
-                                       FaceEvaluation<2> &found) const;
-
     /// Enters elements of the face one after the other and calls `visit_element`(counterface, element).
     template <class ElementVisitor>
     void visit_elements(const FaceElements<2>::Indices &elements, const ElementVisitor &visit_element) const;

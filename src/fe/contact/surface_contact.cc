@@ -17,7 +17,12 @@ namespace sprag
       : ContactFace<3>(face_, std::move(properties_))
       , batched(face, grid, properties.cylinder)
   {
-    find_ends();
+    const auto is_before = [](const auto &a, const auto &b) { return a.position[0] < b.position[0]; };
+    const auto ends      = std::minmax_element(face.nodes.begin(), face.nodes.end(), is_before);
+    const double first = ends.first->position[0], last = ends.second->position[0];
+    for (const auto &edge : face.edges)
+      is_at_end.push_back(std::any_of(edge.nodes.begin(), edge.nodes.end(),
+                                      [&](const auto &node) { return node.position[0] <= first || node.position[0] >= last; }));
     for (const auto &element : grid.elements)
     {
       std::set<unsigned int> lines;
@@ -25,16 +30,6 @@ namespace sprag
         lines.insert(grid.point_lines[q]);
       element_lines.emplace_back(lines.begin(), lines.end());
     }
-  }
-
-  void SurfaceContact::find_ends()
-  {
-    const auto is_before = [](const auto &a, const auto &b) { return a.position[0] < b.position[0]; };
-    const auto ends      = std::minmax_element(face.nodes.begin(), face.nodes.end(), is_before);
-    const double first = ends.first->position[0], last = ends.second->position[0];
-    for (const auto &edge : face.edges)
-      is_at_end.push_back(std::any_of(edge.nodes.begin(), edge.nodes.end(),
-                                      [&](const auto &node) { return node.position[0] <= first || node.position[0] >= last; }));
   }
 
   RigidCylinder::Pose SurfaceContact::pose(const FaceConfiguration &at) const
@@ -52,24 +47,8 @@ namespace sprag
     begin_shifts  = shifts;
     const auto at = configuration(begin_displacements, begin_x);
     begin_pose    = pose(at);
-    if (is_new)
-      begin_slips.assign(grid.elements.size(), {});
     batched.begin(step.history);
     near_begin = statics ? Elements::Indices() : united(near(at, begin_pose), touched_elements(grid, step.history));
-  }
-
-  double SurfaceContact::slip_at_begin(const unsigned int point) const
-  {
-    const unsigned int element = grid.point_element(point);
-    const auto &element_points = grid.elements[element];
-    auto &known                = begin_slips[element];
-    if (known.empty())
-    {
-      const auto nodal = Elements::nodal(element_points, begin_displacements);
-      for (unsigned int q = element_points.begin; q < element_points.end; ++q)
-        known.push_back(properties.cylinder.slip(begin_pose, Elements::position(grid.points[q], nodal)));
-    }
-    return known[point - element_points.begin];
   }
 
   /// The gap is convex: over an element it lies above its tangent at the first node. The margin covers bending.
@@ -127,30 +106,6 @@ namespace sprag
     return result;
   }
 
-  std::vector<SlipShift> SurfaceContact::slip_shifts(const unsigned int element, const std::vector<ContactHistory> &history,
-                                                     const StaticTerms &terms) const
-  {
-    const double stiffness = unwinding_stiffness(terms.augmented, properties.penalties.tangential);
-    std::vector<SlipShift> result;
-    for (unsigned int point = grid.elements[element].begin; point < grid.elements[element].end; ++point)
-      result.push_back(slip_shift(grid, point, 0., terms.travel, stiffness, history,
-                                  [this](const unsigned int q) { return slip_at_begin(q); }));
-    return result;
-  }
-
-  InterfaceCoordinates SurfaceContact::element_coordinates(const unsigned int element) const
-  {
-    InterfaceCoordinates result;
-    const auto &element_points = grid.elements[element];
-    for (unsigned int i = 0; i < 3 * element_points.n_nodes; ++i)
-      result.push_back({ Elements::max_nodes * (i % 3) + i / 3, 3 * element_points.nodes[i / 3] + i % 3, 1. });
-    constexpr unsigned int n_displacements = BatchedStep::n_displacements;
-    add_frame(properties.layout, n_displacements, n_displacements + 1, result);
-    for (unsigned int i = 0; i < properties.layout.slopes; ++i)
-      result.push_back({ n_displacements + 2 + i, properties.layout.slope(i), 1. });
-    return result;
-  }
-
   const DofSelection &SurfaceContact::candidate_dofs(const double x, const PerLever &theta, const double travel)
   {
     constexpr double over_radius = 0.05;
@@ -189,8 +144,14 @@ namespace sprag
   {
     for (const unsigned int element : near_elements)
       if (!batched.is_placed(element))
-        batched.place(element, Elements::nodal(grid.elements[element], begin),
-                      statics ? slip_shifts(element, history, *statics) : std::vector<SlipShift>());
+      {
+        std::vector<SlipShift> shifts;
+        for (unsigned int point = grid.elements[element].begin; statics && point < grid.elements[element].end; ++point)
+          shifts.push_back(slip_shift(grid, point, 0., statics->travel,
+                                      unwinding_stiffness(statics->augmented, properties.penalties.tangential), history,
+                                      [this](const unsigned int q) { return slip_at(q, begin_displacements, begin_pose); }));
+        batched.place(element, Elements::nodal(grid.elements[element], begin), shifts);
+      }
   }
 
   /// Presses the elements that are looked at, which are placed.
@@ -218,11 +179,18 @@ namespace sprag
   {
     if (touched == summed.elements)
       return;
-    summed = { std::move(touched), {}, {} };
+    constexpr unsigned int n_displacements = BatchedStep::n_displacements;
+    summed                                 = { std::move(touched), {}, {} };
     for (const unsigned int element : summed.elements)
     {
-      summed.coordinates.push_back(element_coordinates(element));
-      const auto dofs = collect_dofs(summed.coordinates.back());
+      auto &coordinates          = summed.coordinates.emplace_back();
+      const auto &element_points = grid.elements[element];
+      for (unsigned int i = 0; i < 3 * element_points.n_nodes; ++i)
+        coordinates.push_back({ Elements::max_nodes * (i % 3) + i / 3, 3 * element_points.nodes[i / 3] + i % 3, 1. });
+      add_frame(properties.layout, n_displacements, n_displacements + 1, coordinates);
+      for (unsigned int i = 0; i < properties.layout.slopes; ++i)
+        coordinates.push_back({ n_displacements + 2 + i, properties.layout.slope(i), 1. });
+      const auto dofs = collect_dofs(coordinates);
       summed.dofs.insert(summed.dofs.end(), dofs.begin(), dofs.end());
     }
     std::sort(summed.dofs.begin(), summed.dofs.end());
@@ -333,15 +301,17 @@ namespace sprag
   double SurfaceContact::mean_slip(const FaceEvaluation<3> &found, const Vector<double> &from, const double from_x,
                                    const Vector<double> &to, const double to_x) const
   {
-    const auto begin = configuration(from, from_x), end = configuration(to, to_x);
-    return pressure_mean(found, [&](const FacePointState<3> &point) { return slip_at(point, end) - slip_at(point, begin); });
+    const auto begin = pose(configuration(from, from_x)), end = pose(configuration(to, to_x));
+    return pressure_mean(found, [&](const FacePointState<3> &point)
+                         { return slip_at(point.index, to, end) - slip_at(point.index, from, begin); });
   }
 
-  /// The slip coordinate round the cylinder of a point, in another configuration [mm].
-  double SurfaceContact::slip_at(const FacePointState<3> &point, const FaceConfiguration &at) const
+  /// Returns the slip coordinate round the cylinder of a point, by its index in the face [mm].
+  double SurfaceContact::slip_at(const unsigned int point, const Vector<double> &displacements,
+                                 const RigidCylinder::Pose &cylinder_pose) const
   {
-    const auto nodal = Elements::nodal(grid.elements[point.element], *at.displacement);
-    return properties.cylinder.slip(pose(at), Elements::position(grid.points[point.index], nodal));
+    const auto nodal = Elements::nodal(grid.elements[grid.point_element(point)], displacements);
+    return properties.cylinder.slip(cylinder_pose, Elements::position(grid.points[point], nodal));
   }
 
   void SurfaceContact::add_points(FaceEvaluation<3> &found) const
@@ -351,18 +321,14 @@ namespace sprag
       batched.add_points(element, true, found.points);
   }
 
-  bool SurfaceContact::share_line(const unsigned int element, const unsigned int other) const
-  {
-    const auto &a = element_lines[element], &b = element_lines[other];
-    return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
-  }
-
   /// `peak`: element where the pressure is largest, if there is any.
   void SurfaceContact::add_points_in_contact(const std::optional<unsigned int> &peak, FaceEvaluation<3> &found) const
   {
+    const auto share_line = [&](const std::vector<unsigned int> &a, const std::vector<unsigned int> &b)
+    { return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end(); };
     found.points.clear();
     for (const unsigned int element : near_elements)
-      batched.add_points(element, !peak || share_line(element, *peak), found.points);
+      batched.add_points(element, !peak || share_line(element_lines[element], element_lines[*peak]), found.points);
   }
 
   /// Finds works, energy and points of the elements as they were pressed last.
@@ -377,12 +343,7 @@ namespace sprag
         peak    = element;
       }
     add_points_in_contact(peak, found);
-    found.sums.beyond_face = reaches_end(found);
-  }
-
-  bool SurfaceContact::reaches_end(const FaceEvaluation<3> &found) const
-  {
-    return std::any_of(found.points.begin(), found.points.end(),
-                       [&](const auto &point) { return point.pressure > 0. && is_at_end[point.element]; });
+    found.sums.beyond_face = std::any_of(found.points.begin(), found.points.end(),
+                                         [&](const auto &point) { return point.pressure > 0. && is_at_end[point.element]; });
   }
 } // namespace sprag

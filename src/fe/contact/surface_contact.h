@@ -56,15 +56,11 @@ namespace sprag
     using Elements = FaceElements<3>;
     using Kind     = BatchedStep::Kind;
 
-    void find_ends();
     void complete(FaceEvaluation<3> &found) const;
-    bool share_line(unsigned int element, unsigned int other) const;
     void add_points_in_contact(const std::optional<unsigned int> &peak, FaceEvaluation<3> &found) const;
     RigidCylinder::Pose pose(const FaceConfiguration &at) const;
     Elements::Indices near(const FaceConfiguration &at, const RigidCylinder::Pose &cylinder_pose) const;
     BatchedStep::Constants constants(Kind kind, const FaceConfiguration &end, StepTerms terms) const;
-    std::vector<SlipShift> slip_shifts(unsigned int element, const std::vector<ContactHistory> &history,
-                                       const StaticTerms &terms) const;
     void press_slide(const SlidingState &sliding, FaceEvaluation<3> &found);
     void begin_step(const InterfaceStep &step, const std::optional<StaticTerms> &statics);
     void press(const BatchedStep::Constants &step, const dealii::Vector<double> &displacements, Elements::Indices elements_near,
@@ -74,20 +70,17 @@ namespace sprag
     void press_elements(const dealii::Vector<double> &end, FaceEvaluation<3> &found);
     BatchedStep::Constants step_constants(const InterfaceStep &step, const FaceConfiguration &end,
                                           const std::optional<StaticTerms> &statics) const;
-    double slip_at(const FacePointState<3> &point, const FaceConfiguration &at) const;
+    double slip_at(unsigned int point, const dealii::Vector<double> &displacements,
+                   const RigidCylinder::Pose &cylinder_pose) const;
     void find_summed(Elements::Indices touched);
     void set_forces(Request request, InterfaceForces &forces) const;
     dealii::FullMatrix<double> tangent(BatchedStep::Part part) const;
-    bool reaches_end(const FaceEvaluation<3> &found) const;
-    double slip_at_begin(unsigned int point) const;
-    InterfaceCoordinates element_coordinates(unsigned int element) const;
 
     std::vector<std::vector<unsigned int>> element_lines; ///< increasing
     std::vector<bool> is_at_end;                          ///< whether an element is at an end of the face along xi
 
     RigidCylinder::Pose begin_pose{};
-    std::optional<std::pair<double, bool>> begin_shifts;  ///< travel and augmentation, which shifts of slips follow from
-    mutable std::vector<std::vector<double>> begin_slips; ///< of the points by elements; of those that were looked at
+    std::optional<std::pair<double, bool>> begin_shifts; ///< travel and augmentation, which shifts of slips follow from
 
     /// Elements whose forces are summed, and their dofs.
     struct Summed
