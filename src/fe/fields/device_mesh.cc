@@ -158,12 +158,6 @@ namespace sprag
     return { row[Column::x], std::isnan(moved) ? 0. : moved, { { first, second } } };
   }
 
-  WorldAxes lever_axes(const Device &device, const DevicePose &pose, const unsigned int lever)
-  {
-    const Point<2> pivot(device.geometry.pivot_distance + pose.support, device.geometry.pivot_height);
-    return world_axes(pivot, pose.theta[lever], lever_side(lever));
-  }
-
   WorldAxes cylinder_axes(const Device &device, const DevicePose &pose, const unsigned int lever)
   {
     return world_axes(Point<2>(pose.x, lever_side(lever) * cylinder_height(device)), pose.theta[lever], lever_side(lever));
@@ -197,8 +191,9 @@ namespace sprag
       const Point<3> origin(pose.x, cylinder_height(device), 0.);
       return { origin, Tensor<1, 3>({ 1., 0., 0. }), Tensor<1, 3>({ 0., 1., 0. }), Tensor<1, 3>({ 0., 0., 1. }) };
     }
-    auto result =
-        block.part == DevicePart::cylinder ? cylinder_axes(device, pose, block.lever) : lever_axes(device, pose, block.lever);
+    const Point<2> pivot(device.geometry.pivot_distance + pose.support, device.geometry.pivot_height);
+    auto result = block.part == DevicePart::cylinder ? cylinder_axes(device, pose, block.lever)
+                                                     : world_axes(pivot, pose.theta[block.lever], lever_side(block.lever));
     if (block.is_mirrored)
       result.sideways *= -1.;
     return result;

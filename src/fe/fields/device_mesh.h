@@ -73,9 +73,6 @@ namespace sprag
 
   DevicePose to_pose(const Row &row);
 
-  /// Returns the axes of a lever (0, of a pair also 1) on its pivot.
-  WorldAxes lever_axes(const Device &device, const DevicePose &pose, unsigned int lever);
-
   /// Returns the axes of an elastic cylinder's mesh: at the cylinder's centre, parallel to those of the lever that presses on it,
   /// through which its material passes.
   WorldAxes cylinder_axes(const Device &device, const DevicePose &pose, unsigned int lever);

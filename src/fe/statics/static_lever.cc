@@ -245,8 +245,19 @@ namespace sprag
   template <int dim>
   void StaticLever<dim>::look_at(Step &step)
   {
-    const auto before = step.near;
-    candidates = step.near = find_candidates(step);
+    const auto before     = step.near;
+    const auto end        = interface_displacements(step.trial.coordinates);
+    const double relative = step.trial.drive.x - support_displacement(end);
+    candidates            = step.forces.dofs;
+    for (unsigned int i = 0; i < layout.levers; ++i)
+    {
+      auto &[properties, contact] = levers[i];
+      const double theta          = properties.spring.rest + end[layout.rotation(i)];
+      const auto to_joined        = [&](const unsigned int dof) { return joined_dof(layout, i, dof); };
+      const auto near             = contact.candidate_dofs(relative, { { theta } }, travel(i, step, end));
+      candidates                  = united(candidates, mapped(near, to_joined));
+    }
+    step.near = candidates;
     std::visit(
         [&](auto &s)
         {
@@ -257,24 +268,6 @@ namespace sprag
     for (const unsigned int dof : step.near)
       if (layout.is_surface(dof) && !std::binary_search(before.begin(), before.end(), dof))
         step.trial.coordinates[dof] = step.displacements[dof];
-  }
-
-  /// Finds the candidate dofs of the contacts in a step that ends near its trial state, and those of the forces it begins with.
-  template <int dim>
-  DofSelection StaticLever<dim>::find_candidates(const Step &step)
-  {
-    const auto end        = interface_displacements(step.trial.coordinates);
-    const double relative = step.trial.drive.x - support_displacement(end);
-    DofSelection result   = step.forces.dofs;
-    for (unsigned int i = 0; i < layout.levers; ++i)
-    {
-      auto &[properties, contact] = levers[i];
-      const double theta          = properties.spring.rest + end[layout.rotation(i)];
-      const auto to_joined        = [&](const unsigned int dof) { return joined_dof(layout, i, dof); };
-      const auto near             = contact.candidate_dofs(relative, { { theta } }, travel(i, step, end));
-      result                      = united(result, mapped(near, to_joined));
-    }
-    return result;
   }
 
   template <int dim>

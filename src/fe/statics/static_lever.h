@@ -185,7 +185,6 @@ namespace sprag
     void look_at(Step &step);
     void shift_faces(Step &step);
     double travel(unsigned int lever, const Step &step, const dealii::Vector<double> &end) const;
-    DofSelection find_candidates(const Step &step);
     bool evaluate_levers(const Step &step, FrictionMode mode, Balance &found);
     void evaluate_contacts(Step &step, FrictionMode mode, Balance &found);
     History joined(const std::function<History(std::size_t)> &history) const;
