@@ -5,9 +5,10 @@ import base64
 import re
 from pathlib import Path
 
+from design import free_parameters
 from several import distinguish, headlines_in_common, said
 from sketch import device_svg
-from sprag.parameters import differing, parse, scene_text, set_apart
+from sprag.parameters import differing, parse, scene_text, set_apart, slug
 from sprag.results import NotAResult
 
 # The sketch of the device leaves these out, where a parameter is not as usual.
@@ -50,7 +51,7 @@ def about(result, name, parameters, device):
         "folder": result.name,
         "type": result.type,
         "status": status(result),
-        "answer": list(zip(*result.groups.get("answer", {}).values())),
+        "answer": answer(result),
         "device": device,
         "left_out": [words for (name, usual), words in NOT_SKETCHED.items() if name in parameters and parameters[name].text != usual],
         "warnings": [(text, text.more.get("effect", ""), text.more.get("remedy", "")) for text in warnings(result)],
@@ -59,6 +60,18 @@ def about(result, name, parameters, device):
         "meta": {key: rounded(value) for key, value in result.meta.items() if not key.startswith(("cpu_time_", "wall_time_"))},
         "cost": f"{result.meta['cpu_time']:.3g} s of CPU time" if "cpu_time" in result.meta else "",
     }
+
+
+def answer(result):
+    """[(line, text)] as the program prints them; of a design its lever and what becomes of the demands."""
+    lines = list(zip(*result.groups.get("answer", {}).values()))
+    if result.type != "design" or "demands" not in result.groups:
+        return lines
+    demands = result.groups["demands"]
+    lever = [(name, rounded(result.summary[slug(name)])) for name, _, _ in free_parameters(result)]
+    within = bool(result.parameter("Design", "Tolerances"))
+    texts = [f"{value:.4g}" + (f", within tolerances {worst:.4g}" if within else "") for value, worst in zip(demands["value"], demands["worst"])]
+    return [*lever, *zip(demands["demand"], texts), *lines]
 
 
 def warnings(result):

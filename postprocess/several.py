@@ -68,7 +68,7 @@ def distinguish(results):
     texts = [said(parameter) for parameter in found]
     has_words = any(parameters.get(each) and parameters[each].number is None for parameters in listings for each in different)
     if others and (has_words or len(set(texts)) < len(texts)):
-        texts = [", ".join(said(parameters.get(each)) for each in different) for parameters in listings]
+        texts = [said_together([parameters.get(each) for each in different]) for parameters in listings]
         return Several(name, ", ".join(map(parameter_label, different)), 0, None, unique(texts, results), looks, numerical)
     if not all(parameter and parameter.number is not None for parameter in found):
         return Several(name, label, others, None, unique(texts, results), looks, numerical)
@@ -89,6 +89,12 @@ def said(parameter):
     if parameter is None:
         return "default"
     return parameter.text if parameter.number is None else with_unit(f"{parameter.number:g}", parameter.unit)
+
+
+def said_together(parameters):
+    """Values of several parameters: words, and numbers that are no defaults, as those of dampers that are not used."""
+    set_apart = [each for each in parameters if each and (each.number is None or each.default is not None)]
+    return ", ".join(map(said, set_apart or parameters))
 
 
 def chosen(listings):

@@ -190,13 +190,22 @@ def draw_eigenvalues(axes, modes):
     axes.legend(loc="upper right", handlelength=1, frameon=True, framealpha=1, edgecolor="none")  # fast modes are damped
 
 
+FAR_DAMPED = 30.0  # over the linear part of the axis
+
+
 def scale_eigenvalues(axes, rates, frequencies):
-    """The stability limit and the slow modes large, strongly damped ones far off: both axes logarithmic away from zero."""
+    """The stability limit and the slow modes large: both axes logarithmic away from zero. Modes damped far more are counted at the edge."""
     axes.axvline(0, color="black", linewidth=0.8)
     use_log_scale(axes, frequencies)
     lowest = np.abs(rates[np.argsort(frequencies)[:3]]).max(initial=1)
     linear = 2 * rounded(max(lowest, rates.max(initial=0)))
     axes.margins(x=0.06)
+    beyond = rates < -FAR_DAMPED * linear
+    if beyond.any() and not beyond.all():
+        note = f"{beyond.sum()} more, to {rate_text(rates.min())} 1/s"
+        axes.annotate(f"\N{LEFTWARDS ARROW} {note}", (0.03, 0.04), xycoords="axes fraction", fontsize=7)
+        rates = rates[~beyond]
+        axes.set_xlim(-1.3 * max(np.abs(rates).max(), 3 * linear), max(1.2 * rates.max(), 0.4 * linear))
     if (farthest := np.abs(rates).max(initial=0)) > linear:
         axes.set_xscale("symlog", linthresh=linear, linscale=2)
         decades = 10.0 ** np.arange(np.floor(np.log10(linear)) + 1, np.log10(farthest) + 0.3)
