@@ -3,6 +3,7 @@
 #include "report/console_summary.h"
 #include "report/summary_lines.h"
 
+#include "run/vibration_report.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
 #include "scenes.h"
@@ -257,4 +258,32 @@ TEST(SummaryTable, PrintsEntriesOfALineTogetherAndNothingThatDoesNotApply)
                            "  not estimated         Q: No estimate.\n"
                            "  to improve the worst  Try less.\n"
                            "  cost                  0.5 s of CPU time, 0.7 s of wall time\n");
+}
+
+TEST(Report, LimitsOfStabilitySayOnWhichSideTheyAreStable)
+{
+  // Flutter for e from 15.69 to 24.28 mm at worst, from 20 mm with the scene's constants alone.
+  CriticalSearch search{ { "Geometry/Interface offset", 0., 29., 13 }, SlideKind::stable, {}, {}, {}, {}, 2. };
+  CriticalValue begin{ 15.691, SlideKind::stable, SlideKind::flutter, {}, unknown };
+  begin.error = 0.123;
+  begin.own   = 20.;
+  CriticalValue end{ 24.279, SlideKind::flutter, SlideKind::stable, {}, unknown };
+  end.own              = 24.1;
+  search.changes       = { begin, end };
+  const auto find_text = [&]
+  {
+    const auto entries = critical_entries(model_a(), { search });
+    const auto found =
+        std::find_if(entries.begin(), entries.end(),
+                     [](const Entry &entry) { return entry.name == "critical_geometry_interface_offset_verdicts"; });
+    return std::get<std::string>(found->value);
+  };
+  EXPECT_EQ(find_text(),
+            "Geometry/Interface offset from 0 to 29 mm: stable, flutter from 15.69 mm +- 0.12 (stable up to 20 mm with the "
+            "scene's constants), stable from 24.28 mm (stable from 24.1 mm with the scene's constants)");
+  search.changes        = { begin };
+  search.changes[0].own = 29.;
+  EXPECT_NE(find_text().find("flutter from 15.69 mm +- 0.12 (stable throughout with the scene's constants)"), std::string::npos);
+  const auto entries = critical_entries(model_a(), { search });
+  EXPECT_EQ(find_value(entries, "critical_geometry_interface_offset_1_error"), 0.123);
 }

@@ -181,8 +181,10 @@ namespace sprag
         const double ratio = slides.speed_ratio(drive, nearby);
         slides.last        = grown;
         slide              = slide_at(drive, friction, ratio);
-        if (!slide)
+        if (!slide && !end.jams)
           throw no_equilibrium(drive, 1.);
+        if (!slide)
+          return slide;
       }
       slide->margin = P_free / slide->forces.P;
       return slide;
