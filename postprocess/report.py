@@ -65,12 +65,12 @@ def about(result, name, parameters, device):
 def answer(result):
     """[(line, text)] as the program prints them; of a design its lever and what becomes of the demands."""
     lines = list(zip(*result.groups.get("answer", {}).values()))
-    if result.type != "design" or "demands" not in result.groups:
+    if result.type != "design" or not result.summary.get("evaluations"):
         return lines
-    demands = result.groups["demands"]
+    demands = result.groups.get("demands", {"demand": [], "value": []})
     lever = [(name, rounded(result.summary[slug(name)])) for name, _, _ in free_parameters(result)]
     within = bool(result.parameter("Design", "Tolerances"))
-    texts = [f"{value:.4g}" + (f", within tolerances {worst:.4g}" if within else "") for value, worst in zip(demands["value"], demands["worst"])]
+    texts = [f"{value:.4g}" + (f", at worst {worst:.4g}" if within else "") for value, worst in zip(demands["value"], demands.get("worst", demands["value"]))]
     return [*lever, *zip(demands["demand"], texts), *lines]
 
 

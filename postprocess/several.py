@@ -68,7 +68,8 @@ def distinguish(results):
     texts = [said(parameter) for parameter in found]
     has_words = any(parameters.get(each) and parameters[each].number is None for parameters in listings for each in different)
     if others and (has_words or len(set(texts)) < len(texts)):
-        texts = [said_together([parameters.get(each) for each in different]) for parameters in listings]
+        say = said_with_words if has_words else said_together
+        texts = [say([parameters.get(each) for each in different]) for parameters in listings]
         return Several(name, ", ".join(map(parameter_label, different)), 0, None, unique(texts, results), looks, numerical)
     if not all(parameter and parameter.number is not None for parameter in found):
         return Several(name, label, others, None, unique(texts, results), looks, numerical)
@@ -92,9 +93,13 @@ def said(parameter):
 
 
 def said_together(parameters):
-    """Values of several parameters: words, and numbers that are no defaults, as those of dampers that are not used."""
+    return ", ".join(map(said, parameters))
+
+
+def said_with_words(parameters):
+    """Words, and numbers that are no defaults: those of dampers that are not used are."""
     set_apart = [each for each in parameters if each and (each.number is None or each.default is not None)]
-    return ", ".join(map(said, set_apart or parameters))
+    return said_together(set_apart or parameters)
 
 
 def chosen(listings):

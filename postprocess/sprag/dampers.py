@@ -101,7 +101,7 @@ def tell_ranking(ranked, compared):
     """Returns the ranking in words, with the lever's place even where it loses."""
     lines = [f"{place}. {each}" for place, each in enumerate(ranked, 1)] + [f"   {each}" for each in compared]
     missing = [damper for damper in STRENGTHS if damper not in {each.damper for each in ranked}]
-    lines += [f"   {damper}: none of the strengths tried keeps the table within that displacement" for damper in missing]
+    lines += [f"   {damper}: none of the strengths tried serves" for damper in missing]
     lever = next((each for each in ranked if each.damper == "lever"), None)
     if lever is None:
         verdict = "The lever does not keep the table within that displacement."

@@ -50,10 +50,14 @@ def read_output(command, shows=False):
     lines = []
     try:
         with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True) as process:
-            for line in process.stdout or ():
-                lines.append(line)
-                if shows:
-                    print(line, end="", flush=True)
+            try:
+                for line in process.stdout or ():
+                    lines.append(line)
+                    if shows:
+                        print(line, end="", flush=True)
+            except BaseException:
+                process.kill()
+                raise
     except OSError as error:
         raise Failed(f"{sprag}: {error.strerror}") from error
     if process.returncode != 0:
@@ -137,7 +141,9 @@ def sweep(scene, values, changes=None, output=None, jobs=None, progress=False):
     known = {**(scene.changes if isinstance(scene, Scene) else {}), **(changes or {})}
     kind = known.get("Study/Type") or known.get("Analysis/Type")
     if kind in (None, "study"):
-        kind = Scene(scene.path if isinstance(scene, Scene) else scene, known).parameters["Analysis/Type"].text
+        parameters = Scene(scene.path if isinstance(scene, Scene) else scene, known).parameters
+        kind = parameters["Analysis/Type"].text
+        kind = parameters["Study/Type"].text if kind == "study" else kind
     vary = "; ".join(f"{name} = {', '.join(map(str, numbers))}" for name, numbers in values.items())
     study = {"Analysis/Type": "study", "Study/Type": kind, "Study/Vary": vary}
     return run(scene, {**(changes or {}), **study}, output, jobs, progress)

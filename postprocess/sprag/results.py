@@ -175,8 +175,8 @@ class Result:
             steps = steps[self.ways[face.find_rows(self.table["time"])] == WAYS[way]]
         if len(steps) == 0:
             raise NotAResult(f"{self.folder}: no {way} motion in it")
-        if not face.x[steps].min() - 1e-9 <= x <= face.x[steps].max() + 1e-9:
-            raise NotAResult(f"{self.folder}: x from {face.x[steps].min():.4g} to {face.x[steps].max():.4g} mm, not {x:.4g}")
+        if not face.x.min() - 1e-9 <= x <= face.x.max() + 1e-9:
+            raise NotAResult(f"{self.folder}: x from {face.x.min():.4g} to {face.x.max():.4g} mm, not {x:.4g}")
         step = int(steps[np.abs(face.x[steps] - x).argmin()])
         return FaceState(float(face.time[step]), float(face.x[step]), face.xi, face.zeta, face.pressure[step], face.traction[step])
 

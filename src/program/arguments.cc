@@ -18,6 +18,7 @@
 #include <boost/algorithm/string/predicate.hpp>
 
 #include <CLI/CLI.hpp>
+#include <boost/algorithm/string/join.hpp>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -100,16 +101,16 @@ namespace sprag
     };
 
     /// Returns lines that set the parameters of a friction law to values that are typed on the terminal.
-    std::string ask_for_law(const std::vector<Parameter> &parameters, const std::string &law)
+    std::vector<std::string> ask_for_law(const std::vector<Parameter> &parameters, const std::string &law)
     {
-      std::string text;
+      std::vector<std::string> lines;
       for (const auto &name : law_parameters.at(law))
       {
         const auto &parameter = *find_parameter(parameters, "Friction/" + name);
-        text += "  set " + name + " = " +
-                answer(full_name(parameter) + ", " + parameter.meaning, parameter, parameter.default_value) + '\n';
+        const auto present    = name == "Table" ? "mu.csv" : trim(parameter.default_value + ' ' + parameter.rule.unit);
+        lines.push_back("  set " + name + " = " + answer(full_name(parameter) + ", " + parameter.meaning, parameter, present));
       }
-      return text;
+      return lines;
     }
 
     /// Returns a scene with the values that are typed on the terminal in place of its own.
@@ -130,8 +131,7 @@ namespace sprag
           continue;
         if (name == "Friction/Coefficient" && law != "Coulomb")
         {
-          line = ask_for_law(parameters, law);
-          line = line.substr(0, line.find_last_not_of('\n') + 1);
+          line = boost::algorithm::join(ask_for_law(parameters, law), "\n");
           continue;
         }
         const auto typed =

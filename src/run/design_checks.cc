@@ -55,14 +55,20 @@ namespace sprag
       return slide.kind == SlideKind::jammed ? infinite : slide.growth_rate();
     }
 
-    /// Returns the force of a slide near rest over that of the closed form.
+    /// Returns how much the force of slides near rest grows over what that of the closed form does; it begins with 0 unless there
+    /// is a preload.
     double ratio_near_rest(const Scene &scene, const Direction direction, DynamicsMaker &maker)
     {
       const double x     = scene.drive.minimum() + share_for_slopes * (scene.drive.maximum() - scene.drive.minimum());
       const double v     = scene.drive.peak_speed();
       const double speed = direction == Direction::forward ? v : -v;
-      const auto found   = slide_at(scene, x, direction, maker);
-      return found.slide ? found.slide->forces.Q / closed_form(scene, x, speed).Q : unknown;
+      const auto near    = slide_at(scene, x, direction, maker);
+      if (!near.slide || scene.spring.rest_angle == 0.)
+        return near.slide ? near.slide->forces.Q / closed_form(scene, x, speed).Q : unknown;
+      const auto far = slide_at(scene, 2. * x, direction, maker);
+      return far.slide ? (far.slide->forces.Q - near.slide->forces.Q) /
+                             (closed_form(scene, 2. * x, speed).Q - closed_form(scene, x, speed).Q)
+                       : unknown;
     }
 
     /// Q and P of slides at places, of one way.

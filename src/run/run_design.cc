@@ -139,14 +139,24 @@ namespace sprag
       std::vector<double> attainable(design.demanded.size(), unknown);
       for (const auto &stopping : findings.stopping)
         attainable[stopping.demand] = stopping.attainable;
-      return {
-        "demands",
-        { make_dataset(design.demanded, { "value", "", "by the last judge that tells it, or the closed form" },
-                       [&](const Demand &demand) { return best_known(demand.term, lever, findings); }),
-          { { "worst", "", "value within Design/Tolerances that misses the demand most" }, worst_known(design, findings), {} },
-          { { "attainable", "", "nearest value with all others met; NaN: not stopping" }, attainable, {} } },
-        { make_texts(design.demanded, "demand", "as it was given", [](const Demand &demand) { return demand.text; }) }
-      };
+      return { "demands",
+               { make_dataset(design.demanded, { "value", "", "by the last judge that tells it, or the closed form" },
+                              [&](const Demand &demand) { return best_known(demand.term, lever, findings); }),
+                 { { "worst", "", "value that misses the demand most, of the combinations of Design/Tolerances" },
+                   worst_known(design, findings),
+                   {} },
+                 { { "attainable", "", "nearest value with all others met; NaN: not stopping" }, attainable, {} } },
+               { make_texts(design.demanded, "demand", "as it was given", [](const Demand &demand) { return demand.text; }) } };
+    }
+
+    /// Returns ", at worst 0.0979" of demands on a quantity where there are tolerances.
+    std::string worst_text(const DesignSettings &design, const ModelCheck &check, const DesignQuantity quantity)
+    {
+      std::string text;
+      for (const auto &demand : design.demanded)
+        if (!check.at_corners.empty() && demand.term.quantity == quantity)
+          text += ", at worst " + rounded_text(check.worst(demand));
+      return text;
     }
 
     void print_checks(std::ostream &stream, const DesignSettings &design, const std::vector<ModelCheck> &checks)
@@ -168,7 +178,7 @@ namespace sprag
                    << (std::isnan(check.lever.quantities[info.quantity])
                            ? std::string()
                            : "expected " + rounded_text(check.lever.quantities[info.quantity]) + unit_text(info.unit))
-                   << '\n';
+                   << worst_text(design, check, info.quantity) << '\n';
       }
     }
 
@@ -290,8 +300,7 @@ namespace sprag
       {
         const auto &demand = design.demanded[i];
         stream << "  " << padded(demand.text, -34) << rounded_text(best_known(demand.term, lever, findings))
-               << term_unit(design, demand.term)
-               << (design.toleranced.empty() ? "" : ", within tolerances " + rounded_text(worst[i]))
+               << term_unit(design, demand.term) << (design.toleranced.empty() ? "" : ", at worst " + rounded_text(worst[i]))
                << (std::isnan(worst[i]) || demand_violation(demand, worst[i]) <= 1e-9 ? "" : "  MISSED") << '\n';
       }
       if (!findings.front.empty())
@@ -384,6 +393,13 @@ namespace sprag
         for (const auto &[quantity, name, unit, definition] : design_quantities())
           if (quantity != DesignQuantity::growth_rate && !std::isnan(check.found[quantity]))
             problem.correct(quantity, problem.uncorrected(quantity, check.lever.quantities[quantity]), in_time(quantity, check));
+        for (std::size_t corner = 0; corner < check.at_corners.size(); ++corner)
+        {
+          const auto closed = problem.corner_quantities(check.lever.parameters, corner);
+          for (const auto &[quantity, name, unit, definition] : design_quantities())
+            if (!std::isnan(closed[quantity]) && !std::isnan(check.at_corners[corner][quantity]))
+              problem.correct(quantity, closed[quantity], check.at_corners[corner][quantity], 1 + corner);
+        }
         if (misses_growth(check) || problem.expensive_model)
           learn_growth(check);
       }
@@ -405,7 +421,8 @@ namespace sprag
         {
           const double beam_rate = checks.beam_growth(problem.scene_at(check.lever.parameters));
           if (std::isfinite(beam_rate) && std::isfinite(check.found[DesignQuantity::growth_rate]))
-            problem.correct(DesignQuantity::growth_rate, beam_rate, check.found[DesignQuantity::growth_rate]);
+            for (std::size_t at = 0; at <= check.at_corners.size(); ++at)
+              problem.correct(DesignQuantity::growth_rate, beam_rate, check.found[DesignQuantity::growth_rate], at);
         }
         problem.expensive_model = [this](const Scene &lever, DesignQuantities &quantities)
         { quantities[DesignQuantity::growth_rate] = checks.beam_growth(lever); };

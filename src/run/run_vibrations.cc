@@ -57,16 +57,18 @@ namespace sprag
     }
 
     /// Returns by how much the error of the growth rate moves a limit of stability: that of the slide which decides there, over
-    /// its change with the parameter, a central difference over `spacing`.
-    double limit_error(const Scene &scene, const std::string &name, const CriticalValue &limit, const double spacing)
+    /// its change with the parameter, a central difference.
+    double limit_error(const Scene &scene, const std::string &name, const CriticalValue &limit)
     {
+      constexpr double share = 0.04; // of the value to both sides
+      const double distance  = share * std::abs(limit.value);
       DynamicsMaker maker;
       const auto slide_at = [&](const double value)
       { return held_scene(slide_scene(prepared(variant(scene, { override_text(name, value) })), limit.worse)); };
       const auto growth_at = [&](const double value) { return check_slide(slide_at(value), maker).growth_rate(); };
       try
       {
-        const double slope  = (growth_at(limit.value + 0.5 * spacing) - growth_at(limit.value - 0.5 * spacing)) / spacing;
+        const double slope  = (growth_at(limit.value + distance) - growth_at(limit.value - distance)) / (2. * distance);
         const Scene held    = slide_at(limit.value);
         const auto dynamics = maker.make(held);
         const auto found    = check_slide(dynamics.model(), held_drive(held), checked_modes(held));
@@ -104,7 +106,7 @@ namespace sprag
         result.push_back(critical_values(scene, range, tolerance, range_maker, tried));
         for (auto &change : result.back().changes)
           if (with_errors && is_meshed(scene.analysis.model) && limits_stability(change))
-            change.error = limit_error(scene, range.name, change, result.back().spacing);
+            change.error = limit_error(scene, range.name, change) + tolerance * std::abs(range.to - range.from);
         progress.update(begun += own, {});
       }
       return result;

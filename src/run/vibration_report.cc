@@ -246,9 +246,12 @@ namespace sprag
       {
         const bool is_friction = range.name == "Friction/Factor" && !std::isnan(critical.mu);
         // The value that is printed must lie on the better side as well.
-        const bool upward = (critical.above < critical.below) == (range.to > range.from);
-        text += ", " + kind_name(critical.above) + " from " + with_unit(rounded_to(critical.value, upward), unit) +
-                (std::isnan(critical.error) ? "" : " +- " + formatted("%.2g", critical.error)) +
+        const bool upward  = (critical.above < critical.below) == (range.to > range.from);
+        const double value = rounded_to(critical.value, upward);
+        text += ", " + kind_name(critical.above) + " from " +
+                (std::isnan(critical.error)
+                     ? with_unit(value, unit)
+                     : four_digits(value) + " +- " + formatted("%.2g", critical.error) + (unit == "1" ? "" : ' ' + unit)) +
                 (is_friction ? " (mu = " + four_digits(rounded_to(critical.mu, upward)) + ")" : "") +
                 (critical.worse.motion.empty() ? "" : " (" + critical.worse.motion + ")");
         std::vector<std::string> more;

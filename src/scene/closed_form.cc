@@ -33,17 +33,6 @@ namespace sprag
       return (sign * coefficient * std::cos(theta) + sine) * dP * sine * sine / s;
     }
 
-    /// Derivative to x at x = 0 of (sin th +- mu cos th)/(s +- mu e), which is Q for a moment of 1 [1/mm^2]. It has
-    /// ds/dx = -cos th - (R - e) sin th/s.
-    double slope_per_moment(const Geometry &geometry, const double coefficient, const int sign)
-    {
-      const auto contact = kinematics(geometry, 0.);
-      const double sine = std::sin(contact.theta), cosine = std::cos(contact.theta), mu = sign * coefficient;
-      const double s_x    = -cosine - arm(geometry) * sine / contact.s;
-      const double length = contact.s + mu * geometry.interface_offset;
-      return ((cosine - mu * sine) * contact.theta_x - (sine + mu * cosine) * s_x / length) / length;
-    }
-
     double sliding_speed(const Geometry &geometry, const Kinematics &contact, const double v)
     {
       return v * (std::cos(contact.theta) - geometry.interface_offset * contact.theta_x);
@@ -139,11 +128,9 @@ namespace sprag
     return closed_form(device.geometry, device.friction, moment_law(device.spring).moment(turn), contact, v);
   }
 
-  double representative_slope(const Geometry &geometry, const double spring_stiffness, const double coefficient, const int sign,
-                              const double moment_at_rest)
+  double representative_slope(const Geometry &geometry, const double spring_stiffness, const double coefficient, const int sign)
   {
-    return spring_stiffness * slope_per_stiffness(geometry, coefficient, sign) +
-           moment_at_rest * slope_per_moment(geometry, coefficient, sign);
+    return spring_stiffness * slope_per_stiffness(geometry, coefficient, sign);
   }
 
   double dimensionless_slope(const Geometry &geometry, const double coefficient, const int sign)

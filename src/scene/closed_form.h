@@ -51,10 +51,8 @@ namespace sprag
                               double v);
 
   /// Returns the representative slope C_Q = dQ/dx at x = 0 [N/mm], eqs. 10-12 (with the sign of dth/dx mended), sign = +1 or -1.
-  /// A moment at x = 0 [N mm] adds its product with the derivative of Q for a moment of 1. It is NaN where the lever locks at
-  /// x = 0.
-  double representative_slope(const Geometry &geometry, double spring_stiffness, double coefficient, int sign,
-                              double moment_at_rest = 0.);
+  /// It is NaN where the lever locks at x = 0.
+  double representative_slope(const Geometry &geometry, double spring_stiffness, double coefficient, int sign);
 
   /// Returns the dimensionless slope C_Q R l / k, eqs. 20-22.
   double dimensionless_slope(const Geometry &geometry, double coefficient, int sign);

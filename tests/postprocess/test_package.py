@@ -135,7 +135,7 @@ class PackageTest(FolderTest):
         self.assertAlmostEqual(find_strength(moves_by_strength, 100.0, None)[0], 1000, delta=50)
         self.assertIsNone(find_strength(moves_by_strength, 1.0, 1e-6))
         ranked = [RankedDamper("viscous", 1.0, "N s/mm", 0.9, 5.0)]
-        self.assertIn("lever: none of the strengths tried keeps the table", tell_ranking(ranked, []))
+        self.assertIn("lever: none of the strengths tried serves", tell_ranking(ranked, []))
 
     def test_parameter_gui_opens_the_xml(self):
         # Its reader takes sections of parameters with these five elements, and numbers by their patterns.
@@ -196,6 +196,7 @@ class PackageTest(FolderTest):
         self.assertEqual((fields["nodes"].unit, fields["von_mises_stress"].unit), ("mm", "MPa"))
         with self.assertRaisesRegex(sprag.NotAResult, "no number 99"):
             result.fields(99)
+        self.assertGreater(result.face(result.table["x"].max(), "backward").x, 60)
         with self.assertRaisesRegex(sprag.NotAResult, "x from 0 to .* mm, not 300"):
             result.face(300)
 
@@ -207,7 +208,7 @@ class PackageTest(FolderTest):
         printed = io.StringIO()
         with contextlib.redirect_stdout(printed):
             slopes = sprag.sweep(SCENES / "model-a.prm", {"Friction/Factor": [0.9, 1]}, {"Study/Type": "slope"}, progress=True)
-        self.assertTrue(np.isfinite(slopes.table["slope_forward"]).all() if "slope_forward" in slopes.table else len(slopes.table["run"]) == 2)
+        self.assertEqual(len(slopes.table["run"]), 2)
         self.assertRegex(printed.getvalue(), "study: 2 runs")
         self.assertAlmostEqual(result.table["loop_area"][chosen][0], one.summary["loop_area"], delta=1e-9 * one.summary["loop_area"])
 

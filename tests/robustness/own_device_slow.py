@@ -117,6 +117,7 @@ class OwnDevice(FolderTest):
         self.assertAlmostEqual(self.result("strokes", "P", "accuracy"), 0.0005, delta=0.0001)
         self.assertEqual(self.result("slide", "verdict"), "flutter")
         self.assertRegex(self.printed["own/slide"], r"Lever/Depth from 2 to 12 mm: flutter, stable from 4\.2[456]")
+        self.assertTrue(0.01 < self.result("slide", "critical_lever_depth_1_error") < 0.1)
         for limit, number in (("own", 3.25), ("likely", 3.71)):
             self.assertAlmostEqual(self.result("slide", f"critical_lever_depth_1_{limit}"), number, delta=0.02)
         self.assertRegex(self.printed["own/slide"], r"backward +growth at most \S+ 1/s, unstable at x = 2[01]\.\d+ to 40 mm")

@@ -45,12 +45,18 @@ namespace sprag
       return least;
     }
 
+    /// Adds the slopes at x = 0. With a preload, under which Q begins with a force, they are differences of the closed form.
     void add_ideal_slopes(const Scene &scene, DesignQuantities &result)
     {
-      const double mu      = sliding_friction(scene, 0., scene.drive.peak_speed()).coefficient;
-      const double preload = moment_law(scene.spring).moment(0.);
-      const auto slope     = [&](const int direction)
-      { return representative_slope(scene.geometry, scene.spring.stiffness, mu, direction, preload); };
+      const double v   = scene.drive.peak_speed();
+      const double mu  = sliding_friction(scene, 0., v).coefficient;
+      const double h   = 1e-4 * scene.geometry.pivot_distance;
+      const auto Q     = [&](const double x, const int direction) { return closed_form(scene, x, direction * v).Q; };
+      const auto slope = [&](const int direction)
+      {
+        return scene.spring.rest_angle == 0. ? representative_slope(scene.geometry, scene.spring.stiffness, mu, direction)
+                                             : (Q(h, direction) - Q(-h, direction)) / (2. * h);
+      };
       add_slopes(scene, slope(1), slope(-1), result);
     }
 
@@ -294,6 +300,7 @@ namespace sprag
     for (const auto &parameter : base.design.toleranced)
       toleranced.push_back(*find_parameter(declared, parameter.name));
     corners = tolerance_corners(base.design);
+    corrections.resize(1 + corners.size());
   }
 
   bool DesignProblem::is_expensive() const
@@ -310,12 +317,22 @@ namespace sprag
     return input->scene;
   }
 
-  DesignQuantities DesignProblem::corrected_quantities(const Scene &scene) const
+  DesignQuantities DesignProblem::corner_quantities(const std::vector<double> &parameters, const std::size_t corner) const
+  {
+    const Scene &scene = scene_at(parameters);
+    store_all(toleranced, corners[corner]);
+    DesignQuantities result = lever_quantities(scene);
+    add_table_quantities(scene, base.design, result);
+    return result;
+  }
+
+  DesignQuantities DesignProblem::corrected_quantities(const Scene &scene, const std::size_t at) const
   {
     DesignQuantities result = lever_quantities(scene);
     add_table_quantities(scene, base.design, result);
     if (expensive_model)
       expensive_model(scene, result);
+    const auto &[factors, differences] = corrections[at];
     for (const auto &[quantity, name, unit, definition] : design_quantities())
       result[quantity] = or_else(factors[quantity], 1.) * result[quantity] + or_else(differences[quantity], 0.);
     return result;
@@ -333,20 +350,20 @@ namespace sprag
                                                   [](const CheckModel check_model) { return check_model != CheckModel::table; });
     result.rule                     = hardest_rule(scene, is_checked_by_models);
     if (result.rule.violation < 0.)
-      result.quantities = corrected_quantities(scene);
+      result.quantities = corrected_quantities(scene, 0);
     for (const auto &demand : base.design.demanded)
     {
       result.worst.push_back(term_value(demand.term, result));
       result.violations.push_back(demand_violation(demand, result.worst.back()));
     }
-    for (const auto &corner : corners)
+    for (std::size_t corner = 0; corner < corners.size(); ++corner)
     {
-      store_all(toleranced, corner);
+      store_all(toleranced, corners[corner]);
       if (const auto rule = hardest_rule(scene, is_checked_by_models); rule.violation > result.rule.violation)
         result.rule = rule;
       if (!(result.rule.violation < 0.))
         break;
-      const auto quantities = corrected_quantities(scene);
+      const auto quantities = corrected_quantities(scene, 1 + corner);
       for (std::size_t i = 0; i < result.worst.size(); ++i)
       {
         const auto &demand = base.design.demanded[i];
@@ -358,15 +375,17 @@ namespace sprag
     return result;
   }
 
-  void DesignProblem::correct(const DesignQuantity quantity, const double by_closed_form, const double found)
+  void DesignProblem::correct(const DesignQuantity quantity, const double by_closed_form, const double found,
+                              const std::size_t at)
   {
-    const bool by_factor  = by_closed_form > 0. && found > 0. && quantity != DesignQuantity::growth_rate;
-    factors[quantity]     = by_factor ? found / by_closed_form : 1.;
-    differences[quantity] = by_factor ? 0. : found - by_closed_form;
+    const bool by_factor                  = by_closed_form > 0. && found > 0. && quantity != DesignQuantity::growth_rate;
+    corrections[at].factors[quantity]     = by_factor ? found / by_closed_form : 1.;
+    corrections[at].differences[quantity] = by_factor ? 0. : found - by_closed_form;
   }
 
   double DesignProblem::uncorrected(const DesignQuantity quantity, const double corrected) const
   {
+    const auto &[factors, differences] = corrections.front();
     return (corrected - or_else(differences[quantity], 0.)) / or_else(factors[quantity], 1.);
   }
 

@@ -89,7 +89,7 @@ namespace sprag
   {
     std::vector<double> parameters; ///< values of the free parameters, in their order and units
     LeverRule rule;                 ///< the one with the largest violation
-    DesignQuantities quantities;    ///< corrected, see DesignProblem::correct(); NaN if a rule is violated
+    DesignQuantities quantities;    ///< corrected, see DesignProblem::correct(); NaN if the nominal lever violates a rule
     std::vector<double> violations; ///< demand_violation() of each demand, the largest within Design/Tolerances
     std::vector<double> worst;      ///< value of each demand's quantity where its violation is largest
   };
@@ -123,8 +123,12 @@ namespace sprag
     explicit DesignProblem(const Scene &scene);
 
     /// Corrects a quantity from now on to what a check model found: by the factor found/by_closed_form if both are positive, else
-    /// by their difference. `by_closed_form` is uncorrected.
-    void correct(DesignQuantity quantity, double by_closed_form, double found);
+    /// by their difference. `by_closed_form` is uncorrected. `at`: 0 for the nominal values, 1 + i for corner i of
+    /// Design/Tolerances.
+    void correct(DesignQuantity quantity, double by_closed_form, double found, std::size_t at = 0);
+
+    /// Returns the quantities of a lever at a corner of Design/Tolerances, uncorrected.
+    DesignQuantities corner_quantities(const std::vector<double> &parameters, std::size_t corner) const;
 
     /// Returns a corrected value without its correction.
     double uncorrected(DesignQuantity quantity, double corrected) const;
@@ -170,11 +174,16 @@ namespace sprag
     std::vector<Parameter> free, toleranced; ///< their default values are those of `base`
     std::vector<std::vector<double>> corners;
 
-    /// Returns the corrected quantities of a lever that satisfies the rules.
-    DesignQuantities corrected_quantities(const Scene &scene) const;
+    /// Returns the corrected quantities of a lever that satisfies the rules; `at`: see correct().
+    DesignQuantities corrected_quantities(const Scene &scene, std::size_t at) const;
 
-    DesignQuantities factors;     ///< NaN: 1
-    DesignQuantities differences; ///< NaN: 0
+    struct Correction
+    {
+      DesignQuantities factors;     ///< NaN: 1
+      DesignQuantities differences; ///< NaN: 0
+    };
+
+    std::vector<Correction> corrections; ///< see correct()
     std::shared_ptr<std::size_t> count = std::make_shared<std::size_t>(0);
   };
 } // namespace sprag

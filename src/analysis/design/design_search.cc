@@ -281,10 +281,10 @@ namespace sprag
       const auto without = search_everywhere(problem.box({}, i), search_settings(problem), true);
       if (without.violation > 0.)
         continue;
-      const double value = term_value(demands[i].term, problem.at(without.place));
+      const double value = problem.at(without.place).worst[i];
       const auto nearest =
           problem.at(search_everywhere(problem.box(towards(demands[i], value), i), search_settings(problem)).place);
-      result.push_back({ i, term_value(demands[i].term, nearest), nearest });
+      result.push_back({ i, nearest.worst[i], nearest });
     }
     return result;
   }
