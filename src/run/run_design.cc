@@ -390,15 +390,15 @@ namespace sprag
       void learn(const ModelCheck &check)
       {
         problem.margin = correction_margin;
-        for (const auto &[quantity, name, unit, definition] : design_quantities())
-          if (quantity != DesignQuantity::growth_rate && !std::isnan(check.found[quantity]))
-            problem.correct(quantity, problem.uncorrected(quantity, check.lever.quantities[quantity]), in_time(quantity, check));
-        for (std::size_t corner = 0; corner < check.at_corners.size(); ++corner)
+        for (std::size_t corner = 0; corner <= check.at_corners.size(); ++corner)
         {
-          const auto closed = problem.corner_quantities(check.lever.parameters, corner);
+          const auto ideal = problem.ideal_quantities(problem.scene_at_corner(check.lever.parameters, corner));
           for (const auto &[quantity, name, unit, definition] : design_quantities())
-            if (!std::isnan(closed[quantity]) && !std::isnan(check.at_corners[corner][quantity]))
-              problem.correct(quantity, closed[quantity], check.at_corners[corner][quantity], 1 + corner);
+          {
+            const double found = corner == 0 ? in_time(quantity, check) : check.at_corners[corner - 1][quantity];
+            if (!std::isnan(ideal[quantity]) && !std::isnan(found))
+              problem.correct(quantity, ideal[quantity], found, corner);
+          }
         }
         if (misses_growth(check) || problem.expensive_model)
           learn_growth(check);
@@ -421,8 +421,8 @@ namespace sprag
         {
           const double beam_rate = checks.beam_growth(problem.scene_at(check.lever.parameters));
           if (std::isfinite(beam_rate) && std::isfinite(check.found[DesignQuantity::growth_rate]))
-            for (std::size_t at = 0; at <= check.at_corners.size(); ++at)
-              problem.correct(DesignQuantity::growth_rate, beam_rate, check.found[DesignQuantity::growth_rate], at);
+            for (std::size_t corner = 0; corner <= check.at_corners.size(); ++corner)
+              problem.correct(DesignQuantity::growth_rate, beam_rate, check.found[DesignQuantity::growth_rate], corner);
         }
         problem.expensive_model = [this](const Scene &lever, DesignQuantities &quantities)
         { quantities[DesignQuantity::growth_rate] = checks.beam_growth(lever); };

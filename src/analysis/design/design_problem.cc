@@ -45,7 +45,8 @@ namespace sprag
       return least;
     }
 
-    /// Adds the slopes at x = 0. With a preload, under which Q begins with a force, they are differences of the closed form.
+    /// Adds the slopes at x = 0. With a preload, under which mu counts at each x, they are differences of the closed form, whose
+    /// round-off would disturb the search without one.
     void add_ideal_slopes(const Scene &scene, DesignQuantities &result)
     {
       const double v   = scene.drive.peak_speed();
@@ -317,22 +318,27 @@ namespace sprag
     return input->scene;
   }
 
-  DesignQuantities DesignProblem::corner_quantities(const std::vector<double> &parameters, const std::size_t corner) const
+  const Scene &DesignProblem::scene_at_corner(const std::vector<double> &parameters, const std::size_t corner) const
   {
     const Scene &scene = scene_at(parameters);
-    store_all(toleranced, corners[corner]);
+    if (corner > 0)
+      store_all(toleranced, corners[corner - 1]);
+    return scene;
+  }
+
+  DesignQuantities DesignProblem::ideal_quantities(const Scene &scene) const
+  {
     DesignQuantities result = lever_quantities(scene);
     add_table_quantities(scene, base.design, result);
     return result;
   }
 
-  DesignQuantities DesignProblem::corrected_quantities(const Scene &scene, const std::size_t at) const
+  DesignQuantities DesignProblem::corrected_quantities(const Scene &scene, const std::size_t corner) const
   {
-    DesignQuantities result = lever_quantities(scene);
-    add_table_quantities(scene, base.design, result);
+    DesignQuantities result = ideal_quantities(scene);
     if (expensive_model)
       expensive_model(scene, result);
-    const auto &[factors, differences] = corrections[at];
+    const auto &[factors, differences] = corrections[corner];
     for (const auto &[quantity, name, unit, definition] : design_quantities())
       result[quantity] = or_else(factors[quantity], 1.) * result[quantity] + or_else(differences[quantity], 0.);
     return result;
@@ -344,49 +350,39 @@ namespace sprag
     const auto &bounds = base.design.free_parameters;
     for (std::size_t i = 0; i < bounds.size(); ++i)
       result.parameters.push_back(bounds[i].from + std::clamp(place[i], 0., 1.) * (bounds[i].to - bounds[i].from));
-    const Scene &scene = scene_at(result.parameters);
     ++*count;
     const bool is_checked_by_models = std::any_of(base.design.check_models.begin(), base.design.check_models.end(),
                                                   [](const CheckModel check_model) { return check_model != CheckModel::table; });
-    result.rule                     = hardest_rule(scene, is_checked_by_models);
-    if (result.rule.violation < 0.)
-      result.quantities = corrected_quantities(scene, 0);
-    for (const auto &demand : base.design.demanded)
+    for (std::size_t corner = 0; corner <= corners.size(); ++corner)
     {
-      result.worst.push_back(term_value(demand.term, result));
-      result.violations.push_back(demand_violation(demand, result.worst.back()));
-    }
-    for (std::size_t corner = 0; corner < corners.size(); ++corner)
-    {
-      store_all(toleranced, corners[corner]);
-      if (const auto rule = hardest_rule(scene, is_checked_by_models); rule.violation > result.rule.violation)
+      const Scene &scene = scene_at_corner(result.parameters, corner);
+      if (const auto rule = hardest_rule(scene, is_checked_by_models); corner == 0 || rule.violation > result.rule.violation)
         result.rule = rule;
-      if (!(result.rule.violation < 0.))
-        break;
-      const auto quantities = corrected_quantities(scene, 1 + corner);
-      for (std::size_t i = 0; i < result.worst.size(); ++i)
+      Proposal here{ result.parameters, {}, {}, {}, {} };
+      if (result.rule.violation < 0.)
+        here.quantities = corrected_quantities(scene, corner);
+      if (corner == 0)
+        result.quantities = here.quantities;
+      for (std::size_t i = 0; i < base.design.demanded.size(); ++i)
       {
         const auto &demand = base.design.demanded[i];
-        if (demand.term.quantity != DesignQuantity::parameter)
-          result.worst[i] = worse(demand, result.worst[i], quantities[demand.term.quantity]);
-        result.violations[i] = demand_violation(demand, result.worst[i]);
+        const double value = term_value(demand.term, here);
+        if (corner == 0)
+          result.worst.push_back(value);
+        result.worst[i] = worse(demand, result.worst[i], value);
       }
     }
+    for (std::size_t i = 0; i < result.worst.size(); ++i)
+      result.violations.push_back(demand_violation(base.design.demanded[i], result.worst[i]));
     return result;
   }
 
   void DesignProblem::correct(const DesignQuantity quantity, const double by_closed_form, const double found,
-                              const std::size_t at)
+                              const std::size_t corner)
   {
-    const bool by_factor                  = by_closed_form > 0. && found > 0. && quantity != DesignQuantity::growth_rate;
-    corrections[at].factors[quantity]     = by_factor ? found / by_closed_form : 1.;
-    corrections[at].differences[quantity] = by_factor ? 0. : found - by_closed_form;
-  }
-
-  double DesignProblem::uncorrected(const DesignQuantity quantity, const double corrected) const
-  {
-    const auto &[factors, differences] = corrections.front();
-    return (corrected - or_else(differences[quantity], 0.)) / or_else(factors[quantity], 1.);
+    const bool by_factor                      = by_closed_form > 0. && found > 0. && quantity != DesignQuantity::growth_rate;
+    corrections[corner].factors[quantity]     = by_factor ? found / by_closed_form : 1.;
+    corrections[corner].differences[quantity] = by_factor ? 0. : found - by_closed_form;
   }
 
   std::vector<double> DesignProblem::search_point(const std::vector<double> &parameters) const

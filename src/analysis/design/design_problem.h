@@ -123,15 +123,14 @@ namespace sprag
     explicit DesignProblem(const Scene &scene);
 
     /// Corrects a quantity from now on to what a check model found: by the factor found/by_closed_form if both are positive, else
-    /// by their difference. `by_closed_form` is uncorrected. `at`: 0 for the nominal values, 1 + i for corner i of
-    /// Design/Tolerances.
-    void correct(DesignQuantity quantity, double by_closed_form, double found, std::size_t at = 0);
+    /// by their difference. `corner`: 0 for the nominal values of Design/Tolerances, then their tolerance_corners().
+    void correct(DesignQuantity quantity, double by_closed_form, double found, std::size_t corner = 0);
 
-    /// Returns the quantities of a lever at a corner of Design/Tolerances, uncorrected.
-    DesignQuantities corner_quantities(const std::vector<double> &parameters, std::size_t corner) const;
+    /// Returns the quantities of a lever's scene by the closed form, uncorrected.
+    DesignQuantities ideal_quantities(const Scene &scene) const;
 
-    /// Returns a corrected value without its correction.
-    double uncorrected(DesignQuantity quantity, double corrected) const;
+    /// Returns the scene of a lever at a corner, see correct().
+    const Scene &scene_at_corner(const std::vector<double> &parameters, std::size_t corner) const;
 
     /// Safety margin of the demands, over their targets; at most a quarter of a demand's tolerance. It is larger while
     /// corrections are known to first order only.
@@ -174,8 +173,8 @@ namespace sprag
     std::vector<Parameter> free, toleranced; ///< their default values are those of `base`
     std::vector<std::vector<double>> corners;
 
-    /// Returns the corrected quantities of a lever that satisfies the rules; `at`: see correct().
-    DesignQuantities corrected_quantities(const Scene &scene, std::size_t at) const;
+    /// Returns the corrected quantities of a lever that satisfies the rules.
+    DesignQuantities corrected_quantities(const Scene &scene, std::size_t corner) const;
 
     struct Correction
     {

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace sprag
 {
@@ -209,7 +210,9 @@ namespace sprag
         growth.resize(along.size(), std::vector<double>(n_nodes));
         for (std::size_t i = 0; i < along.size(); ++i)
           growth[i][node] = along[i];
-        between = std::fmax(between, swept.worst().growth_rate - *std::max_element(along.begin(), along.end()));
+        const auto at_points =
+            std::accumulate(along.begin(), along.end(), unknown, [](double a, double b) { return std::fmax(a, b); });
+        between = std::fmax(between, swept.worst().growth_rate - at_points);
       }
       double largest = 1.;
       for (const auto &at_x : growth)
