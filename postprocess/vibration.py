@@ -38,9 +38,13 @@ def vibration_pictures(result):
 
 
 def critical(result, searches):
-    """Growth rate of the worst slide over each parameter, shaded where it vibrates, and where the verdict changes."""
-    figure, panels = plt.subplots(len(searches), 1, figsize=(TWO_COLUMNS, (12 + 48 * len(searches)) * MILLIMETRE), squeeze=False)
-    for axes, (name, tried) in zip(panels.flat, searches.items()):
+    """Growth rate of the worst slide over each parameter, shaded where it vibrates, and where the verdict changes. Over a stroke also a map."""
+    has_map = [len(np.unique(tried.get("place_x", ()))) > 1 for tried in searches.values()]
+    heights = [height for mapped in has_map for height in ((48, 48) if mapped else (48,))]
+    figure, panels = plt.subplots(len(heights), 1, figsize=(TWO_COLUMNS, (12 + sum(heights)) * MILLIMETRE), squeeze=False)
+    rest = iter(panels.flat)
+    for mapped, (name, tried) in zip(has_map, searches.items()):
+        axes = next(rest)
         order = np.argsort(tried["value"])
         values, rates = (np.asarray(tried[column])[order] for column in ("value", "growth_rate"))
         axes.plot(values, rates, "o-", color=COLOURS[0], markersize=2.5)
@@ -62,7 +66,35 @@ def critical(result, searches):
         unit = tried["value"].unit
         axes.set_xlabel(parameter + (f" [{unit}]" if unit != "1" else ""))
         axes.set_ylabel("growth rate [1/s]")
+        if mapped:
+            below = next(rest)
+            draw_places(below, tried)
+            for number, change in enumerate(changes, 1):
+                error = result.summary.get(f"{name}_{number}_error", 0.0)
+                below.axvspan(change - error, change + error, color="black", alpha=0.25, linewidth=0)
+                below.axvline(change, color="black", linewidth=0.8, linestyle="--")
+            below.set_xlabel(axes.get_xlabel())
+            axes.sharex(below)
     return figure
+
+
+def draw_places(axes, tried):
+    """Shades the places of the stroke where a slide vibrates, each way, over the values tried; grey where it jams."""
+    values, x = np.unique(tried["place_value"]), np.unique(tried["place_x"])
+    for way, name, colour in ((1, "forward", COLOURS[1]), (-1, "backward", COLOURS[0])):
+        rates = np.full((len(x), len(values)), np.nan)
+        for column, value in enumerate(values):
+            here = (np.asarray(tried["place_value"]) == value) & (np.asarray(tried["place_direction"]) == way)
+            if here.any():
+                rates[:, column] = np.interp(x, np.asarray(tried["place_x"])[here], np.asarray(tried["place_growth_rate"])[here])
+        if np.isnan(rates).all():
+            continue
+        axes.contourf(values, x, np.isnan(rates), levels=(0.5, 1.5), colors="0.8")
+        axes.contourf(values, x, rates, levels=(0, max(1, np.nanmax(rates))), colors=[colour], alpha=0.25)
+        axes.fill_between((), (), facecolor=colour, alpha=0.25, label=f"unstable {name}")
+    axes.plot(tried["place_value"], tried["place_x"], ",", color="0.5")
+    axes.set_ylabel("position $x$ [mm]")
+    axes.legend(fontsize=7, loc="upper right", frameon=True, framealpha=1)
 
 
 def mode_shapes(modes, most=6):

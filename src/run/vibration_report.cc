@@ -436,12 +436,20 @@ namespace sprag
     std::vector<Group> result;
     for (const auto &search : searches)
     {
-      const auto &name = search.range.name;
-      result.push_back({ "critical_" + to_identifier(name),
-                         { make_dataset(search.growth, { "value", parameter_unit(name), name + " as tried" },
-                                        [](const auto &tried) { return tried.first; }),
-                           make_dataset(search.growth, { "growth_rate", "1/s", "largest of the slides there" },
-                                        [](const auto &tried) { return tried.second; }) } });
+      const auto &name  = search.range.name;
+      const auto unit   = parameter_unit(name);
+      const auto number = [&](const ColumnInfo &info, double PlaceGrowth::*member)
+      { return make_dataset(search.places, info, [member](const auto &place) { return place.*member; }); };
+      result.push_back(
+          { "critical_" + to_identifier(name),
+            { make_dataset(search.growth, { "value", unit, name + " as tried" }, [](const auto &tried) { return tried.first; }),
+              make_dataset(search.growth, { "growth_rate", "1/s", "largest of the slides there" },
+                           [](const auto &tried) { return tried.second; }),
+              number({ "place_value", unit, name + " at a place" }, &PlaceGrowth::value),
+              number({ "place_x", "mm", "position of the slides" }, &PlaceGrowth::x),
+              number({ "place_direction", "1", "1 forward, -1 backward" }, &PlaceGrowth::direction),
+              number({ "place_growth_rate", "1/s", "largest of the slides there; NaN where one jams" },
+                     &PlaceGrowth::growth_rate) } });
     }
     return result;
   }

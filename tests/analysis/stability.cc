@@ -154,6 +154,23 @@ TEST(CriticalValues, ThinLeverFluttersThickOneDoesNot)
   EXPECT_EQ(kind_at(falling.changes.front().value), SlideKind::stable);
 }
 
+TEST(CriticalValues, GrowthOfAValueIsTheLargestOfItsPlacesBothWays)
+{
+  const Scene scene = from_params("stability-a.prm", { "Stability/Position=auto", "Stability/Direction=both" });
+  DynamicsMaker maker;
+  const auto found = critical_values(scene, { "Lever/Depth", 5., 8., 2 }, 1e-2, maker);
+  std::map<double, std::map<double, double>> largest; // of a value, by direction
+  for (const auto &place : found.places)
+  {
+    EXPECT_TRUE(place.x >= 0. && place.x <= 65.);
+    auto &here = largest[place.value].emplace(place.direction, place.growth_rate).first->second;
+    here       = std::max(here, place.growth_rate);
+  }
+  ASSERT_GE(found.growth.size(), 2u);
+  for (const auto &[value, growth_rate] : found.growth)
+    EXPECT_EQ(std::max(largest.at(value).at(1.), largest.at(value).at(-1.)), growth_rate);
+}
+
 // Model B flutters from 11.822 to 14.514 mm: between the values tried, of which none does.
 TEST(CriticalValues, IslandBetweenTheValuesTriedIsFoundWhereGrowthPeaks)
 {

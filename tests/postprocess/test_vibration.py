@@ -206,6 +206,16 @@ class Vibration(ModePictureTest):
                 self.pictures = self.folder / f"pictures of {name}"
                 self.expect_png(self.plot(run), pictures)
 
+    def test_map_shades_where_the_slide_grows(self):
+        value, x, way = (grid.ravel() for grid in np.meshgrid(np.linspace(2, 12, 11), np.linspace(0, 60, 7), (1.0, -1.0)))
+        places = {"value": value, "x": x, "direction": way, "growth_rate": np.where(way > 0, 30 - 4 * value, -1.0)}
+        searched = SEARCHED + tuple((f"place_{name}", values) for name, values in places.items())
+        result = results.read_result(make_stability(self.folder / "a", searched=searched, **FLUTTER, **FOUND))
+        axes = vibration.vibration_pictures(result)["critical"].axes[1]
+        shaded = [path.vertices[:, 0] for shade in axes.collections for path in shade.get_paths() if len(path.vertices) > 2]
+        self.assertAlmostEqual(np.concatenate(shaded).max(), 7.5)  # growth is 0 there, forward; backward it is negative
+        self.assertIn(4.3, [line.get_xdata()[0] for line in axes.lines])
+
     def test_nothing_to_draw(self):
         self.expect_refusal(self.plot(make_stability(self.folder / "a", (), kind="modal")), "no mode")
 

@@ -52,6 +52,15 @@ namespace sprag
   /// Share of the constants in Stability/Ranges for which CriticalValue::likely holds.
   constexpr double probable_share = 0.95;
 
+  /// The slides at a place that were checked with a value of a parameter.
+  struct PlaceGrowth
+  {
+    double value;
+    double x;           ///< [mm]
+    double direction;   ///< 1 forward, -1 backward
+    double growth_rate; ///< largest of all constants [1/s]; NaN where one jams
+  };
+
   /// Changes of stability found along one parameter of the scene.
   struct CriticalSearch
   {
@@ -65,6 +74,7 @@ namespace sprag
     unsigned int more_values                      = 0;  ///< tried between them, where a growth rate peaks
     bool has_effect                               = true; ///< whether any two of the values tried differ in their growth
     std::vector<std::pair<double, double>> growth = {};   ///< values that were checked, with their largest growth rate [1/s]
+    std::vector<PlaceGrowth> places               = {};   ///< what that is the largest of, of critical_values()
   };
 
   /// Limits of search_kinds().

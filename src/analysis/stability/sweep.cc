@@ -167,6 +167,20 @@ namespace sprag
       return result;
     }
 
+    void add_places(const SweptSlides &swept, const double value, std::vector<PlaceGrowth> &places)
+    {
+      std::map<std::pair<double, double>, double> largest; // by direction and x
+      for (const auto &[direction, constants, along] : swept.sweeps)
+        for (const auto &[x, rate] : along.growth)
+        {
+          double &here = largest.emplace(std::make_pair(direction == Direction::forward ? 1. : -1., x), rate).first->second;
+          if (std::isnan(rate) || rate > here)
+            here = rate;
+        }
+      for (const auto &[place, rate] : largest)
+        places.push_back({ value, place.second, place.first, rate });
+    }
+
     /// Returns weights of values at 0, 1/2 and 1 for a place between them: of a parabola, or of two straight lines.
     std::array<double, 3> interpolation_weights(const double t, const bool is_parabola)
     {
@@ -413,8 +427,15 @@ namespace sprag
                                  const std::function<void()> &tried)
   {
     const auto at = [&](const double value) { return prepared(variant(scene, { override_text(range.name, value) })); };
+    std::vector<PlaceGrowth> places;
     ValueChecks checks;
-    checks.at    = [&](const double value) { return sweep(at(value), maker).worst(); };
+    checks.at = [&](const double value)
+    {
+      const auto swept = sweep(at(value), maker);
+      auto worst       = swept.worst();
+      add_places(swept, value, places);
+      return worst;
+    };
     checks.alike = [&](const double value, const CheckedSlide &slide)
     {
       SweepPart part;
@@ -425,6 +446,7 @@ namespace sprag
     checks.tried = tried;
     auto result =
         search_kinds(range, { tolerance, is_reduced(scene.analysis.model) ? 14u : 5u }, checks, beam_hints(scene, range));
+    result.places        = std::move(places);
     const auto uncertain = constant_ranges(scene);
     const bool is_in_them =
         std::any_of(uncertain.begin(), uncertain.end(), [&](const auto &one) { return one.name == range.name; });
