@@ -89,7 +89,7 @@ def said(parameter):
     """A value with its unit; "default" where a result does not know the parameter."""
     if parameter is None:
         return "default"
-    return parameter.text if parameter.number is None else with_unit(f"{parameter.number:g}", parameter.unit)
+    return parameter.file or parameter.text if parameter.number is None else with_unit(f"{parameter.number:g}", parameter.unit)
 
 
 def said_together(parameters):

@@ -12,7 +12,8 @@ COMMENT = re.compile(r"(.*?)(?: \[[^\[\]]*\])?[:;] ((?:auto or )?an? (?:number|i
 
 class Parameter(NamedTuple):
     """The text of a value as used, its unit, "1" where it has none, its default's text where it differs from it, what it means,
-    the range of values: "a number > 0", "one of a | b"; empty where the meaning tells it, and whether a scene sets it."""
+    the range of values: "a number > 0", "one of a | b"; empty where the meaning tells it, whether a scene sets it, and the name
+    of a file as it is written there."""
 
     text: str
     unit: str
@@ -20,6 +21,7 @@ class Parameter(NamedTuple):
     meaning: str = ""
     range: str = ""
     is_set: bool = True
+    file: str = ""
 
     @property
     def number(self):
@@ -52,13 +54,14 @@ def parse(listing):
         elif line.startswith(("set ", "#set ")):  # a comment where the parameter was left at its default
             name, _, value = line.partition("set ")[2].partition("=")
             units = re.findall(r"\[([^\[\]]+)\](?=[:;])", comment)
-            text, default = parse_value(value), re.search(r"#(?:\s*given as .*;)?\s*default:(.*)$", value)
-            apart = default and different(text, default[1].strip())
+            text, default = parse_value(value), re.search(r"#(?:\s*given as (.*);)?\s*default:(.*)$", value)
+            apart = default and different(text, default[2].strip())
             unit = units[-1] if units and units[-1] != "-" else "1"
             parts = COMMENT.fullmatch(comment)
+            file = parse_value(default[1]) if default and default[1] and text.startswith("/") else ""
             meaning, rule = (parts[1], parts[2]) if parts else (comment, "")
             found["/".join((*section, name.strip()))] = Parameter(
-                text, unit, default[1].strip() if default and apart else None, meaning, rule, line.startswith("set ")
+                text, unit, default[2].strip() if default and apart else None, meaning, rule, line.startswith("set "), file
             )
         comment = f"{comment} {line[1:].strip()}".strip() if line.startswith("#") and not line.startswith("#set ") else ""
     return found
@@ -83,7 +86,7 @@ def scene_text(parameters):
     sections: dict[str, list] = {}
     for name, parameter in parameters.items():
         *section, own = name.split("/")
-        sections.setdefault("/".join(section), []).append(f"  set {own} = {parameter.text}")
+        sections.setdefault("/".join(section), []).append(f"  set {own} = {parameter.file or parameter.text}")
     return "\n".join(f"subsection {section}\n" + "\n".join(lines) + "\nend\n" for section, lines in sections.items())
 
 

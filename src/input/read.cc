@@ -202,6 +202,9 @@ namespace sprag
         for (const auto &parameter : parameters)
           if (const auto found = settings.specified.find(full_name(parameter)); found != settings.specified.end())
           {
+            auto written = found->second.written;
+            if (parameter.rule.kind == Rule::Kind::file && std::filesystem::path(found->second.value).is_relative())
+              written = found->second.value;
             if (parameter.rule.kind == Rule::Kind::file || found->first == "Condensed/Cache")
               resolve(found->second.value);
             parameter.store(found->second.value);
@@ -211,8 +214,8 @@ namespace sprag
               if (found->second.place == "--set")
                 input.scene.by_option.insert(found->first);
             }
-            if (!found->second.written.empty())
-              input.scene.written.emplace(found->first, found->second.written);
+            if (!written.empty())
+              input.scene.written.emplace(found->first, written);
           }
         input.scene.slope.maximum_inclination = input.maximum_inclination * M_PI / 180.;
         make_time_tolerance();

@@ -36,7 +36,7 @@ namespace sprag
     /// was not read.
     std::shared_ptr<const std::map<std::string, std::string>> parameters;
 
-    /// Values of parameters that were given with a unit, as they were written.
+    /// Values of parameters that were given with a unit, and relative names of files, as they were written.
     std::map<std::string, std::string> written;
 
     /// Unused columns of tables, by the parameter that names the table.

@@ -122,6 +122,11 @@ class ReportTest(PictureTest):
         lines = re.findall(r'class="verdict" x1="([\d.]+)" x2="([\d.]+)" y1="(-?[\d.]+)"', drawing)
         self.assertEqual([(float(a), float(b), float(y) > 0) for a, b, y in lines], [(3.25, 65, False), *((*line[:2], True) for line in found["backward"])])
 
+    def test_scene_names_a_table_as_it_was_written(self):
+        for comment, expected in ((" # given as rubber.csv; default: ", "rubber.csv"), (" # default: ", "/home/me/rubber.csv")):
+            listing = f"subsection Friction\n  # A file of mu.\n  set Table = /home/me/rubber.csv{comment}\nend\n"
+            self.assertEqual(parameters.scene_text(parameters.parse(listing)), f"subsection Friction\n  set Table = {expected}\nend\n")
+
     def test_a_run_that_goes_on(self):
         make_run(self.folder / "a")
         with h5py.File(self.folder / "a/result.h5", "r+") as file:
