@@ -17,10 +17,10 @@ MOVED = ("displacement", "elastic_displacement", "von_mises_stress")  # of a fra
 
 @dataclass
 class Frame:
-    """One written frame: quadrilaterals, p x p of them in a cell of degree p, whose nodes no other cell shares."""
+    """One written frame: quadrilaterals, p x p of them in a cell of degree p. Cells of a part share nodes."""
 
     nodes: np.ndarray  # [n x 2]
-    quads: np.ndarray  # [m x 4] node numbers
+    quads: np.ndarray  # [m x 4] node numbers, counted clockwise in lever axes
     displacement: np.ndarray  # [n x 2]
     stress: np.ndarray  # von Mises [n]
     part: np.ndarray  # names [n]
@@ -29,11 +29,8 @@ class Frame:
     @cached_property
     def outlines(self):
         """Node numbers around each cell [cells x 4 p]."""
-        side = np.arange(self.degree + 1)
-        grid = np.arange((self.degree + 1) ** 2).reshape(self.degree + 1, -1)
-        around = np.concatenate((grid[0], grid[1:, -1], grid[-1, -2::-1], grid[-2:0:-1, 0]))
-        first = np.arange(0, len(self.nodes), len(side) ** 2)
-        return first[:, None] + around
+        grid = self.quads.reshape(-1, self.degree, self.degree, 4)
+        return np.concatenate((grid[:, 0, :, 0], grid[:, :, -1, 3], grid[:, -1, ::-1, 2], grid[:, ::-1, 0, 1]), axis=1)
 
     @cached_property
     def cell_part(self):
@@ -66,21 +63,26 @@ def any_of(words, names):
     return np.any([words == name for name in names], axis=0)
 
 
+def every_cell(mesh):
+    """Returns the cells with those of rigid parts, where there are such."""
+    return np.concatenate([mesh[name] for name in ("cells", "rigid_cells") if name in mesh]).astype(int)
+
+
 def read_frame(result, path=None, row=None):
     """The first lever and its leaf spring (None without) as they are in a frame, in lever axes; without a path undeformed.
 
     A leaf spring is in the axes of the lever at rest, its displacement includes the hub's rotation. Nodes of an elastic cylinder
     are about its centre.
     """
-    names = {"nodes", "part", "lever", "cells", *(MOVED if path else ())}
+    names = {"nodes", "part", "lever", "cells", "rigid_cells", *(MOVED if path else ())}
     mesh = {name: np.asarray(values) for name, values in read_fields(result.folder, path, names=names).items()}
-    if missing := names - set(mesh):
+    if missing := names - set(mesh) - {"rigid_cells"}:
         raise NotAResult(f"{path or result.folder}: cannot be read as fields of this version of sprag (no {', '.join(sorted(missing))})")
     moved = [np.broadcast_to(mesh[name], (len(mesh["nodes"]), 3))[:, :2] if path else np.zeros((len(mesh["nodes"]), 2)) for name in MOVED[:2]]
     stress = mesh["von_mises_stress"] if path else np.zeros(len(mesh["nodes"]))
     part = mesh["part"].round().astype(int)
     is_first = mesh["lever"] == 1
-    all_quads = mesh["cells"].astype(int)
+    all_quads = every_cell(mesh)
 
     rest = pose(result)
     stands = rest if row is None else pose(result, row)
@@ -88,21 +90,18 @@ def read_frame(result, path=None, row=None):
     nodes = mesh["nodes"][:, :2] - up
     cylinder = (part == NUMBERS["cylinder"])[:, None]
     in_lever = np.round(np.where(cylinder, rest.along_axes(nodes), rest.in_axes(nodes)), 9) + 0.0
-    names = np.array([PARTS.get(number, "") for number in range(max(PARTS) + 1)])[part]
+    names = np.array([PARTS.get(index, "") for index in range(max(PARTS) + 1)])[part]
 
-    def only(which, displacement):
+    def only(which, displacement, degree):
         kept = np.flatnonzero(which)
         if len(kept) == 0:
             return None
         quads = all_quads[which[all_quads[:, 0]]]
-        frame = Frame(in_lever[kept], np.searchsorted(kept, quads), displacement[kept], stress[kept], names[kept], 0)
-        # m = p^2 cells and n = (p + 1)^2 cells.
-        frame.degree = round(1 / (np.sqrt(len(frame.nodes) / len(frame.quads)) - 1))
-        return frame
+        return Frame(in_lever[kept], np.searchsorted(kept, quads), displacement[kept], stress[kept], names[kept], degree)
 
     leaf = part == NUMBERS["leaf"]
     bent = rest.along_axes(nodes + moved[0] - stands.pivot) - in_lever
-    return only(is_first & ~leaf, stands.along_axes(moved[1])), only(is_first & leaf, bent)
+    return only(is_first & ~leaf, stands.along_axes(moved[1]), int(number(result, "Mesh", "Degree"))), only(is_first & leaf, bent, 2)
 
 
 @dataclass
@@ -197,7 +196,8 @@ def chosen_frame(result, x=None, way=None):
     candidates = [frame for frame in frames if way is None or frame.way == WAYS[way]]
     if not frames:
         raise NotAResult(f"{result.folder}: no frames of fields there; Output/Fields must not be none, and Analysis/Model be meshed")
-    near = number(result, "Output", "Field interval") / 2
+    interval = result.parameter("Output", "Field interval")
+    near = (np.abs(np.diff(result.table["x"])).sum() / 20 if interval == "auto" else float(interval)) / 2
     if x is None and candidates:
         return max(candidates, key=lambda frame: result.table["P"][frame.row])
     nearest = min(candidates, key=lambda frame: abs(frame.x - x), default=None)

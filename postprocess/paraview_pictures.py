@@ -24,7 +24,7 @@ def read_arrays(reader, time):
     simple.UpdatePipeline(time, reader)
     data = servermanager.Fetch(reader)
     while data.IsA("vtkCompositeDataSet"):
-        data = data.GetBlock(0)
+        data = data.GetBlock(data.GetNumberOfBlocks() - 1)  # rigid parts come first
     values = data.GetPointData()
     found = {values.GetArrayName(i): vtk_to_numpy(values.GetArray(i)) for i in range(values.GetNumberOfArrays())}
     return vtk_to_numpy(data.GetPoints().GetData()), found
@@ -97,12 +97,7 @@ def picture(index, path, magnify):
     bar.TitleFontSize, bar.LabelFontSize = 14, 12
     bar.ScalarBarLength = 0.6
     shown.SetScalarBarVisibility(view, True)
-    if name == "fields" and (found[SHOWN[name]] == 0).any():  # rigid parts have no stress and are grey
-        rigid = simple.Threshold(Input=warp, Scalars=["POINTS", SHOWN[name]])
-        rigid.ThresholdMethod, rigid.LowerThreshold, rigid.UpperThreshold = "Between", 0.0, 0.0
-        simple.ColorBy(grey := simple.Show(rigid, view), None)
-        grey.DiffuseColor = grey.AmbientColor = [0.75, 0.75, 0.75]
-        grey.Position = [0, 0, 0.01]  # before the colours
+    shown.DiffuseColor = shown.AmbientColor = [0.75, 0.75, 0.75]  # of rigid parts, which have no stress
 
     at_rest = simple.WarpByVector(Input=reader, Vectors=["POINTS", "displacement [mm]"], ScaleFactor=-1)
     edges = simple.Show(simple.FeatureEdges(Input=simple.ExtractSurface(Input=simple.CleantoGrid(Input=at_rest))), view)

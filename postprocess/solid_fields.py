@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.collections import PolyCollection
 
-from frames import NUMBERS, chosen_frame, number, pose
+from frames import NUMBERS, chosen_frame, every_cell, number, pose
 from sprag.results import WAYS, NotAResult, read_fields
 from shades import COLOUR_MAP, RIGID, largest_size, make_mappable, make_norm, rounded
 from style import MILLIMETRE, TWO_COLUMNS, plt
@@ -56,7 +56,7 @@ def read_solid_frame(result, path):
     try:
         elastic, elastic_on_face = now["elastic_displacement"], on_face["elastic_displacement"]
         return SolidFrame(now["nodes"], now["displacement"] - elastic, elastic, now["von_mises_stress"],
-                          now["part"].round().astype(int), now["cells"].astype(int), now["lever"].round(), on_face["nodes"],
+                          now["part"].round().astype(int), every_cell(now), now["lever"].round(), on_face["nodes"],
                           on_face["displacement"] - elastic_on_face, elastic_on_face, on_face["cells"].astype(int), on_face["lever"].round(),
                           on_face["pressure"])  # fmt: skip
     except (KeyError, ValueError) as error:

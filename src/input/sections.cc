@@ -157,7 +157,7 @@ namespace sprag
     void output(Section section, OutputSettings &settings)
     {
       section.choice("Fields", settings.fields);
-      section.length("Field interval", settings.field_interval);
+      section.number_or_auto("Field interval", settings.field_interval, above(0.), "mm");
     }
 
     void slope(Section section, SlopeSettings &settings, double &maximum_inclination)

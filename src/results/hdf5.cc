@@ -209,16 +209,8 @@ namespace sprag::hdf5
   Handle create_rows(const Handle &location, const std::string &name, const hid_t type, const std::size_t rows,
                      const std::size_t width)
   {
-    const auto row          = width > 1 ? std::vector<hsize_t>{ width } : std::vector<hsize_t>();
-    const auto extent       = with_rows(rows, row);
-    const Handle compressed = storage();
-    if (rows > 0)
-    {
-      set_chunk(compressed, with_rows(std::min(rows, rows_together), row));
-      checked("compression", H5Pset_shuffle(compressed.id()));
-      checked("compression", H5Pset_deflate(compressed.id(), 1));
-    }
-    return create_dataset(location, name, type, simple_space(extent, extent), compressed);
+    const auto extent = with_rows(rows, width > 1 ? std::vector<hsize_t>{ width } : std::vector<hsize_t>());
+    return create_dataset(location, name, type, simple_space(extent, extent), storage());
   }
 
   void write_rows(const Handle &file, const std::string &name, const std::size_t first, const std::size_t rows,
@@ -236,7 +228,7 @@ namespace sprag::hdf5
     const Handle own = simple_space(count, count);
     const Handle transfer(checked("transfer", H5Pcreate(H5P_DATASET_XFER)), H5Pclose);
     if (is_open_together(file))
-      checked("transfer", H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE)); // without it nothing can be compressed
+      checked("transfer", H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE));
     checked("dataset " + name, H5Dwrite(dataset.id(), type.id(), own.id(), whole.id(), transfer.id(), values));
   }
 

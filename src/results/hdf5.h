@@ -46,10 +46,10 @@ namespace sprag::hdf5
   Handle write_dataset(const Handle &location, const std::string &name, const std::vector<double> &values,
                        const std::vector<std::size_t> &shape = {});
 
-  /// Rows of create_rows() that are compressed and written together.
+  /// Rows of create_rows() that processes never share.
   constexpr std::size_t rows_together = 8192;
 
-  /// Creates a dataset for `rows` rows of `width` numbers of a type of the library each, compressed.
+  /// Creates a dataset for `rows` rows of `width` numbers of a type of the library each.
   Handle create_rows(const Handle &location, const std::string &name, hid_t type, std::size_t rows, std::size_t width);
 
   /// The same of float, double or unsigned int.

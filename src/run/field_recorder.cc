@@ -3,6 +3,7 @@
 
 #include "base/ranges.h"
 #include "model/step/state_archive.h"
+#include "program/recorder.h"
 #include "results/result_file.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"
@@ -17,6 +18,7 @@ namespace sprag
     constexpr double all_slide   = 0.99; ///< share of mu P from which the whole contact counts as sliding
     constexpr double long_behind = 0.02; ///< travel behind a turning point, over R, after which it is no longer waited for
     constexpr double no_contact  = 1e-3; ///< P over the largest one so far
+    constexpr double intervals   = 20.;  ///< between frames over all travel, where no interval is given
 
     /// Middle of the lever where its free part begins.
     MeshPoint section_at_hub(const BodyFields &fields)
@@ -81,10 +83,10 @@ namespace sprag
     for (const auto &[estimate, value] : estimates(row, face))
       if (auto &found = best[{ estimate, direction }]; value > found.value || (!found.state && value > 0.))
         found = { value, kept() };
-    const bool frame = is_frame(row);
-    if (frame)
-      find(*kept(), true);
-    return frame;
+    const auto frame = frame_kind(row);
+    if (frame != FrameKind::none)
+      find(*kept(), frame);
+    return frame != FrameKind::none;
   }
 
   std::vector<std::pair<FieldRecorder::Estimate, double>> FieldRecorder::estimates(const Row &row, const FaceState &face) const
@@ -116,10 +118,10 @@ namespace sprag
     return reached > 0. && reached >= all_slide * row[Column::mu] * row[Column::normal_resultant];
   }
 
-  bool FieldRecorder::is_frame(const Row &row)
+  FieldRecorder::FrameKind FieldRecorder::frame_kind(const Row &row)
   {
     if (!frames)
-      return false;
+      return FrameKind::none;
     const auto &output = scene.output;
     const bool turning = scene.drive.turns_at(row[Column::time]) || row[Column::time] >= scene.drive.duration();
     bool behind        = false;
@@ -129,13 +131,16 @@ namespace sprag
       turned.reset();
     if (turning)
       turned = travelled;
-    const bool due = output.fields == FieldOutput::interval && travelled >= last_frame + output.field_interval - 1e-9;
+    const double interval = output.field_interval.value_or(path_length(scene.drive) / intervals);
+    const bool due        = output.fields == FieldOutput::interval && travelled >= last_frame + interval - 1e-9;
     if (due || turning)
       last_frame = travelled;
-    return due || ((turning || behind) && largest_force(row) > no_contact * peak_force);
+    if ((turning || behind) && largest_force(row) > no_contact * peak_force)
+      return FrameKind::whole;
+    return due ? FrameKind::between : FrameKind::none;
   }
 
-  void FieldRecorder::find(const Kept &kept, const bool frame)
+  void FieldRecorder::find(const Kept &kept, const FrameKind frame)
   {
     const PhaseTimer::Scope scope(timer, "fields");
     DeviceState state{ kept.row[Column::time], to_pose(kept.row), displacements(kept.source), {}, kept.face };
@@ -143,14 +148,17 @@ namespace sprag
     for (unsigned int lever = 0; lever < state.displacements.size(); ++lever)
     {
       state.nodal.push_back(fields.at(state.displacements[lever]));
+      if (frame == FrameKind::between)
+        continue;
       peaks.look_at(state.nodal[lever], kept.row[Column::x], kept.direction, lever);
       look_at(fields, state.nodal[lever], kept.row, sample);
     }
-    samples.push_back(sample);
-    if (!frame)
+    if (frame != FrameKind::none)
+      frames->write(state, frame == FrameKind::whole);
+    if (frame == FrameKind::between)
       return;
-    frames->write(state);
-    written.push_back(kept.row[Column::time]);
+    samples.push_back(sample);
+    looked_at.push_back(kept.row[Column::time]);
   }
 
   SPRAG_SERIALISE(FieldSource, coordinates, forces, face_force)
@@ -171,7 +179,7 @@ namespace sprag
 
   void FieldRecorder::serialise_progress(Archive &archive)
   {
-    archive(travelled, last_frame, last_x, peak_force, direction, turned, written, samples, best);
+    archive(travelled, last_frame, last_x, peak_force, direction, turned, looked_at, samples, best);
     peaks.serialise_progress(archive);
     if (frames)
       frames->serialise_progress(archive);
@@ -179,19 +187,19 @@ namespace sprag
 
   std::vector<Entry> FieldRecorder::finish()
   {
-    std::map<double, std::pair<std::shared_ptr<Kept>, bool>> left;
+    std::map<double, std::pair<std::shared_ptr<Kept>, FrameKind>> left;
     const Best *largest = nullptr;
     for (const auto &[key, found] : best)
       if (found.state)
       {
-        left[found.state->row[Column::time]] = { found.state, false };
+        left[found.state->row[Column::time]] = { found.state, FrameKind::none };
         if (key.first == Estimate::force && (largest == nullptr || found.value > largest->value))
           largest = &found;
       }
     if (largest != nullptr && frames)
-      left[largest->state->row[Column::time]].second = true;
+      left[largest->state->row[Column::time]].second = FrameKind::whole;
     for (const auto &[time, state] : left)
-      if (!contains(written, time))
+      if (!contains(looked_at, time))
         find(*state.first, state.second);
     best.clear();
     return peaks.entries(count_levers(scene));

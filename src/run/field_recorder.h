@@ -27,9 +27,10 @@ namespace sprag
     dealii::Vector<double> face_force;
   };
 
-  /// Chooses the states of a run whose fields are found, writes those that are frames and looks at the stress of all. Frames
+  /// Chooses the states of a run whose fields are found, writes those that are frames and looks at the stress. Frames
   /// (Output/Fields) are: turning points, the first state behind each in which the whole contact slides back (or 0.02 R behind
   /// it), the end, every interval if requested, and the state of the largest P; but for the intervals only those in contact.
+  /// Frames of intervals are for films: their stress is not looked at and written as von Mises' alone.
   ///
   /// The largest stress of a run is found without the fields of every step: each way the states are kept in which an estimate
   /// from what a step knows anyway is largest, and their fields are found at the end. For the layer the estimate is
@@ -72,6 +73,13 @@ namespace sprag
     };
     friend void serialise(Archive &archive, Kept &kept);
 
+    enum class FrameKind
+    {
+      none,
+      between,
+      whole
+    };
+
     /// Selects the estimate by which the state of the largest stress is sought.
     enum class Estimate
     {
@@ -81,11 +89,11 @@ namespace sprag
       elastic_energy
     };
 
-    bool is_frame(const Row &row);
+    FrameKind frame_kind(const Row &row);
     bool slides_back(const Row &row) const;
     double moment_at_hub(const Row &row) const;
     std::vector<std::pair<Estimate, double>> estimates(const Row &row, const FaceState &face) const;
-    void find(const Kept &kept, bool frame);
+    void find(const Kept &kept, FrameKind frame);
 
     const Scene &scene;
     PhaseTimer &timer;
@@ -101,8 +109,8 @@ namespace sprag
     double last_x;
     double peak_force = 0.;
     int direction     = 1;
-    std::optional<double> turned; ///< travel at a turning point whose state behind it is awaited
-    std::vector<double> written;  ///< times of the frames
+    std::optional<double> turned;  ///< travel at a turning point whose state behind it is awaited
+    std::vector<double> looked_at; ///< times of states
 
     /// Keeps the state in which an estimate is largest.
     struct Best

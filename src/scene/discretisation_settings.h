@@ -68,13 +68,13 @@ namespace sprag
     double growth_across         = 1.2; ///< of an element over the one beside it, from the edges to the middle, >= 1
   };
 
-  /// Selects when fields are written: never, at reversals and at the end, or also at every `field_interval` of travel.
+  /// Selects when fields are written: never, at reversals and at the end, or also in between.
   SPRAG_ENUMERATION(FieldOutput, none, turning_points, interval)
 
   /// Says at which instants fields are written for ParaView.
   struct OutputSettings
   {
-    FieldOutput fields    = FieldOutput::turning_points;
-    double field_interval = 5.; ///< [mm], > 0
+    FieldOutput fields = FieldOutput::interval;
+    std::optional<double> field_interval; ///< travel between two [mm], > 0; none: a twentieth of all travel
   };
 } // namespace sprag

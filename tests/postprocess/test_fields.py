@@ -96,7 +96,8 @@ def write_frames(folder, rows, blocks):
     elastic = np.concatenate([displace(cells, part).reshape(-1, 2) for cells, part in blocks])
     part = np.concatenate([np.full(len(cells) * 9, NUMBERS[name]) for cells, name in blocks])
     first = np.arange(0, len(nodes), 9)[:, None, None]
-    quads = (first + np.array([(0, 1, 4, 3), (1, 2, 5, 4), (3, 4, 7, 6), (4, 5, 8, 7)])).reshape(-1, 4)
+    quads = (first + np.array([(0, 3, 4, 1), (1, 4, 5, 2), (3, 6, 7, 4), (4, 7, 8, 5)])).reshape(-1, 4)
+    rigid = part[quads[:, 0]] == NUMBERS["hub"]
     at_centre = (part == NUMBERS["cylinder"])[:, None]
     resting = touching(SPRUNG)
 
@@ -104,7 +105,7 @@ def write_frames(folder, rows, blocks):
         return points @ axes_at(theta) + np.where(at_centre, (x, 0.0), (DISTANCE + moved, HEIGHT))
 
     rest = place(nodes, 0.0, resting, 0.0)
-    write_group(folder / "fields-mesh.h5", nodes=in_space(rest), cells=quads.astype(np.uint32), part=part.astype("f4"),
+    write_group(folder / "fields-mesh.h5", nodes=in_space(rest), cells=quads[~rigid].astype(np.uint32), rigid_cells=quads[rigid].astype(np.uint32), part=part.astype("f4"),
                 lever=np.ones(len(nodes)))  # fmt: skip
     index = ""
     for number, row in enumerate(rows):

@@ -122,7 +122,7 @@ namespace sprag
           continue;
         const auto *const nodes = &fields.elements[n * element];
         for (unsigned int i = 0; i < n; ++i)
-          if (number[nodes[i]] == unknown || !fields.is_in_space)
+          if (number[nodes[i]] == unknown)
           {
             number[nodes[i]] = static_cast<unsigned int>(result.nodes.size());
             result.nodes.push_back(nodes[i]);
@@ -134,13 +134,18 @@ namespace sprag
       return result;
     }
 
-    /// In left-handed axes cells are turned to count the same way as the others.
-    void append_cells(const DeviceBlock &block, const unsigned int first, const bool turn, std::vector<unsigned int> &cells)
+    /// In left-handed axes cells are turned to count the same way as the others. `is_rigid`(node) says to which cells they go.
+    template <class IsRigid>
+    void append_cells(const DeviceBlock &block, const unsigned int first, const bool turn, const IsRigid &is_rigid,
+                      FieldMesh &mesh)
     {
       const unsigned int second = turn ? 3 : 1;
       for (unsigned int side = 0; side < block.cells.size(); side += 4) // of a hexahedron two sides
+      {
+        auto &cells = is_rigid(first + block.cells[side]) ? mesh.rigid_cells : mesh.cells;
         for (const unsigned int corner : { 0u, second, 2u, 4 - second })
           cells.push_back(first + block.cells[side + corner]);
+      }
     }
   } // namespace
 
@@ -219,7 +224,9 @@ namespace sprag
         part.values.push_back(static_cast<float>(rigid ? material_id::cylinder : fields.nodes[block.nodes[i]].part));
         lever.values.push_back(rigid ? 0.f : static_cast<float>(block.lever + 1));
       }
-      append_cells(block, first, axes.are_left_handed(), mesh.cells);
+      const auto is_rigid = [&](const unsigned int node)
+      { return rigid || static_cast<types::material_id>(part.values[node]) == material_id::hub; };
+      append_cells(block, first, axes.are_left_handed(), is_rigid, mesh);
     }
     mesh.fixed = { part, lever };
     return mesh;

@@ -86,8 +86,7 @@ namespace sprag
     rigid_cylinder ///< not meshed: a disc, in space with its length and profile
   };
 
-  /// Nodes and cells of one part that belong to one lever. In a plane an element has nodes of its own, by which pictures find its
-  /// outline; in space elements share theirs, a third as many.
+  /// Nodes and cells of one part that belong to one lever.
   struct DeviceBlock
   {
     DevicePart part;

@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "results/hdf5.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -73,11 +74,18 @@ namespace sprag
              "        </Attribute>\n";
     }
 
+    const std::string moving = "displacement"; ///< name of the field that says where the nodes are
+
+    bool has_displacement(const std::vector<Field> &fields)
+    {
+      return std::any_of(fields.begin(), fields.end(), [](const auto &field) { return field.name == moving; });
+    }
+
     /// Returns where the nodes are in a frame that has their displacement; none in another.
     std::optional<Field> position(const FieldMesh &mesh, const std::vector<Field> &fields)
     {
       for (const auto &field : fields)
-        if (field.name == "displacement")
+        if (field.name == moving)
         {
           Field result{ "position", "mm", "of the nodes: nodes and displacement", 3, field.values };
           for (std::size_t i = 0; i < result.values.size(); ++i)
@@ -136,7 +144,7 @@ namespace sprag
       indices.push_back({ folder + "/" + mesh.name + ".xdmf", std::move(mesh) });
     std::size_t bytes = field_file_overhead;
     for (const auto &[path, mesh, grids] : indices)
-      bytes += 8 * mesh.nodes.size() + 8 * mesh.cells.size() + count_bytes(mesh.fixed);
+      bytes += 8 * (mesh.nodes.size() + mesh.cells.size() + mesh.rigid_cells.size()) + count_bytes(mesh.fixed);
     require_space(folder + "/" + mesh_file(), bytes);
     auto file = hdf5::create_file(folder + "/" + mesh_file());
     std::vector<DatasetRows> rows;
@@ -146,6 +154,8 @@ namespace sprag
       describe(group.add("nodes", mesh.nodes, 3), "mm",
                "positions at rest: x along the cylinder's path towards the pivot, y up, z across");
       group.add("cells", mesh.cells, mesh.nodes_per_cell);
+      if (!mesh.rigid_cells.empty())
+        group.add("rigid_cells", mesh.rigid_cells, mesh.nodes_per_cell);
       for (const auto &field : mesh.fixed)
         group.add(field);
     }
@@ -235,22 +245,38 @@ namespace sprag
   std::string FieldFiles::grid(const Index &index, const double time, const std::string &place, const std::vector<Field> &fields,
                                const std::vector<FrameFact> &facts) const
   {
-    const auto &mesh              = index.mesh;
-    const bool moves              = position(mesh, fields).has_value();
-    const std::size_t n_cells     = mesh.cells.size() / mesh.nodes_per_cell;
+    const auto &mesh       = index.mesh;
+    const std::string when = "        <Time Value=\"" + number(time) + "\"/>\n";
+    if (mesh.rigid_cells.empty())
+      return block(mesh, false, when, place, fields, facts);
+    return "      <Grid Name=\"" + mesh.name + "\" GridType=\"Collection\" CollectionType=\"Spatial\">\n" + when +
+           block(mesh, true, "", place, fields, {}) + block(mesh, false, "", place, fields, facts) + "      </Grid>\n";
+  }
+
+  /// Makes a grid of the rigid cells, or of the others.
+  std::string FieldFiles::block(const FieldMesh &mesh, const bool rigid, const std::string &time, const std::string &place,
+                                const std::vector<Field> &fields, const std::vector<FrameFact> &facts) const
+  {
+    const bool moves              = has_displacement(fields);
+    const std::size_t n_cells     = (rigid ? mesh.rigid_cells : mesh.cells).size() / mesh.nodes_per_cell;
     const std::string mesh_path   = mesh_file() + ":/" + mesh.name;
+    const std::string cells       = mesh_path + (rigid ? "/rigid_cells" : "/cells");
     const std::string element_set = topology(mesh.nodes_per_cell);
-    std::string text = "      <Grid Name=\"" + mesh.name + "\" GridType=\"Uniform\">\n        <Time Value=\"" + number(time) +
-                       "\"/>\n        <Topology TopologyType=\"" + element_set + "\" NumberOfElements=\"" +
-                       std::to_string(n_cells) + "\">" + item(mesh_path + "/cells", n_cells, mesh.nodes_per_cell, "UInt", 4) +
+    std::string text              = "      <Grid Name=\"" + (rigid ? "rigid" : mesh.name) + "\" GridType=\"Uniform\">\n" + time +
+                       "        <Topology TopologyType=\"" + element_set + "\" NumberOfElements=\"" + std::to_string(n_cells) +
+                       "\">" + item(cells, n_cells, mesh.nodes_per_cell, "UInt", 4) +
                        "        </Topology>\n        <Geometry GeometryType=\"XYZ\">" +
                        (moves ? item(place + "/position", mesh.n_nodes(), 3, "Float", 4)
                               : item(mesh_path + "/nodes", mesh.n_nodes(), 3, "Float", 8)) +
                        "        </Geometry>\n";
-    for (const auto &field : fields)
-      text += attribute(field, place, mesh.n_nodes());
-    for (const auto &field : mesh.fixed)
-      text += attribute(field, mesh_path, mesh.n_nodes());
+    const auto add = [&](const std::vector<Field> &some, const std::string &where)
+    {
+      for (const auto &field : some)
+        if (!rigid || field.components == 3)
+          text += attribute(field, where, mesh.n_nodes());
+    };
+    add(fields, place);
+    add(mesh.fixed, mesh_path);
     for (const auto &fact : facts)
       text += "        <Attribute Name=\"" + labelled(fact.name, fact.unit) +
               "\" AttributeType=\"Scalar\" Center=\"Grid\"><DataItem Dimensions=\"1\" NumberType=\"Float\" Precision=\"8\" "

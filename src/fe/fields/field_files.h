@@ -22,11 +22,12 @@ namespace sprag
   /// Cells of one kind.
   struct FieldMesh
   {
-    std::string name;                ///< of its index: `name`.xdmf
-    std::vector<double> nodes;       ///< x, y and z of each [mm]
-    std::vector<unsigned int> cells; ///< numbers of the nodes of each
-    unsigned int nodes_per_cell = 4; ///< 2: lines, 4: quadrilaterals, 8: hexahedra
-    std::vector<Field> fixed;        ///< the same in every frame
+    std::string name;                        ///< of its index: `name`.xdmf
+    std::vector<double> nodes;               ///< x, y and z of each [mm]
+    std::vector<unsigned int> cells;         ///< numbers of the nodes of each
+    unsigned int nodes_per_cell = 4;         ///< 2: lines, 4: quadrilaterals, 8: hexahedra
+    std::vector<Field> fixed;                ///< the same in every frame
+    std::vector<unsigned int> rigid_cells{}; ///< others, which have vectors alone: ParaView shows them grey
 
     std::size_t n_nodes() const
     {
@@ -50,8 +51,9 @@ namespace sprag
   };
 
   /// Fields on meshes that do not change, frame by frame, for ParaView: meshes and the fields of each frame on each of them, and
-  /// an XDMF index a mesh which lists the frames in the order of time. Every index holds one grid a time, which all of ParaView's
-  /// readers show alike. Throws AnalysisError when a file cannot be written.
+  /// an XDMF index a mesh which lists the frames in the order of time. A time has one grid, or two with one of what is rigid.
+  /// That comes first and has no scalars, so that the other's colour it on opening. Throws AnalysisError when a file cannot be
+  /// written.
   class FieldFiles
   {
   public:
@@ -59,7 +61,7 @@ namespace sprag
     FieldFiles(std::string folder, std::string name, std::vector<FieldMesh> meshes, FrameStorage storage = FrameStorage::files,
                Writers writers = {});
 
-    /// Adds a frame: fields of each mesh, in the order of the meshes. `time` [s] differs from those of the frames before.
+    /// Adds a frame, or replaces that of the same time [s]: fields of each mesh, in the order of the meshes.
     void write(double time, const std::vector<std::vector<Field>> &fields, const std::vector<FrameFact> &facts = {});
 
     /// Serialises what says which frames there are. Taken from an archive, later frames are removed; throws AnalysisError where
@@ -79,6 +81,8 @@ namespace sprag
     std::string frame_file(unsigned int frame) const;
     std::string grid(const Index &index, double time, const std::string &place, const std::vector<Field> &fields,
                      const std::vector<FrameFact> &facts) const;
+    std::string block(const FieldMesh &mesh, bool rigid, const std::string &time, const std::string &place,
+                      const std::vector<Field> &fields, const std::vector<FrameFact> &facts) const;
 
     const std::string folder;
     const std::string name;

@@ -62,12 +62,12 @@ namespace sprag
                                          FrameStorage::files, writers_at_hand());
   }
 
-  void FieldFrames::write(const DeviceState &state)
+  void FieldFrames::write(const DeviceState &state, const bool whole)
   {
-    files->write(state.time, { body_fields(state), face_fields(state) });
+    files->write(state.time, { body_fields(state, whole), face_fields(state) });
   }
 
-  std::vector<Field> FieldFrames::body_fields(const DeviceState &state)
+  std::vector<Field> FieldFrames::body_fields(const DeviceState &state, const bool whole)
   {
     Bodies values;
     for (const auto &block : blocks)
@@ -75,10 +75,13 @@ namespace sprag
         add_leaf(state, block, values);
       else
         add_meshed(state, block, values);
-    return { { "displacement", "mm", displacement_meaning, 3, std::move(values.displacement) },
-             { "elastic_displacement", "mm", elastic_meaning, 3, std::move(values.elastic) },
-             { "stress", "MPa", "Cauchy stress along the axes of the world, by rows", 9, std::move(values.stress) },
-             { "von_mises_stress", "MPa", "of each cell by itself; 0 where a part is rigid", 1, std::move(values.von_mises) } };
+    std::vector<Field> result{ { "displacement", "mm", displacement_meaning, 3, std::move(values.displacement) },
+                               { "elastic_displacement", "mm", elastic_meaning, 3, std::move(values.elastic) },
+                               { "von_mises_stress", "MPa", "of each part by itself; 0 where it is rigid", 1,
+                                 std::move(values.von_mises) } };
+    if (whole)
+      result.push_back({ "stress", "MPa", "Cauchy stress along the axes of the world, by rows", 9, std::move(values.stress) });
+    return result;
   }
 
   void FieldFrames::add_meshed(const DeviceState &state, const DeviceBlock &block, Bodies &values) const

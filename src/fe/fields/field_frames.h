@@ -77,8 +77,8 @@ namespace sprag
     /// Scene and fields, which serve both levers of a pair, must outlive them.
     FieldFrames(const Device &device, const BodyFields &fields, const std::string &folder);
 
-    /// Adds a frame, of another time than those before.
-    void write(const DeviceState &state);
+    /// Adds a frame, or replaces that of the same time. `whole`: with all components of the stress.
+    void write(const DeviceState &state, bool whole);
 
     /// Serialises what says which frames there are, see FieldFiles.
     void serialise_progress(Archive &archive)
@@ -91,7 +91,7 @@ namespace sprag
 
     std::vector<DeviceBlock> faces() const;
     FieldMesh face_mesh() const;
-    std::vector<Field> body_fields(const DeviceState &state);
+    std::vector<Field> body_fields(const DeviceState &state, bool whole);
     void add_meshed(const DeviceState &state, const DeviceBlock &block, Bodies &values) const;
     void add_leaf(const DeviceState &state, const DeviceBlock &block, Bodies &values);
     std::vector<Field> face_fields(const DeviceState &state) const;

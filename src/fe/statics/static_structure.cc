@@ -162,15 +162,18 @@ namespace sprag
 
   std::vector<Vector<double>> StaticStructure::body_displacements(const Vector<double> &, const DofLoads &forces) const
   {
-    std::vector<Vector<double>> result(layout.levers);
+    SparseColumns loads;
     for (unsigned int lever = 0; lever < layout.levers; ++lever)
     {
       const auto acting = on_surface(forces, lever);
-      Vector<double> loads(body.n_dofs());
       for (unsigned int i = 0; i < acting.dofs.size(); ++i)
-        loads[surface[acting.dofs[i]]] = acting.values[i];
-      factors->solve(loads, result[lever]);
+        loads.add(surface[acting.dofs[i]], acting.values[i]);
+      loads.end_column();
     }
+    const auto found = factors->solve(std::move(loads));
+    std::vector<Vector<double>> result;
+    for (auto column = found.begin(); column != found.end(); column += body.n_dofs())
+      result.emplace_back(column, column + body.n_dofs());
     return result;
   }
 
