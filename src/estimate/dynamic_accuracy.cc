@@ -30,10 +30,7 @@ namespace sprag
     /// Modes that a lever with one alone is compared with.
     constexpr unsigned int several_modes = 4;
 
-    // Below so many faces in contact the overshoot hangs on where between two nodes the drive turns, which no held slide knows.
-    // Over such places it scatters by 0.13 under model A's contact of 2.6 faces and by 0.15 under model B's of 2.4.
-    constexpr double fewest_faces = 2.8;
-    constexpr double by_place     = 0.3; ///< over the faces in contact
+    constexpr double periods_before = 3.; ///< of the frequency of P, in which a swing before the reversal counts
 
     constexpr double too_far = 0.2; ///< relative change of a frequency, beyond which another vibration was compared
 
@@ -141,6 +138,15 @@ namespace sprag
       return held_scene(with_condensed_lever(scene));
     }
 
+    /// Half the largest swing of P in the last `duration` before the first reversal begins [N]: elements that pass under the
+    /// contact near the frequency of P, or a slide that grows, let it vibrate.
+    double swing_before_reversal(const std::vector<Row> &rows, const Drive &drive, const double duration)
+    {
+      const double end  = drive.reversals().front() - 0.5 * drive.reversal_duration();
+      const auto counts = [&](const Row &row) { return row[Column::time] <= end && row[Column::time] >= end - duration; };
+      return largest_swing(filtered(rows, counts), {}, 0.).size;
+    }
+
     /// The vibration of a slide that is nearest to a frequency [Hz].
     std::complex<double> eigenvalue_near(const SlideStability &slide, const double frequency)
     {
@@ -159,9 +165,9 @@ namespace sprag
       return parts;
     }
 
-    std::vector<ErrorPart> with_step(std::vector<ErrorPart> parts, const double value, const std::string &remedy)
+    std::vector<ErrorPart> with_part(std::vector<ErrorPart> parts, const ErrorPart &part)
     {
-      parts.push_back({ "step", value, remedy });
+      parts.push_back(part);
       return parts;
     }
 
@@ -195,9 +201,21 @@ namespace sprag
       const auto frequency_error = [&](const double dt)
       { return std::abs(algorithmic_frequency_error(scene.time.spectral_radius, omega * dt)); };
       const auto errors = estimate_step_errors(rows, turn, turned.window_end, frequency_error);
-      const double lag  = change_by_frequency(rows, turn, turned.window_end) / largest(rows, Column::P);
-      const std::string step =
-          scene.time.tolerance > 0. ? "Try a third of the Time/Tolerance." : "Try a Time/Step 0.7 times as large.";
+      const double peak = largest(rows, Column::P);
+      const double lag  = change_by_frequency(rows, turn, turned.window_end) / peak;
+      const auto step   = [&](const double value)
+      {
+        return ErrorPart{ "step", value,
+                          scene.time.tolerance > 0. ? "Try a third of the Time/Tolerance."
+                                                    : "Try a Time/Step 0.7 times as large." };
+      };
+      const auto vibration = [&](const double value)
+      {
+        return ErrorPart{ "vibration", value,
+                          is_meshed(scene.analysis.model)
+                              ? "P vibrates before the reversal. Try a Mesh/Face size 0.7 times as large."
+                              : "No setting reduces it: P vibrates before the reversal." };
+      };
       std::vector<ErrorPart> frequency_parts, decay_parts, overshoot_parts;
       if (is_meshed(scene.analysis.model))
       {
@@ -216,19 +234,29 @@ namespace sprag
       if (const double fitted = -turned.growth_rate; fitted > 0.)
       {
         const double scheme = algorithmic_damping(scene.time.spectral_radius, omega * errors.peak_step);
-        decay               = { "decay", "it", with_step(decay_parts, scheme * omega / fitted, step), {} };
+        decay               = { "decay", "it", with_part(decay_parts, step(scheme * omega / fitted)), {} };
         // Passing elements keep the envelope up, to which the decay is fitted; the slide's own decay knows neither.
         decay.parts.push_back({ "fit", std::abs(decay_rate(found) / fitted - 1.),
                                 is_meshed(scene.analysis.model)
                                     ? "Try a Mesh/Face size 0.5 times as large."
                                     : "No setting reduces it: over the window the decay is not that of a single slide." });
       }
-      const double faces = largest(rows, Column::contact_width) / scene.mesh.face_size;
-      if (is_meshed(scene.analysis.model) && faces < fewest_faces)
-        overshoot_parts.push_back({ "turn", by_place / faces, "Try a smaller Mesh/Face size." });
-      return { { "P", "its peak", with_step(times(frequency_parts, lag), errors.P / largest(rows, Column::P), step), {} },
-               { "overshoot", "it", with_step(overshoot_parts, at_overshoot, step), {} },
-               { "frequency", "it", with_step(frequency_parts, errors.frequency, step), {} },
+      // See the header: a sinusoid of amplitude a has the root mean square a/sqrt(2), its integral over the window is as a T,
+      // that of the ringing as excess/decay.
+      const double swing  = swing_before_reversal(rows, scene.drive, periods_before / measured);
+      const double excess = turned.overshoot_P * turned.scale;
+      const double window = turned.window_end - turned.window_begin;
+      const double weight = swing > 0. ? swing * window / (swing * window + excess / decay_rate(found)) : 0.;
+      const double other  = std::abs(measured / slide_frequency(found) - 1.);
+      const auto add_both = [&](const std::vector<ErrorPart> &parts, const double by_step, const double by_vibration)
+      { return with_part(with_part(parts, step(by_step)), vibration(by_vibration)); };
+      ErrorEstimate overshoot{ "overshoot", "", {}, "No estimate: P does not overshoot." };
+      if (excess > 0.)
+        overshoot = { "overshoot", "it", add_both(overshoot_parts, at_overshoot, M_SQRT1_2 * swing / excess), {} };
+      const double largest_before = swing_before_reversal(rows, scene.drive, window);
+      return { { "P", "its peak", add_both(times(frequency_parts, lag), errors.P / peak, largest_before / peak), {} },
+               overshoot,
+               { "frequency", "it", add_both(frequency_parts, errors.frequency, weight * other), {} },
                decay };
     }
   } // namespace
