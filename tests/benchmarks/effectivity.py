@@ -143,6 +143,14 @@ class AlongDrive:
         return errors
 
 
+def without_penalty(kind, sprag, scene, changes, folder):
+    """A slide or a run in time whose values are extrapolated to no penalty."""
+    soft, stiff = (kind(sprag, scene, {**changes, "Contact/Penalty": penalty}, folder) for penalty in PENALTIES)
+    share = 1 / (PENALTIES[1] / PENALTIES[0] - 1)
+    stiff.found = {name: value + share * (value - soft.found[name]) for name, value in stiff.found.items()}
+    return stiff
+
+
 class Held:
     """A held slide."""
 
@@ -156,10 +164,7 @@ class Held:
     @classmethod
     def reference(cls, sprag, scene, changes, folder, run):
         finer = {**changes, "Mesh/Face size": FACE_SIZE_OF_SLIDES / FINER_OF_SLIDES}
-        soft, stiff = (cls(sprag, scene, {**finer, "Contact/Penalty": penalty}, folder) for penalty in PENALTIES)
-        share = 1 / (PENALTIES[1] / PENALTIES[0] - 1)
-        stiff.found = {name: value + share * (value - soft.found[name]) for name, value in stiff.found.items()}
-        return stiff
+        return without_penalty(cls, sprag, scene, finer, folder)
 
     def errors(self, reference):
         return {name: abs(value / reference.found[name] - 1) for name, value in self.found.items()}
