@@ -235,6 +235,39 @@ TEST(CriticalValues, LookInsideRanges)
   EXPECT_LT(largest_growth(found.changes.front().value + 0.02), 0.);
 }
 
+// Forward from x = 34 to 38 mm friction couples two vibrations of a lever with little damping. Held at x = 36 mm alone the limit
+// is 14.390 mm.
+TEST(CriticalValues, SeeVibrationsOfAShortPieceOfTheStroke)
+{
+  const Scene scene =
+      from_params("stability-b.prm", { "Analysis/Model=beam", "Stability/Position=auto", "Stability/Direction=forward",
+                                       "Friction/Coefficient=0.3", "Contact/Damping=0.003" });
+  DynamicsMaker maker;
+  const auto found = critical_values(scene, { "Lever/Depth", 13.6, 14.9, 2 }, 1e-3, maker);
+  ASSERT_EQ(found.changes.size(), 1u);
+  EXPECT_NEAR(found.changes.front().value, 14.39, 0.01);
+}
+
+// The contact is wider than its elements near the centre, to which a model looks until it has found a slide itself.
+TEST(SweptSlides, OfEqualEquilibriaAreThoseOfModelsOfTheirOwn)
+{
+  const Scene scene =
+      from_params("stability-b.prm",
+                  { "Analysis/Model=condensed", "Mesh/Face size=0.5", "Geometry/Cylinder radius=42",
+                    "Geometry/Interface offset=6", "Geometry/Pivot distance=160", "Geometry/Pivot height=0",
+                    "Rotational spring/Stiffness=5e4", "Lever/Made of=aluminium", "Lever/Length=180", "Lever/Depth=2.942",
+                    "Friction layer/Thickness=3", "Friction/Coefficient=0.7", "Friction/Factor=1.2", "Stability/Position=50",
+                    "Stability/Direction=backward", "Contact/Damping=0.02", "Stability/Ranges=Contact/Damping 0.02 0.1" });
+  DynamicsMaker maker;
+  const auto swept = sweep(scene, maker, { true });
+  for (const auto &[direction, constants, along] : swept.sweeps)
+  {
+    DynamicsMaker own_maker;
+    const double growth_rate = check_slide(variant(scene, constants), own_maker).growth_rate();
+    EXPECT_NEAR(along.worst->growth_rate, growth_rate, 1e-4 * std::abs(growth_rate));
+  }
+}
+
 // Against slides checked one by one: the limits are found to 0.6 % of the depths searched.
 TEST(CriticalValues, HoldForTheSceneAndForMostOfTheRanges)
 {

@@ -36,7 +36,8 @@ namespace sprag
       return result;
     }
 
-    /// Returns the number of x over the stroke: more for levers that check a slide in milliseconds.
+    /// Returns the number of x over the stroke: more for levers that check a slide in milliseconds. With little damping friction
+    /// couples two vibrations over a twentieth of the stroke alone, which half as many would miss.
     unsigned int points_along(const Scene &scene)
     {
       const bool is_cheap = scene.analysis.model != ModelType::finite_element && scene.analysis.dimension == 2;

@@ -430,7 +430,12 @@ namespace sprag
       const auto theta           = compute_inclinations(frame, slide_rotations);
       contact->candidate_dofs(slide.drive.x, theta);
       const auto contact_perturbation = in_contact ? contact->linearise(slide, found) : LinearisedForces();
-      auto dofs                       = contact_perturbation.dofs;
+      if (in_contact && !found.within_candidates) // the slide was held by another model
+      {
+        contact->widen_candidates();
+        return perturbation(slide, in_contact);
+      }
+      auto dofs = contact_perturbation.dofs;
       for (const auto &others : { coupling.coupled_dofs(), hub_spring.loaded_dofs() })
         dofs.insert(dofs.end(), others.begin(), others.end());
       std::sort(dofs.begin(), dofs.end());
