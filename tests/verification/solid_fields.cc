@@ -92,10 +92,12 @@ namespace
       return dealii::Tensor<1, 3>({ mesh.nodes[3 * number], mesh.nodes[3 * number + 1], mesh.nodes[3 * number + 2] });
     };
     double result = 0.;
-    for (std::size_t first = 0; first < mesh.cells.size(); first += 8)
+    auto cells    = mesh.cells;
+    cells.insert(cells.end(), mesh.rigid_cells.begin(), mesh.rigid_cells.end());
+    for (std::size_t first = 0; first < cells.size(); first += 8)
     {
-      const auto corner = [&](const unsigned int i) { return node(mesh.cells[first + i]); };
-      if (mesh.fixed[1].values[mesh.cells[first]] != static_cast<float>(lever_number))
+      const auto corner = [&](const unsigned int i) { return node(cells[first + i]); };
+      if (mesh.fixed[1].values[cells[first]] != static_cast<float>(lever_number))
         continue;
       // Six tetrahedra about the edge from the first corner to the one opposite, in XDMF's order.
       for (const auto &[a, b] : { std::pair(1u, 2u), { 2u, 3u }, { 3u, 7u }, { 7u, 4u }, { 4u, 5u }, { 5u, 1u } })
