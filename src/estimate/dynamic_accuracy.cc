@@ -247,7 +247,7 @@ namespace sprag
       const double excess = turned.overshoot_P * turned.scale;
       const double window = turned.window_end - turned.window_begin;
       const double weight = swing > 0. ? swing * window / (swing * window + excess / decay_rate(found)) : 0.;
-      const double other  = std::abs(measured / slide_frequency(found) - 1.);
+      const double apart  = std::abs(measured / slide_frequency(found) - 1.);
       const auto add_both = [&](const std::vector<ErrorPart> &parts, const double by_step, const double by_vibration)
       { return with_part(with_part(parts, step(by_step)), vibration(by_vibration)); };
       ErrorEstimate overshoot{ "overshoot", "", {}, "No estimate: P does not overshoot." };
@@ -256,7 +256,7 @@ namespace sprag
       const double largest_before = swing_before_reversal(rows, scene.drive, window);
       return { { "P", "its peak", add_both(times(frequency_parts, lag), errors.P / peak, largest_before / peak), {} },
                overshoot,
-               { "frequency", "it", add_both(frequency_parts, errors.frequency, weight * other), {} },
+               { "frequency", "it", add_both(frequency_parts, errors.frequency, weight * apart), {} },
                decay };
     }
   } // namespace

@@ -128,7 +128,7 @@ namespace sprag
     const auto at       = configuration(sliding.displacements, sliding.drive.x);
     set_places({ at, at });
     const auto law = slide_friction(properties.friction, sliding);
-    visit_elements(candidates.clip(near_end(), found.within_candidates),
+    visit_elements(in_parts ? near_end() : candidates.clip(near_end(), found.within_candidates),
                    [&](auto &below, const unsigned int element)
                    {
                      for (unsigned int q = grid.elements[element].begin; q < grid.elements[element].end; ++q)

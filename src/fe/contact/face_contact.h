@@ -34,7 +34,8 @@ namespace sprag
       slide(state, false, found);
     }
 
-    /// Evaluates steady sliding and linearises its interface forces. Friction delays at each point in contact.
+    /// Evaluates steady sliding and linearises its interface forces, of all elements in contact, whether candidates or not.
+    /// Friction delays at each point in contact.
     LinearisedForces linearise(const SlidingState &state, FaceEvaluation<2> &found) const;
 
     /// Returns the dofs near the cylinder at x from the pivot frame's origin and inclination theta. They reach far beyond the

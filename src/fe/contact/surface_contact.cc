@@ -230,14 +230,14 @@ namespace sprag
 
   void SurfaceContact::evaluate_sliding(const SlidingState &sliding, FaceEvaluation<3> &found)
   {
-    press_slide(sliding, found);
+    press_slide(sliding, false, found);
     set_forces(Request::with_tangent, found.forces);
     complete(found);
   }
 
   LinearisedForces SurfaceContact::linearise(const SlidingState &sliding, FaceEvaluation<3> &found)
   {
-    press_slide(sliding, found);
+    press_slide(sliding, true, found);
     set_forces(Request::forces, found.forces);
     complete(found);
     add_points(found);
@@ -248,7 +248,7 @@ namespace sprag
     return result;
   }
 
-  void SurfaceContact::press_slide(const SlidingState &sliding, FaceEvaluation<3> &found)
+  void SurfaceContact::press_slide(const SlidingState &sliding, const bool beyond_candidates, FaceEvaluation<3> &found)
   {
     const auto at = configuration(sliding.displacements, sliding.drive.x);
     found.begin(sliding.displacements, sliding.drive.x, 1.); // slips are those of a second
@@ -262,7 +262,10 @@ namespace sprag
       step.slide.x_rate      = properties.layout.sprung ? -(*sliding.rates)[properties.layout.support()] : 0.;
       step.slide.slope_rates = axis_turn(*sliding.rates);
     }
-    press(step, sliding.displacements, candidates.clip(near(at, step.end), found.within_candidates), found);
+    auto elements_near = near(at, step.end);
+    if (!beyond_candidates)
+      elements_near = candidates.clip(std::move(elements_near), found.within_candidates);
+    press(step, sliding.displacements, std::move(elements_near), found);
   }
 
   void SurfaceContact::touch(const Vector<double> &z, const DrivePoint &drive, FaceEvaluation<3> &found)

@@ -27,8 +27,8 @@ namespace sprag
     /// Evaluates steady sliding: the cylinder's surface runs round its axis at the slide's speed.
     void evaluate_sliding(const SlidingState &sliding, FaceEvaluation<3> &found);
 
-    /// The same, with its interface forces linearised. What the spring of stick delays is left out: at a speed v it takes mu p /
-    /// (v times its stiffness), microseconds.
+    /// The same of all elements in contact, whether candidates or not, with its interface forces linearised. What the spring of
+    /// stick delays is left out: at a speed v it takes mu p / (v times its stiffness), microseconds.
     LinearisedForces linearise(const SlidingState &sliding, FaceEvaluation<3> &found);
 
     /// Evaluates the contact at rest without force.
@@ -61,7 +61,7 @@ namespace sprag
     RigidCylinder::Pose pose(const FaceConfiguration &at) const;
     Elements::Indices near(const FaceConfiguration &at, const RigidCylinder::Pose &cylinder_pose) const;
     BatchedStep::Constants constants(Kind kind, const FaceConfiguration &end, StepTerms terms) const;
-    void press_slide(const SlidingState &sliding, FaceEvaluation<3> &found);
+    void press_slide(const SlidingState &sliding, bool beyond_candidates, FaceEvaluation<3> &found);
     void begin_step(const InterfaceStep &step, const std::optional<StaticTerms> &statics);
     void press(const BatchedStep::Constants &step, const dealii::Vector<double> &displacements, Elements::Indices elements_near,
                FaceEvaluation<3> &found);

@@ -52,8 +52,8 @@ namespace sprag
 
   /// Fields on meshes that do not change, frame by frame, for ParaView: meshes and the fields of each frame on each of them, and
   /// an XDMF index a mesh which lists the frames in the order of time. A time has one grid, or two with one of what is rigid.
-  /// That comes first and has no scalars, so that the other's colour it on opening. Throws AnalysisError when a file cannot be
-  /// written.
+  /// The rigid one comes first and has no scalars: ParaView opens with those of the other in colour. Throws AnalysisError when a
+  /// file cannot be written.
   class FieldFiles
   {
   public:

@@ -426,16 +426,10 @@ namespace sprag
     /// The contact's forces about a held slide, those of the hub's spring and the coupling with a sprung support.
     LinearisedForces perturbation(const SlidingState &slide, const bool in_contact)
     {
-      const auto slide_rotations = lever_rotations(frame.layout, slide.displacements);
-      const auto theta           = compute_inclinations(frame, slide_rotations);
-      contact->candidate_dofs(slide.drive.x, theta);
+      const auto slide_rotations      = lever_rotations(frame.layout, slide.displacements);
+      const auto theta                = compute_inclinations(frame, slide_rotations);
       const auto contact_perturbation = in_contact ? contact->linearise(slide, found) : LinearisedForces();
-      if (in_contact && !found.within_candidates) // the slide was held by another model
-      {
-        contact->widen_candidates();
-        return perturbation(slide, in_contact);
-      }
-      auto dofs = contact_perturbation.dofs;
+      auto dofs                       = contact_perturbation.dofs;
       for (const auto &others : { coupling.coupled_dofs(), hub_spring.loaded_dofs() })
         dofs.insert(dofs.end(), others.begin(), others.end());
       std::sort(dofs.begin(), dofs.end());
