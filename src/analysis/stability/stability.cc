@@ -85,7 +85,8 @@ namespace sprag
   {
     double result = unknown;
     for (const auto &mode : modes)
-      result = std::fmax(result, mode_frequency(mode));
+      if (const auto lambda = mode.mode.eigenvalue; lambda.imag() > -lambda.real())
+        result = std::fmax(result, mode_frequency(mode));
     return result;
   }
 

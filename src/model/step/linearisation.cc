@@ -4,9 +4,12 @@
 #include "base/ranges.h"
 #include "model/interface/interface_forces.h"
 
+#include <algorithm>
+
 namespace sprag
 {
   using dealii::FullMatrix;
+  using dealii::Vector;
   using Complex = std::complex<double>;
 
   namespace
@@ -130,6 +133,36 @@ namespace sprag
         result.by_velocity[i] += delay.force[i] * velocity;
       }
     }
+    return result;
+  }
+
+  LinearisedForces LinearisedForces::with_joined_delays(const double highest_rate) const
+  {
+    constexpr double negligible = 1e-3;
+    double longest              = 0.;
+    for (const auto &delay : delays)
+      longest = std::max(longest, delay.time);
+    const auto is_apart = [&](const FrictionDelay &delay)
+    { return !(delay.time > 0.) || delay.time * (longest - delay.time) * highest_rate * highest_rate > negligible; };
+    if (delays.size() <= dofs.size() || std::any_of(delays.begin(), delays.end(), is_apart))
+      return *this;
+
+    auto result      = *this;
+    const auto n     = static_cast<unsigned int>(dofs.size());
+    const auto empty = FrictionDelay{ longest, Vector<double>(n), Vector<double>(n), Vector<double>(n) };
+    result.delays.assign(n, empty);
+    for (unsigned int dof = 0; dof < n; ++dof)
+      result.delays[dof].force[dof] = 1.;
+    for (const auto &delay : delays)
+      for (unsigned int dof = 0; dof < n; ++dof)
+        if (const double share = delay.time / longest * delay.force[dof]; share != 0.)
+        {
+          result.delays[dof].stiffness_row.add(share, delay.stiffness_row);
+          result.delays[dof].rate_row.add(share, delay.rate_row);
+        }
+    const auto is_idle = [](const FrictionDelay &joined)
+    { return joined.stiffness_row.all_zero() && joined.rate_row.all_zero(); };
+    result.delays.erase(std::remove_if(result.delays.begin(), result.delays.end(), is_idle), result.delays.end());
     return result;
   }
 } // namespace sprag

@@ -93,6 +93,12 @@ namespace sprag
       ComplexAmplitudes by_velocity;
     };
     DelayedForces by_delays(std::complex<double> lambda, const ComplexAmplitudes &z) const;
+
+    /// Returns these forces with one delay a dof, all of the longest time T, where the delays are more. One of a shorter time t
+    /// is then its share t/T of that and 1 - t/T without delay,
+    ///   1 / (1 + lambda t) = 1 - t/T + (t/T) / (1 + lambda T) + O(lambda^2 t (T - t)),
+    /// which is exact for equal times. Returns them as they are where that exceeds 1e-3 at `highest_rate`, |lambda| [1/s].
+    LinearisedForces with_joined_delays(double highest_rate) const;
   };
 
   /// The matrices of linearised forces.

@@ -275,7 +275,9 @@ namespace sprag
   {
     constexpr double widest     = 1e-10;
     constexpr double free_creep = 1e-10;
-    const StateProblem problem(data, forces);
+    const double highest_rate   = std::sqrt(*std::max_element(data.stiffness.begin(), data.stiffness.end()));
+    const auto joined           = forces.with_joined_delays(highest_rate);
+    const StateProblem problem(data, joined);
     const auto pairs    = problem.inverse_pairs(shapes);
     const double lowest = largest(pairs, [](const auto &pair) { return pair.value; });
     std::vector<StructureMode> result;
