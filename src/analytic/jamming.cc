@@ -64,8 +64,8 @@ namespace sprag
     bool begins      = true;
     const auto visit = [&](const DrivePoint &point)
     {
-      const double s  = kinematics(device.geometry, point.x).s;
-      const double mu = sliding_friction(device, point.x, point.v).coefficient;
+      const auto state = closed_form(device, point.x, point.v);
+      const double s = state.contact.s, mu = state.mu;
       const JammingMargin here{
         point.x, point.v, s, mu, mu * e, e > 0. ? s / e : std::numeric_limits<double>::infinity(), {}, {}
       };

@@ -225,7 +225,7 @@ namespace sprag
         add_stroke(scene, rows, direction, name, entries);
         if (!begins_closed(scene))
           continue;
-        const double mu = sliding_friction(scene, 0., direction * scene.drive.peak_speed()).coefficient;
+        const double mu = closed_form(scene, 0., direction * scene.drive.peak_speed()).mu;
         entries.push_back(
             { "representative_slope_" + name, representative_slope(scene.geometry, scene.spring.stiffness, mu, direction) });
       }

@@ -5,7 +5,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "input/sections.h"
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 #include "results/columns.h"
 #include "scene/closed_form.h"
 #include "scene/contact_estimates.h"
@@ -73,11 +73,11 @@ namespace sprag
       for (unsigned int i = 0; i <= samples; ++i)
       {
         const double x    = from + (to - from) * i / samples;
-        const double s    = kinematics(scene.geometry, x).s;
-        const double mu   = sliding_friction(scene, x, -scene.drive.peak_speed()).coefficient;
-        const double mu_e = mu * scene.geometry.interface_offset;
+        const auto state  = closed_form(scene, x, -scene.drive.peak_speed());
+        const double s    = state.contact.s;
+        const double mu_e = state.mu * scene.geometry.interface_offset;
         if (s > mu_e && mu_e / (s - mu_e) > largest.value)
-          largest = { x, s, mu, mu_e / (s - mu_e) };
+          largest = { x, s, state.mu, mu_e / (s - mu_e) };
       }
       return largest;
     }

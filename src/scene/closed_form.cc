@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/closed_form.h"
 #include "base/unknown.h"
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 #include "scene/device.h"
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
@@ -38,12 +38,6 @@ namespace sprag
       return v * (std::cos(contact.theta) - geometry.interface_offset * contact.theta_x);
     }
 
-    /// mu while the drive moves at v and the cylinder slides along the lever at v_rel.
-    FrictionValue sliding_friction(const FrictionLaw &friction, const double v, const double v_rel)
-    {
-      return friction_coefficient(friction, std::abs(friction.speed == FrictionSpeed::drive ? v : v_rel));
-    }
-
     constexpr unsigned int smooth_drive_depth = 12;
     constexpr unsigned int table_depth        = 4;
 
@@ -59,14 +53,6 @@ namespace sprag
                             [&](const double part) { return power(begin + part * duration); }, 0., 1., depth, tolerance);
     }
 
-    /// s - mu e while moving back at v < 0, positive where the lever slides [mm].
-    double locking_margin(const Device &device, const DrivePoint &point)
-    {
-      const auto contact = kinematics(device.geometry, point.x);
-      const double mu    = sliding_friction(device, point.x, point.v).coefficient;
-      return contact.s - mu * device.geometry.interface_offset;
-    }
-
     std::optional<Locking> locking_between(const Device &device, const double from, const double to)
     {
       const double search_step = 0.1;
@@ -79,9 +65,10 @@ namespace sprag
           continue;
         for (const double time : { begin, point.time })
         {
-          const auto at = drive.at(time, time == begin ? Drive::Side::after : Drive::Side::before);
-          if (locking_margin(device, at) <= 0.)
-            return Locking{ at.x, kinematics(device.geometry, at.x).s, sliding_friction(device, at.x, at.v).coefficient };
+          const auto at    = drive.at(time, time == begin ? Drive::Side::after : Drive::Side::before);
+          const auto state = closed_form(device, at.x, at.v);
+          if (state.contact.s <= state.mu * device.geometry.interface_offset)
+            return Locking{ at.x, state.contact.s, state.mu };
         }
       }
       return {};
@@ -102,11 +89,6 @@ namespace sprag
     return sliding_speed(geometry, kinematics(geometry, x), v);
   }
 
-  FrictionValue sliding_friction(const Device &device, const double x, const double v)
-  {
-    return sliding_friction(device.friction, v, sliding_speed(device.geometry, x, v));
-  }
-
   ClosedFormState closed_form(const Geometry &geometry, const FrictionLaw &friction, const double moment,
                               const Kinematics &contact, const double v)
   {
@@ -114,7 +96,8 @@ namespace sprag
     const double sign = std::copysign(1., v);
     state.contact     = contact;
     state.v_rel       = sliding_speed(geometry, contact, v);
-    state.mu          = sliding_friction(friction, v, state.v_rel).coefficient;
+    const double w    = friction.speed == FrictionSpeed::drive ? v : state.v_rel;
+    state.mu          = friction_coefficient(friction, std::abs(w)).coefficient;
     state.P           = moment / (state.contact.s + sign * state.mu * geometry.interface_offset);
     state.F           = sign * state.mu * state.P;
     state.Q           = state.P * std::sin(state.contact.theta) + state.F * std::cos(state.contact.theta);

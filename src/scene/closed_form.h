@@ -28,18 +28,15 @@ namespace sprag
   /// Returns the material sliding speed of the cylinder along the lever, v cos th - e dth/dt [mm/s], signed.
   double sliding_speed(const Geometry &geometry, double x, double v);
 
-  /// Returns mu at x while moving at v, by the speed that the scene's law refers to.
-  FrictionValue sliding_friction(const Device &device, double x, double v);
-
   /// Holds contact, sliding speed and forces of the closed form at one position of the drive.
   struct ClosedFormState
   {
     Kinematics contact;
     double v_rel; ///< sliding_speed()
-    double mu;
-    double P; ///< along n [N], eq. 5 with J = 0
-    double F; ///< on the lever along -d [N], eq. 4
-    double Q; ///< along x [N], eq. 6
+    double mu;    ///< by the speed that the law refers to
+    double P;     ///< along n [N], eq. 5 with J = 0
+    double F;     ///< on the lever along -d [N], eq. 4
+    double Q;     ///< along x [N], eq. 6
   };
 
   /// Returns the state at x while moving at v [mm/s]; of a zero the sign is the direction. Forces are infinite or negative where

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/damper.h"
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 #include "scene/scene.h"
 
 #include "base/monotone_cubic.h"
@@ -72,9 +72,8 @@ namespace sprag
       damper.end            = "the cylinder reaches the lever's pivot, or would slide the other way along the lever";
       damper.locking_margin = [=](const double y, const double speed)
       {
-        const double x  = std::min(y, reach);
-        const double mu = sliding_friction(scene, x, -std::max(0., speed)).coefficient;
-        return kinematics(scene.geometry, x).s - mu * scene.geometry.interface_offset;
+        const auto state = closed_form(scene, std::min(y, reach), -std::max(0., speed));
+        return state.contact.s - state.mu * scene.geometry.interface_offset;
       };
       return damper;
     }

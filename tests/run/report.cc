@@ -141,7 +141,7 @@ TEST(Report, SlopeIsToldWhereMuStaysAlone)
   const Drive triangle(DriveProfile::triangle, 4., 65., 112., 2.);
   for (const auto &[way, sign] : { std::pair<std::string, int>{ "forward", 1 }, { "backward", -1 } })
   {
-    const double mu       = sliding_friction(model_a(), 0., 112.).coefficient;
+    const double mu       = closed_form(model_a(), 0., 112.).mu;
     const double expected = representative_slope(model_a().geometry, model_a().spring.stiffness, mu, sign);
     EXPECT_NEAR(slope(triangle, way), expected, 0.01 * std::abs(expected));
     EXPECT_TRUE(std::isnan(slope(Drive(DriveProfile::harmonic, 0., 65., 112., 1.), way)));

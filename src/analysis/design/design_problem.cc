@@ -36,11 +36,8 @@ namespace sprag
       double least = 1.;
       for (unsigned int i = 0; i <= intervals; ++i)
       {
-        const double x     = place(scene, i);
-        const double v     = -scene.drive.peak_speed();
-        const auto contact = kinematics(scene.geometry, x);
-        const double mu    = sliding_friction(scene, x, v).coefficient;
-        least              = std::min(least, 1. - mu * scene.geometry.interface_offset / contact.s);
+        const auto state = closed_form(scene, place(scene, i), -scene.drive.peak_speed());
+        least            = std::min(least, 1. - state.mu * scene.geometry.interface_offset / state.contact.s);
       }
       return least;
     }
@@ -50,7 +47,7 @@ namespace sprag
     void add_ideal_slopes(const Scene &scene, DesignQuantities &result)
     {
       const double v   = scene.drive.peak_speed();
-      const double mu  = sliding_friction(scene, 0., v).coefficient;
+      const double mu  = closed_form(scene, 0., v).mu;
       const double h   = 1e-4 * scene.geometry.pivot_distance;
       const auto Q     = [&](const double x, const int direction) { return closed_form(scene, x, direction * v).Q; };
       const auto slope = [&](const int direction)

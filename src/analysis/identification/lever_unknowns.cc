@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/identification/identification.h"
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 #include "scene/scene.h"
 
 #include "base/errors.h"
@@ -229,7 +229,7 @@ namespace sprag
   void LeverUnknowns::add_friction(const Unknown unknown, const MeasuredMotion &motion)
   {
     const double v  = motion.peak_speed();
-    const double mu = sliding_friction(scene, 0., v).coefficient;
+    const double mu = closed_form(scene, 0., v).mu;
     if (unknown == Unknown::friction_constant)
       all.push_back({ "mu", "1", "friction coefficient", mu, 1. });
     else if (unknown == Unknown::friction_factor)
