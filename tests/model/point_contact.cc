@@ -261,6 +261,20 @@ TEST(PointContact, MomentInSlidingIsThatOfTheClosedForm)
   }
 }
 
+// The speed of 1 mm/s, over which friction changes sign, leaves a share of mu p.
+TEST(PointContact, ASlideHasTheMuOfItsLawWhereRegularisationLeavesLessFriction)
+{
+  const Case lever = levers(regularised_cork)[0];
+  PointContact contact(lever.properties());
+  PointContact::Evaluation found;
+  contact.evaluate_sliding({ lever.position(0., 0.01), lever.drive(0.), 0.5 }, found);
+  Row row;
+  contact.observe(found, row);
+  EXPECT_DOUBLE_EQ(row[Column::mu], friction_coefficient(cork, 0.5).coefficient);
+  EXPECT_NEAR(row[Column::friction_resultant], row[Column::mu] * row[Column::normal_resultant] * 0.5 / std::hypot(0.5, 1.),
+              1e-12);
+}
+
 TEST(PointContact, TangentInSlidingIsTheDerivativeOfTheForce)
 {
   for (const double direction : { 1., -1. })

@@ -285,7 +285,7 @@ namespace sprag
 
     auto &response                 = found.response;
     response                       = {};
-    response.mu                    = std::abs(found.sliding.coefficient);
+    response.mu                    = found.sliding.mu;
     response.pressure              = pressure.v;
     response.traction[0]           = found.sliding.coefficient * response.pressure;
     response.slipping              = slides;
