@@ -5,7 +5,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "base/unknown.h"
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 #include "results/page_tables.h"
 #include "scene/mirrored_pair.h"
 #include "scene/pair_closed_form.h"

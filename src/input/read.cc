@@ -316,18 +316,13 @@ namespace sprag
 
       void make_friction()
       {
-        const FrictionSettings &friction = input.friction;
-        FrictionLaw &law                 = input.scene.friction;
-        if (friction.law == FrictionChoice::Coulomb)
-          law.law = friction.coulomb;
-        else if (friction.law == FrictionChoice::cork_on_aluminium)
-          law.law = CorkOnAluminium{};
-        else if (friction.law == FrictionChoice::Stribeck)
-          law.law = friction.stribeck;
+        FrictionCurve &law = input.scene.friction.law;
+        if (input.friction.law != FrictionChoice::table)
+          law = input.friction.curve();
         else
-          use_table("Friction/Table", friction.table, { { "speed", "velocity", "v" }, "mm/s" },
+          use_table("Friction/Table", input.friction.table, { { "speed", "velocity", "v" }, "mm/s" },
                     { { "mu", "coefficient", "friction", "\u00B5", "\u03BC" }, "" },
-                    [&law](const auto &speeds, const auto &coefficients) { law.law = TabulatedFriction(speeds, coefficients); });
+                    [&law](const auto &speeds, const auto &coefficients) { law = TabulatedFriction(speeds, coefficients); });
       }
 
       void check()

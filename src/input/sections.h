@@ -24,18 +24,6 @@ namespace sprag
     double smoothing = 0.;
   };
 
-  /// Selects the friction law (Friction/Law).
-  SPRAG_ENUMERATION(FrictionChoice, Coulomb, cork_on_aluminium, Stribeck, table)
-
-  /// The choice of a friction law as a parameter file gives it; its other settings are those of the scene's law.
-  struct FrictionSettings
-  {
-    FrictionChoice law = FrictionChoice::cork_on_aluminium;
-    CoulombFriction coulomb;
-    StribeckFriction stribeck;
-    std::string table;
-  };
-
   /// Contents of a parameter file: a scene whose drive and friction law are still to be made.
   struct SceneSettings
   {

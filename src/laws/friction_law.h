@@ -54,14 +54,35 @@ namespace sprag
     bool falls     = false; ///< whether mu falls from one row to a later one by more than 1 % of its largest value
   };
 
+  /// Selects a law of mu over speed.
+  SPRAG_ENUMERATION(FrictionChoice, Coulomb, cork_on_aluminium, Stribeck, table)
+
+  using FrictionCurve = std::variant<CoulombFriction, CorkOnAluminium, StribeckFriction, TabulatedFriction>;
+
+  /// The choice of a law and the constants of all, as a parameter file gives them.
+  struct FrictionSettings
+  {
+    FrictionChoice law = FrictionChoice::cork_on_aluminium;
+    CoulombFriction coulomb;
+    StribeckFriction stribeck;
+    std::string table; ///< file of the law that is none of the others
+
+    FrictionCurve curve() const
+    {
+      return law == FrictionChoice::Coulomb    ? FrictionCurve(coulomb)
+             : law == FrictionChoice::Stribeck ? FrictionCurve(stribeck)
+                                               : CorkOnAluminium{};
+    }
+  };
+
   /// Selects the speed that mu depends on: the material sliding speed, or the speed of the drive (the paper's choice).
   SPRAG_ENUMERATION(FrictionSpeed, sliding, drive)
 
   /// A law of mu over speed, and how the contact uses it.
   struct FrictionLaw
   {
-    std::variant<CoulombFriction, CorkOnAluminium, StribeckFriction, TabulatedFriction> law = CorkOnAluminium{};
-    FrictionSpeed speed                                                                     = FrictionSpeed::sliding;
+    FrictionCurve law           = CorkOnAluminium{};
+    FrictionSpeed speed         = FrictionSpeed::sliding;
     double regularisation_speed = 0.;   ///< [mm/s]; 0: stick is resolved
     double factor               = 1.;   ///< times mu of the law, >= 0
     double memory_length        = 0.01; ///< of faces sliding on each other, over which a mu that falls follows their speed [mm]
@@ -69,6 +90,9 @@ namespace sprag
 
   /// mu and dmu/d|v| at a sliding speed |v| >= 0 [mm/s]. mu(0) is the cone in stick.
   FrictionValue friction_coefficient(const FrictionLaw &law, double speed);
+
+  /// Returns the law with mu the constant that it is at a speed [mm/s].
+  FrictionLaw friction_at_speed(FrictionLaw law, double speed);
 
   /// Returns the law as one step sees it: where mu depends on the drive's speed [mm/s] it is a constant of the step.
   FrictionLaw step_friction(const FrictionLaw &friction, double drive_speed);
@@ -79,4 +103,11 @@ namespace sprag
     double from;
     double quadratic, linear, constant;
   };
+
+  /// Returns the pieces of a law that consists of such, falls nowhere, and so lets a load slip at one speed alone; the first one
+  /// from 0. Other laws have none.
+  std::vector<FrictionPiece> rising_pieces(const FrictionLaw &law);
+
+  /// Returns true if mu falls with speed; in a table by more than 1 % of its largest value.
+  bool falls_with_speed(const FrictionLaw &law);
 } // namespace sprag

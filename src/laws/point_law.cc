@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "laws/point_law.h"
 
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "analytic/closed_form.h"
 #include "base/errors.h"
 #include "base/system/interrupt.h"
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 #include "program/isolation_report.h"
 #include "program/output_folder.h"
 #include "program/recorder.h"

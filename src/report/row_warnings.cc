@@ -2,7 +2,7 @@
 #include "report/warnings.h"
 
 #include "base/text.h"
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 #include "report/peak_report.h"
 #include "results/row_statistics.h"
 #include "scene/closed_form.h"

@@ -4,7 +4,6 @@
 #include "base/ranges.h"
 #include "base/text.h"
 #include "base/unknown.h"
-#include "laws/friction.h"
 #include "program/result_writer.h"
 #include "report/report.h"
 #include "report/warnings.h"

@@ -6,7 +6,7 @@
 #include "estimate/dynamic_accuracy.h"
 #include "fe/fields/mode_frames.h"
 #include "input/read.h"
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 #include "levers/prepared_scene.h"
 #include "model/structure/eigenmodes.h"
 #include "program/result_writer.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/identification/identification.h"
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 
 #include "analytic/closed_form.h"
 #include "base/errors.h"

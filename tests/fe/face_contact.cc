@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/contact/face_contact.h"
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 
 #include "bar_on_elastic_cylinder.h"
 #include "mpi_environment.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "friction_of_point.h"
 
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "input/read.h"
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 
 #include "scene/messages.h"
 #include "scene/scene.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 #include "results/row_statistics.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"

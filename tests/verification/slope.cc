@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 #include "scene/scene.h"
 #include "verification/rigid_block.h"
 

@@ -2,7 +2,7 @@
 #include "fe/contact/batched_step.h"
 
 #include "base/ranges.h"
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/contact/face_contact.h"
 
-#include "laws/friction_law.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

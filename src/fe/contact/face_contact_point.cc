@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/contact/face_contact_point.h"
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +78,7 @@ namespace sprag
     const auto share            = slides ? sliding_friction(law, speed) : SlidingFriction{};
     state.pressure              = -penalty.normal * state.gap;
     state.traction[0]           = share.coefficient * state.pressure;
-    state.mu                    = slides ? friction_coefficient(law, std::abs(speed)).coefficient : 0.;
+    state.mu                    = share.mu;
     state.slipping              = slides;
     state.history.traction      = state.traction;
     state.history.slip_speed[0] = sliding.speed;

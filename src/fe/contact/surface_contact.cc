@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/contact/surface_contact.h"
 
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include "base/text.h"
 #include "fe/contact/face_contact.h"
 #include "fe/statics/contact_penalties.h"
-#include "laws/friction.h"
 #include "laws/friction_law.h"
 #include "model/contact/joined_history.h"
 #include "model/structure/joined_interfaces.h"
@@ -34,7 +33,7 @@ namespace sprag
     if (falls_with_speed(result.friction))
     {
       const double speed = geometry ? sliding_speed(*geometry, end.x, end.v) : end.v;
-      result.friction    = { CoulombFriction{ friction_coefficient(friction, std::abs(speed)).coefficient } };
+      result.friction    = friction_at_speed(friction, speed);
     }
     if (duration == 0.)
     {

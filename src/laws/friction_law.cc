@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 
 #include "base/errors.h"
 #include "base/text.h"
@@ -105,14 +105,15 @@ namespace sprag
     return false;
   }
 
+  FrictionLaw friction_at_speed(FrictionLaw law, const double speed)
+  {
+    law.law    = CoulombFriction{ friction_coefficient(law, std::abs(speed)).coefficient };
+    law.factor = 1.;
+    return law;
+  }
+
   FrictionLaw step_friction(const FrictionLaw &friction, const double drive_speed)
   {
-    FrictionLaw law = friction;
-    if (law.speed == FrictionSpeed::drive)
-    {
-      law.law    = CoulombFriction{ friction_coefficient(friction, std::abs(drive_speed)).coefficient };
-      law.factor = 1.;
-    }
-    return law;
+    return friction.speed == FrictionSpeed::drive ? friction_at_speed(friction, drive_speed) : friction;
   }
 } // namespace sprag
