@@ -13,7 +13,10 @@ namespace sprag
   {
     // Jobs and settings of MUMPS by their numbers in its users' guide.
     constexpr int initialise = -1, terminate = -2, analyse = 1, decompose = 2, back_substitute = 3;
-    constexpr int schur_complement = 19, sparse_columns = 20, inverse_entries = 30;
+    constexpr int print_level = 4, element_input = 5, ordering = 7, memory_margin = 14, compression = 15, distribution = 18;
+    constexpr int schur_complement = 19, sparse_columns = 20, factors_in_files = 22, columns_together = 27,
+                  parallel_analysis = 28;
+    constexpr int inverse_entries   = 30;
 
     std::string describe_status(const int status)
     {
@@ -33,19 +36,19 @@ namespace sprag
     call(initialise, "set-up");
     for (const int output : { 1, 2, 3 })
       set(output, -1);
-    set(4, 0);
-    set(5, 0);
-    set(22, folder.empty() ? 0 : 1);
+    set(print_level, 0);
+    set(element_input, 0);
+    set(factors_in_files, folder.empty() ? 0 : 1);
     std::strncpy(mumps.ooc_tmpdir, folder.c_str(), sizeof mumps.ooc_tmpdir - 1);
     std::strncpy(mumps.ooc_prefix, "factors", sizeof mumps.ooc_prefix - 1);
     if (kind != MatrixKind::solid_stiffness)
       return;
-    set(7, 4);   // PORD, which is best for long bodies
-    set(14, 30); // per cent of memory that the analysis may have missed
-    set(15, -3); // ordered by nodes
-    set(18, 3);  // entries where they are
-    set(27, 64); // right-hand sides together: more gain little
-    set(28, 1);
+    set(ordering, 4);          // PORD, which is best for long bodies
+    set(memory_margin, 30);    // per cent that the analysis may have missed
+    set(compression, -3);      // ordered by nodes of three displacements
+    set(distribution, 3);      // entries where they are
+    set(columns_together, 64); // more gain little
+    set(parallel_analysis, 1); // sequential
   }
 
   Mumps::~Mumps()
@@ -87,7 +90,7 @@ namespace sprag
   void Mumps::factorise(const dealii::PETScWrappers::SparseMatrix &matrix, std::vector<int> order)
   {
     if (!order.empty())
-      set(7, 1);
+      set(ordering, 1); // in perm_in
     mumps.perm_in = order.data();
     const MatrixRows rows(matrix);
     MatrixEntries entries;
