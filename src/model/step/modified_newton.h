@@ -23,22 +23,22 @@ namespace sprag
     {
     }
 
-    InterfaceSolution solve(DofLoads phi, std::shared_ptr<const StoredJacobian> &kept, dealii::Vector<double> &z,
+    InterfaceSolution solve(DofLoads phi, std::shared_ptr<const StoredJacobian> &jacobian, dealii::Vector<double> &z,
                             const double left_out) const
     {
       constexpr unsigned int most_corrections = 25;
       constexpr unsigned int most_renewals    = 8;
-      constexpr double slow                   = 0.05; ///< ratio of successive residuals that admits the stored tangent
-      constexpr double divergent              = 100.; ///< ratio of successive residuals from which no new tangent is tried
+      constexpr double slow                   = 0.05; ///< ratio of successive residuals that admits the stored Jacobian
+      constexpr double divergent              = 100.; ///< ratio of successive residuals from which no new Jacobian is tried
 
       NewtonResult result;
-      if (kept != nullptr)
-        include(kept->dofs, phi);
+      if (jacobian != nullptr)
+        include(jacobian->dofs, phi);
       move(phi, z);
-      if (kept != nullptr && !factors.use(kept, equations.compliance, weights))
-        kept.reset();
-      auto found = evaluate(z, kept == nullptr ? Request::with_tangent : Request::forces, phi);
-      if (kept == nullptr && !renew(*found.forces, kept))
+      if (jacobian != nullptr && !factors.use(jacobian, equations.compliance, weights))
+        jacobian.reset();
+      auto found = evaluate(z, jacobian == nullptr ? Request::with_tangent : Request::forces, phi);
+      if (jacobian == nullptr && !renew(*found.forces, jacobian))
         return { result, found.forces };
       double by_unit        = 0.; // largest movement by a unit residual
       unsigned int renewals = 0;
@@ -57,7 +57,7 @@ namespace sprag
         result.converged =
             by_unit * found.residual_norm < left_out * (1. - share) * (relative_tolerance * found.penetration + least);
         if (!result.converged && share > slow &&
-            (++renewals > most_renewals || !renew(*contact_at(z, Request::with_tangent).forces, kept)))
+            (++renewals > most_renewals || !renew(*contact_at(z, Request::with_tangent).forces, jacobian)))
           break;
       }
       return { result, found.forces };
@@ -122,42 +122,42 @@ namespace sprag
       return result;
     }
 
-    bool renew(const InterfaceForces &forces, std::shared_ptr<const StoredJacobian> &kept) const
+    bool renew(const InterfaceForces &forces, std::shared_ptr<const StoredJacobian> &jacobian) const
     {
-      kept = std::make_shared<const StoredJacobian>(StoredJacobian{ forces.dofs, forces.tangent });
-      return factors.use(kept, equations.compliance, weights);
+      jacobian = std::make_shared<const StoredJacobian>(StoredJacobian{ forces.dofs, forces.tangent });
+      return factors.use(jacobian, equations.compliance, weights);
     }
 
-    /// Adds to phi what it differs by, and the forces by which the kept tangent answers to that. Returns the largest movement.
+    /// Adds to phi what it differs by, and the forces by which the stored Jacobian answers to that. Returns the largest movement.
     double correct(const ResidualEvaluation &found, DofLoads &phi, dealii::Vector<double> &z) const
     {
-      const auto &dofs = factors.tangent().dofs;
-      dealii::Vector<double> kept_residual(static_cast<unsigned int>(dofs.size()));
-      found.moved.extract_subvector_to(dofs.begin(), dofs.end(), kept_residual.begin());
-      kept_residual = factors.reaction(kept_residual);
+      const auto &dofs = factors.jacobian().dofs;
+      dealii::Vector<double> residual(static_cast<unsigned int>(dofs.size()));
+      found.moved.extract_subvector_to(dofs.begin(), dofs.end(), residual.begin());
+      residual = factors.reaction(residual);
       phi.values += found.difference;
       for (unsigned int i = 0; i < dofs.size(); ++i)
-        phi.values[find_index(dofs[i], phi.dofs)] += kept_residual[i];
+        phi.values[find_index(dofs[i], phi.dofs)] += residual[i];
       return move(phi, z);
     }
   };
 
-  /// Solves the equations of a step in time from a guess of its forces: where the contact keeps its tangent by that, else, and
+  /// Solves the equations of a step in time from a guess of its forces: where the contact keeps its Jacobian by that, else, and
   /// where that does not lead there, by solve_interface(), which leaves none.
   template <bool keeps_tangent, class Contact>
   InterfaceSolution solve_step(const InterfaceEquations &equations, const Contact &contact_at, const StepWeights &weights,
-                               const DofLoads &guess, JacobianFactors &factors, std::shared_ptr<const StoredJacobian> &kept,
+                               const DofLoads &guess, JacobianFactors &factors, std::shared_ptr<const StoredJacobian> &jacobian,
                                dealii::Vector<double> &z)
   {
     unsigned int iterations = 0;
     z                       = equations.free;
     if constexpr (keeps_tangent)
     {
-      const auto result = ModifiedNewton(equations, contact_at, weights, factors).solve(guess, kept, z, left_out_in_time);
+      const auto result = ModifiedNewton(equations, contact_at, weights, factors).solve(guess, jacobian, z, left_out_in_time);
       if (result.newton.converged)
         return result;
       iterations = result.newton.iterations;
-      kept.reset();
+      jacobian.reset();
       z = equations.free;
     }
     add_response(equations.compliance, guess.dofs, guess.values, equations.selected, z);

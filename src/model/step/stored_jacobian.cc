@@ -7,25 +7,22 @@ namespace sprag
 {
   using namespace dealii;
 
-  void serialise(Archive &archive, std::shared_ptr<const StoredJacobian> &kept)
+  void serialise(Archive &archive, std::shared_ptr<const StoredJacobian> &jacobian)
   {
-    bool is_stored = kept != nullptr;
-    archive(is_stored);
-    StoredJacobian tangent;
-    if (is_stored && !archive.reads())
-      tangent = *kept;
-    archive(tangent.dofs, tangent.matrix);
+    bool is_stored = jacobian != nullptr;
+    auto copy      = is_stored ? *jacobian : StoredJacobian();
+    archive(is_stored, copy.dofs, copy.matrix);
     if (archive.reads())
-      kept = is_stored ? std::make_shared<const StoredJacobian>(std::move(tangent)) : nullptr;
+      jacobian = is_stored ? std::make_shared<const StoredJacobian>(std::move(copy)) : nullptr;
   }
 
-  bool JacobianFactors::use(std::shared_ptr<const StoredJacobian> kept, const InterfaceCompliance &compliance,
+  bool JacobianFactors::use(std::shared_ptr<const StoredJacobian> jacobian, const InterfaceCompliance &compliance,
                             const StepWeights &weights)
   {
-    if (factors && stored == kept && dt == weights.dt && alpha_f == weights.alpha_f)
+    if (factors && stored == jacobian && dt == weights.dt && alpha_f == weights.alpha_f)
       return true;
     factors.reset();
-    stored  = std::move(kept);
+    stored  = std::move(jacobian);
     dt      = weights.dt;
     alpha_f = weights.alpha_f;
     try
@@ -39,7 +36,7 @@ namespace sprag
     }
   }
 
-  const StoredJacobian &JacobianFactors::tangent() const
+  const StoredJacobian &JacobianFactors::jacobian() const
   {
     return *stored;
   }

@@ -19,19 +19,19 @@ namespace sprag
     dealii::FullMatrix<double> matrix;
   };
 
-  void serialise(Archive &archive, std::shared_ptr<const StoredJacobian> &kept);
+  void serialise(Archive &archive, std::shared_ptr<const StoredJacobian> &jacobian);
 
   /// Factors of 1 - G A, with the stored Jacobian A and the compliance G of steps of one duration.
   class JacobianFactors
   {
   public:
-    /// Makes the factors of a tangent with the compliance of a step with these weights, unless they are there. Returns whether
-    /// there are any: none where the matrix is singular.
-    bool use(std::shared_ptr<const StoredJacobian> kept, const InterfaceCompliance &compliance, const StepWeights &weights);
+    /// Factorises with the compliance of a step with these weights, unless that was done last. Returns false where the matrix
+    /// is singular.
+    bool use(std::shared_ptr<const StoredJacobian> jacobian, const InterfaceCompliance &compliance, const StepWeights &weights);
 
-    const StoredJacobian &tangent() const;
+    const StoredJacobian &jacobian() const;
 
-    /// Returns InterfaceFactors::reaction() of the tangent.
+    /// Returns InterfaceFactors::reaction() of the stored Jacobian.
     dealii::Vector<double> reaction(const dealii::Vector<double> &displacements) const;
 
   private:
