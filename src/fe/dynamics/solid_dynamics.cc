@@ -23,20 +23,9 @@ namespace sprag
 
   namespace
   {
-    std::vector<const FaceNode<3> *> edge_nodes(const FrictionFace<3> &face)
-    {
-      const auto is_farther = [](const auto &a, const auto &b) { return a.position[2] < b.position[2]; };
-      const double edge     = std::max_element(face.nodes.begin(), face.nodes.end(), is_farther)->position[2];
-      std::vector<const FaceNode<3> *> result;
-      for (const auto &node : face.nodes)
-        if (node.position[2] > edge - 1e-6)
-          result.push_back(&node);
-      return result;
-    }
-
     /// Returns a displacement of one lever, see MirroredStructure.
-    double moved_by(const std::vector<const LeverModes *> &structures, const Vector<double> &coordinates,
-                    const unsigned int index, const unsigned int dof)
+    double lever_displacement(const std::vector<const LeverModes *> &structures, const Vector<double> &coordinates,
+                              const unsigned int index, const unsigned int dof)
     {
       const auto n  = static_cast<unsigned int>(coordinates.size() / structures.size());
       double result = 0.;
@@ -50,23 +39,23 @@ namespace sprag
       return structures.size() == 2 ? MirroredInterface::share() * result : result;
     }
 
-    /// Tells the shape along an edge of the whole face, by the modes of the free lever. What these leave out is the dent of the
+    /// Sets the shape along an edge of the whole face, by the modes of the free lever. What these leave out is the dent of the
     /// layer under the cylinder.
     void follow_edge(const FrictionFace<3> &face, const std::vector<const LeverModes *> &structures, const Eigenmode &mode,
                      ModeShape &shape)
     {
-      const auto nodes = edge_nodes(face);
+      const auto nodes = lines_along(face).back();
       shape.xi.clear();
-      for (const auto *node : nodes)
-        shape.xi.push_back(node->position[0]);
+      for (const unsigned int node : nodes)
+        shape.xi.push_back(face.nodes[node].position[0]);
       for (unsigned int index = 0; index < structures.size(); ++index)
         for (unsigned int i = 0; i < 2; ++i)
         {
           const auto moved = [&](const unsigned int d)
           {
             std::vector<double> values;
-            for (const auto *node : nodes)
-              values.push_back(moved_by(structures, mode.mode.coordinates[i], index, node->dofs[d]));
+            for (const unsigned int node : nodes)
+              values.push_back(lever_displacement(structures, mode.mode.coordinates[i], index, face.nodes[node].dofs[d]));
             return values;
           };
           auto &lever       = shape.levers.at(index);
@@ -83,24 +72,17 @@ namespace sprag
       unsigned int first_node; ///< number of its first node in the whole face; the others follow
     };
 
-    bool intersects(const FaceEdge<3> &edge, const double begin, const double end)
-    {
-      const auto is_before = [](const auto &a, const auto &b) { return a.position[0] < b.position[0]; };
-      const auto ends      = std::minmax_element(edge.nodes.begin(), edge.nodes.end(), is_before);
-      return ends.second->position[0] > begin && ends.first->position[0] < end;
-    }
-
-    /// Returns the part whose elements reach into `begin` ... `end` along xi [mm]. The face's nodes increase along xi. Throws
+    /// Returns the part whose elements reach into `begin` ... `end` along xi [mm]. Nodes increase along xi. Throws
     /// AnalysisError where there is no such element.
     FacePart cut_face(const FrictionFace<3> &face, const double begin, const double end)
     {
       std::vector<std::size_t> chosen;
       auto first = static_cast<unsigned int>(face.nodes.size()), last = 0u;
       for (std::size_t i = 0; i < face.edges.size(); ++i)
-        if (intersects(face.edges[i], begin, end))
+        if (const auto &nodes = face.edges[i].nodes; nodes.back().position[0] > begin && nodes.front().position[0] < end)
         {
           chosen.push_back(i);
-          for (const auto &node : face.edges[i].nodes)
+          for (const auto &node : nodes)
             if (node.index != FaceEdge<3>::held)
             {
               first = std::min(first, node.index);
@@ -159,7 +141,8 @@ namespace sprag
       return result;
     }
 
-    MeshedDynamics facts(const Device &device, const SolidInTime &lever, const unsigned int n_modes)
+    /// Returns all but the model and its displacements.
+    MeshedDynamics describe(const Device &device, const SolidInTime &lever, const unsigned int n_modes)
     {
       MeshedDynamics result;
       static_cast<MassSums &>(result) = lever.modes;
@@ -213,7 +196,7 @@ namespace sprag
     };
     const auto displacement = [&lever, structures, dofs = face_dofs(face)](const unsigned int part, const Motion &motion)
     { return condensed_displacement(lever.body->held(), *structures[part], dofs, make_response(*lever.body), motion); };
-    MeshedDynamics result = facts(device, lever, n_modes);
+    MeshedDynamics result = describe(device, lever, n_modes);
     const auto assemble   = [&](auto all)
     {
       const InterfaceLayout layout = all->layout();
