@@ -50,12 +50,12 @@ namespace sprag
       const double radius = (0.25 * leaf.length * leaf.length + leaf.sagitta * leaf.sagitta) / (2. * leaf.sagitta);
       return { -leaf.clamp_distance - 0.5 * leaf.length, leaf.sagitta - radius };
     }
-  } // namespace
 
-  bool is_bent(const LeafSpring &leaf)
-  {
-    return std::abs(leaf.sagitta) >= 1e-6 * leaf.length;
-  }
+    bool is_bent(const LeafSpring &leaf)
+    {
+      return std::abs(leaf.sagitta) >= 1e-6 * leaf.length;
+    }
+  } // namespace
 
   LeafElements leaf_elements(const LeafSpring &leaf)
   {

@@ -26,13 +26,9 @@ namespace sprag
   /// leaf.thickness is half of the length or more.
   void make_leaf_mesh(const LeafSpring &leaf, const LeafElements &elements, dealii::Triangulation<2> &triangulation);
 
-  /// Returns whether the leaf is bent by more than what the mesh takes for straight.
-  bool is_bent(const LeafSpring &leaf);
-
   /// A leaf spring of finite elements, degree 2, St. Venant-Kirchhoff, in axes of the lever at rest. Its clamp moves as a rigid
   /// body that the hub turns about the pivot, its joint as LeafSpring::end and axial allow: a clamped or guided end moves as one
-  /// without turning, of a pinned one the mean over the section is held, and a loose
-  /// one is free.
+  /// without turning, of a pinned one the mean over the section is held, and a loose one is free.
   class LeafBody
   {
   public:
@@ -45,7 +41,7 @@ namespace sprag
       return elastic;
     }
 
-    /// In equilibrium at a turn of the hub.
+    /// Equilibrium at a turn of the hub.
     struct State
     {
       double turn      = 0.;               ///< [rad]

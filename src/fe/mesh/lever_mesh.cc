@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "fe/body/body_properties.h"
 #include "fe/body/elastic_body.h"
-#include "fe/mesh/mesh_look.h"
+#include "fe/mesh/mesh_checks.h"
 #include "fe/mesh/solid_file.h"
 #include "scene/contact_estimates.h"
 #include "scene/device.h"

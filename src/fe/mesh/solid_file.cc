@@ -6,7 +6,7 @@
 #include "fe/body/body_properties.h"
 #include "fe/mesh/geometry_script.h"
 #include "fe/mesh/lever_mesh.h"
-#include "fe/mesh/mesh_look.h"
+#include "fe/mesh/mesh_checks.h"
 #include "scene/device.h"
 #include "scene/lever_shape.h"
 

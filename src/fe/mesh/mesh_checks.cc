@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "fe/mesh/mesh_look.h"
+#include "fe/mesh/mesh_checks.h"
 
 #include "base/text.h"
 #include "fe/body/body_properties.h"
@@ -104,8 +104,7 @@ namespace sprag
 
     /// Twins of a node and nodes between those of a neighbour: where they lie, nothing is joined.
     template <int dim>
-    void look_for_loose_nodes(const Triangulation<dim> &triangulation, const MeshGroups &groups,
-                              std::vector<std::string> &mistakes)
+    void check_loose_nodes(const Triangulation<dim> &triangulation, const MeshGroups &groups, std::vector<std::string> &mistakes)
     {
       double shortest = std::numeric_limits<double>::max();
       for (const auto &cell : triangulation.active_cell_iterators())
@@ -178,8 +177,8 @@ namespace sprag
 
     /// The plate is held by its sensors.
     template <int dim>
-    void look_for_floating_parts(const Triangulation<dim> &triangulation, const MeshGroups &groups,
-                                 std::vector<std::string> &mistakes)
+    void check_floating_parts(const Triangulation<dim> &triangulation, const MeshGroups &groups,
+                              std::vector<std::string> &mistakes)
     {
       for (const auto &part : find_parts(triangulation))
       {
@@ -198,7 +197,7 @@ namespace sprag
     }
 
     template <int dim>
-    void look_for_reversed_face(const Triangulation<dim> &triangulation, std::vector<std::string> &mistakes)
+    void check_reversed_face(const Triangulation<dim> &triangulation, std::vector<std::string> &mistakes)
     {
       for (const auto &[side, cell] : find_boundary(triangulation))
         if (side->boundary_id() == boundary_id::friction_face && !(cell->center()[1] > side->center()[1]))
@@ -215,9 +214,9 @@ namespace sprag
   std::vector<std::string> mesh_mistakes(const MeshGroups &groups, const Triangulation<dim> &triangulation)
   {
     std::vector<std::string> mistakes;
-    look_for_loose_nodes(triangulation, groups, mistakes);
-    look_for_floating_parts(triangulation, groups, mistakes);
-    look_for_reversed_face(triangulation, mistakes);
+    check_loose_nodes(triangulation, groups, mistakes);
+    check_floating_parts(triangulation, groups, mistakes);
+    check_reversed_face(triangulation, mistakes);
     return mistakes;
   }
 

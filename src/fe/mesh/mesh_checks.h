@@ -5,7 +5,7 @@
 
 namespace sprag
 {
-  /// Looks at a lever's mesh that the user brought, read by these groups. Returns a line for each of these faults:
+  /// Checks the mesh of a lever from a file of the user, read by these groups. Returns a line for each of these faults:
   /// nodes that lie on the side of another element without being its corners, as where parts touch and are not joined; parts
   /// that nothing holds; elements of the friction face on the cylinder's side of it.
   template <int dim>
