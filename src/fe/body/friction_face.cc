@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/body/friction_face.h"
 
+#include "base/ranges.h"
 #include "fe/body/end_face.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -208,24 +209,29 @@ namespace sprag
   }
 
   template <int dim>
-  std::vector<std::vector<unsigned int>> lines_along(const FrictionFace<dim> &face)
+  std::vector<std::vector<unsigned int>> lines_along(const std::vector<Point<dim>> &places)
   {
     std::map<long, std::vector<unsigned int>> by_zeta;
-    for (unsigned int i = 0; i < face.nodes.size(); ++i)
-      by_zeta[dim == 3 ? std::lround(1e6 * face.nodes[i].position[dim - 1]) : 0].push_back(i);
+    for (unsigned int i = 0; i < places.size(); ++i)
+      by_zeta[dim == 3 ? std::lround(1e6 * places[i][dim - 1]) : 0].push_back(i);
     std::vector<std::vector<unsigned int>> result;
-    for (auto &line : by_zeta)
+    for (auto &[zeta, line] : by_zeta)
     {
-      auto &nodes = line.second;
-      std::sort(nodes.begin(), nodes.end(),
-                [&](const unsigned int a, const unsigned int b)
-                { return face.nodes[a].position[0] < face.nodes[b].position[0]; });
-      if (nodes.size() >= 3)
-        result.push_back(std::move(nodes));
+      std::sort(line.begin(), line.end(),
+                [&](const unsigned int a, const unsigned int b) { return places[a][0] < places[b][0]; });
+      result.push_back(std::move(line));
     }
     return result;
   }
 
+  template <int dim>
+  std::vector<std::vector<unsigned int>> lines_along(const FrictionFace<dim> &face)
+  {
+    return filtered(lines_along(mapped(face.nodes, &FaceNode<dim>::position)), [](const auto &line) { return line.size() >= 3; });
+  }
+
+  template std::vector<std::vector<unsigned int>> lines_along(const std::vector<Point<2>> &);
+  template std::vector<std::vector<unsigned int>> lines_along(const std::vector<Point<3>> &);
   template std::vector<std::vector<unsigned int>> lines_along(const FrictionFace<2> &);
   template std::vector<std::vector<unsigned int>> lines_along(const FrictionFace<3> &);
   template FrictionFace<2> find_friction_face(const Mapping<2> &, const DoFHandler<2> &, const AffineConstraints<double> &,

@@ -77,8 +77,12 @@ namespace sprag
     return result;
   }
 
-  /// Returns the nodes of a face line by line, ordered along the first axis: in three dimensions a line for each place along the
-  /// last axis that has three or more, in a plane one.
+  /// Returns the indices of places line by line, ordered along the first axis: in three dimensions a line for each place along
+  /// the last axis, in a plane one.
+  template <int dim>
+  std::vector<std::vector<unsigned int>> lines_along(const std::vector<dealii::Point<dim>> &places);
+
+  /// Returns those of the nodes of a face, lines of three or more.
   template <int dim>
   std::vector<std::vector<unsigned int>> lines_along(const FrictionFace<dim> &face);
 

@@ -6,9 +6,6 @@
 
 #include <deal.II/numerics/rtree.h>
 
-#include <cmath>
-#include <map>
-
 namespace sprag
 {
   /// The elements by the boxes around their nodes.
@@ -127,20 +124,11 @@ namespace sprag
   template <int dim>
   void FaceElements<dim>::find_lines()
   {
-    std::map<long, Indices> by_zeta;
-    for (unsigned int q = 0; q < points.size(); ++q)
-      by_zeta[dim == 3 ? std::lround(1e6 * points[q].position[dim - 1]) : 0].push_back(q);
+    lines = lines_along(mapped(points, &Point::position));
     point_lines.resize(points.size());
-    for (auto &entry : by_zeta)
-    {
-      auto &line       = entry.second;
-      const auto by_xi = [&](const unsigned int a, const unsigned int b)
-      { return points[a].position[0] < points[b].position[0]; };
-      std::sort(line.begin(), line.end(), by_xi);
-      for (const unsigned int point : line)
-        point_lines[point] = static_cast<unsigned int>(lines.size());
-      lines.push_back(std::move(line));
-    }
+    for (unsigned int line = 0; line < lines.size(); ++line)
+      for (const unsigned int point : lines[line])
+        point_lines[point] = line;
   }
 
   template <int dim>

@@ -69,19 +69,12 @@ namespace sprag
   /// Between lines of points with the same zeta, which all have the same xi.
   void FieldFace::join_lines()
   {
-    std::map<long, std::vector<unsigned int>> by_zeta;
-    for (unsigned int i = 0; i < points.size(); ++i)
-      by_zeta[std::lround(1e6 * points[i][2])].push_back(i);
-    const std::vector<unsigned int> *before = nullptr;
-    for (auto &[zeta, line] : by_zeta)
-    {
-      std::sort(line.begin(), line.end(), [&](const auto a, const auto b) { return points[a][0] < points[b][0]; });
-      for (std::size_t i = 1; before != nullptr && i < std::min(line.size(), before->size()); ++i)
-        cells.insert(cells.end(), { (*before)[i - 1], (*before)[i], line[i], line[i - 1] });
-      if (before == nullptr)
-        first_line = line;
-      before = &line;
-    }
+    const auto lines = lines_along(points);
+    if (!lines.empty())
+      first_line = lines.front();
+    for (std::size_t k = 1; k < lines.size(); ++k)
+      for (std::size_t i = 1; i < std::min(lines[k].size(), lines[k - 1].size()); ++i)
+        cells.insert(cells.end(), { lines[k - 1][i - 1], lines[k - 1][i], lines[k][i], lines[k][i - 1] });
   }
 
   Tensor<1, 3> FieldFace::moved(const unsigned int point, const Vector<double> &displacement) const
