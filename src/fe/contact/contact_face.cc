@@ -93,27 +93,27 @@ namespace sprag
       return (1. - share) * point_value(*before) + share * point_value(*after);
     }
 
-    /// Friction at a point under pressure.
-    struct PointFriction
+    /// Friction over pressure at a point.
+    struct FrictionRatio
     {
-      double ratio = 0.; ///< of friction to pressure
-      double mu    = 0.;
+      double ratio = 0.;
+      double mu    = 0.; ///< largest ratio
     };
 
-    /// Returns the friction of every point; those without pressure take it from one beside them.
-    std::vector<PointFriction> frictions(const std::vector<FacePointState<2>> &points)
+    /// Returns the ratio of every point; those without pressure take it from one beside them.
+    std::vector<FrictionRatio> friction_ratios(const std::vector<FacePointState<2>> &points)
     {
-      const auto is_closed      = [](const FacePointState<2> &point) { return point.pressure > 0.; };
-      const auto point_friction = [](const FacePointState<2> &point) {
-        return PointFriction{ point.traction[0] / point.pressure, point.mu };
+      const auto is_closed   = [](const FacePointState<2> &point) { return point.pressure > 0.; };
+      const auto point_ratio = [](const FacePointState<2> &point) {
+        return FrictionRatio{ point.traction[0] / point.pressure, point.mu };
       };
       const auto first = std::find_if(points.begin(), points.end(), is_closed);
-      auto friction    = first == points.end() ? PointFriction() : point_friction(*first);
-      std::vector<PointFriction> result;
+      auto friction    = first == points.end() ? FrictionRatio() : point_ratio(*first);
+      std::vector<FrictionRatio> result;
       for (const auto &point : points)
       {
         if (is_closed(point))
-          friction = point_friction(point);
+          friction = point_ratio(point);
         result.push_back(friction);
       }
       return result;
@@ -124,7 +124,7 @@ namespace sprag
     std::vector<double> recovered_traction(const FrictionFace<2> &face, const FaceEvaluation<2> &found,
                                            const std::vector<double> &pressure)
     {
-      const auto friction = frictions(found.points);
+      const auto friction = friction_ratios(found.points);
       const auto area     = [&](const std::size_t i) { return face.points[found.points[i].index].weight; };
       std::vector<double> result;
       double lacking = 0.;

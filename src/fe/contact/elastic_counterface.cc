@@ -60,10 +60,10 @@ namespace sprag
 
   void ElasticCounterface::begin_element(const unsigned int element_index)
   {
-    element = element_index;
-    first   = face.elements[element].begin;
-    nodal   = FaceElements<2>::nodal(face.elements[element], *places.end.displacement);
-    touched = false;
+    element    = element_index;
+    first      = face.elements[element].begin;
+    nodal      = FaceElements<2>::nodal(face.elements[element], *places.end.displacement);
+    has_forces = false;
     pair.find_facets(element, end.at, end.element_facets);
   }
 
@@ -124,11 +124,11 @@ namespace sprag
   }
 
   /// Prepares the sums of an element before its first forces.
-  void ElasticCounterface::touch()
+  void ElasticCounterface::prepare_sums()
   {
-    if (touched)
+    if (has_forces)
       return;
-    touched               = true;
+    has_forces            = true;
     const auto is_opposed = [](const Facet &facet) { return facet.opposed; };
     at_face_end           = !std::all_of(end.element_facets.facets.begin(), end.element_facets.facets.end(), is_opposed);
     if (places.balanced_at_end())
@@ -163,7 +163,7 @@ namespace sprag
 
   void ElasticCounterface::step(FacePointState<2> &state, const ContactHistory &history, const FaceStep &step, ContactSums &sums)
   {
-    touch();
+    prepare_sums();
     const double R    = properties.radius;
     const bool at_end = places.balanced_at_end();
     const auto &last  = facet_at_end(state.index);
@@ -255,7 +255,7 @@ namespace sprag
 
   void ElasticCounterface::slide(FacePointState<2> &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums)
   {
-    touch();
+    prepare_sums();
     const double R    = properties.radius;
     const auto &facet = facet_at_end(state.index);
     find_rows(end.element_facets, facet, end.at, coordinates, R, end_rows);
@@ -310,13 +310,13 @@ namespace sprag
 
   void ElasticCounterface::end_element(ContactSums &sums)
   {
-    if (touched)
+    if (has_forces)
       add_element(interface_coordinates(), values, tangent, friction, sums);
   }
 
   FacePointRows ElasticCounterface::rows(const FacePointState<2> &state)
   {
-    touch();
+    prepare_sums();
     const auto &facet = facet_at_end(state.index);
     find_rows(end.element_facets, facet, end.at, coordinates, properties.radius, end_rows);
     return rows_on_dofs(facet);

@@ -64,7 +64,7 @@ namespace sprag
     std::array<unsigned int, 2> neighbours(unsigned int point) const;
     double distance(unsigned int from, unsigned int to) const;
     double slope(unsigned int point) const;
-    void touch();
+    void prepare_sums();
 
     const Facet &facet_at_end(const unsigned int point) const
     {
@@ -97,7 +97,7 @@ namespace sprag
     unsigned int element = 0;
     unsigned int first   = 0;       ///< of its points
     FaceElements<2>::Nodal nodal{}; ///< its displacements at the end
-    bool touched     = false;
+    bool has_forces  = false;
     bool at_face_end = false;
     PairCoordinates coordinates;
     FacetRows end_rows, balance_rows, at_left, at_right;

@@ -76,7 +76,7 @@ namespace sprag
     element              = element_index;
     at_end               = FaceElements<2>::nodal(face.elements[element], *places.end.displacement);
     element_begin_points = places.moves() ? &points_at_begin(element) : nullptr;
-    touched              = false;
+    has_forces           = false;
     values               = {};
     tangent              = {};
     friction             = {};
@@ -217,7 +217,7 @@ namespace sprag
 
   void RigidCounterface::add_force(const FaceElements<2>::Point &point, const Tensor<1, 4> &force)
   {
-    touched = true;
+    has_forces = true;
     values += point.weight * spread(point, force);
   }
 
@@ -243,7 +243,7 @@ namespace sprag
 
   void RigidCounterface::end_element(ContactSums &sums)
   {
-    if (touched)
+    if (has_forces)
       add_element(interface_coordinates(), values, tangent, friction, sums);
   }
 

@@ -108,7 +108,7 @@ namespace sprag
 
     // State of the present element.
     const std::vector<BeginPoint> *element_begin_points = nullptr; ///< none where beginning and end are one
-    bool touched                                        = false;
+    bool has_forces                                     = false;
     Local values;
     LocalMatrix tangent;
     FrictionParts<LocalMatrix> friction;

@@ -35,12 +35,12 @@ namespace sprag
       return { mean.value + delay * (law.excess(end) - law.excess(begin)), mean.derivative + delay * law.excess_stiffness(end) };
     }
 
-    double opening(const PerLever &turns)
+    double symmetric_turn(const PerLever &turns)
     {
       return 0.5 * (turns[0] + turns[1]);
     }
 
-    double swing(const PerLever &turns)
+    double antisymmetric_turn(const PerLever &turns)
     {
       return 0.5 * (turns[0] - turns[1]);
     }
@@ -67,14 +67,14 @@ namespace sprag
     }
   }
 
-  /// Returns moments by what `excess`(law, turn) finds, turn(turns) being that of a spring: of joined springs the opening, with a
-  /// moment that swings.
+  /// Returns moments by what `excess`(law, turn) finds, turn(turns) being that of a spring: of joined springs the symmetric turn,
+  /// with an antisymmetric moment.
   template <class Excess>
   HubSpringExcess::Moments HubSpringExcess::find_moments(const Excess &excess, const double moment,
                                                          const double moment_stiffness) const
   {
     Moments result;
-    const auto opened = joined ? excess(laws.front(), opening) : MeanExcess{};
+    const auto opened = joined ? excess(laws.front(), symmetric_turn) : MeanExcess{};
     for (unsigned int i = 0; i < layout.levers; ++i)
       if (joined)
       {
@@ -91,12 +91,12 @@ namespace sprag
     return result;
   }
 
-  HubSpringExcess::Moments HubSpringExcess::at(const PerLever &turns, const bool swing_is_held) const
+  HubSpringExcess::Moments HubSpringExcess::moments_at(const PerLever &turns, const bool swing_is_held) const
   {
     const auto excess = [&](const MomentLaw &law, const auto &turn) {
       return MeanExcess{ law.excess(turn(turns)), law.excess_stiffness(turn(turns)) };
     };
-    return find_moments(excess, coupling_stiffness * swing(turns), swing_is_held ? coupling_stiffness : 0.);
+    return find_moments(excess, coupling_stiffness * antisymmetric_turn(turns), swing_is_held ? coupling_stiffness : 0.);
   }
 
   void HubSpringExcess::add_forces(const PerLever &begin, const PerLever &end, const StepWeights &weights,
@@ -105,7 +105,9 @@ namespace sprag
     const auto excess = [&](const MomentLaw &law, const auto &turn)
     { return delayed_excess(law, turn(begin), turn(end), weights.delay()); };
     if (is_active())
-      add(find_moments(excess, coupling_stiffness * (weights.stiffness() * swing(end) + weights.alpha_f * swing(begin)),
+      add(find_moments(excess,
+                       coupling_stiffness *
+                           (weights.stiffness() * antisymmetric_turn(end) + weights.alpha_f * antisymmetric_turn(begin)),
                        coupling_stiffness * weights.stiffness()),
           forces);
   }
@@ -113,7 +115,7 @@ namespace sprag
   void HubSpringExcess::add_forces(const PerLever &turns, const bool swing_is_held, InterfaceForces &forces) const
   {
     if (is_active())
-      add(at(turns, swing_is_held), forces);
+      add(moments_at(turns, swing_is_held), forces);
   }
 
   void HubSpringExcess::add_work(const PerLever &begin, const PerLever &end, const StepWeights &weights, StepWork &work) const
@@ -122,9 +124,9 @@ namespace sprag
     { return weights.delay() * (law.excess(to) - law.excess(from)) * (to - from); };
     if (joined)
     {
-      const double change = swing(end) - swing(begin);
-      work.algorithmic +=
-          2. * (excess_work(laws.front(), opening(begin), opening(end)) - weights.delay() * coupling_stiffness * change * change);
+      const double change = antisymmetric_turn(end) - antisymmetric_turn(begin);
+      work.algorithmic += 2. * (excess_work(laws.front(), symmetric_turn(begin), symmetric_turn(end)) -
+                                weights.delay() * coupling_stiffness * change * change);
       return;
     }
     for (unsigned int i = 0; i < layout.levers; ++i)
@@ -134,7 +136,8 @@ namespace sprag
   double HubSpringExcess::energy(const PerLever &turns) const
   {
     if (joined)
-      return 2. * laws.front().excess_energy(opening(turns)) - coupling_stiffness * swing(turns) * swing(turns);
+      return 2. * laws.front().excess_energy(symmetric_turn(turns)) -
+             coupling_stiffness * antisymmetric_turn(turns) * antisymmetric_turn(turns);
     double total = 0.;
     for (unsigned int i = 0; i < layout.levers; ++i)
       total += laws[i].excess_energy(turns[i]);
@@ -146,7 +149,7 @@ namespace sprag
   {
     if (!is_active())
       return;
-    const auto excess = at(turns, true);
+    const auto excess = moments_at(turns, true);
     for (unsigned int i = 0; i < layout.levers; ++i)
       for (unsigned int j = 0; j < layout.levers; ++j)
         stiffness(find_index(layout.rotation(i), dofs), find_index(layout.rotation(j), dofs)) += excess.tangent[i][j];

@@ -59,7 +59,7 @@ namespace sprag
 
     template <class Excess>
     Moments find_moments(const Excess &excess, double moment, double moment_stiffness) const;
-    Moments at(const PerLever &turns, bool swing_is_held) const;
+    Moments moments_at(const PerLever &turns, bool swing_is_held) const;
     void add(const Moments &moments, InterfaceForces &forces) const;
 
     const InterfaceLayout layout;
