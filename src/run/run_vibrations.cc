@@ -271,7 +271,7 @@ namespace sprag
       const auto found = timed(timer, search_phase, [&] { return model.vibrations(*slide, in_contact, scene.stability.modes); });
       auto modes       = reported(found, scene.stability.modes);
       if (dynamics.solid)
-        tell_motion(structure_modes(*dynamics.solid, count_levers(undamped)), modes);
+        find_across_shares(structure_modes(*dynamics.solid, count_levers(undamped)), modes);
       if (!options.quiet)
         print_modes(std::cout, modes);
       RunEnd result;
@@ -300,7 +300,7 @@ namespace sprag
         result.meta = meshed_entries(dynamics);
         auto modes  = reported(found.modes, scene.stability.modes);
         if (dynamics.solid)
-          tell_motion(structure_modes(*dynamics.solid, count_levers(held)), modes);
+          find_across_shares(structure_modes(*dynamics.solid, count_levers(held)), modes);
         result.groups = { mode_group(modes, dynamics) };
         if (found.slide)
         {

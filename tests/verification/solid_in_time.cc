@@ -197,7 +197,7 @@ TEST(SolidInTime, TheFirstTwistingModeIsThatOfABar)
   const auto slide    = dynamics.model().hold(held_drive(scene), ContactFriction::sliding);
   ASSERT_TRUE(slide);
   auto modes = dynamics.model().vibrations(*slide, false, 40);
-  tell_motion({ &dynamics.solid->modes }, modes);
+  find_across_shares({ &dynamics.solid->modes }, modes);
   const auto twists = std::find_if(modes.begin(), modes.end(), [](const auto &mode) { return mode.across.twisting > 0.5; });
   ASSERT_NE(twists, modes.end());
   const auto &lever = scene.lever;

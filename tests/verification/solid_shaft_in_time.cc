@@ -131,7 +131,7 @@ namespace
     const auto slide    = dynamics.model().hold(held_drive(scene), ContactFriction::none);
     EXPECT_TRUE(slide);
     auto modes = dynamics.model().vibrations(*slide, in_contact, 10);
-    tell_motion({ &dynamics.solid->modes }, modes);
+    find_across_shares({ &dynamics.solid->modes }, modes);
     return modes;
   }
 

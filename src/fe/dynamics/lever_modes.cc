@@ -229,7 +229,7 @@ namespace sprag
   template LeverModes lever_modes(const ElasticBody<2> &, const Response &, const LeverInertia &, double, unsigned int);
   template LeverModes lever_modes(const ElasticBody<3> &, const Response &, const LeverInertia &, double, unsigned int);
 
-  void tell_motion(const std::vector<const LeverModes *> &structures, std::vector<Eigenmode> &vibrations)
+  void find_across_shares(const std::vector<const LeverModes *> &structures, std::vector<Eigenmode> &vibrations)
   {
     for (auto &vibration : vibrations)
     {

@@ -32,7 +32,7 @@ namespace sprag
   LeverModes lever_modes(const ElasticBody<dim> &body, const Response &response, const LeverInertia &inertia,
                          double spring_stiffness, unsigned int n);
 
-  /// Tells how vibrations in space move, as far as the modes' own motions tell it. `structures`: the modes of each structure
-  /// whose coordinates a vibration has, one after the other.
-  void tell_motion(const std::vector<const LeverModes *> &structures, std::vector<Eigenmode> &vibrations);
+  /// Finds the shares of vibrations in space in motion as in a plane, in twisting and along the cylinder's axis, as the means of
+  /// the modes' own. `structures`: the modes of each structure whose coordinates a vibration has, one after the other.
+  void find_across_shares(const std::vector<const LeverModes *> &structures, std::vector<Eigenmode> &vibrations);
 } // namespace sprag

@@ -137,7 +137,7 @@ namespace sprag
       LeverFrame result       = lever_frame(device, layout, lever.modes.total_mass);
       result.sensor_stiffness = lever.sensors->stiffness();
       result.observe_sensors  = [is_half = lever.body->is_half()](const std::vector<double> &forces, Row &row)
-      { tell_sides(forces, is_half, row); };
+      { observe_sensors(forces, is_half, row); };
       return result;
     }
 

@@ -58,7 +58,7 @@ namespace sprag
     }
   }
 
-  void tell_sides(const std::vector<double> &forces, const bool is_half, Row &row)
+  void observe_sensors(const std::vector<double> &forces, const bool is_half, Row &row)
   {
     row.sensor_forces.clear();
     for (std::size_t i = 0; i < forces.size(); i += is_half ? 1 : 2)

@@ -52,5 +52,5 @@ namespace sprag
 
   /// Writes into a row the forces of the places in space, and their parts on either side of the plate. Each of a half stands for
   /// both.
-  void tell_sides(const std::vector<double> &forces, bool is_half, Row &row);
+  void observe_sensors(const std::vector<double> &forces, bool is_half, Row &row);
 } // namespace sprag

@@ -442,7 +442,7 @@ namespace sprag
     else
     {
       contact.observe_contact(found, row);
-      tell_sides(sensor_forces, own_body.is_half(), row);
+      observe_sensors(sensor_forces, own_body.is_half(), row);
       row[Column::indentation] = std::get<SolidStructure>(own_structure)
                                      .indentation(lever, properties.layer_thickness, state.coordinates, state.forces, row);
     }
