@@ -171,6 +171,23 @@ TEST(CriticalValues, GrowthOfAValueIsTheLargestOfItsPlacesBothWays)
     EXPECT_EQ(std::max(largest.at(value).at(1.), largest.at(value).at(-1.)), growth_rate);
 }
 
+// Moving back at 5 times mu(v), model A flutters up to x = 17.4 mm, slides stably to 18.6 mm, and jams beyond.
+TEST(CriticalValues, FindBothLimitsOfAnotherKindBetweenTheValuesTried)
+{
+  CheckedSlide slide;
+  const auto check_at = [&](const double value)
+  {
+    slide.kind = value < 0.3 ? SlideKind::flutter : value < 0.4 ? SlideKind::stable : SlideKind::jammed;
+    return slide;
+  };
+  const auto found = search_kinds({ "Stability/Position", 0., 1., 2 }, { 1e-3, 0 }, { check_at });
+  ASSERT_EQ(found.changes.size(), 2u);
+  EXPECT_EQ(found.changes[0].above, SlideKind::stable);
+  EXPECT_NEAR(found.changes[0].value, 0.3, 1e-3);
+  EXPECT_EQ(found.changes[1].above, SlideKind::jammed);
+  EXPECT_NEAR(found.changes[1].value, 0.4, 1e-3);
+}
+
 // Model B flutters from 11.822 to 14.514 mm: between the values tried, of which none does.
 TEST(CriticalValues, IslandBetweenTheValuesTriedIsFoundWhereGrowthPeaks)
 {

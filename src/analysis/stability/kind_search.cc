@@ -241,19 +241,22 @@ namespace sprag
         }
       }
 
-      /// Locates the change between two values of different kinds. Where values between cannot be checked, it is known no better
-      /// than these.
-      void narrow(Tried low, Tried high, const double tolerance)
+      /// Locates the changes between two values of different kinds: of another kind found between them both limits. Where values
+      /// between cannot be checked, a change is known no better than these.
+      void narrow(const Tried &begin, const Tried &end, const double tolerance)
       {
-        if (low.kind() == high.kind())
+        if (begin.kind() == end.kind())
           return;
+        Tried low = begin, high = end;
         if (checks.alike && (low.kind() == SlideKind::stable) != (high.kind() == SlideKind::stable))
           narrow_limit(low, high, tolerance);
         else
           narrow_bracket(low, high, tolerance, [&](const double value) { return checked_at(value); });
+        narrow(begin, low, tolerance);
         const bool worsens = is_worse(*high.slide, *low.slide);
         result.changes.push_back({ (worsens ? low : high).value, low.kind(), high.kind(), *(worsens ? high : low).slide,
                                    std::isnan(low.slide->mu) ? high.slide->mu : low.slide->mu });
+        narrow(high, end, tolerance);
       }
     };
   } // namespace
