@@ -29,6 +29,7 @@ namespace sprag
       SlideStability slide;
       std::optional<Growth> growth;
       std::optional<Settled> settled;
+      std::vector<ErrorEstimate> errors;     ///< of that
       double settled_begin = 0.;             ///< of the rows written of the vibration [s]
       std::vector<ContinuationPoint> points; ///< of the continuation
       std::optional<Coexistence> coexistence;
@@ -201,6 +202,7 @@ namespace sprag
       Progress &progress;
       SpragSlip &found;
       Warnings &warnings;
+      const bool estimates_errors;
       const SpragSlipSettings &settings = scene.sprag_slip;
       Rows rows                         = { writer, *found.slide.slide };
       const double dt                   = choose_step(watched_mode(found.slide), settings);
@@ -216,6 +218,8 @@ namespace sprag
             {
               measure();
               follow();
+              if (estimates_errors)
+                found.errors = estimate_cycle_errors(model, run, *found.slide.slide, *found.settled, times.period);
               if (settings.continuation > 0)
                 continue_along();
             },
@@ -297,13 +301,15 @@ namespace sprag
           const auto drive = held_drive(scene);
           found.slide      = check_slide(dynamics.model(), drive, checked_modes(scene));
           require_slide(found, drive.x);
-          Study{ scene, dynamics.model(), writer, progress, found, warnings }.carry_out();
+          const bool estimates_errors = options.in_memory == nullptr;
+          Study{ scene, dynamics.model(), writer, progress, found, warnings, estimates_errors }.carry_out();
           check_ledger(scene, found.ledger);
         },
         [&](const std::string &status)
         {
           progress.finish();
-          writer.finish(status, { sprag_slip_summary(found), {}, sprag_slip_groups(found, scene.sprag_slip) }, warnings);
+          writer.finish(status, { sprag_slip_summary(found), {}, sprag_slip_groups(found, scene.sprag_slip), found.errors },
+                        warnings);
         });
   }
 } // namespace sprag

@@ -173,6 +173,22 @@ class JammedSlide(ProgramTest):
         self.assertIn("no slide in contact", found["status"])
 
 
+class LimitCycle(RunTest):
+    """A beam of 7.5 mm, whose vibration repeats itself, and one of 6 mm, whose vibration does not."""
+
+    def run_lever(self, depth):
+        settings = [word for change in (f"Lever/Depth={depth}", "Sprag slip/Continuation=0") for word in ("--set", change)]
+        done = sprag(SOURCE / "params" / "onset-a.prm", *settings, "--output", self.output, "--overwrite")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def test_tells_its_error(self):
+        self.assertRegex(self.run_lever(7.5), r"errors, estimated +cycle_amplitude_P [\d.]+ %, cycle_frequency [\d.]+ %\n")
+        with h5py.File(self.output / "result.h5", "r") as file:
+            self.assertTrue(1e-3 < file["accuracy/cycle_amplitude_P"][()] < 2e-2)
+        self.assertRegex(self.run_lever(6), r"not estimated +cycle_amplitude_P, cycle_frequency: .*P does not repeat itself")
+
+
 class Damping(RunTest):
     """A beam of 15 mm moving out at x = 40 mm, which damping of the contact makes grow."""
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/limit_cycle/limit_cycle.h"
+#include "input/read.h"
 #include "scene/scene.h"
+#include "support/params_folder.h"
 #include "verification/held_slides.h"
 
 #include <algorithm>
@@ -35,6 +37,30 @@ namespace
     scene.sprag_slip.steps_per_period = per_period;
     return scene;
   }
+
+  std::vector<ErrorEstimate> compute_errors(const JudgedSlide &checked, const HeldRun &run, const Settled &found)
+  {
+    const double period = checked.step() * checked.scene.sprag_slip.steps_per_period;
+    return estimate_cycle_errors(checked.dynamics.model(), run, checked.slide(), found, period);
+  }
+
+  /// Compares the estimated errors of a cycle in 128 steps a period with those against 1024.
+  void expect_true_errors(const Scene &scene)
+  {
+    const JudgedSlide checked(scene);
+    HeldRun run(checked.dynamics.model(), checked.step());
+    const auto found  = after_kick(checked, 1e-3, run);
+    const auto errors = compute_errors(checked, run, found);
+    ASSERT_EQ(found.kind, Settling::cycle);
+    const auto finely      = after_kick(JudgedSlide(with_steps(scene, 1024)), 1e-3).window;
+    const double amplitude = std::abs(found.window.amplitude_P / finely.amplitude_P - 1.);
+    const double frequency = std::abs(found.window.frequency / finely.frequency - 1.);
+    EXPECT_GT(amplitude, 1e-3);
+    EXPECT_GT(total_error(errors[0]), 0.5 * amplitude);
+    EXPECT_LT(total_error(errors[0]), 3. * amplitude);
+    EXPECT_GT(total_error(errors[1]), 0.5 * frequency);
+    EXPECT_LT(total_error(errors[1]), 3. * frequency);
+  }
 } // namespace
 
 // An attractor does not depend on where it is approached from, nor on the step: 128 a period err by 2 %/100 of the frequency, and
@@ -56,6 +82,31 @@ TEST(LimitCycle, IsTheSameFromBelowAndAboveAndInShorterSteps)
   }
   // P swings from 0: its amplitude is half of its peak; without contact the indentation is none.
   EXPECT_GT(below.window.amplitude_P, 14. / 2.);
+}
+
+TEST(LimitCycle, TellsItsErrorSlow)
+{
+  const std::vector<std::vector<std::string>> devices = {
+    { "Lever/Depth=7.5" },
+    { "Lever/Depth=8" },
+    { "Lever/Depth=7", "Friction/Law=cork on aluminium" },
+    { "Lever/Depth=11", "Stability/Position=40", "Stability/Direction=forward" },
+    { "Lever/Depth=6.5", "Geometry/Interface offset=35" },
+  };
+  for (const auto &device : devices)
+  {
+    SCOPED_TRACE(device.back());
+    expect_true_errors(read_scene((params_folder() / "onset-a.prm").string(), device));
+  }
+}
+
+TEST(LimitCycle, SaysInWordsWhyAnIrregularOneHasNoError)
+{
+  const JudgedSlide checked(backward_a(ModelType::beam, 6.));
+  HeldRun run(checked.dynamics.model(), checked.step());
+  for (const auto &error : compute_errors(checked, run, after_kick(checked, 1e-3, run)))
+    EXPECT_NE(error.unknown.find("P does not repeat itself"), std::string::npos) << error.quantity;
+  EXPECT_TRUE(compute_errors(checked, run, { Settling::slide, {} }).empty());
 }
 
 // Friction and damping take what the turning cylinder gives, over whole cycles and with everything that opens and sticks.

@@ -3,6 +3,7 @@
 
 #include "analysis/stability/stability.h"
 #include "analysis/transient/held_run.h"
+#include "analytic/error_estimate.h"
 #include "base/choices.h"
 #include "scene/vibration_settings.h"
 
@@ -131,6 +132,13 @@ namespace sprag
   /// Continues about a held slide until P repeats itself and three windows agree, in amplitudes and frequency within 1 % and
   /// in the share of open time within 0.01, or the vibration is small and shrinks. Throws as HeldRun::step().
   Settled settle(HeldRun &run, const HeldSlide &slide, const SettlingTimes &times, const RowSink &sink);
+
+  /// Estimates the errors of cycle_amplitude_P and cycle_frequency by finite steps: the cycle is followed on in half the steps
+  /// from where the run ended, and twice the change counts. Contact that opens or sticks within a step errs in first order. None
+  /// of a motion that comes to rest; the reason in words of one that does not repeat itself. `period`: see SettlingTimes. Throws
+  /// as HeldRun::step().
+  std::vector<ErrorEstimate> estimate_cycle_errors(DynamicModel &model, const HeldRun &run, const HeldSlide &slide,
+                                                   const Settled &settled, double period);
 
   /// The slide and the vibrations found at one x.
   struct ContinuationPoint
