@@ -223,6 +223,10 @@ namespace sprag
 
     void joint(const Scene &scene, Rules &rules)
     {
+      rules.need(scene.pair.contact_ratio == 1. || is_reduced(scene.analysis.model), "Mirrored pair/Contact ratio",
+                 { "Mirrored pair/Type", "Analysis/Model" },
+                 "must be 1 but with Analysis/Model = rigid or beam: both levers have one mesh, and the closed form has no "
+                 "stiffness of the contact");
       const auto &leaf = scene.spring.leaf;
       const bool free  = scene.pair.joint == SpringJoint::free;
       const bool leafs = scene.spring.type == SpringType::leaf;

@@ -135,7 +135,7 @@ namespace sprag
       "Contact/Maximum augmentations", "Contact/Tangential stiffness",
       // So do the support, the cylinder's path, friction and spring of a second lever.
       "Support/Type", "Support/Mass", "Support/Stiffness", "Support/Damping", "Mirrored pair/Cylinder offset",
-      "Mirrored pair/Friction ratio", "Mirrored pair/Spring ratio",
+      "Mirrored pair/Friction ratio", "Mirrored pair/Spring ratio", "Mirrored pair/Contact ratio",
       // Steps in time, where bases are kept, what is written.
       "Time/Step", "Time/Tolerance", "Time/Spectral radius", "Condensed/Cache", "Output/Fields", "Output/Field interval"
     };

@@ -297,6 +297,7 @@ namespace sprag
       section.number("Cylinder offset", settings.cylinder_offset, any_number(), "mm");
       section.number("Friction ratio", settings.friction_ratio, above(0.));
       section.number("Spring ratio", settings.spring_ratio, above(0.));
+      section.number("Contact ratio", settings.contact_ratio, above(0.));
     }
 
     void calibration(Section section, CalibrationSettings &settings)

@@ -148,6 +148,7 @@ namespace sprag
     double cylinder_offset = 0.; ///< of the cylinder's path from the mirror plane towards the first lever [mm]
     double friction_ratio  = 1.; ///< mu of the second lever over that of the first, > 0
     double spring_ratio    = 1.; ///< k of the second lever's spring over that of the first, > 0
+    double contact_ratio   = 1.; ///< P of the second lever's contact over that of the first at the same indentation, > 0
   };
 
   /// Selects the cylinder: rigid, or an elastic ring on a rigid shaft of the inner radius.

@@ -17,6 +17,7 @@ namespace sprag
     result.geometry = lever_geometry(device, lever);
     result.friction = lever_friction(device, lever);
     result.spring   = lever_spring(device, lever);
+    result.contact  = lever_contact(device, lever);
     if (lever == 1)
       result.cylinder.tilt = -result.cylinder.tilt;
     return result;
@@ -46,6 +47,16 @@ namespace sprag
       result.ratio *= 2. * ratio / (1. + ratio);
     else if (lever == 1)
       result.ratio *= ratio;
+    return result;
+  }
+
+  ContactSettings lever_contact(const Device &device, const unsigned int lever)
+  {
+    ContactSettings result = device.contact;
+    const double ratio     = lever == 1 ? device.pair.contact_ratio : 1.;
+    result.stiffness *= ratio;
+    if (result.tangential_stiffness)
+      *result.tangential_stiffness *= ratio;
     return result;
   }
 

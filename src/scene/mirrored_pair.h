@@ -2,6 +2,7 @@
 #pragma once
 
 #include "laws/friction_law.h"
+#include "scene/discretisation_settings.h"
 #include "scene/lever.h"
 
 namespace sprag
@@ -13,7 +14,7 @@ namespace sprag
 
   /// Returns the device that a lever of a full pair stands in, in axes mirrored for the second (lever = 1): an offset of the
   /// cylinder is an offset of the pivot the other way, a tilt of its axis towards the first lever is one away from the second,
-  /// friction and spring are the lever's own. A single lever stands in the device itself.
+  /// friction, spring and contact are the lever's own. A single lever stands in the device itself.
   Device lever_device(const Device &device, unsigned int lever);
 
   // These parts are what differs in it, beside the tilt.
@@ -22,6 +23,9 @@ namespace sprag
 
   /// Returns a lever's spring. On a free joint that is one of two alike which do what both do in series.
   RotationalSpring lever_spring(const Device &device, unsigned int lever);
+
+  /// Returns the contact of a lever, the whole of whose stiffness is its own: that in stick as well.
+  ContactSettings lever_contact(const Device &device, unsigned int lever);
 
   /// Returns the inclination of a lever without moment, which is that of ideal contact at x = 0 with the cylinder in the mirror
   /// plane [rad].

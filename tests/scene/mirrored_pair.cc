@@ -45,6 +45,14 @@ TEST(MirroredPair, OnlyLeafSpringsHaveAJointWithMass)
   EXPECT_EQ(find_mistakes(leaf, { "Mirrored pair/Joint mass=1e-4" }), Messages{});
 }
 
+TEST(MirroredPair, OnlyReducedLeversHaveContactsThatDiffer)
+{
+  expect_refused(full, { "Mirrored pair/Contact ratio=2" },
+                 "Mirrored pair/Contact ratio = 2: must be 1 but with Analysis/Model = rigid or beam: both levers have one mesh, "
+                 "and the closed form has no stiffness of the contact");
+  EXPECT_EQ(find_mistakes(in_time, { "Mirrored pair/Contact ratio=2" }), Messages{});
+}
+
 TEST(MirroredPair, TheCylinderStaysBetweenTheLevers)
 {
   // (R - e)/2 = 5.2 mm.

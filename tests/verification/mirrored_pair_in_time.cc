@@ -115,6 +115,34 @@ TEST(MirroredPairInTime, LeversOnUnequalSpringsDoWhatEachDoesAlone)
   }
 }
 
+// The same of contacts: the damping and the stiffness in stick of each follow from its own stiffness. The run starts with the
+// slip of the first lever.
+TEST(MirroredPairInTime, LeversOnUnequalContactsDoWhatEachDoesAlone)
+{
+  constexpr double ratio = 0.3;
+  for (const auto model : { ModelType::rigid, ModelType::beam })
+  {
+    SCOPED_TRACE(testing::Message() << "model " << static_cast<int>(model));
+    const auto stiff = with_fixed_step(around_a_reversal(in_time(model_a(), model)), 5e-5);
+    auto soft        = stiff;
+    soft.contact.stiffness *= ratio;
+    auto both               = paired(stiff, SpringJoint::held);
+    both.pair.contact_ratio = ratio;
+    const auto pair         = run_any_in_time(both).rows;
+    const auto first        = run_any_in_time(stiff).rows;
+    const auto second       = run_any_in_time(soft).rows;
+    ASSERT_EQ(pair.size(), second.size());
+    double difference = 0.;
+    for (std::size_t i = 0; i < pair.size(); ++i)
+    {
+      EXPECT_NEAR(pair[i][Column::P], first[i][Column::P], 1e-7 * 30.) << "row " << i;
+      EXPECT_NEAR(pair[i].second_value(Column::P), second[i][Column::P], 1e-5 * 30.) << "row " << i;
+      difference = std::max(difference, std::abs(first[i][Column::P] - second[i][Column::P]));
+    }
+    EXPECT_GT(difference, 1.);
+  }
+}
+
 // A rigid lever on a contact of stiffness k_c: (k + K_c)/J symmetric, K_c/J swinging, K_c with the change of direction in it.
 TEST(MirroredPairInTime, SwingingLacksTheSpringOfAFreeJointAlone)
 {

@@ -15,15 +15,17 @@ namespace sprag
     std::unique_ptr<PointContact> make_contact(const Device &device, const BeamMesh &mesh, const InterfaceLayout &layout,
                                                const unsigned int lever)
     {
-      const auto reference = contact_reference(device);
       const Device own     = lever_device(device, lever);
+      Device first         = device; // to whose largest P the damping refers
+      first.contact        = own.contact;
+      const auto reference = contact_reference(first);
       PointContactProperties properties;
       properties.geometry            = own.geometry;
       properties.mesh                = mesh;
       properties.layout              = layout;
       properties.rest_inclination    = rest_inclination(device);
       properties.neutral_axis_offset = neutral_axis_offset(device);
-      properties.normal              = { device.contact.stiffness, device.contact.exponent };
+      properties.normal              = { own.contact.stiffness, own.contact.exponent };
       properties.damping             = reference.relaxation * reference.stiffness;
       properties.tangential          = reference.tangential;
       properties.friction            = own.friction;
