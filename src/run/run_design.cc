@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/design/design_search.h"
+#include "analysis/design/design_speed.h"
 #include "base/errors.h"
 #include "base/ranges.h"
 #include "base/system/interrupt.h"
@@ -15,6 +16,7 @@
 #include "run/run.h"
 #include "scene/scene.h"
 
+#include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
@@ -40,9 +42,10 @@ namespace sprag
       bool tried_without_each = false; ///< whether `stopping` is known
       std::vector<Proposal> front;     ///< of two aims
       std::vector<ModelCheck> checks;
-      std::string unmet;            ///< why there is no lever, sentences; empty: there is one
-      std::size_t evaluations = 0;  ///< of the closed form
-      double search_seconds   = 0.; ///< CPU time of all searches
+      std::optional<DesignSpeed> speed; ///< of the lever found, if it is one that can slide
+      std::string unmet;                ///< why there is no lever, sentences; empty: there is one
+      std::size_t evaluations = 0;      ///< of the closed form
+      double search_seconds   = 0.;     ///< CPU time of all searches
     };
 
     std::string unit_text(const std::string &unit)
@@ -206,6 +209,31 @@ namespace sprag
       return values;
     }
 
+    /// Says which demands the lever misses at another speed.
+    std::string other_missed_text(const DesignSettings &design, const DesignSpeed &speed)
+    {
+      const auto text = [&](const MissedDemand &missed)
+      {
+        const auto &demand = design.demanded[missed.demand];
+        return '\'' + demand.text + "' (" + four_digits(missed.value) + term_unit(design, demand.term) + ')';
+      };
+      return speed.broken_rule.empty() ? boost::algorithm::join(mapped(speed.missed, text), ", ")
+                                       : "the rule that " + speed.broken_rule;
+    }
+
+    /// Returns whether it misses them by more than levers on a bound of their demands do at any other speed.
+    bool misses_much(const DesignSpeed &speed)
+    {
+      constexpr double much = 0.05;
+      return !speed.broken_rule.empty() || std::any_of(speed.missed.begin(), speed.missed.end(),
+                                                       [](const MissedDemand &missed) { return missed.violation > much; });
+    }
+
+    std::string other_speed_text(const DesignSpeed &speed)
+    {
+      return speed.has_table ? "the table's own over its base" : "a tenth";
+    }
+
     std::vector<Entry> design_summary(const DesignSettings &design, const DesignFindings &findings)
     {
       std::vector<Entry> entries;
@@ -220,6 +248,13 @@ namespace sprag
       for (const auto &info : design_quantities())
         if (const double value = best_known({ info.quantity, 0 }, lever, findings); !std::isnan(value))
           entries.push_back({ to_identifier(info.name), value, info.unit, info.definition });
+      if (const auto &speed = findings.speed)
+        append<Entry>(entries, { { "speed", speed->speed },
+                                 { "mu", speed->mu },
+                                 { "other_speed", speed->other },
+                                 { "other_speed_is", other_speed_text(*speed) },
+                                 { "other_mu", speed->other_mu },
+                                 { "other_missed", other_missed_text(design, *speed) } });
       append<Entry>(entries, { { "meets_demands", findings.unmet.empty() ? 1. : 0. },
                                { "distance", findings.found->distance },
                                { "evaluations", static_cast<double>(findings.evaluations) },
@@ -454,9 +489,14 @@ namespace sprag
       }
     };
 
-    /// Adds the warnings of the last check model's scene, and one if the table checked another lever before it.
+    /// Adds the warnings of the last check model's scene, one if the table checked another lever before it, and one if a demand
+    /// is missed at another speed.
     void add_warnings(const DesignSettings &design, const DesignFindings &findings, Warnings &warnings)
     {
+      if (const auto &speed = findings.speed; speed && findings.unmet.empty() && misses_much(*speed))
+        warnings.push_back(make_warning("mu_of_one_speed", { four_digits(speed->mu), four_digits(speed->speed),
+                                                             four_digits(speed->other), other_speed_text(*speed),
+                                                             four_digits(speed->other_mu), other_missed_text(design, *speed) }));
       if (findings.checks.empty())
         return;
       const auto &last = findings.checks.back();
@@ -516,7 +556,12 @@ namespace sprag
         [&](const std::string &status)
         {
           if (findings.found)
-            writer.append(design_row(findings.found->lever));
+          {
+            const auto &lever = findings.found->lever;
+            writer.append(design_row(lever));
+            if (lever.rule.violation < 0.)
+              findings.speed = design_speed(variant(scene, design_overrides(scene, lever)), worst_known(design, findings));
+          }
           for (const auto &lever : findings.front)
             writer.append(design_row(lever));
           write_scenes(scene, options, findings);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/design/design_search.h"
+#include "analysis/design/design_speed.h"
 #include "base/errors.h"
 #include "input/read.h"
 #include "scene/closed_form.h"
@@ -43,6 +44,44 @@ namespace
     return mu * k * std::tan(theta) / (l * l);
   }
 } // namespace
+
+// Model A at 112 mm/s, where its cork has mu = 0.73, and at a tenth of that.
+TEST(Design, AtATenthOfTheSpeedTheLeverDoesWhatItDoesOnASlowerDrive)
+{
+  const TemporaryFolder folder;
+  const auto scene_at = [&](const std::string &speed)
+  {
+    return read_scene(folder.write("scene.prm", ""), { "Analysis/Type=design", "Drive/Speed=" + speed,
+                                                       "Design/Demands=largest force <= 1e3; damping slope >= 0.08" });
+  };
+  const Scene scene = scene_at("112"), slow = scene_at("11.2");
+  const auto quantities = lever_quantities(scene), slowly = lever_quantities(slow);
+  const auto found =
+      design_speed(scene, { quantities[DesignQuantity::largest_force], quantities[DesignQuantity::damping_slope] });
+  EXPECT_NEAR(found.other, 11.2, 1e-9);
+  EXPECT_FALSE(found.has_table);
+  EXPECT_GT(found.mu, 1.2 * found.other_mu);
+  EXPECT_NEAR(found.other_mu, closed_form(slow, 0., 11.2).mu, 1e-12);
+  ASSERT_EQ(found.missed.size(), 1u);
+  EXPECT_EQ(found.missed[0].demand, 1u);
+  EXPECT_NEAR(found.missed[0].value, slowly[DesignQuantity::damping_slope], 1e-6);
+}
+
+TEST(Design, OfATableTheOtherSpeedIsThatOfItsOwnMotion)
+{
+  const TemporaryFolder folder;
+  const Scene scene = read_scene(folder.write("scene.prm", ""),
+                                 { "Analysis/Type=design", "Isolation/Mass=0.5", "Isolation/Stiffness=9.67", "Isolation/Levers=8",
+                                   "Isolation/Base amplitude=10", "Isolation/Base frequency=0.7",
+                                   "Design/Demands=relative amplitude <= 100; friction ratio >= 0.01" });
+  auto quantities   = lever_quantities(scene);
+  add_table_quantities(scene, scene.design, quantities);
+  const double amplitude = quantities[DesignQuantity::relative_amplitude];
+  const auto found       = design_speed(scene, { amplitude, quantities[DesignQuantity::friction_ratio] });
+  EXPECT_TRUE(found.has_table);
+  EXPECT_NEAR(found.other, 2. * M_PI * 0.7 * amplitude, 1e-9 * found.other);
+  EXPECT_TRUE(found.missed.empty());
+}
 
 TEST(Design, SteepestLeverWithinARatioOfSlopes)
 {

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "analysis/design/design_speed.h"
+
+#include "analysis/design/design_problem.h"
+#include "analytic/harmonic_balance.h"
+#include "base/unknown.h"
+#include "scene/closed_form.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    /// Returns the largest speed of the table over a base that vibrates [mm/s]; NaN where the design has no such table, or no
+    /// motion that the levers hold.
+    double table_speed(const Scene &lever)
+    {
+      const auto &isolation = lever.isolation;
+      if (!asks_for(lever.design, is_table_quantity) || isolation.base != BaseMotionType::harmonic)
+        return unknown;
+      const double omega = 2. * M_PI * isolation.base_frequency;
+      double speed       = unknown;
+      for (const auto &motion : harmonic_balance(isolation_system(lever), isolation.base_amplitude, omega))
+        speed = std::fmax(speed, omega * motion.amplitude);
+      return speed > 0. ? speed : unknown;
+    }
+
+    double changed(const double value, const double by_closed_form, const double there)
+    {
+      return by_closed_form > 0. && there > 0. ? value * there / by_closed_form : value + there - by_closed_form;
+    }
+  } // namespace
+
+  DesignSpeed design_speed(const Scene &lever, const std::vector<double> &values)
+  {
+    constexpr double slower = 0.1;
+    const auto mu_at        = [&](const double speed) { return closed_form(lever, 0., speed).mu; };
+    const double speed      = lever.drive.peak_speed();
+    const double by_table   = table_speed(lever);
+    const bool has_table    = !std::isnan(by_table);
+    const double other      = has_table ? by_table : slower * speed;
+    DesignSpeed result      = { speed, mu_at(speed), other, mu_at(other), has_table, {}, {} };
+    Scene there             = lever;
+    if (result.mu > 0.)
+      there.friction.factor *= result.other_mu / result.mu;
+    if (const auto rule = hardest_rule(there, false); !(rule.violation < 0.))
+    {
+      result.broken_rule = rule.text;
+      return result;
+    }
+    const auto by_closed_form = lever_quantities(lever), at_other = lever_quantities(there);
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      const auto &demand = lever.design.demanded[i];
+      if (demand.term.quantity == DesignQuantity::parameter)
+        continue;
+      const double value  = changed(values[i], by_closed_form[demand.term.quantity], at_other[demand.term.quantity]);
+      const double missed = demand_violation(demand, value);
+      if (demand_violation(demand, values[i]) <= 1e-9 && missed > 1e-9)
+        result.missed.push_back({ i, value, missed });
+    }
+    return result;
+  }
+} // namespace sprag
