@@ -403,6 +403,26 @@ namespace sprag
       return missing;
     }
 
+    /// Warns of the warnings that the runs and the reference have, each name with the number of its runs.
+    Warnings warnings_of_runs(const StudyRecords &records)
+    {
+      std::map<std::string, unsigned int> counts;
+      std::size_t warned = 0;
+      for (const auto &[run, record] : records)
+      {
+        warned += record.warnings.empty() ? 0 : 1;
+        for (const auto &name : record.warnings)
+          ++counts[name];
+      }
+      std::vector<std::string> texts;
+      for (const auto &[name, count] : counts)
+        texts.push_back(name + " in " + std::to_string(count));
+      if (texts.empty())
+        return {};
+      return { make_warning("runs_with_warnings",
+                            { std::to_string(warned), std::to_string(records.size()), boost::algorithm::join(texts, ", ") }) };
+    }
+
     void write_study(const Scene &scene, const RunOptions &options, const StudyRuns &runs, const StudyRecords &records,
                      const std::string &status, const std::vector<Entry> &meta, Warnings &warnings)
     {
@@ -421,6 +441,7 @@ namespace sprag
         groups.push_back(trade_group(findings));
         groups.push_back(reference_group(*findings.reference));
       }
+      append(warnings, warnings_of_runs(records));
       writer.finish(status, { study_summary(findings), meta, groups }, warnings);
       if (!options.quiet)
         print_study(std::cout, findings, options.verbose);

@@ -115,6 +115,16 @@ class StudyTest(RunTest):
         self.assertIn("coarse_contact", texts["warnings"][0])
         np.testing.assert_array_equal(np.isfinite(table["loop_area"]), [True, False, False, False])
         self.assertIn("refused: Analysis/Maximum deviation = 0, Mesh/Face size = 300", done.stdout)
+        # All but the refused one warn, and the study of them.
+        self.assertEqual(done.stdout.splitlines()[-1], "completed, 1 warning: runs_with_warnings")
+        with h5py.File(self.output / "result.h5", "r") as file:
+            self.assertRegex(file["warnings/runs_with_warnings"].asstr()[()], r"^3 of 4 runs have warnings: .*coarse_contact in 3\b")
+
+    def test_warnings_of_runs_fail_a_study_that_is_told_so(self):
+        vary = {**COARSE, "Study/Vary": "Friction/Factor = 0.8, 1", "Analysis/Warnings": "error"}
+        done = sprag(STATIC, "--output", self.output, *settings(vary))
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr.splitlines()[-1], "^sprag: Analysis/Warnings = error: 1 warning: runs_with_warnings. The first says: 2 of 2 runs")
 
     def test_a_step_that_is_given_is_fixed(self):
         short = {"Drive/Start": "45", "Drive/Stroke": "45.6", "Drive/Reversal duration": "2e-3"}
