@@ -69,8 +69,12 @@ namespace sprag
       if (thickness > 0. && penetration > largest_layer_penetration * thickness)
         warnings.push_back(make_warning("overlap_of_layer", { mm(penetration), place(*deepest), per_cent(penetration / thickness),
                                                               per_cent(largest_layer_penetration) }));
+      // A bare lever has no layer to compress: in its contact it yields by the height of the cylinder's arc over Hertz's width.
+      const double width = estimated_contact_width(scene, peak[Column::P]);
+      const double compression =
+          thickness > 0. ? peak[Column::indentation] : width * width / (8. * scene.geometry.cylinder_radius);
       const double at_peak  = peak[Column::penetration];
-      const double approach = at_peak + peak[Column::indentation];
+      const double approach = at_peak + compression;
       if (at_peak > largest_approach_penetration * approach)
         warnings.push_back(make_warning(
             "soft_penalty", { mm(at_peak), place(peak), per_cent(at_peak / approach), per_cent(largest_approach_penetration) }));
