@@ -43,15 +43,15 @@ namespace sprag
       return line.size() <= 2 * half_line ? line : line.substr(0, half_line) + " [...] " + line.substr(line.size() - half_line);
     }
 
-    /// The content of a file must neither flood the terminal nor reach it as control characters.
-    std::string terminal_text(const std::string &message)
+    /// Returns the first lines of a message, without control characters.
+    std::string terminal_text(const std::string &message, const std::function<std::string(const std::string &)> &line_text)
     {
       std::istringstream lines(message);
       std::string text;
       std::size_t count = 0;
       for (std::string line; std::getline(lines, line);)
         if (++count <= most_lines)
-          text += (text.empty() ? "" : "\n") + printable(shortened(line));
+          text += (text.empty() ? "" : "\n") + printable(line_text(line));
       return count > most_lines ? text + "\nand " + std::to_string(count - most_lines) + " more" : text;
     }
   } // namespace
@@ -65,13 +65,16 @@ namespace sprag
 
   int report_error(const InputError &error)
   {
-    std::cerr << coloured(terminal_text(error.what()), STDERR_FILENO, error_colour) << '\n';
+    // A message quotes a file, whose content must not flood the terminal.
+    std::cerr << coloured(terminal_text(error.what(), shortened), STDERR_FILENO, error_colour) << '\n';
     return bad_input;
   }
 
   int report_error(const std::string &failure)
   {
-    std::cerr << coloured("sprag: " + terminal_text(failure), STDERR_FILENO, error_colour) << '\n';
+    // What a design or a solver has to say may be long: cut, it would say something else.
+    const auto whole = [](const std::string &line) { return line; };
+    std::cerr << coloured("sprag: " + terminal_text(failure, whole), STDERR_FILENO, error_colour) << '\n';
     return analysis_failed;
   }
 

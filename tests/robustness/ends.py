@@ -155,6 +155,18 @@ class Crashed(EndsTest):
                 shutil.rmtree(self.output)
 
 
+class Unmet(EndsTest):
+    def test_what_stops_a_design_is_told_whole(self):
+        design = {"Free": "Rotational spring/Stiffness = 10 N m/rad ... 200 N m/rad; Geometry/Cylinder radius = 50 ... 60; Geometry/Pivot distance = 150 ... 190; Geometry/Pivot height = 0 ... 5", "Demands": "damping slope >= 0.3; largest force <= 5 N; slope ratio = 1 +- 0.1; jamming margin >= 0.6"}
+        done = self.run_to_end("--set", "Analysis/Type=design", *(word for name, text in design.items() for word in ("--set", f"Design/{name}={text}")))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        with h5py.File(self.output / "result.h5", "r") as file:
+            status = file["summary/status"].asstr()[()]
+        self.assertGreater(len(status), 400)
+        self.assertEqual(done.stderr, f"sprag: {status}\n")
+        self.assertIn(status, (self.output / "run.log").read_text(encoding="utf-8"))
+
+
 class Refused(EndsTest):
     def test_too_fine_a_mesh(self):
         for options in ((), ("--set", "Analysis/Type=transient", "--set", "Analysis/Model=condensed")):
