@@ -28,13 +28,9 @@ def design_pictures(result):
 
 
 def free_parameters(result):
-    """Name, smallest and largest value of each."""
-    found = []
-    for part in result.parameter("Design", "Free").split(";"):
-        name, bounds = part.split("=")
-        low, high = (float(bound) for bound in bounds.split("..."))
-        found.append((" ".join(name.split()), low, high))
-    return found
+    """Name, smallest and largest value of each, in the unit of its column."""
+    free = result.groups.get("free", {"parameter": np.array([]), "from": [], "to": []})
+    return list(zip(free["parameter"].astype(str), free["from"], free["to"]))
 
 
 def aim(result, name):

@@ -264,10 +264,19 @@ namespace sprag
       return entries;
     }
 
-    /// Returns the groups /judgements, a row for each lever proposed to a check model, and /demands.
+    /// Returns the groups /free, a row for each free parameter, /demands, and /judgements, a row for each lever proposed to a
+    /// check model.
     std::vector<Group> design_groups(const DesignSettings &design, const DesignFindings &findings)
     {
-      std::vector<Group> groups;
+      const auto &free          = design.free_parameters;
+      std::vector<Group> groups = {
+        { "free",
+          { make_dataset(free, { "from", "", "smallest value admitted, in the parameter's unit" },
+                         [](const FreeParameter &parameter) { return parameter.from; }),
+            make_dataset(free, { "to", "", "largest value admitted" },
+                         [](const FreeParameter &parameter) { return parameter.to; }) },
+          { make_texts(free, "parameter", "that was free", [](const FreeParameter &parameter) { return parameter.name; }) } }
+      };
       if (findings.found && !design.demanded.empty())
         groups.push_back(demand_group(design, findings));
       if (!findings.checks.empty())

@@ -21,7 +21,7 @@ PARAMETERS = """subsection Analysis
 end
 
 subsection Design
-  set Free       = Geometry/Cylinder radius = 20 ... 80; Rotational spring/Stiffness = 1e4 ... 2e5
+  set Free       = Geometry/Cylinder radius = 2 cm ... 8 cm; Rotational spring/Stiffness = 10 N m/rad ... 200 N m/rad
   set Demands    = damping slope = 0.1 +- 0.001; largest force <= 40; growth rate <= 0
   set Aim        = minimise Geometry/Cylinder radius
   set Second aim = minimise largest force
@@ -47,6 +47,10 @@ def make_design(folder, points=6, judges=0):
         put(table, "largest_force", 50 - 20 * share, "N")
         put(table, "damping_slope", 0.1 + 0 * share, "N/mm")
         put(table, "largest_violation", -1e-3 + 0 * share)
+        free = file.create_group("free")
+        free["parameter"] = [b"Geometry/Cylinder radius", b"Rotational spring/Stiffness"]
+        put(free, "from", np.array([20.0, 1e4]))
+        put(free, "to", np.array([80.0, 2e5]))
         file.create_group("summary")
         file.create_group("meta")
         if judges:

@@ -243,6 +243,8 @@ class ScenesTest(RunTest):
 
     def check_design(self, file):
         self.assertEqual(file["summary/meets_demands"][()], 1)
+        for name, low, high in zip(file["free/parameter"].asstr()[:], file["free/from"], file["free/to"]):
+            self.assertTrue(low <= file["summary"][name.lower().replace("/", "_").replace(" ", "_")][()] <= high, name)
         self.assertTrue((file["table/largest_violation"][:] <= 1e-6).all())
         found = sorted(Path(file.filename).parent.glob("design-*.prm"))
         self.assertEqual(len(found), len(file["table/largest_violation"]))
