@@ -113,7 +113,16 @@ namespace sprag
                  { "Analysis/Type", "Analysis/Model", "Drive/Profile" },
                  "must reach the largest x measured, " + mm(most) + ", where a model corrects the closed form");
       if (has_x)
+      {
+        // Rows at rest lie about 0, and of a stroke to both sides the positive half serves.
+        const auto lowest   = std::min_element(measured.x.begin(), measured.x.end()) - measured.x.begin();
+        const auto negative = std::count_if(measured.x.begin(), measured.x.end(), [](const double x) { return x < 0.; });
+        rules.need(2 * negative <= static_cast<std::ptrdiff_t>(measured.rows()), "Identification/Table", {},
+                   "x must be >= 0, it is negative in " + std::to_string(negative) + " of " + std::to_string(measured.rows()) +
+                       " rows, down to " + mm(least) + " in row " + std::to_string(lowest + 1) +
+                       ": give x the other sign or another origin");
         return;
+      }
       rules.need(measured.time.back() <= 1.001 * scene.drive.duration(), "Identification/Table",
                  { "Analysis/Type", "Drive/Profile", "Drive/Start", "Drive/Stroke", "Drive/Speed", "Drive/Cycles" },
                  "goes on to " + rounded_text(measured.time.back()) + " s, the drive ends at " +

@@ -136,6 +136,14 @@ TEST_F(ReadIdentification, TellsWhatIsWrongWithTheTable)
                      text += number_text(10. * i) + ", 1\n";
                    return text;
                  }());
+  expect_mistake("x must be >= 0, it is negative in 29 of 30 rows, down to -29 mm in row 30: give x the other sign",
+                 []
+                 {
+                   std::string text = "x [mm], P [N]\n";
+                   for (int i = 0; i < 30; ++i)
+                     text += number_text(-i) + ", 1\n";
+                   return text;
+                 }());
   expect_mistake("the drive ends at",
                  []
                  {
