@@ -15,7 +15,11 @@ STABLE, UNSTABLE = "#0072b2", "#d55e00"
 
 def device_svg(result, parameters):
     """Draws the device at its worst x if known, else the largest; of a design the best lever. A verdict over the stroke is drawn along the
-    path of the cylinder's centre. Returns None without contact."""
+    path of the cylinder's centre. Returns None without contact, and where another damper takes the place of the levers."""
+    texts = {name: parameters[name].text for name in ("Analysis/Type", "Study/Type", "Isolation/Damper") if name in parameters}
+    analysis = texts.get("Study/Type") if texts.get("Analysis/Type") == "study" else texts.get("Analysis/Type")
+    if analysis == "isolation" and texts.get("Isolation/Damper") != "lever":
+        return None
 
     def number(name):
         found = result.summary.get(slug(name))
