@@ -10,6 +10,7 @@ from several import distinguish, headlines_in_common, said
 from sketch import device_svg
 from sprag.parameters import differing, parse, scene_text, set_apart, slug
 from sprag.results import NotAResult
+from study import find_quantities, varied_parameters
 
 # The sketch of the device leaves these out, where a parameter is not as usual.
 NOT_SKETCHED = {
@@ -18,6 +19,7 @@ NOT_SKETCHED = {
     ("Rotational spring/Type", "torsional"): "the leaf spring",
     ("Mirrored pair/Type", "half"): "the second lever",
 }
+MOST_RUNS = 20  # rows of a study's table
 TEMPLATE = Path(__file__).with_name("report.html")
 
 
@@ -52,6 +54,7 @@ def about(result, name, parameters, device):
         "type": result.type,
         "status": status(result),
         "answer": answer(result),
+        "runs": study_runs(result) if result.type == "study" else None,
         "device": device,
         "left_out": [words for (name, usual), words in NOT_SKETCHED.items() if name in parameters and parameters[name].text != usual],
         "warnings": [(text, text.more.get("effect", ""), text.more.get("remedy", "")) for text in warnings(result)],
@@ -72,6 +75,16 @@ def answer(result):
     within = bool(result.parameter("Design", "Tolerances"))
     texts = [f"{value:.4g}" + (f", at worst {worst:.4g}" if within else "") for value, worst in zip(demands["value"], demands.get("worst", demands["value"]))]
     return [*lever, *zip(demands["demand"], texts), *lines]
+
+
+def study_runs(result):
+    """The first rows of a study's table: what was varied, the columns that say most, outcome and warnings."""
+    head = lambda name, unit: name if unit == "1" else f"{name} [{unit}]"
+    columns = {head(one.name, one.unit): one.texts for one in varied_parameters(result)}
+    columns.update({head(name, result.units[name]): [f"{value:.4g}" for value in result.table[name]] for name in find_quantities(result)})
+    columns.update({name: result.groups["runs"][name].astype(str) for name in ("outcome", "warnings") if name in result.groups["runs"]})
+    rows = list(zip(*columns.values()))
+    return {"heads": list(columns), "rows": rows[:MOST_RUNS], "more": max(0, len(rows) - MOST_RUNS)}
 
 
 def warnings(result):

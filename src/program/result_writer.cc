@@ -11,6 +11,7 @@
 #include "program/run_options.h"
 #include "report/console_summary.h"
 #include "report/report.h"
+#include "report/summary_lines.h"
 #include "results/entries.h"
 #include "scene/scene.h"
 
@@ -92,11 +93,13 @@ namespace sprag
       end.meta.push_back({ "chosen_settings", options.chosen });
     sprag::append(end.meta, process_entries(timer));
     describe_entries("fact", "", end.meta);
-    const auto answer = answer_lines(scene.analysis.type, end.summary);
+    const auto answer = answer_lines(scene.analysis.type, end.summary, end.answer);
     end.groups.push_back(answer);
     file->finish(end.summary, end.meta, warnings, end.groups, accuracy_entries(end.accuracy));
     if (options.verbose)
     {
+      for (const auto &[label, text] : end.answer)
+        summary_line(std::cout, label, text);
       print_summary(std::cout, end.summary);
       print_accuracy(std::cout, end.accuracy);
     }

@@ -6,6 +6,7 @@
 #include "base/phase_timer.h"
 #include "program/output_folder.h"
 #include "program/run_options.h"
+#include "report/console_summary.h"
 #include "results/result_file.h"
 #include "results/warning.h"
 
@@ -23,6 +24,7 @@ namespace sprag
     std::vector<Entry> meta             = {}; ///< facts of the run's own; program, libraries and costs are added to them
     std::vector<Group> groups           = {};
     std::vector<ErrorEstimate> accuracy = {};
+    std::vector<AnswerLine> answer      = {}; ///< before the lines of the summary
   };
 
   /// The file result.h5 of a run of any type, from its first row to its summary, or what a run in memory keeps instead.

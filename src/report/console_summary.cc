@@ -126,9 +126,9 @@ namespace sprag
     return { warning };
   }
 
-  Group answer_lines(const AnalysisType type, const std::vector<Entry> &summary)
+  Group answer_lines(const AnalysisType type, const std::vector<Entry> &summary, const std::vector<AnswerLine> &first)
   {
-    std::vector<std::string> labels, texts;
+    auto labels = mapped(first, &AnswerLine::label), texts = mapped(first, &AnswerLine::text);
     int left_out        = 0;
     const Entry *before = nullptr;
     for (const auto &entry : summary)

@@ -24,9 +24,16 @@ namespace sprag
   /// Warns where the estimated error of a quantity exceeds the target of the scene.
   Warnings target_warnings(const AccuracySettings &accuracy, const std::vector<ErrorEstimate> &estimates);
 
-  /// Returns the group /answer: the lines of a summary's entries that have one in the tables of the pages, see SummaryRow, each
-  /// label once with all its entries behind it. Entries that are unknown (NaN) leave no trace. All else is in /summary.
-  Group answer_lines(AnalysisType type, const std::vector<Entry> &summary);
+  /// A line of what a run prints first.
+  struct AnswerLine
+  {
+    std::string label, text;
+  };
+
+  /// Returns the group /answer: the lines given, then those of a summary's entries that have one in the tables of the pages, see
+  /// SummaryRow, each label once with all its entries behind it. Entries that are unknown (NaN) leave no trace. All else is in
+  /// /summary.
+  Group answer_lines(AnalysisType type, const std::vector<Entry> &summary, const std::vector<AnswerLine> &first = {});
 
   /// Prints what a reader wants to know first: those lines, the estimated errors and the cost.
   void print_console_summary(std::ostream &stream, const Group &answer, const std::vector<ErrorEstimate> &errors,

@@ -195,22 +195,24 @@ namespace sprag
       return warnings;
     }
 
-    void print_identification(std::ostream &stream, const Scene &scene, const Identification &found)
+    /// Returns the lines of /answer: the unknowns with their intervals, the noise, what is left out and what is weak.
+    std::vector<AnswerLine> identification_lines(const Scene &scene, const Identification &found)
     {
+      std::vector<AnswerLine> lines;
       for (const auto &one : found.found)
-        summary_line(stream, one.number.name,
-                     with_unit(one.value, "") + " +- " + half_width(one) + (one.number.unit == "1" ? "" : " " + one.number.unit));
+        lines.push_back({ one.number.name, with_unit(one.value, "") + " +- " + half_width(one) +
+                                               (one.number.unit == "1" ? "" : " " + one.number.unit) });
       const auto &channels = scene.identification.measured.channels;
       for (std::size_t i = 0; i < channels.size(); ++i)
-        summary_line(stream, "noise of " + to_word(channels[i]),
-                     with_unit(found.noise[i].deviation, "N") + ", " + formatted("%.0f", found.noise[i].rows) + " values worth " +
-                         formatted("%.0f", found.noise[i].effective_rows()) + " independent ones");
-      summary_line(stream, "left out",
-                   mm(found.window) + " behind the beginning and each reversal" +
-                       (scene.identification.window ? "" : ", from the data"));
+        lines.push_back({ "noise of " + to_word(channels[i]),
+                          with_unit(found.noise[i].deviation, "N") + ", " + formatted("%.0f", found.noise[i].rows) +
+                              " values worth " + formatted("%.0f", found.noise[i].effective_rows()) + " independent ones" });
+      lines.push_back({ "left out", mm(found.window) + " behind the beginning and each reversal" +
+                                        (scene.identification.window ? "" : ", from the data") });
       for (const auto &sentence : found.uncertainty.weak)
-        summary_line(stream, "", sentence);
-      stream << "+- is half of the interval of " << formatted("%.4g", 100. * scene.identification.confidence) << " %\n";
+        lines.push_back({ "weak", sentence });
+      lines.push_back({ "+-", "half of the interval of " + formatted("%.4g", 100. * scene.identification.confidence) + " %" });
+      return lines;
     }
 
     /// Writes a quasi-static scene of the closed form with the identified values, and its friction table. Returns why the values
@@ -279,9 +281,10 @@ namespace sprag
           append(warnings, identification_warnings(scene, fit, found));
           if (options.in_memory == nullptr)
             no_scene = write_scene(scene, options, unknowns, found);
-          if (!options.quiet)
-            print_identification(std::cout, scene, found);
-          writer.finish(status, { identification_summary(scene, found), {}, identification_groups(found) }, warnings);
+          writer.finish(
+              status,
+              { identification_summary(scene, found), {}, identification_groups(found), {}, identification_lines(scene, found) },
+              warnings);
         });
     if (!no_scene.empty())
       throw AnalysisError("The values found are no scene, identified.prm is not written: " + no_scene);

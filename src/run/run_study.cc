@@ -340,7 +340,8 @@ namespace sprag
       return names;
     }
 
-    void print_range(std::ostream &stream, const StudyFindings &findings, const std::string &name)
+    /// Adds the line of an entry's smallest and largest value, if any run has a number.
+    void add_range(const StudyFindings &findings, const std::string &name, std::vector<AnswerLine> &lines)
     {
       struct Found
       {
@@ -360,13 +361,27 @@ namespace sprag
       const auto size    = [by_size](const Found &one) { return by_size ? std::abs(one.value) : one.value; };
       const auto [least, most] =
           std::minmax_element(found.begin(), found.end(), [&size](const Found &a, const Found &b) { return size(a) < size(b); });
-      summary_line(stream, name,
-                   four_digits(least->value) + " to " + with_unit(most->value, most->unit) + ", least for " +
-                       settings_with_units(findings, least->run) + ", most for " + settings_with_units(findings, most->run));
+      lines.push_back({ name, four_digits(least->value) + " to " + with_unit(most->value, most->unit) + ", least for " +
+                                  settings_with_units(findings, least->run) + ", most for " +
+                                  settings_with_units(findings, most->run) });
+    }
+
+    /// Returns the lines of /answer: the range of each main entry, or with a reference the cheapest settings for all together.
+    std::vector<AnswerLine> study_lines(const StudyFindings &findings)
+    {
+      std::vector<AnswerLine> lines;
+      if (findings.trade.measured.empty())
+        for (const auto &name : main_entries(findings))
+          add_range(findings, name, lines);
+      else
+        for (std::size_t i = 0; i < recommended_accuracies.size(); ++i)
+          lines.push_back({ all + " within " + accuracy_text(recommended_accuracies[i]),
+                            run_text(findings, findings.trade.measured.back(), i) });
+      return lines;
     }
 
     /// Prints failed and refused runs and, with a reference, the cheapest settings for each accuracy: with `in_full` of each
-    /// quantity, else of all together and of each at one accuracy. Without a reference it prints the ranges of the results.
+    /// quantity, else of each at one accuracy, behind study_lines().
     void print_study(std::ostream &stream, const StudyFindings &findings, const bool in_full)
     {
       const auto &measured  = findings.trade.measured;
@@ -376,21 +391,14 @@ namespace sprag
       if (reference != nullptr && reference->outcome != RunOutcome::completed)
         stream << "  no errors: the reference is " << enumerator_name(reference->outcome) << ": " << reference->reason << '\n';
       if (measured.empty())
-      {
-        for (const auto &name : main_entries(findings))
-          print_range(stream, findings, name);
         return;
-      }
       stream << "  The cheapest settings, against " << reference_text(findings.study) << " ("
              << formatted("%.3g", reference->cpu_time) << " s of CPU time):\n";
       if (in_full)
         for (const auto &one : measured)
           print_accuracies(stream, findings, one);
       else
-      {
-        print_accuracies(stream, findings, measured.back());
         print_at_usual_accuracy(stream, findings);
-      }
       print_orders(stream, findings.trade.orders);
     }
 
@@ -442,7 +450,7 @@ namespace sprag
         groups.push_back(reference_group(*findings.reference));
       }
       append(warnings, warnings_of_runs(records));
-      writer.finish(status, { study_summary(findings), meta, groups }, warnings);
+      writer.finish(status, { study_summary(findings), meta, groups, {}, study_lines(findings) }, warnings);
       if (!options.quiet)
         print_study(std::cout, findings, options.verbose);
     }

@@ -17,9 +17,15 @@ from pictures import PictureTest  # noqa: E402
 import sketch  # noqa: E402
 from apparatus import Geometry  # noqa: E402
 from sprag import parameters  # noqa: E402
+from sprag.results import read_result  # noqa: E402
+from test_study import make_study  # noqa: E402
 from test_plot import fill_run, finish, make_run, new_file, put  # noqa: E402
 
 HOSTILE = "<script>alert(1)</script><img src=http://example.org/x onerror=alert(1)>"
+DEVICE = {
+    "Geometry/Cylinder radius": "56", "Geometry/Interface offset": "45.6", "Geometry/Pivot distance": "185.5", "Geometry/Pivot height": "0", "Lever/Length": "210", "Lever/Depth": "20",
+    "Friction layer/Thickness": "1", "Drive/Stroke": "65", "Analysis/Type": "quasi-static",
+}  # fmt: skip
 LISTING = """subsection Analysis
   set Type = quasi-static
 end
@@ -86,6 +92,21 @@ class ReportTest(PictureTest):
         page, words = self.report(self.result("a"), self.result("b", LISTING.replace("12", "16")))
         self.assertIn("Comparison of 2 results", words)
         self.assertIn("Lever/Depth 12 mm 16 mm", words)
+
+    def test_of_a_study(self):
+        _, words = self.report(make_study(self.folder / "study", many=11))
+        for said in ("Mesh/Degree Mesh/Face size [mm] Lever/Depth [mm] peak_P_forward [N] loop_area [N mm]", "1 0.5 10 10.02 601.5", "and 46 more"):
+            self.assertIn(said, words)
+
+    def test_a_lever_that_does_not_isolate_is_not_drawn(self):
+        result = read_result(self.result("a"))
+        known = {name: parameters.Parameter(text, "1") for name, text in DEVICE.items()}
+        self.assertIn("<svg", sketch.device_svg(result, known))
+        for damper, drawn in (("lever", True), ("viscous", False)):
+            for study in ({"Analysis/Type": "isolation"}, {"Analysis/Type": "study", "Study/Type": "isolation"}):
+                texts = {**study, "Isolation/Damper": damper}
+                known.update({name: parameters.Parameter(text, "1") for name, text in texts.items()})
+                self.assertEqual(sketch.device_svg(result, known) is not None, drawn)
 
     def test_nothing_is_loaded_or_run(self):
         hostile = LISTING.replace("= 12 ", f"= {HOSTILE} ") + "subsection Friction\n  set Law = </pre><script>alert(2)</script>  # default: Coulomb\nend\n"

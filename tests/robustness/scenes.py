@@ -220,12 +220,14 @@ class ScenesTest(RunTest):
         self.assertTrue((file["table/cpu_time"][:] > 0).all())
         if parameter(file["parameters"].asstr()[()], "Study", "Type") == "isolation":
             self.assertTrue((file["table/energy_residual"][:] < 1e-9).all())
+            self.assertIn("largest_displacement", file["answer/line"].asstr()[:])
             return
         errors = [name for name in file["table"] if name.startswith("error_")]
         self.assertIn("error_all", errors)
         for name in errors:
             self.assertTrue((file["table"][name][:] > 0).all(), name)
         self.assertEqual(len(file["trade/run_all"]), 4)
+        self.assertIn("all within 1 %", file["answer/line"].asstr()[:])
 
     def check_isolation(self, file):
         table = {name: data[:] for name, data in file["table"].items()}
@@ -324,6 +326,8 @@ class ScenesTest(RunTest):
         for name, truth in {"mu": 0.73, "k": 7.4e4, "e": 45.6, "th0": 0.0560941}.items():
             self.assertTrue(summary[f"{name}_low"] <= truth <= summary[f"{name}_high"], name)
         self.assertEqual(summary["indistinct"], b"")
+        answer = dict(zip(file["answer/line"].asstr()[:], file["answer/text"].asstr()[:]))
+        self.assertRegex(answer["k"], r"^7\.\d+e\+04 \+- \S+ N mm/rad$")
         self.assertEqual(sprag(Path(file.filename).parent / "identified.prm", "--validate").returncode, 0)
 
     def check(self, file):

@@ -57,8 +57,9 @@ class StudyTest(RunTest):
             np.testing.assert_array_equal(one[name], other[name], err_msg=name)
 
     def test_materials_are_their_constants(self):
-        table, texts, _, _ = self.study(STATIC, {**COARSE, "Study/Vary": "Friction layer/Made of = cork, PTFE"})
+        table, texts, _, done = self.study(STATIC, {**COARSE, "Study/Vary": "Friction layer/Made of = cork, PTFE"}, "--verbose")
         self.assertEqual(list(texts["friction_layer_made_of"]), ["cork", "PTFE"])
+        self.assertRegex(done.stdout, r"(?m)^  loop_area +\d.* least for Friction layer/Made of = ")
         constants = {"Young's modulus": "20, 500", "Poisson's ratio": "0, 0.46", "Density": "2e-10, 2.17e-9"}
         vary = "; ".join(f"Friction layer/{name} = {values}" for name, values in constants.items())
         shutil.rmtree(self.output)
