@@ -242,6 +242,26 @@ TEST(Identification, FindsATableOfFrictionSlow)
         << speed;
 }
 
+// Friction rises in proportion to speed, and its table begins above the slowest rows.
+TEST(Identification, ATableKnowsNothingBelowItsFirstSpeed)
+{
+  Scene truth                          = device();
+  truth.drive                          = Drive(DriveProfile::harmonic, 0., 65., 180., 1.);
+  truth.friction.law                   = TabulatedFriction({ 0., 40., 90., 140., 200. }, { 0.4, 0.46, 0.535, 0.61, 0.7 });
+  Scene scene                          = truth;
+  scene.friction.law                   = CoulombFriction{ 0.6 };
+  scene.identification.sought          = { Unknown::friction_table, Unknown::stiffness };
+  scene.identification.friction_speeds = { 40., 90., 140., 200. };
+  scene.identification.window          = 0.;
+  const auto rows                      = sampled(truth, 1e-3);
+  expect_honest(
+      scene, { { "mu_at_40", 0.46 }, { "mu_at_90", 0.535 }, { "k", 7.4e4 } },
+      [&](const unsigned int seed) {
+        return measured(rows, { 0.05, 0. }, seed);
+      },
+      seeds / 6);
+}
+
 TEST(Identification, NamesWhatOneDirectionCannotTellApart)
 {
   const Scene truth             = device();

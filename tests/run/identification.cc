@@ -106,7 +106,7 @@ TEST_F(RunIdentification, WritesALawOfFrictionAsATable)
 TEST_F(RunIdentification, WarnsOfWhatTheDataCannotTell)
 {
   const auto warnings =
-      run(identification({ "Identification/Unknowns=mu table", "Identification/Friction speeds=200, 300, 400, 500" }), output);
+      run(identification({ "Identification/Unknowns=mu table", "Identification/Friction speeds=100, 300, 400, 500" }), output);
   ASSERT_FALSE(warnings.empty());
   EXPECT_EQ(warnings.front().name, "indistinct_unknowns");
   EXPECT_NE(warnings.front().found.find("do not tell mu_at_500."), std::string::npos) << warnings.front().found;

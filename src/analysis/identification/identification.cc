@@ -316,12 +316,14 @@ namespace sprag
         const double lag = lever().lag;
         if (selected && selected->first == result.window && std::abs(selected->second - lag) <= same_lag * fit.motion.spacing())
           return;
-        selected    = { result.window, lag };
-        result.used = fit.used(result.window, lag);
+        selected             = { result.window, lag };
+        result.used          = fit.used(result.window, lag);
+        const bool has_table = contains(settings.sought, Unknown::friction_table);
         if (result.used.size() < 3 * scaled.size())
-          throw AnalysisError(std::to_string(result.used.size()) +
-                              " values are left behind the reversals' windows, too few for " + std::to_string(scaled.size()) +
-                              " unknowns: take a smaller Identification/Reversal window");
+          throw AnalysisError(std::to_string(result.used.size()) + " values are left behind the reversals' windows" +
+                              (has_table ? " from the first of Identification/Friction speeds on" : "") + ", too few for " +
+                              std::to_string(scaled.size()) + " unknowns: take a smaller Identification/Reversal window" +
+                              (has_table ? " or lower speeds" : ""));
       }
 
       std::vector<double> residuals() const

@@ -218,7 +218,11 @@ namespace sprag
 
   std::vector<UsedValue> StrokeFit::used(const double window, const double lag) const
   {
-    const auto &measured = scene.identification.measured;
+    const auto &settings = scene.identification;
+    const auto &measured = settings.measured;
+    // Below its first speed a table holds mu constant, which would bias that value.
+    const double slowest = contains(settings.sought, Unknown::friction_table) ? settings.friction_speeds.front() : 0.;
+    const bool by_drive  = scene.friction.speed == FrictionSpeed::drive;
     std::vector<UsedValue> result;
     for (std::size_t row = 0; row < measured.rows(); ++row)
     {
@@ -227,6 +231,8 @@ namespace sprag
       const bool slides =
           motion.covers(row, lag, stroke) && place.x > 0. && std::abs(place.v) > least_speed * motion.peak_speed();
       const double travel = motion.travel(row, lag, stroke);
+      if (std::abs(by_drive ? place.v : sliding_speed(scene.geometry, place.x, place.v)) < slowest)
+        continue;
       if (!slides || travel <= window || travel > (1. - stroke_end) * motion.length(stroke))
         continue;
       for (std::size_t channel = 0; channel < measured.channels.size(); ++channel)
