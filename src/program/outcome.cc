@@ -72,7 +72,7 @@ namespace sprag
 
   int report_error(const std::string &failure)
   {
-    // What a design or a solver has to say may be long: cut, it would say something else.
+    // A design may say much, of which a part would mislead.
     const auto whole = [](const std::string &line) { return line; };
     std::cerr << coloured("sprag: " + terminal_text(failure, whole), STDERR_FILENO, error_colour) << '\n';
     return analysis_failed;

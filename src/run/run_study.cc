@@ -412,7 +412,7 @@ namespace sprag
     }
 
     /// Warns of the warnings that the runs and the reference have, each name with the number of its runs.
-    Warnings warnings_of_runs(const StudyRecords &records)
+    Warnings run_warnings(const StudyRecords &records)
     {
       std::map<std::string, unsigned int> counts;
       std::size_t warned = 0;
@@ -449,7 +449,7 @@ namespace sprag
         groups.push_back(trade_group(findings));
         groups.push_back(reference_group(*findings.reference));
       }
-      append(warnings, warnings_of_runs(records));
+      append(warnings, run_warnings(records));
       writer.finish(status, { study_summary(findings), meta, groups, {}, study_lines(findings) }, warnings);
       if (!options.quiet)
         print_study(std::cout, findings, options.verbose);
