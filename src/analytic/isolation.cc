@@ -7,6 +7,8 @@
 #include "base/text.h"
 #include "scene/scene.h"
 
+#include <boost/math/distributions/students_t.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -83,29 +85,35 @@ namespace sprag
       double square, base_square;
     };
 
-    constexpr unsigned int random_sections = 12;
-    constexpr double section_quantile      = 2.20; ///< 97.5 % of Student's t with 11 degrees of freedom
+    constexpr unsigned int random_sections = 13; ///< the first, in which the start dies out, does not count
 
     /// Returns the half-width of the 95 % interval of the ratio of root mean squares by the jackknife,
-    /// t sqrt((n - 1)/n sum_i (r_i - mean)^2), with r_i the ratio without section i.
+    /// t sqrt((n - 1)/m sum_i (r_i - mean)^2), with r_i the ratio without section i of n, the first aside. Successive sections of
+    /// correlation c count as m = n (1 - c)/(1 + c) independent ones, which give t its degrees of freedom.
     double half_interval(const std::vector<Section> &ends)
     {
-      const auto n = static_cast<double>(ends.size());
+      constexpr double least_independent = 3.;
+      const auto n                       = static_cast<double>(ends.size() - 1);
       std::vector<double> without;
-      Section before{ 0., 0. };
-      for (const auto &end : ends)
+      for (std::size_t i = 1; i < ends.size(); ++i)
       {
-        const double square      = ends.back().square - (end.square - before.square);
-        const double base_square = ends.back().base_square - (end.base_square - before.base_square);
+        const auto &first = ends.front(), &before = ends[i - 1], &end = ends[i], &last = ends.back();
+        const double square      = last.square - first.square - (end.square - before.square);
+        const double base_square = last.base_square - first.base_square - (end.base_square - before.base_square);
         without.push_back(std::sqrt(square / base_square));
-        before = end;
       }
-      double mean = 0., squares = 0.;
+      double mean = 0., squares = 0., products = 0.;
       for (const double ratio : without)
         mean += ratio / n;
-      for (const double ratio : without)
-        squares += (ratio - mean) * (ratio - mean);
-      return section_quantile * std::sqrt((n - 1.) / n * squares);
+      for (std::size_t i = 0; i < without.size(); ++i)
+      {
+        squares += std::pow(without[i] - mean, 2);
+        products += i > 0 ? (without[i] - mean) * (without[i - 1] - mean) : 0.;
+      }
+      const double correlation = squares > 0. ? std::max(0., products / squares) : 0.;
+      const double independent = std::max(least_independent, n * (1. - correlation) / (1. + correlation));
+      const double quantile    = boost::math::quantile(boost::math::students_t(independent - 1.), 0.975);
+      return quantile * std::sqrt((n - 1.) / independent * squares);
     }
 
     /// State from which an interrupted run resumes, beside its findings and the table.
@@ -181,9 +189,9 @@ namespace sprag
         found.base_work   = state.base_work;
         found.dissipated  = state.dissipated;
         if (motion.rests())
-          found.residual_offset = state.z;
-        else if (const auto &turns = solver.last_turns; turns.size() == 2 && state.time > base_motion(settings).end)
-          found.residual_offset = 0.5 * (turns[0] + turns[1]);
+          set_residual({ state.z, state.z });
+        else if (solver.last_turns.size() == 2 && state.time > base_motion(settings).end)
+          set_residual(solver.last_turns);
         solver.square += state.square;
         found.rms_acceleration = state.time > 0. ? std::sqrt(solver.square / state.time) : 0.;
         found.energy_residual  = solver.largest_energy > 0. ? solver.largest_residual / solver.largest_energy : 0.;
@@ -191,15 +199,24 @@ namespace sprag
           compute_period_ratios();
         else if (motion.largest_base_acceleration() > 0.)
         {
-          found.peak = motion.largest_acceleration() / motion.largest_base_acceleration();
-          found.rms  = std::sqrt(state.square / state.base_square);
-          if (solver.sections.size() == random_sections)
+          found.peak           = motion.largest_acceleration() / motion.largest_base_acceleration();
+          const auto &sections = solver.sections;
+          const Section start  = sections.size() > 1 ? sections.front() : Section{ 0., 0. };
+          found.rms            = std::sqrt((state.square - start.square) / (state.base_square - start.base_square));
+          if (sections.size() == random_sections)
           {
-            const double half = half_interval(solver.sections);
+            const double half = half_interval(sections);
             found.rms_low     = std::max(0., found.rms - half);
             found.rms_high    = found.rms + half;
           }
         }
+      }
+
+      /// The table comes to rest between its last two turns.
+      void set_residual(const std::vector<double> &turns)
+      {
+        found.residual_offset    = 0.5 * (turns[0] + turns[1]);
+        found.residual_amplitude = 0.5 * std::abs(turns[1] - turns[0]);
       }
 
       void check_energy() const

@@ -15,11 +15,12 @@ namespace sprag
   /// over the last periods, otherwise over the whole run. A finding that does not apply is NaN.
   struct IsolationFindings
   {
-    unsigned int turns     = 0;       ///< instants at which z' becomes 0, stops included
-    unsigned int stops     = 0;       ///< turns after which friction holds the table
-    double time            = 0.;      ///< at the end [s]
-    bool rests             = false;   ///< friction holds the table at the end
-    double residual_offset = unknown; ///< z at rest, or on a base at rest the mean of the last two turns [mm]
+    unsigned int turns        = 0;       ///< instants at which z' becomes 0, stops included
+    unsigned int stops        = 0;       ///< turns after which friction holds the table
+    double time               = 0.;      ///< at the end [s]
+    bool rests                = false;   ///< friction holds the table at the end
+    double residual_offset    = unknown; ///< z at rest, or on a base at rest the mean of the last two turns [mm]
+    double residual_amplitude = unknown; ///< half their distance, within which the table comes to rest [mm]; 0 at rest
 
     double largest_displacement = 0.;      ///< [mm]
     double largest_acceleration = 0.;      ///< of the table [mm/s^2]
@@ -28,7 +29,7 @@ namespace sprag
 
     double peak        = unknown;
     double fundamental = unknown;
-    double rms         = unknown;
+    double rms         = unknown; ///< of a random base without the first of 13 sections
     double rms_low     = unknown; ///< of a random base: lower end of the 95 % interval for other records of its spectrum
     double rms_high    = unknown;
 

@@ -56,6 +56,8 @@ namespace sprag
       rules.need(settings.base != BaseMotionType::random || settings.highest_frequency > settings.lowest_frequency,
                  "Isolation/Highest frequency", { "Analysis/Type", "Isolation/Base motion", "Isolation/Lowest frequency" },
                  "must be more than Lowest frequency = " + rounded_text(settings.lowest_frequency) + " Hz");
+      rules.need(!settings.spectrum_lines || *settings.spectrum_lines == std::floor(*settings.spectrum_lines),
+                 "Isolation/Spectrum lines", {}, "must be a whole number or auto");
       constexpr double most_periods = 1e6; // of which each takes memory
       rules.need(settings.base != BaseMotionType::random || settings.duration * settings.highest_frequency <= most_periods,
                  "Isolation/Highest frequency", { "Analysis/Type", "Isolation/Base motion", "Isolation/Duration" },

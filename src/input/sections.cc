@@ -336,7 +336,7 @@ namespace sprag
       section.number("Ground damping", settings.ground_damping, above(0.));
       section.number("Lowest frequency", settings.lowest_frequency, above(0.), "Hz");
       section.number("Highest frequency", settings.highest_frequency, above(0.), "Hz");
-      section.integer("Spectrum lines", settings.spectrum_lines, { 1., 1e5 });
+      section.number_or_auto("Spectrum lines", settings.spectrum_lines, { 1., 1e5 });
       section.integer("Seed", settings.seed, { 0., 4294967295. });
       section.text("Base table", settings.base_file, Rule::Kind::file);
       section.choice("Base unit", settings.unit,

@@ -46,6 +46,7 @@ namespace sprag
       const double natural       = std::sqrt(scene.isolation.stiffness / scene.isolation.mass) / (2. * M_PI);
       std::vector<Entry> entries = { { "natural_frequency", natural },
                                      { "residual_offset", found.residual_offset },
+                                     { "residual_amplitude", found.residual_amplitude },
                                      { "stops", static_cast<double>(found.stops) },
                                      { "turns", static_cast<double>(found.turns) },
                                      { "rests_at_end", found.rests ? 1. : 0. },

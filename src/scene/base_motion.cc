@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/base_motion.h"
 
+#include <gsl/gsl_fft_complex.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -101,22 +103,43 @@ namespace sprag
       return static_cast<double>(random() >> 11) * 0x1p-53;
     }
 
-    /// A sine somewhere in each band of equal width, so that the motion does not repeat.
-    std::vector<Line> random_lines(const IsolationSettings &settings)
+    /// Distance of the lines in frequency, that of the first one from 0 [Hz], and their number.
+    struct Grid
     {
-      const double first = settings.lowest_frequency;
-      const double width = (settings.highest_frequency - first) / settings.spectrum_lines;
+      double width, first;
+      std::size_t lines;
+      std::size_t period; ///< samples after which lines at multiples of the width repeat; 0: each is anywhere in its band
+    };
+
+    /// Without a number the lines are so dense that the motion repeats at the earliest after twice the run, and at least 200: an
+    /// oscillator of light damping answers few lines, and another seed would give it others.
+    Grid make_grid(const IsolationSettings &settings, const double step)
+    {
+      constexpr double least = 200.;
+      const double first = settings.lowest_frequency, band = settings.highest_frequency - first;
+      if (const auto number = settings.spectrum_lines)
+        return { band / *number, first, static_cast<std::size_t>(*number), 0 };
+      std::size_t period = 1;
+      while (static_cast<double>(period) * step < std::max(2. * settings.duration, (least + 1.) / band))
+        period *= 2;
+      const double width = 1. / (static_cast<double>(period) * step), before = std::ceil(first / width);
+      return { width, before * width, static_cast<std::size_t>(settings.highest_frequency / width - before) + 1, period };
+    }
+
+    std::vector<Line> random_lines(const IsolationSettings &settings, const Grid &grid)
+    {
       std::mt19937_64 random(settings.seed);
       std::vector<Line> lines;
       double sum = 0.;
-      for (unsigned int i = 0; i < settings.spectrum_lines; ++i)
+      for (std::size_t i = 0; i < grid.lines; ++i)
       {
-        const double f       = first + (i + uniform(random)) * width;
+        const double place   = static_cast<double>(i) + (grid.period > 0 ? 0. : uniform(random));
+        const double f       = grid.first + place * grid.width;
         const double density = settings.spectrum == BaseSpectrum::table
                                    ? interpolated(settings.base_table, f)
                                    : kanai_tajimi(f, settings.ground_frequency, settings.ground_damping);
-        lines.push_back({ std::sqrt(2. * density * width), full_turn * f, full_turn * uniform(random) });
-        sum += density * width;
+        lines.push_back({ std::sqrt(2. * density * grid.width), full_turn * f, full_turn * uniform(random) });
+        sum += density * grid.width;
       }
       if (settings.spectrum == BaseSpectrum::kanai_tajimi)
         for (auto &line : lines)
@@ -145,6 +168,25 @@ namespace sprag
           result[i].jerk -= w * value.imag();
           result[i].snap -= w * w * value.real();
         }
+      }
+      return result;
+    }
+
+    /// The same by Fourier's fast transform of lines at multiples of the grid's width.
+    std::vector<Shaking> sampled(const std::vector<Line> &lines, const Grid &grid, const std::size_t samples)
+    {
+      std::vector<Shaking> result(samples, Shaking{ 0., 0., 0. });
+      std::vector<std::complex<double>> values(grid.period);
+      for (const auto &[derivative, member] :
+           { std::make_pair(0, &Shaking::a), std::make_pair(1, &Shaking::jerk), std::make_pair(2, &Shaking::snap) })
+      {
+        std::fill(values.begin(), values.end(), 0.);
+        for (const auto &[amplitude, w, phase] : lines)
+          values[static_cast<std::size_t>(std::lround(w / full_turn / grid.width))] =
+              std::polar(amplitude * std::pow(w, derivative), phase + 0.5 * M_PI * derivative);
+        gsl_fft_complex_radix2_backward(reinterpret_cast<double *>(values.data()), 1, grid.period);
+        for (std::size_t i = 0; i < samples; ++i)
+          result[i].*member = values[i].real();
       }
       return result;
     }
@@ -196,8 +238,9 @@ namespace sprag
     {
       const double h     = 1. / (samples_per_period * settings.highest_frequency);
       const auto pieces  = static_cast<std::size_t>(settings.duration / h) + 1;
-      const auto lines   = random_lines(settings);
-      const auto samples = sampled(lines, h, pieces + 1);
+      const auto grid    = make_grid(settings, h);
+      const auto lines   = random_lines(settings, grid);
+      const auto samples = grid.period > 0 ? sampled(lines, grid, pieces + 1) : sampled(lines, h, pieces + 1);
       const auto shaking = std::make_shared<std::vector<ShakingPiece>>();
       BasePoint now      = beginning(lines);
       BaseMotion motion;

@@ -88,7 +88,7 @@ namespace sprag
     double ground_damping       = 0.6;  ///< of critical, > 0
     double lowest_frequency     = 0.2;  ///< of a random motion [Hz], > 0
     double highest_frequency    = 20.;  ///< [Hz]
-    unsigned int spectrum_lines = 200;
+    std::optional<double> spectrum_lines; ///< whole; none: dense enough for the duration
     unsigned int seed           = 1;
     std::string base_file;
     AccelerationUnit unit = AccelerationUnit::from_file;

@@ -165,6 +165,7 @@ TEST(Isolation, ConstantFrictionLeavesTheOffsetOfTheHalfCycles)
       EXPECT_EQ(found.stops, 1u);
       EXPECT_TRUE(found.rests);
       EXPECT_NEAR(found.residual_offset, offset, 1e-10);
+      EXPECT_EQ(found.residual_amplitude, 0.);
       EXPECT_NEAR(found.dissipated, 0.5 * K * (z0 * z0 - offset * offset), 1e-8);
     }
 }
@@ -366,6 +367,41 @@ TEST(Isolation, ARestoringLeverIsLinearFriction)
   scene.isolation.friction_arm_ratio = 0.6;
   EXPECT_NEAR(make_damper(scene).resistance(7., 3., 1).force, 2.8 / 1.3, 1e-12);
   EXPECT_NEAR(make_damper(scene).resistance(7., 3., -1).force, -2.8 / 0.7, 1e-12);
+}
+
+// Exact: sqrt(int S |H|^2 / int S) over the band.
+TEST(Isolation, TheIntervalOfARandomBaseHasTheValueOfItsSpectrum)
+{
+  Scene scene                         = isolated(DamperType::viscous);
+  scene.isolation.stiffness           = 1.1;
+  scene.isolation.viscous_coefficient = 0.015;
+  scene.isolation.base                = BaseMotionType::random;
+  scene.isolation.tolerance           = 1e-8;
+  scene.isolation.duration            = 200.;
+  double through = 0., all = 0.;
+  for (double f = 0.2; f < 20.; f += 1e-3)
+  {
+    const double w = 2. * M_PI * f, S = kanai_tajimi(f, 2.5, 0.6), damping = std::pow(0.015 * w, 2);
+    through += S * (1.1 * 1.1 + damping) / (std::pow(1.1 - 0.05 * w * w, 2) + damping);
+    all += S;
+  }
+  unsigned int covered = 0;
+  for (scene.isolation.seed = 1; scene.isolation.seed <= 8; ++scene.isolation.seed)
+  {
+    const auto found = compute_findings(scene);
+    covered += found.rms_low <= std::sqrt(through / all) && std::sqrt(through / all) <= found.rms_high;
+  }
+  EXPECT_GE(covered, 7u);
+}
+
+TEST(Isolation, ATableThatSwingsAtTheEndLeavesNoOffsetButABound)
+{
+  Scene scene                          = isolated(DamperType::viscous);
+  scene.isolation.viscous_coefficient  = 0.05;
+  scene.isolation.initial_displacement = 60.;
+  scene.isolation.duration             = 3.;
+  const auto found                     = compute_findings(scene);
+  EXPECT_GT(found.residual_amplitude, 3. * std::abs(found.residual_offset));
 }
 
 TEST(Isolation, ALoopOfLinearFrictionIsLinearFriction)
