@@ -7,6 +7,7 @@
 #include "input/sections.h"
 #include "laws/friction_law.h"
 #include "results/columns.h"
+#include "scene/base_motion.h"
 #include "scene/closed_form.h"
 #include "scene/contact_estimates.h"
 #include "scene/held_slide.h"
@@ -46,6 +47,9 @@ namespace sprag
     constexpr unsigned int fewest_turns = 20;
     constexpr double least_turn_share   = 0.3;
     constexpr unsigned int n_looks      = 2000;
+
+    // A base that starts at once and keeps its speed has 6.5.
+    constexpr double largest_drift_ratio = 10.;
 
     bool follows_drive(const Scene &scene)
     {
@@ -328,6 +332,16 @@ namespace sprag
           "shaking_drive", { std::to_string(found.turns), rounded_text(found.largest), rounded_text(scene.drive.peak_speed()) }));
     }
 
+    void add_drift(const Scene &scene, Warnings &warnings)
+    {
+      const auto &isolation = scene.isolation;
+      if (scene.analysis.type != AnalysisType::isolation || isolation.base != BaseMotionType::record || isolation.corrects_drift)
+        return;
+      const auto [raw, corrected] = recorded_travel(isolation.base_table);
+      if (raw > largest_drift_ratio * corrected)
+        warnings.push_back(make_warning("drifting_record", { mm(raw), mm(corrected) }));
+    }
+
     /// A slide is held at the largest speed. Near its ends such a drive is slower, where a mu that depends on speed is another.
     void add_largest_speed(const Scene &scene, Warnings &warnings)
     {
@@ -533,7 +547,7 @@ namespace sprag
       return warnings;
     for (const auto add :
          { add_defaults, add_foreign_contact_law, add_sensitivity, add_leaf, add_plane_stress, add_opening, add_locking,
-           add_shaking, add_largest_speed, add_implausible_values, add_absent_parts, add_unused_columns })
+           add_shaking, add_drift, add_largest_speed, add_implausible_values, add_absent_parts, add_unused_columns })
       add(scene, warnings);
     return warnings;
   }

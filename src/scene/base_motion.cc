@@ -82,14 +82,19 @@ namespace sprag
       return motion;
     }
 
+    /// Joins the rows by straight lines, of logarithms where all rows have them, as those of vibration specifications.
     double interpolated(const Samples &samples, const double at)
     {
       const auto next = std::upper_bound(samples.at.begin(), samples.at.end(), at);
       if (next == samples.at.begin() || (next == samples.at.end() && at > samples.at.back()))
         return 0.;
-      const auto i       = std::min<std::size_t>(static_cast<std::size_t>(next - samples.at.begin()), samples.at.size() - 1);
-      const double share = (at - samples.at[i - 1]) / (samples.at[i] - samples.at[i - 1]);
-      return samples.values[i - 1] + share * (samples.values[i] - samples.values[i - 1]);
+      const auto i         = std::min<std::size_t>(static_cast<std::size_t>(next - samples.at.begin()), samples.at.size() - 1);
+      const auto &[f, S]   = samples;
+      const bool has_logs  = f.front() > 0. && *std::min_element(S.begin(), S.end()) > 0.;
+      const auto scaled    = [has_logs](const double value) { return has_logs ? std::log(value) : value; };
+      const double share   = (scaled(at) - scaled(f[i - 1])) / (scaled(f[i]) - scaled(f[i - 1]));
+      const double between = scaled(S[i - 1]) + share * (scaled(S[i]) - scaled(S[i - 1]));
+      return has_logs ? std::exp(between) : between;
     }
 
     struct Line
@@ -326,6 +331,18 @@ namespace sprag
     for (std::size_t i = 0; i < times.size(); ++i)
       result.values[i] -= c + 2. * d * times[i];
     return result;
+  }
+
+  RecordedTravel recorded_travel(const Samples &record)
+  {
+    const auto largest = [](const Samples &samples)
+    {
+      double most = 0.;
+      for (const double x : integrated(samples).x)
+        most = std::max(most, std::abs(x));
+      return most;
+    };
+    return { largest(record), largest(without_drift(record)) };
   }
 
   double kanai_tajimi(const double frequency, const double ground_frequency, const double ground_damping)

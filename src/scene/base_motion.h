@@ -36,6 +36,14 @@ namespace sprag
   /// Subtracts c + 2 d t from a recorded acceleration, with c t + d t^2 the least squares fit to its velocity.
   Samples without_drift(const Samples &record);
 
+  /// Largest displacements of a recorded base [mm].
+  struct RecordedTravel
+  {
+    double raw, corrected; ///< `corrected` is without_drift()
+  };
+
+  RecordedTravel recorded_travel(const Samples &record);
+
   /// Returns the spectral density of a Kanai-Tajimi acceleration over that of its white noise, with r = f/f_g and damping z:
   ///   (1 + (2 z r)^2) / ((1 - r^2)^2 + (2 z r)^2).
   double kanai_tajimi(double frequency, double ground_frequency, double ground_damping);

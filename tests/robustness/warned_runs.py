@@ -37,7 +37,7 @@ PROVOKED = {
 # Numbers, places and names of the run in the texts of a warning.
 NUMBERS = {
     "defaults_of_model_a": 2, "foreign_contact_law": 5, "judged_another_lever": 2, "mu_of_one_speed": 6, "absent_part": 1, "near_locking": 6, "leaf_beyond_yield": 7, "locks": 4, "beyond_the_beam": 3, "plane_stress_of_layer": 5, "contact_between_points": 5,
-    "implausible_values": 1, "unused_columns": 1, "shaking_drive": 3, "sensor_in_tension": 2, "runaway_slip": 3, "largest_speed_alone": 1, "without_effect": 1,
+    "implausible_values": 1, "unused_columns": 1, "shaking_drive": 3, "drifting_record": 2, "sensor_in_tension": 2, "runaway_slip": 3, "largest_speed_alone": 1, "without_effect": 1,
     "speed_beyond_table": 3, "overlap_of_layer": 4, "soft_penalty": 4, "coarse_contact": 3, "stiff_penalty": 6, "soft_tangential_penalty": 5, "large_deflection": 4,
     "far_from_closed_form": 2, "large_strain": 4, "pressure_beyond_strength": 5, "long_steps": 3, "target_missed": 2, "hidden_vibration": 7, "no_steady_state": 2, "runs_with_warnings": 3,
     "element_passing": 4, "indistinct_unknowns": 1, "model_does_not_follow": 1, "not_converged": 1,

@@ -521,6 +521,24 @@ TEST(SceneWarnings, PositionsThatShake)
   EXPECT_EQ(names(scene_warnings(slow)), Names{});
 }
 
+TEST(SceneWarnings, ARecordThatDriftsWithTheOffsetOfItsSensor)
+{
+  const auto warned = [](const double offset)
+  {
+    Scene scene          = model_a();
+    scene.analysis.type  = AnalysisType::isolation;
+    scene.isolation.base = BaseMotionType::record;
+    for (double t = 0.; t <= 30.; t += 0.01)
+    {
+      scene.isolation.base_table.at.push_back(t);
+      scene.isolation.base_table.values.push_back(40. * std::cos(8. * t) + offset);
+    }
+    return names(scene_warnings(scene));
+  };
+  EXPECT_EQ(warned(0.), Names{});
+  EXPECT_EQ(warned(20.), Names{ "drifting_record" });
+}
+
 TEST(RowWarnings, SpeedsBeyondATableOfFriction)
 {
   Scene scene        = model_a();

@@ -168,6 +168,9 @@ TEST(BaseMotion, ARandomGroundHasItsRootMeanSquareAndItsSeed)
   settings.spectrum   = BaseSpectrum::table;
   settings.base_table = { { 1., 2., 4., 8. }, { 5., 5., 5., 5. } };
   EXPECT_NEAR(compute_rms(), std::sqrt(5. * 7.), 0.03 * std::sqrt(35.));
+  // The line in the logarithms is 320/f^2, whose integral is 280.
+  settings.base_table = { { 1., 8. }, { 320., 5. } };
+  EXPECT_NEAR(compute_rms(), std::sqrt(280.), 0.03 * std::sqrt(280.));
 }
 
 TEST(BaseMotion, KanaiTajimiIsWhiteNoiseFilteredByTheGround)
