@@ -16,6 +16,8 @@ STRENGTHS = {
     "lever": "Rotational spring/Stiffness",
 }
 RANGE, FIRST_TRIES = 1024.0, 11  # strongest over weakest, and how many are tried first
+LONGEST = 4  # times Isolation/Duration, until which a motion over a harmonic base has time to become steady
+STEADY = {"Isolation/End": "steady state", "Isolation/Periodic tolerance": 1e-3}
 
 
 class RankedDamper(NamedTuple):
@@ -27,14 +29,16 @@ class RankedDamper(NamedTuple):
     transmissibility: float  # root mean square of the table's acceleration over the base's
     displacement: float  # largest of the table over the base [mm]
     note: str = ""
+    is_steady: bool = True  # False: over a harmonic base the motion still changes, and so does what comes through
 
     def __str__(self):
         strength = f" ({STRENGTHS[self.damper]} {self.strength:.3g} {self.unit}{self.note})" if self.unit else ""
-        return f"{self.damper}{strength} lets through {self.transmissibility:.3g}, moves up to {self.displacement:.3g} mm"
+        ending = "" if self.is_steady else ", not steady"
+        return f"{self.damper}{strength} lets through {self.transmissibility:.3g}, moves up to {self.displacement:.3g} mm{ending}"
 
 
 def rank_dampers(scene, changes=None, displacement=None, jobs=None):
-    """The RankedDampers of a scene's table on its moving base, that which lets the least through first, and for comparison those of no
+    """The RankedDampers of a scene's table on its moving base, that which lets the least through first and those that are not steady last, and for comparison those of no
     damper and of the lever as it is: two lists.
 
     Without a displacement each damper has the strength that lets the least through; the lever's is the stiffness of its rotational
@@ -44,6 +48,7 @@ def rank_dampers(scene, changes=None, displacement=None, jobs=None):
     changes = {**(changes or {}), "Analysis/Type": "isolation"}
     known = Scene(scene.path, {**scene.changes, **changes}) if isinstance(scene, Scene) else Scene(scene, changes)
     mass, stiffness, lever = (known.parameters[name].number for name in ("Isolation/Mass", "Isolation/Stiffness", STRENGTHS["lever"]))
+    is_harmonic, duration = known.parameters["Isolation/Base motion"].text == "harmonic", known.parameters["Isolation/Duration"].number
     free = run(known, {"Isolation/Damper": "none"})
     if not np.isfinite(free.summary["transmissibility_rms"]):
         raise ValueError("dampers are ranked by what they let through: Isolation/Base motion must not be none")
@@ -54,37 +59,42 @@ def rank_dampers(scene, changes=None, displacement=None, jobs=None):
         "lever": math.sqrt(RANGE) * lever,
     }
 
+    steady = {"Isolation/Duration": LONGEST * duration, **STEADY} if is_harmonic else {}
+
     def try_strengths(damper, strengths):
-        table = sweep(known, {STRENGTHS[damper]: strengths}, {"Analysis/Type": "isolation", "Isolation/Damper": damper}, jobs=jobs).table
-        return table["transmissibility_rms"], table["largest_displacement"]
+        runs = {"Analysis/Type": "isolation", "Isolation/Damper": damper, **steady}
+        table = sweep(known, {STRENGTHS[damper]: strengths}, runs, jobs=jobs).table
+        return table["transmissibility_rms"], table["largest_displacement"], table["steady_state"] == 1 if is_harmonic else np.isfinite(strengths)
 
     ranked = []
     for damper, most in strongest.items():
         if found := find_strength(partial(try_strengths, damper), most, displacement):
-            strength, through, largest = found
+            strength, through, largest, is_steady = found
             is_at_end = any(math.isclose(strength, end, rel_tol=0.05) for end in (most / RANGE, RANGE * most))
             note = ", where the range tried ends" if is_at_end else ""
-            ranked.append(RankedDamper(damper, strength, known.parameters[STRENGTHS[damper]].unit, through, largest, note))
-    without = RankedDamper("no damper", 0.0, "", float(free.summary["transmissibility_rms"]), float(free.summary["largest_displacement"]))
-    through, largest = (float(column[0]) for column in try_strengths("lever", [lever]))
-    as_it_is = RankedDamper("lever", lever, known.parameters[STRENGTHS["lever"]].unit, through, largest, ", as it is")
-    return sorted(ranked, key=lambda each: each.transmissibility), [without, as_it_is]
+            ranked.append(RankedDamper(damper, strength, known.parameters[STRENGTHS[damper]].unit, through, largest, note, is_steady))
+    through, largest = (float(free.summary[name]) for name in ("transmissibility_rms", "largest_displacement"))
+    without = RankedDamper("no damper", 0.0, "", through, largest, is_steady=free.summary.get("steady_state", 1) == 1)
+    through, largest, is_steady = (column[0].item() for column in try_strengths("lever", np.array([lever])))
+    as_it_is = RankedDamper("lever", lever, known.parameters[STRENGTHS["lever"]].unit, through, largest, ", as it is", is_steady)
+    return sorted(ranked, key=lambda each: (not each.is_steady, each.transmissibility)), [without, as_it_is]
 
 
 def find_strength(try_strengths, strongest, displacement):
-    """Returns strength, transmissibility and displacement; None where no strength serves.
+    """Returns strength, transmissibility, displacement and whether the motion is steady; None where no strength serves.
 
     Where the strongest tried is the best, or none serves, stronger ones are tried, up to RANGE times `strongest`.
     """
     lowest, highest = strongest / RANGE, strongest
     strengths, narrowed = np.geomspace(lowest, highest, FIRST_TRIES), 0
     while narrowed < 3:
-        through, largest = try_strengths(strengths)
-        serves = np.isfinite(through) if displacement is None else largest <= displacement
+        through, largest, is_steady = try_strengths(strengths)
+        counted = np.where(is_steady, through, np.nan) if (is_steady & np.isfinite(through)).any() else through
+        serves = np.isfinite(counted) if displacement is None else largest <= displacement
         best = None
         if serves.any():
-            best = int(np.nanargmin(through) if displacement is None else np.argmax(serves))
-            found = float(strengths[best]), float(through[best]), float(largest[best])
+            best = int(np.nanargmin(counted) if displacement is None else np.argmax(serves))
+            found = float(strengths[best]), float(through[best]), float(largest[best]), bool(is_steady[best])
         if narrowed == 0 and best in (None, len(strengths) - 1) and highest < RANGE * strongest:
             lowest, highest = strengths[-2], highest * math.sqrt(RANGE)
             strengths = np.geomspace(lowest, highest, FIRST_TRIES)
@@ -109,4 +119,6 @@ def tell_ranking(ranked, compared):
         verdict = "The lever lets the least through."
     else:
         verdict = f"The lever lets through {lever.transmissibility:.3g}, {ranked[0].damper} {ranked[0].transmissibility:.3g}."
+    if not all(each.is_steady for each in ranked):
+        verdict += " What dampers that are not steady let through still changes: they are ranked last, and need a longer Isolation/Duration."
     return "\n".join([*lines, verdict])
