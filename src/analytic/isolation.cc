@@ -5,6 +5,7 @@
 #include "base/errors.h"
 #include "base/system/interrupt.h"
 #include "base/text.h"
+#include "scene/analysis_use.h"
 #include "scene/scene.h"
 
 #include <boost/math/distributions/students_t.hpp>
@@ -317,7 +318,7 @@ namespace sprag
         ++solver.periods_ended;
         solver.period_stops = 0;
         motion.reset_period();
-        const auto repeats = SteadyState{ solver.instants, settings.periodic_tolerance }.periods();
+        const auto repeats = SteadyState{ solver.instants, periodic_tolerance(scene) }.periods();
         if (repeats && !found.is_steady)
           found.steady_from = state.time;
         found.is_steady  = repeats.has_value();
@@ -352,6 +353,12 @@ namespace sprag
       }
     };
   } // namespace
+
+  double periodic_tolerance(const Scene &scene)
+  {
+    constexpr double error_of_z = 0.2; // over the tolerance of steps in time: a thousandth of its peak at the default
+    return std::max(scene.isolation.periodic_tolerance, isolates_by_model(scene) ? error_of_z * scene.time.tolerance : 0.);
+  }
 
   double output_step(const IsolationSettings &settings)
   {

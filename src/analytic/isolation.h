@@ -62,6 +62,10 @@ namespace sprag
   /// Runs a table on the damper of the closed form.
   void run_isolation(const Scene &scene, IsolationFindings &findings, const RecordTable &record);
 
+  /// Returns Isolation/Periodic tolerance, with levers in time at least the error of z that their steps make: periods differ by
+  /// it.
+  double periodic_tolerance(const Scene &scene);
+
   /// Returns the time between two rows [s]: Isolation/Output step, else the least of 1/100 natural period, 1/10 of the base's
   /// shortest period and the spacing of a record.
   double output_step(const IsolationSettings &settings);

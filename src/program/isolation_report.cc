@@ -76,7 +76,7 @@ namespace sprag
     {
       if (!is_harmonic(scene) || found.is_steady)
         return {};
-      return { make_warning("no_steady_state", { rounded_text(found.time), rounded_text(scene.isolation.periodic_tolerance) }) };
+      return { make_warning("no_steady_state", { rounded_text(found.time), rounded_text(periodic_tolerance(scene)) }) };
     }
   } // namespace
 

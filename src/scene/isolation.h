@@ -76,20 +76,20 @@ namespace sprag
     double friction_arm_ratio  = 0.;   ///< its arm of friction over that of the normal force, >= 0
     std::string loop_file;
 
-    BaseMotionType base         = BaseMotionType::harmonic;
-    double base_amplitude       = 10.; ///< [mm], > 0
-    double base_frequency       = 1.;  ///< [Hz], > 0; of a sweep the first
-    double final_frequency      = 5.;  ///< of a sweep [Hz], > 0
-    SweepForm sweep             = SweepForm::logarithmic;
-    ShockForm shock             = ShockForm::half_sine;
-    BaseSpectrum spectrum       = BaseSpectrum::kanai_tajimi;
-    double rms_acceleration     = 200.; ///< of a Kanai-Tajimi ground [mm/s^2], > 0
-    double ground_frequency     = 2.5;  ///< [Hz], > 0
-    double ground_damping       = 0.6;  ///< of critical, > 0
-    double lowest_frequency     = 0.2;  ///< of a random motion [Hz], > 0
-    double highest_frequency    = 20.;  ///< [Hz]
+    BaseMotionType base      = BaseMotionType::harmonic;
+    double base_amplitude    = 10.; ///< [mm], > 0
+    double base_frequency    = 1.;  ///< [Hz], > 0; of a sweep the first
+    double final_frequency   = 5.;  ///< of a sweep [Hz], > 0
+    SweepForm sweep          = SweepForm::logarithmic;
+    ShockForm shock          = ShockForm::half_sine;
+    BaseSpectrum spectrum    = BaseSpectrum::kanai_tajimi;
+    double rms_acceleration  = 200.;      ///< of a Kanai-Tajimi ground [mm/s^2], > 0
+    double ground_frequency  = 2.5;       ///< [Hz], > 0
+    double ground_damping    = 0.6;       ///< of critical, > 0
+    double lowest_frequency  = 0.2;       ///< of a random motion [Hz], > 0
+    double highest_frequency = 20.;       ///< [Hz]
     std::optional<double> spectrum_lines; ///< whole; none: dense enough for the duration
-    unsigned int seed           = 1;
+    unsigned int seed = 1;
     std::string base_file;
     AccelerationUnit unit = AccelerationUnit::from_file;
     bool corrects_drift   = false;

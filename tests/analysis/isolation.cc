@@ -454,6 +454,15 @@ TEST(Isolation, ATableWithoutADamperConservesItsEnergy)
   EXPECT_LT(found.energy_residual, 1e-10);
 }
 
+TEST(Isolation, PeriodsOfLeversInTimeRepeatWithinTheErrorOfTheirSteps)
+{
+  Scene scene          = shaken(DamperType::lever, 1.);
+  scene.time.tolerance = 5e-3;
+  EXPECT_EQ(periodic_tolerance(scene), 1e-11);
+  scene.analysis.model = ModelType::rigid;
+  EXPECT_NEAR(periodic_tolerance(scene), 1e-3, 1e-12);
+}
+
 // Rows every hundredth of the natural period, 10 ms, would fold the upper half of a record of 500 Hz onto the lower one.
 TEST(Isolation, RowsAreAsFineAsTheRecord)
 {
