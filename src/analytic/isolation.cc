@@ -356,8 +356,9 @@ namespace sprag
 
   double periodic_tolerance(const Scene &scene)
   {
-    constexpr double error_of_z = 0.2; // over the tolerance of steps in time: a thousandth of its peak at the default
-    return std::max(scene.isolation.periodic_tolerance, isolates_by_model(scene) ? error_of_z * scene.time.tolerance : 0.);
+    constexpr double displacement_error = 0.2; // over the tolerance of steps in time: a thousandth of its peak at the default
+    return std::max(scene.isolation.periodic_tolerance,
+                    isolates_by_model(scene) ? displacement_error * scene.time.tolerance : 0.);
   }
 
   double output_step(const IsolationSettings &settings)

@@ -137,7 +137,7 @@ class PackageTest(FolderTest):
         self.assertTrue(is_steady)
         self.assertAlmostEqual(find_strength(moves_by_strength, 100.0, None)[0], 1000, delta=50)
         self.assertIsNone(find_strength(moves_by_strength, 1.0, 1e-6))
-        # What is not steady counts where nothing else does.
+        # Strengths that are not steady count where no other is.
         steady_until = 500
         self.assertLess(find_strength(moves_by_strength, 100.0, None)[0], 500)
         steady_until = 0
