@@ -82,7 +82,7 @@ namespace sprag
       return motion;
     }
 
-    /// Joins the rows by straight lines, of logarithms where all rows have them, as those of vibration specifications.
+    /// Joins the rows by lines straight in logarithms, as those of vibration specifications, where both have them.
     double interpolated(const Samples &samples, const double at)
     {
       const auto next = std::upper_bound(samples.at.begin(), samples.at.end(), at);
@@ -90,7 +90,7 @@ namespace sprag
         return 0.;
       const auto i         = std::min<std::size_t>(static_cast<std::size_t>(next - samples.at.begin()), samples.at.size() - 1);
       const auto &[f, S]   = samples;
-      const bool has_logs  = f.front() > 0. && *std::min_element(S.begin(), S.end()) > 0.;
+      const bool has_logs  = f[i - 1] > 0. && S[i - 1] > 0. && S[i] > 0.;
       const auto scaled    = [has_logs](const double value) { return has_logs ? std::log(value) : value; };
       const double share   = (scaled(at) - scaled(f[i - 1])) / (scaled(f[i]) - scaled(f[i - 1]));
       const double between = scaled(S[i - 1]) + share * (scaled(S[i]) - scaled(S[i - 1]));

@@ -36,6 +36,15 @@ namespace
   }
 } // namespace
 
+// The second pair is of friction that lags by microseconds.
+TEST(SlideStability, LooksAsHighAsItsModesVibrate)
+{
+  SlideStability found;
+  for (const std::complex<double> lambda : { std::complex<double>(-20., 3e3), { -3e6, 9e4 }, { 5., 2e3 }, { -7e4, 0. } })
+    found.modes.emplace_back().mode.eigenvalue = lambda;
+  EXPECT_DOUBLE_EQ(found.highest_frequency(), 3e3 / (2. * M_PI));
+}
+
 TEST(Jamming, RigidMarginIsThatOfTheClosedForm)
 {
   const auto margin = jamming_margin(rigid_lever(0.73), false);

@@ -154,12 +154,7 @@ namespace
             << slide.name << ", force on dof " << dofs[i] << " by dof " << dofs[j];
     }
   }
-} // namespace
 
-// Over 2e-6 mm: the law's third derivative, 1.5e7 N/mm^3, makes 1e-5 N/mm; round-off of the gap, 2e-14 mm times 1500 N/mm over
-// 2e-6 mm, as much. The tangent itself is 1500 N/mm.
-namespace
-{
   /// Twelve delays on three dofs whose times are those given in turn, with numbers of either sign and no pattern.
   LinearisedForces many_delays(const std::vector<double> &times)
   {
@@ -191,8 +186,8 @@ namespace
   }
 } // namespace
 
-// Joined, they differ by lambda^2 t (T - t)/((1 + lambda t)(1 + lambda T)) of each delayed force, by nothing where times are
-// equal.
+// A delay takes lambda t/(1 + lambda t) off a force. Joined, it changes what it takes off by lambda (T - t)/(1 + lambda T), by
+// nothing where times are equal.
 TEST(Linearisation, JoinedDelaysGiveTheSameForces)
 {
   constexpr double highest = 4e4, t = 1e-7, longest = 2e-7;
@@ -205,7 +200,7 @@ TEST(Linearisation, JoinedDelaysGiveTheSameForces)
   for (const auto lambda : ComplexAmplitudes{ { 0., 3e3 }, { 200., 1e4 }, { -500., highest } })
   {
     EXPECT_LT(largest_difference(equal.forces(lambda, z), equal.with_joined_delays(highest).forces(lambda, z)), 1e-12);
-    // These forces are all that the delays change.
+    // Without forces of another kind these are what the delays take off.
     const double bound = std::abs(lambda) * (longest - t);
     const double found = largest_difference(apart.forces(lambda, z), apart.with_joined_delays(highest).forces(lambda, z));
     EXPECT_LT(found, bound);
@@ -213,6 +208,8 @@ TEST(Linearisation, JoinedDelaysGiveTheSameForces)
   }
 }
 
+// Over 2e-6 mm: the law's third derivative, 1.5e7 N/mm^3, makes 1e-5 N/mm; round-off of the gap, 2e-14 mm times 1500 N/mm over
+// 2e-6 mm, as much. The tangent itself is 1500 N/mm.
 TEST(Linearisation, PressureAndFrictionAreTheDerivativeOfTheForcesByDisplacements)
 {
   for (const auto &slide : slides(0.05))

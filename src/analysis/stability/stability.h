@@ -44,7 +44,8 @@ namespace sprag
     std::size_t worst = 0;           ///< of the modes, the one with the largest growth rate, the first of those that tie
     std::optional<Eigenmode> beyond; ///< the fastest growing mode beyond CheckedModes::up_to, if one grows
 
-    /// Returns the highest frequency among the modes [Hz]; NaN without equilibrium.
+    /// Returns the highest frequency of the modes that vibrate, which take more than a radian to decay by 1/e [Hz]; NaN if none
+    /// does.
     double highest_frequency() const;
 
     const Eigenmode &worst_mode() const
