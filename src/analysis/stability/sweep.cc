@@ -203,20 +203,20 @@ namespace sprag
       return values.front();
     }
 
-    /// Returns the share of the constants in Stability/Ranges, at most most_shared_ranges, for which all slides are stable. All
-    /// values of a range are equally likely. Between its ends and middle growth at each x is the larger of a parabola and of
-    /// straight lines, as the vibration that grows most may change between them. What stands out between these x counts whole.
-    double stable_share(const Scene &scene, DynamicsMaker &maker)
+    using NodeGrowth = std::vector<std::vector<double>>; ///< [1/s] of all nodes, at each x first one way, then the other
+
+    /// Returns the growth of slides for constants at the ends and in the middle of Stability/Ranges, which are at most
+    /// most_shared_ranges. What stands out between these x counts at all of them.
+    NodeGrowth node_growth(const Scene &scene, DynamicsMaker &maker, const std::optional<Direction> &direction)
     {
-      constexpr std::array<unsigned int, most_shared_ranges + 1> n_samples = { { 1, 1000, 100, 27 } };
-      const auto ranges                                                    = constant_ranges(scene);
+      const auto ranges         = constant_ranges(scene);
       const std::size_t n_nodes = std::size_t(std::lround(std::pow(3., ranges.size())));
       SharedEquilibria shared;
-      std::vector<std::vector<double>> growth; // at each x, of all nodes
+      NodeGrowth growth;
       double between = 0.;
       for (std::size_t node = 0; node < n_nodes; ++node)
       {
-        SweepPart part{ false, Constants(), {}, &shared };
+        SweepPart part{ false, Constants(), direction, &shared };
         for (std::size_t i = 0, place = node; i < ranges.size(); ++i, place /= 3)
           part.constants->push_back(
               override_text(ranges[i].name, ranges[i].from + 0.5 * (place % 3) * (ranges[i].to - ranges[i].from)));
@@ -236,13 +236,22 @@ namespace sprag
       for (auto &at_x : growth)
         for (double &rate : at_x)
           rate = std::isnan(rate) ? largest : rate + between;
-      const unsigned int samples = n_samples[ranges.size()];
-      const std::size_t n_all    = std::size_t(std::lround(std::pow(samples, ranges.size())));
-      std::size_t n_stable       = 0;
+      return growth;
+    }
+
+    /// Returns the share of the constants in n ranges for which all slides are stable. All values of a range are equally likely.
+    /// Between its ends and middle growth at each x is the larger of a parabola and of straight lines, as the vibration that
+    /// grows most may change between them.
+    double stable_share(const NodeGrowth &growth, const std::size_t n)
+    {
+      constexpr std::array<unsigned int, most_shared_ranges + 1> n_samples = { { 1, 1000, 100, 27 } };
+      const unsigned int samples                                           = n_samples[n];
+      const std::size_t n_all                                              = std::size_t(std::lround(std::pow(samples, n)));
+      std::size_t n_stable                                                 = 0;
       for (std::size_t sample = 0; sample < n_all; ++sample)
       {
         std::vector<double> t;
-        for (std::size_t i = 0, place = sample; i < ranges.size(); ++i, place /= samples)
+        for (std::size_t i = 0, place = sample; i < n; ++i, place /= samples)
           t.push_back((place % samples + 0.5) / samples);
         const auto is_stable = [&](const std::vector<double> &at_x)
         { return interpolate(at_x, t, true) <= 0. && interpolate(at_x, t, false) <= 0.; };
@@ -251,32 +260,87 @@ namespace sprag
       return static_cast<double>(n_stable) / static_cast<double>(n_all);
     }
 
-    /// Returns the value to which a check stays stable on the unstable side of a limit of stability, at most up to the next
-    /// change.
-    double stable_limit(const CriticalSearch &search, const CriticalValue &limit,
-                        const std::function<CheckedSlide(double)> &check_at)
+    Direction slide_direction(const CheckedSlide &slide)
+    {
+      return slide.drive.v < 0. ? Direction::backward : Direction::forward;
+    }
+
+    /// Returns a slide that is stable where probable_share of the constants in Stability/Ranges are, in the direction in which
+    /// fewer of them are.
+    CheckedSlide check_most(const Scene &scene, DynamicsMaker &maker, const std::optional<Direction> &only = {})
+    {
+      const std::size_t n   = constant_ranges(scene).size();
+      const auto directions = only ? std::vector<Direction>{ *only } : held_directions(scene);
+      const auto all        = node_growth(scene, maker, only);
+      const auto n_rows     = static_cast<std::ptrdiff_t>(all.size() / directions.size());
+      std::map<double, Direction> by_share;
+      for (std::size_t i = 0; i < directions.size(); ++i)
+      {
+        const auto first = all.begin() + static_cast<std::ptrdiff_t>(i) * n_rows;
+        by_share.emplace(stable_share({ first, first + n_rows }, n), directions[i]);
+      }
+      const double share = stable_share(all, n);
+      CheckedSlide result;
+      result.kind        = share >= probable_share ? SlideKind::stable : SlideKind::flutter;
+      result.growth_rate = probable_share - share;
+      result.drive.v     = by_share.begin()->second == Direction::backward ? -1. : 1.;
+      return result;
+    }
+
+    /// Returns the worst slide with the constants of the scene; none where one could not be checked.
+    std::optional<CheckedSlide> worst_own(const SweptSlides &swept)
+    {
+      std::optional<CheckedSlide> result;
+      for (const auto &[direction, constants, along] : swept.sweeps)
+      {
+        if (!constants.empty())
+          continue;
+        if (!along.not_checked.empty())
+          return std::nullopt;
+        if (!result || is_worse(*along.worst, *result))
+          result = along.worst;
+      }
+      return result;
+    }
+
+    /// Returns the value to which checks stay stable on the unstable side of a limit of stability, at most up to the next change.
+    /// `known`: slides at values of the search, between which no others are tried.
+    double stable_limit(const CriticalSearch &search, const CriticalValue &limit, ValueChecks checks,
+                        std::map<double, CheckedSlide> known = {})
     {
       constexpr double tolerance = 6e-3; ///< over the range
       const auto &range          = search.range;
       const bool towards_to      = limit.below == SlideKind::stable;
       if (towards_to == (limit.above == SlideKind::stable))
         return unknown;
-      double end = towards_to ? range.to : range.from;
+      const auto is_between = [](const double value, const double begin, const double end)
+      { return (value - begin) * (end - value) > 0.; };
+      double begin = limit.value, end = towards_to ? range.to : range.from;
       for (const auto &change : search.changes)
-        if ((change.value - limit.value) * (end - change.value) > 0.)
+        if (is_between(change.value, limit.value, end))
           end = change.value;
-      const double distance = std::abs(end - limit.value);
-      if (!(distance > 0.))
-        return limit.value;
-      const auto points = 2 + static_cast<unsigned int>(distance / std::max(search.spacing, tolerance * distance));
-      CheckedSlide at_limit;
-      at_limit.kind    = SlideKind::stable;
-      const auto check = [&](const double value) { return value == limit.value ? at_limit : check_at(value); };
-      const auto found = search_kinds({ range.name, limit.value, end, points },
-                                      { tolerance * std::abs(range.to - range.from) / distance, 0, true }, { check });
+      if (begin == end)
+        return begin;
+      known[begin].kind = SlideKind::stable;
+      for (const auto &[value, slide] : known)
+        if (slide.kind != SlideKind::stable && is_between(value, begin, end))
+          end = value;
+      for (const auto &[value, slide] : known)
+        if (is_between(value, begin, end))
+          begin = value;
+      const double distance = std::abs(end - begin);
+      const auto points     = 2 + static_cast<unsigned int>(distance / std::max(1.001 * search.spacing, tolerance * distance));
+      const auto check_any  = checks.at;
+      checks.at             = [&](const double value)
+      {
+        const auto found = known.find(value);
+        return found != known.end() ? found->second : check_any(value);
+      };
+      const auto found = search_kinds({ range.name, begin, end, points },
+                                      { tolerance * std::abs(range.to - range.from) / distance, 0, true }, checks);
       if (!found.changes.empty())
         return found.changes.front().value;
-      return found.not_checked.empty() && found.first == SlideKind::stable ? end : limit.value;
+      return found.not_checked.empty() && found.first == SlideKind::stable ? end : begin;
     }
   } // namespace
 
@@ -429,11 +493,14 @@ namespace sprag
   {
     const auto at = [&](const double value) { return prepared(variant(scene, { override_text(range.name, value) })); };
     std::vector<PlaceGrowth> places;
+    std::map<double, CheckedSlide> own;
     ValueChecks checks;
     checks.at = [&](const double value)
     {
       const auto swept = sweep(at(value), maker);
-      auto worst       = swept.worst();
+      if (const auto slide = worst_own(swept))
+        own[value] = *slide;
+      auto worst = swept.worst();
       add_places(swept, value, places);
       return worst;
     };
@@ -441,7 +508,7 @@ namespace sprag
     {
       SweepPart part;
       part.constants = slide.constants;
-      part.direction = slide.drive.v < 0. ? Direction::backward : Direction::forward;
+      part.direction = slide_direction(slide);
       return sweep(at(value), maker, part).worst();
     };
     checks.tried = tried;
@@ -453,20 +520,17 @@ namespace sprag
         std::any_of(uncertain.begin(), uncertain.end(), [&](const auto &one) { return one.name == range.name; });
     if (uncertain.empty() || is_in_them)
       return result;
-    const auto check_own  = [&](const double value) { return sweep(at(value), maker, { false, Constants() }).worst(); };
-    const auto check_most = [&](const double value)
-    {
-      const double share = stable_share(at(value), maker);
-      CheckedSlide result;
-      result.kind        = share >= probable_share ? SlideKind::stable : SlideKind::flutter;
-      result.growth_rate = probable_share - share;
-      return result;
-    };
+    ValueChecks own_checks, most_checks;
+    own_checks.at     = [&](const double value) { return sweep(at(value), maker, { false, Constants() }).worst(); };
+    own_checks.alike  = checks.alike;
+    most_checks.at    = [&](const double value) { return check_most(at(value), maker); };
+    most_checks.alike = [&](const double value, const CheckedSlide &slide)
+    { return check_most(at(value), maker, slide_direction(slide)); };
     for (auto &change : result.changes)
     {
-      change.own = stable_limit(result, change, check_own);
+      change.own = stable_limit(result, change, own_checks, own);
       if (uncertain.size() <= most_shared_ranges)
-        change.likely = stable_limit(result, change, check_most);
+        change.likely = stable_limit(result, change, most_checks);
     }
     return result;
   }
