@@ -7,6 +7,7 @@
 #include "results/row_statistics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -265,6 +266,19 @@ namespace sprag
       distance  = rms(window);
     }
 
+    unsigned int rank(const Verdict verdict)
+    {
+      constexpr std::array<Verdict, 6> by_rank = { { Verdict::unknown, Verdict::decays, Verdict::rings, Verdict::elements_pass,
+                                                     Verdict::grows, Verdict::vibrates } };
+      return static_cast<unsigned int>(std::find(by_rank.begin(), by_rank.end(), verdict) - by_rank.begin());
+    }
+
+    bool is_worse(const Oscillation &a, const Oscillation &b)
+    {
+      constexpr double round_off = 1e-6;
+      return rank(a.verdict) != rank(b.verdict) ? rank(a.verdict) > rank(b.verdict) : a.rms > (1. + round_off) * b.rms;
+    }
+
     Oscillation oscillation_at(const std::vector<Row> &rows, const DrivePoint &turn, const double reversal_duration,
                                const double next_reversal, const double face_size)
     {
@@ -297,17 +311,34 @@ namespace sprag
   {
     const auto &turns     = drive.reversals();
     const double duration = drive.reversal_duration();
+    const auto second     = count_levers(rows) == 2 ? lever_rows(rows, 1) : std::vector<Row>();
     std::vector<Oscillation> result;
     for (std::size_t i = 0; i < turns.size(); ++i)
     {
       const double next = i + 1 < turns.size() ? turns[i + 1] - duration / 2. : drive.duration();
-      result.push_back(oscillation_at(rows, drive.at(turns[i], Drive::Side::after), duration, next, face_size));
+      const auto found  = [&](const std::vector<Row> &lever)
+      { return oscillation_at(lever, drive.at(turns[i], Drive::Side::after), duration, next, face_size); };
+      result.push_back(found(rows));
+      if (second.empty())
+        continue;
+      result.back().lever = 1.;
+      if (auto other = found(second); is_worse(other, result.back()))
+      {
+        other.lever   = 2.;
+        result.back() = other;
+      }
     }
     return result;
   }
 
   Swing largest_swing(const std::vector<Row> &rows, const std::vector<Oscillation> &reversals, const double reversal_duration)
   {
+    if (count_levers(rows) == 2)
+    {
+      const auto first  = largest_swing(lever_rows(rows, 0), reversals, reversal_duration);
+      const auto second = largest_swing(lever_rows(rows, 1), reversals, reversal_duration);
+      return second.size > first.size ? second : first;
+    }
     const auto is_behind_reversal = [&](const double time)
     {
       return std::any_of(reversals.begin(), reversals.end(),
@@ -331,21 +362,22 @@ namespace sprag
       if (change * direction < 0.)
       {
         if (extreme && 0.5 * std::abs(before - *extreme) > result.size)
-          result = { 0.5 * std::abs(before - *extreme), row[Column::x] };
+          result = { 0.5 * std::abs(before - *extreme), row[Column::x], 0. };
         extreme = before;
       }
       if (change != 0. && std::isfinite(change))
         direction = change;
       before = difference;
     }
+    result.scale = largest(rows, Column::P_quasi_static);
     return result;
   }
 
-  std::vector<Entry> swing_entries(const Swing &swing, const std::vector<Row> &rows)
+  std::vector<Entry> swing_entries(const Swing &swing)
   {
     constexpr double least     = 0.05; ///< over the largest P without inertia
     std::vector<Entry> entries = { { "swing_P", swing.size } };
-    if (swing.size > least * largest(rows, Column::P_quasi_static))
+    if (swing.size > least * swing.scale)
       entries.push_back({ "vibration", "P swings by " + rounded_text(swing.size) + " N to either side at x = " + mm(swing.x) });
     return entries;
   }
@@ -375,6 +407,8 @@ namespace sprag
                                { prefix + "rms_Q", found.rms_Q },
                                { prefix + "rms_Q_support", found.rms_Q_support },
                                { prefix + "extent", found.extent } });
+      if (std::isfinite(found.lever))
+        entries.push_back({ prefix + "lever", found.lever });
     }
     return entries;
   }

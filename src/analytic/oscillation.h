@@ -60,9 +60,12 @@ namespace sprag
     /// Travel from the turning point until P stays within 5 % of its largest distance from the quasi-static value after the
     /// reversal, or within 0.1 % of the largest P; at most to the beginning of the next reversal or the end of the rows [mm].
     double extent = unknown;
+
+    double lever = unknown; ///< whose it is, of a pair: 1 or 2
   };
 
-  /// Measures the oscillation after each reversal of the drive. `face_size` is that of the elements along the friction face [mm],
+  /// Measures the oscillation after each reversal of the drive, of a pair that of the lever whose verdict is the worse one, then
+  /// that with the larger rms. `face_size` is that of the elements along the friction face [mm],
   /// 0 where there are none or it is unknown.
   std::vector<Oscillation> oscillations(const std::vector<Row> &rows, const Drive &drive, double face_size = 0.);
 
@@ -71,13 +74,14 @@ namespace sprag
   {
     double size = 0.; ///< half the difference of P less its value without inertia between a maximum and the minimum beside it [N]
     double x    = unknown; ///< there [mm]
+    double scale = 0.;     ///< largest P without inertia of its lever [N]
   };
 
-  /// Finds it; `reversals` are those of oscillations().
+  /// Finds it, of a pair that of the lever which swings more; `reversals` are those of oscillations().
   Swing largest_swing(const std::vector<Row> &rows, const std::vector<Oscillation> &reversals, double reversal_duration);
 
   /// Returns the entries of that: swing_P and, where it is more than 5 % of the largest P without inertia, a sentence.
-  std::vector<Entry> swing_entries(const Swing &swing, const std::vector<Row> &rows);
+  std::vector<Entry> swing_entries(const Swing &swing);
 
   /// Warns of ringing that the mesh makes, not the lever.
   Warnings element_passing_warnings(const std::vector<Oscillation> &oscillations, double face_size);

@@ -175,17 +175,20 @@ namespace sprag
     {
       if (scene.drive.reversals().empty())
         throw NoEstimate{ "the drive does not turn." };
-      const auto is_open = [&](const Row &row)
-      { return row[Column::time] > scene.drive.reversals().front() && row[Column::P] == 0.; };
+      const auto is_open = [&](const Row &row) {
+        return row[Column::time] > scene.drive.reversals().front() &&
+               (row[Column::P] == 0. || row.lever_value(Column::P, 1) == 0.);
+      };
       if (std::any_of(rows.begin(), rows.end(), is_open))
         throw NoEstimate{ "the contact opens, and when it does depends on every small error." };
     }
 
-    std::vector<ErrorEstimate> estimates(const Scene &scene, const MeshedDynamics &dynamics, const std::vector<Row> &rows,
+    std::vector<ErrorEstimate> estimates(const Scene &scene, const MeshedDynamics &dynamics, const std::vector<Row> &all_rows,
                                          DynamicsMaker &maker)
     {
-      require_closed_contact(scene, rows);
-      const auto turned     = oscillations(rows, scene.drive).front();
+      require_closed_contact(scene, all_rows);
+      const auto turned     = oscillations(all_rows, scene.drive).front();
+      const auto rows       = lever_rows(all_rows, turned.lever == 2. ? 1 : 0);
       const double measured = turned.frequency;
       if (!(measured > 0.))
         throw NoEstimate{ "P does not ring behind the first reversal." };

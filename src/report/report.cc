@@ -118,9 +118,16 @@ namespace sprag
         entries.push_back({ "peak_" + column_info(column).name + "_" + name, peak_between_rows(rows, column, counts) });
       if (begins_closed(scene))
         entries.push_back({ "slope_" + name, slope_at_zero(settled, scene.geometry.cylinder_radius) });
-      append<Entry>(entries, { { "deviation_P_" + name, deviation(settled, Column::P, Column::P_closed_form) },
-                               { "deviation_Q_" + name, deviation(settled, Column::Q, Column::Q_closed_form) },
-                               { "deviation_theta_" + name, deviation(settled, Column::theta, Column::theta_closed_form) } });
+      const auto second = count_levers(rows) == 2 ? lever_rows({ settled.begin(), settled.end() }, 1) : std::vector<Row>();
+      for (const auto &[column, reference] :
+           { std::pair{ Column::P, Column::P_closed_form }, std::pair{ Column::Q, Column::Q_closed_form },
+             std::pair{ Column::theta, Column::theta_closed_form } })
+      {
+        const double first = deviation(settled, column, reference);
+        entries.push_back(
+            { "deviation_" + column_info(column).name + "_" + name,
+              second.empty() ? first : std::max(first, deviation({ second.begin(), second.end() }, column, reference)) });
+      }
     }
 
     /// Adds tilt and skew of an axis on a compliant shaft, at the largest P.
@@ -203,12 +210,20 @@ namespace sprag
 
   void add_closed_form(const Scene &scene, Row &row)
   {
-    const double moved             = row[Column::support_displacement];
-    const double x                 = row[Column::x] - (std::isnan(moved) ? 0. : moved);
-    const double v                 = row[Column::v];
+    const double moved    = row[Column::support_displacement];
+    const double x        = row[Column::x] - (std::isnan(moved) ? 0. : moved);
+    const double v        = row[Column::v];
+    const auto has_forces = [](const ClosedFormState &state) { return !(state.P < 0.) && std::isfinite(state.P); };
+    if (count_levers(scene) == 2 && !row.second_lever().empty())
+    {
+      const auto state = pair_closed_form(scene, x, v)[1].state;
+      row.set_second_value(Column::theta_closed_form, state.contact.theta);
+      row.set_second_value(Column::P_closed_form, has_forces(state) ? state.P : unknown);
+      row.set_second_value(Column::Q_closed_form, has_forces(state) ? state.Q : unknown);
+    }
     const auto state               = count_levers(scene) == 2 ? pair_closed_form(scene, x, v)[0].state : closed_form(scene, x, v);
     row[Column::theta_closed_form] = state.contact.theta;
-    if (state.P < 0. || !std::isfinite(state.P))
+    if (!has_forces(state))
       return;
     row[Column::P_closed_form] = state.P;
     row[Column::Q_closed_form] = state.Q;
@@ -351,7 +366,7 @@ namespace sprag
                              { "iterations", sum(rows, Column::iterations) } });
     const auto reversals = oscillations(rows, scene.drive, element_size(scene));
     append(entries, oscillation_entries(reversals));
-    append(entries, swing_entries(largest_swing(rows, reversals, scene.drive.reversal_duration()), rows));
+    append(entries, swing_entries(largest_swing(rows, reversals, scene.drive.reversal_duration())));
     return entries;
   }
 

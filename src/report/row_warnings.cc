@@ -8,6 +8,7 @@
 #include "scene/closed_form.h"
 #include "scene/contact_estimates.h"
 #include "scene/lever_inertia.h"
+#include "scene/mirrored_pair.h"
 #include "scene/scene.h"
 
 #include <algorithm>
@@ -266,37 +267,66 @@ namespace sprag
     return buckling_strain * layer.young_modulus;
   }
 
+  namespace
+  {
+    /// Returns the warnings that follow from rows of one lever.
+    Warnings lever_warnings(const Scene &scene, const std::vector<Row> &rows)
+    {
+      Warnings warnings;
+      const Row *peak = find_largest_row(rows, [](const Row &row) { return row[Column::P]; });
+      if (peak == nullptr)
+        return warnings;
+      if (is_meshed(scene.analysis.model))
+      {
+        add_penetration(scene, rows, *peak, warnings);
+        append(warnings, coarse_contact_warnings(scene, rows));
+        add_peaks(scene, rows, (*peak)[Column::P], warnings);
+        add_tangential(*peak, warnings);
+      }
+      add_deflection(scene, rows, warnings);
+      add_strain(scene, rows, warnings);
+      add_pressure(scene, rows, *peak, warnings);
+      add_friction_speed(scene, rows, warnings);
+      return warnings;
+    }
+  } // namespace
+
   Warnings row_warnings(const Scene &scene, const std::vector<Row> &rows)
   {
-    Warnings warnings;
-    const Row *peak = find_largest_row(rows, [](const Row &row) { return row[Column::P]; });
-    if (peak == nullptr)
+    auto warnings = lever_warnings(scene, rows);
+    if (rows.empty())
       return warnings;
-    if (is_meshed(scene.analysis.model))
+    if (count_levers(rows) == 2)
     {
-      add_penetration(scene, rows, *peak, warnings);
-      append(warnings, coarse_contact_warnings(scene, rows));
-      add_peaks(scene, rows, (*peak)[Column::P], warnings);
-      add_tangential(*peak, warnings);
+      Scene second                  = scene;
+      static_cast<Device &>(second) = lever_device(scene, 1);
+      for (auto &warning : lever_warnings(second, lever_rows(rows, 1)))
+        if (find_by(warnings, &Warning::name, warning.name) == nullptr)
+        {
+          warning.found += " This is the second lever of the pair.";
+          warnings.push_back(warning);
+        }
     }
-    add_deflection(scene, rows, warnings);
-    add_strain(scene, rows, warnings);
-    add_pressure(scene, rows, *peak, warnings);
     add_energy(scene, rows, warnings);
-    add_friction_speed(scene, rows, warnings);
     add_sensors_in_tension(rows, warnings);
     return warnings;
   }
 
-  Warnings slide_warnings(const Scene &scene, const DrivePoint &drive, const double P, const double indentation)
+  Warnings slide_warnings(const Scene &scene, const DrivePoint &drive, const std::vector<double> &P, const double indentation)
   {
     Row row;
     row[Column::x]           = drive.x;
     row[Column::v]           = drive.v;
     row[Column::v_rel]       = sliding_speed(scene.geometry, drive.x, drive.v);
-    row[Column::P]           = P;
+    row[Column::P]           = P.front();
     row[Column::indentation] = indentation;
-    auto warnings            = row_warnings(scene, { row });
+    if (P.size() == 2)
+    {
+      Row second        = row;
+      second[Column::P] = P.back();
+      row.add_second_lever(second);
+    }
+    auto warnings = row_warnings(scene, { row });
     add_falling_friction(scene, row, warnings);
     return warnings;
   }

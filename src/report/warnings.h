@@ -17,14 +17,14 @@ namespace sprag
   Warnings scene_warnings(const Scene &scene);
 
   /// Returns the warnings that follow from the rows of a run, completed by add_closed_form(). Where a model has no friction face,
-  /// layer_pressure() of the largest P stands for the largest pressure. Only the first lever of a full pair is checked.
+  /// layer_pressure() of the largest P stands for the largest pressure. Each lever of a pair is checked.
   Warnings row_warnings(const Scene &scene, const std::vector<Row> &rows);
 
   /// Throws AnalysisError where there are warnings and Analysis/Warnings = error; the message quotes the first of them.
   void check_warnings(const Scene &scene, const Warnings &warnings);
 
-  /// Returns the warnings for a steady slide under P [N] with this compression of the layer [mm].
-  Warnings slide_warnings(const Scene &scene, const DrivePoint &drive, double P, double indentation);
+  /// Returns the warnings for a steady slide under P of each lever [N] with this compression of the layer [mm].
+  Warnings slide_warnings(const Scene &scene, const DrivePoint &drive, const std::vector<double> &P, double indentation);
 
   /// Warns of a growing vibration of a beam whose waves are shorter than six depths of the lever, see highest_beam_frequency().
   /// `frequency` and `growth_rate` are its own [Hz, 1/s].

@@ -63,7 +63,9 @@ namespace sprag
       // Motion and forces of the lever.
       Column::theta, Column::theta_rate, Column::s, Column::P, Column::F, Column::Q, Column::v_rel, Column::mu,
       // Shape of its contact.
-      Column::centre_offset, Column::contact_width, Column::largest_pressure, Column::largest_pressure_xi
+      Column::centre_offset, Column::contact_width, Column::largest_pressure, Column::largest_pressure_xi,
+      // References.
+      Column::P_quasi_static, Column::Q_quasi_static, Column::P_closed_form, Column::Q_closed_form, Column::theta_closed_form
     };
     return columns;
   }
@@ -114,11 +116,37 @@ namespace sprag
       (*this)[column] = std::max((*this)[column], second[column]);
   }
 
+  namespace
+  {
+    std::size_t find_place(const Column column)
+    {
+      const auto &per_lever = lever_columns();
+      return static_cast<std::size_t>(std::find(per_lever.begin(), per_lever.end(), column) - per_lever.begin());
+    }
+  } // namespace
+
   double Row::second_value(const Column column) const
   {
-    const auto &per_lever = lever_columns();
-    const auto place      = std::find(per_lever.begin(), per_lever.end(), column) - per_lever.begin();
-    return second_values.at(static_cast<std::size_t>(place));
+    return second_values.at(find_place(column));
+  }
+
+  void Row::set_second_value(const Column column, const double value)
+  {
+    second_values.at(find_place(column)) = value;
+  }
+
+  double Row::lever_value(const Column column, const unsigned int lever) const
+  {
+    return lever == 0 ? (*this)[column] : second_values.empty() ? unknown : second_value(column);
+  }
+
+  Row Row::lever_row(const unsigned int lever) const
+  {
+    Row result = *this;
+    result.second_values.clear();
+    for (std::size_t i = 0; i < second_values.size() && lever == 1; ++i)
+      result[lever_columns()[i]] = second_values[i];
+    return result;
   }
 
   double Row::lateral_force() const

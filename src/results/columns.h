@@ -89,6 +89,14 @@ namespace sprag
     /// Returns one of lever_columns() of a pair's second lever.
     double second_value(Column column) const;
 
+    void set_second_value(Column column, double value);
+
+    /// Returns one of lever_columns() of the first (0) or second (1) lever; NaN where there is no second.
+    double lever_value(Column column, unsigned int lever) const;
+
+    /// Returns the row with the first (0) or second (1) lever's lever_columns() in place of both.
+    Row lever_row(unsigned int lever) const;
+
     /// Returns Q of all levers together [N].
     double drive_force() const
     {

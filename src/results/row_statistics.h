@@ -29,6 +29,18 @@ namespace sprag
     return largest(rows, [column](const Row &row) { return row[column]; });
   }
 
+  /// Returns rows of a pair as they are of its first (0) or second (1) lever, see Row::lever_row().
+  inline std::vector<Row> lever_rows(const std::vector<Row> &rows, const unsigned int lever)
+  {
+    return mapped(rows, [=](const Row &row) { return row.lever_row(lever); });
+  }
+
+  /// Returns the number of levers that rows are of.
+  inline unsigned int count_levers(const std::vector<Row> &rows)
+  {
+    return rows.empty() || rows.front().second_lever().empty() ? 1 : 2;
+  }
+
   /// Returns the sum of a column.
   template <class Rows>
   double sum(const Rows &rows, const Column column)

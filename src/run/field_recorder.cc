@@ -39,7 +39,7 @@ namespace sprag
 
     double largest_force(const Row &row)
     {
-      return row.second_lever().empty() ? row[Column::P] : std::max(row[Column::P], row.second_value(Column::P));
+      return std::fmax(row[Column::P], row.lever_value(Column::P, 1));
     }
 
     double largest_surface_stress(const std::vector<double> &pressure, const std::vector<double> &traction)

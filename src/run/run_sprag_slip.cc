@@ -107,7 +107,7 @@ namespace sprag
                         { "cycle_begin", found.settled_begin },
                         { "cycle_amplitude_P", window.amplitude_P },
                         { "cycle_amplitude_indentation", window.amplitude_indentation },
-                        { "cycle_relative_amplitude", window.amplitude_P / found.slide.slide->forces.P },
+                        { "cycle_relative_amplitude", window.amplitude_P / window.slide_P },
                         { "cycle_open_share", window.open_share },
                         { "cycle_stick_share", window.stick_share },
                         { "cycle_frequency", window.frequency },
@@ -144,9 +144,9 @@ namespace sprag
       ResultWriter &writer;
       const HeldSlide &slide;
       unsigned long every = 1, count = 0;
-      std::size_t kept     = 0;
-      std::deque<Row> last = {};
-      Row largest          = {}; ///< the one with the largest P
+      std::size_t kept         = 0;
+      std::deque<Row> last     = {};
+      std::vector<Row> largest = std::vector<Row>(slide.second ? 2 : 1); ///< those with the largest P of each lever
 
       /// From now on every n-th row is written; the last `number` are kept.
       void begin(const unsigned long every_nth, const std::size_t number)
@@ -161,8 +161,14 @@ namespace sprag
       {
         row[Column::P_quasi_static] = slide.forces.P;
         row[Column::Q_quasi_static] = slide.forces.Q;
-        if (!(row[Column::P] <= largest[Column::P]))
-          largest = row;
+        if (slide.second)
+        {
+          row.set_second_value(Column::P_quasi_static, slide.second->P);
+          row.set_second_value(Column::Q_quasi_static, slide.second->Q);
+        }
+        for (unsigned int lever = 0; lever < largest.size(); ++lever)
+          if (!(row.lever_value(Column::P, lever) <= largest[lever].lever_value(Column::P, lever)))
+            largest[lever] = row;
         if (kept > 0)
           last.push_back(row);
         if (last.size() > kept)
@@ -227,7 +233,7 @@ namespace sprag
             {
               found.ledger = run.ledger();
               found.steps  = run.steps();
-              append(warnings, row_warnings(scene, { rows.largest }));
+              append(warnings, row_warnings(scene, rows.largest));
             });
       }
 

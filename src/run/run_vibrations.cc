@@ -305,7 +305,10 @@ namespace sprag
         if (found.slide)
         {
           write_fields(scene, dynamics, slide_pose(scene, dynamics.model(), *found.slide), modes, options);
-          append(warnings, slide_warnings(scene, found.slide->drive, found.slide->forces.P, found.slide->indentation));
+          std::vector<double> P = { found.slide->forces.P };
+          if (found.slide->second)
+            P.push_back(found.slide->second->P);
+          append(warnings, slide_warnings(scene, found.slide->drive, P, found.slide->indentation));
           if (found.beyond)
             append(warnings, beam_warnings(scene, mode_frequency(*found.beyond), found.beyond->mode.eigenvalue.real()));
         }

@@ -43,7 +43,7 @@ namespace
     {
       return inner->step(accepted, to, weights);
     }
-    std::optional<SlidingForces> sliding_forces(const DrivePoint &drive) override
+    std::vector<SlidingForces> sliding_forces(const DrivePoint &drive) override
     {
       return inner->sliding_forces(drive);
     }

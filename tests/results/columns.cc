@@ -74,6 +74,9 @@ TEST(Columns, OfAPairTellWhatTheSecondLeverHasAndWhatIsLeftBetweenThem)
   EXPECT_NEAR(first.swing(), 0.02, 1e-15);
   // The first lever presses the cylinder down, the second one up; friction at an inclination takes from either.
   EXPECT_NEAR(first.lateral_force(), 8. * std::cos(0.06) - 4. * std::sin(0.06) - 10. * std::cos(0.1) + 4. * std::sin(0.1), 1e-14);
+  EXPECT_EQ(first.lever_row(0)[Column::P], 10.);
+  EXPECT_EQ(first.lever_row(1)[Column::P], 8.);
+  EXPECT_EQ(first.lever_value(Column::theta, 1), 0.06);
   EXPECT_EQ(first[Column::P], 10.);
   EXPECT_EQ(first[Column::spring_energy], 4.);
   EXPECT_EQ(first[Column::penetration], 3e-3);

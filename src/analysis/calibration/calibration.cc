@@ -141,7 +141,7 @@ namespace sprag
   {
     Disagreement result;
     const std::array<const Scene *, 2> scenes = { { &meshed, &beam } };
-    std::array<std::vector<std::optional<SlidingForces>>, 2> forces;
+    std::array<std::vector<std::vector<SlidingForces>>, 2> forces;
     std::vector<DrivePoint> points;
     const double from = meshed.drive.minimum();
     const double to   = meshed.drive.maximum();
@@ -163,8 +163,9 @@ namespace sprag
       }
     }
     for (std::size_t i = 0; i < points.size(); ++i)
-      if (forces[0][i] && forces[1][i])
-        result.sliding.push_back({ points[i].x, std::copysign(1., points[i].v), { { *forces[0][i], *forces[1][i] } } });
+      if (!forces[0][i].empty() && !forces[1][i].empty())
+        result.sliding.push_back(
+            { points[i].x, std::copysign(1., points[i].v), { { forces[0][i].front(), forces[1][i].front() } } });
     return result;
   }
 } // namespace sprag

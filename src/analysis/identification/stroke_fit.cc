@@ -40,13 +40,13 @@ namespace sprag
       {
         const DrivePoint drive{ 0., from + (to - from) * i / sampled_positions, v, 0. };
         const auto found = model.sliding_forces(drive);
-        if (!found)
+        if (found.empty())
           throw AnalysisError("the model has no steady slide at x = " + mm(drive.x) + (v < 0. ? " backward" : " forward") +
                               ", so that it cannot correct the closed form: take Analysis/Model = closed form");
         const auto closed = closed_form(scene, drive.x, v);
         x.push_back(drive.x);
-        P.push_back(found->P - closed.P);
-        Q.push_back(found->Q - closed.Q);
+        P.push_back(found.front().P - closed.P);
+        Q.push_back(found.front().Q - closed.Q);
       }
       return { { MonotoneCubic(x, P), MonotoneCubic(x, Q) } };
     }

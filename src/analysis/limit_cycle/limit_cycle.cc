@@ -29,19 +29,34 @@ namespace sprag
     CycleWindow next_window(HeldRun &run, const HeldSlide &slide, const DrivePath &path, const double duration,
                             const RowSink &sink)
     {
-      std::vector<Sample> P, indentation;
-      double open = 0., stuck = 0., mean = 0.;
+      struct NormalForce
+      {
+        double slide_P;
+        std::vector<Sample> samples = {};
+        double open                 = 0.;
+      };
+      std::vector<NormalForce> levers = { { slide.forces.P } };
+      if (slide.second)
+        levers.push_back({ slide.second->P });
+      std::vector<Sample> indentation;
+      double stuck = 0., mean = 0.;
       const double begin = run.drive().time;
       const auto n       = static_cast<unsigned int>(std::ceil(duration / run.dt - 1e-6));
       for (unsigned int i = 0; i < n; ++i)
       {
         const Row &row = run.step(path);
-        P.push_back({ row[Column::time], row[Column::P] });
+        for (unsigned int lever = 0; lever < levers.size(); ++lever)
+        {
+          const double P = row.lever_value(Column::P, lever);
+          levers[lever].samples.push_back({ row[Column::time], P });
+          levers[lever].open += P == 0. ? 1. : 0.;
+        }
         indentation.push_back({ row[Column::time], row[Column::indentation] });
-        open += row[Column::P] == 0. ? 1. : 0.;
         stuck += run.slides(slide.speed) ? 0. : 1.;
         sink(row);
       }
+      const bool second_moves_more   = levers.size() == 2 && amplitude(levers[1].samples) > amplitude(levers[0].samples);
+      const auto &[slide_P, P, open] = levers[second_moves_more ? 1 : 0];
       Signal signal{ run.dt, {} };
       for (const auto &sample : P)
       {
@@ -52,6 +67,7 @@ namespace sprag
       return { begin,
                P.back().time,
                amplitude(P),
+               slide_P,
                amplitude(indentation),
                open / n,
                stuck / n,
@@ -90,6 +106,7 @@ namespace sprag
         const auto &window = windows[i];
         if (window.amplitude_P >= sum.amplitude_P)
         {
+          sum.slide_P   = window.slide_P;
           sum.frequency = window.frequency;
           sum.period    = window.period;
         }
@@ -101,24 +118,29 @@ namespace sprag
       return sum;
     }
 
+    bool is_small(const CycleWindow &window)
+    {
+      return window.amplitude_P < small_vibration * window.slide_P;
+    }
+
     /// Checks the windows so far: a slide, a cycle, or undecided as long as the last ones differ.
-    Settling checked(const std::vector<CycleWindow> &windows, const double P)
+    Settling checked(const std::vector<CycleWindow> &windows)
     {
       const std::size_t n = windows.size();
       if (n < 3)
         return Settling::undecided;
       const auto &before = windows[n - 2], &last = windows[n - 1];
-      if (last.amplitude_P < small_vibration * P)
+      if (is_small(last))
         return last.amplitude_P < before.amplitude_P ? Settling::slide : Settling::undecided;
       const bool repeats = last.period > 0. && agree(before, last) && agree(windows[n - 3], last);
       return repeats ? Settling::cycle : Settling::undecided;
     }
 
     /// Decides at the end of the time: a large vibration stays unless its second half is clearly smaller than its first.
-    Settling checked_at_last(const std::vector<CycleWindow> &windows, const double P)
+    Settling checked_at_last(const std::vector<CycleWindow> &windows)
     {
       const std::size_t n = windows.size();
-      if (windows.back().amplitude_P < small_vibration * P || n < 4)
+      if (is_small(windows.back()) || n < 4)
         return Settling::undecided;
       const double first  = mean_amplitude(windows, 0, n / 2);
       const double second = mean_amplitude(windows, n / 2, n);
@@ -183,6 +205,16 @@ namespace sprag
       return result;
     }
 
+    /// Returns the lever, 0 or 1, that a mode bends and turns more.
+    unsigned int moving_lever(const ModeShape &shape)
+    {
+      const auto size   = [](const double value) { return value; };
+      const auto motion = [&](const ModeShape::LeverShape &lever)
+      { return std::hypot(largest(lever.across[0], size), largest(lever.across[1], size)); };
+      constexpr double tie = 1e-6;
+      return shape.levers.size() == 2 && motion(shape.levers[1]) > (1. + tie) * motion(shape.levers[0]) ? 1 : 0;
+    }
+
     void fit(const std::vector<Sample> &signal, const Eigenmode &mode, const double at_start, Growth &growth)
     {
       growth.sizes     = compute_amplitudes(signal, oscillates(mode));
@@ -228,10 +260,10 @@ namespace sprag
       windows.push_back(next_window(run, slide, path, window_periods * times.period, sink));
       passed = windows.back().end - begin;
       if (passed >= times.shortest)
-        result.kind = checked(windows, slide.forces.P);
+        result.kind = checked(windows);
     }
     if (result.kind == Settling::undecided)
-      result.kind = checked_at_last(windows, slide.forces.P);
+      result.kind = checked_at_last(windows);
     result.window = result.kind == Settling::irregular ? joined(windows, windows.size() / 2) : windows.back();
     if (windows.size() > 1)
     {
@@ -459,6 +491,8 @@ namespace sprag
     const double at_start = grows ? settings.initial : settings.final;
     const double at_end   = grows ? settings.final : settings.initial;
     const double period   = mode_period(mode);
+    const auto lever      = moving_lever(model.mode_shape(mode));
+    const double slide_P  = lever == 1 ? slide.second->P : slide.forces.P;
 
     Growth growth;
     growth.eigenvalue = mode.mode.eigenvalue;
@@ -472,9 +506,10 @@ namespace sprag
       const Row &row = run.step(path);
       sink(row);
       time                = row[Column::time] - begin;
-      const Sample sample = { time, row[Column::P] - slide.forces.P };
+      const double P      = row.lever_value(Column::P, lever);
+      const Sample sample = { time, P - slide_P };
       growth.reached      = watch.reached(sample);
-      growth.slid         = run.slides(slide.speed) && row[Column::P] > 0.;
+      growth.slid         = run.slides(slide.speed) && P > 0.;
       if (time > settled_after * period)
         signal.push_back(sample);
     }

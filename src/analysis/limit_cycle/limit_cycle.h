@@ -51,7 +51,7 @@ namespace sprag
   struct Growth
   {
     std::complex<double> eigenvalue; ///< predicted [1/s]
-    ExponentialFit envelope{};       ///< measured, of P - P of the slide [N]
+    ExponentialFit envelope{};       ///< measured, of P - P of the slide [N]: of a pair's lever that the mode moves more
     double frequency = 0.;           ///< measured [Hz]; NaN where the mode does not oscillate
     std::vector<Sample> sizes;       ///< the envelope fitted, over the mean penetration
     bool slid    = true;             ///< neither stick nor loss of contact in the window
@@ -93,7 +93,8 @@ namespace sprag
   {
     double begin                 = 0.; ///< [s]
     double end                   = 0.; ///< [s]
-    double amplitude_P           = 0.; ///< half of largest less smallest [N]
+    double amplitude_P           = 0.; ///< half of largest less smallest, of a pair's lever where that is larger [N]
+    double slide_P               = 0.; ///< of that lever in the slide [N]
     double amplitude_indentation = 0.; ///< the same [mm]
     double open_share            = 0.; ///< of the time, without contact
     double stick_share           = 0.; ///< of the time, with a point in contact that does not slide on with the cylinder

@@ -13,6 +13,7 @@
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -53,7 +54,8 @@ namespace sprag
 
       struct Sample
       {
-        double time, P, Q;
+        double time;
+        std::array<SlidingForces, 2> forces; ///< of each lever; NaN without an equilibrium
       };
       std::vector<Sample> samples = {};
 
@@ -86,14 +88,22 @@ namespace sprag
         const auto &end             = *after;
         const auto &begin           = after == samples.begin() ? end : *(after - 1);
         const double share          = end.time > begin.time ? (time - begin.time) / (end.time - begin.time) : 0.;
-        row[Column::P_quasi_static] = begin.P + share * (end.P - begin.P);
-        row[Column::Q_quasi_static] = begin.Q + share * (end.Q - begin.Q);
+        const auto between          = [=](const double from, const double to) { return from + share * (to - from); };
+        row[Column::P_quasi_static] = between(begin.forces[0].P, end.forces[0].P);
+        row[Column::Q_quasi_static] = between(begin.forces[0].Q, end.forces[0].Q);
+        if (row.second_lever().empty())
+          return;
+        row.set_second_value(Column::P_quasi_static, between(begin.forces[1].P, end.forces[1].P));
+        row.set_second_value(Column::Q_quasi_static, between(begin.forces[1].Q, end.forces[1].Q));
       }
 
       Sample sample(const DrivePoint &point) const
       {
-        const auto forces = model.sliding_forces(point).value_or(SlidingForces{ std::nan(""), std::nan("") });
-        return { point.time, forces.P, forces.Q };
+        constexpr SlidingForces none{ unknown, unknown };
+        Sample result{ point.time, { { none, none } } };
+        const auto forces = model.sliding_forces(point);
+        std::copy(forces.begin(), forces.end(), result.forces.begin());
+        return result;
       }
     };
 

@@ -152,11 +152,11 @@ namespace sprag
       return outcome;
     }
 
-    std::optional<SlidingForces> sliding_forces(const DrivePoint &drive) override
+    std::vector<SlidingForces> sliding_forces(const DrivePoint &drive) override
     {
       // There a lever touches without force.
       if (drive.v == 0. && drive.x == 0. && frame.layout.levers == 1)
-        return SlidingForces{ 0., 0. };
+        return { { 0., 0. } };
       if (slides.solve(drive, 1.) == nullptr)
         return {};
       return observed_forces();
@@ -167,7 +167,7 @@ namespace sprag
       if (friction != ContactFriction::sliding)
         return slide_at(drive, friction, 1.);
       const auto frictionless = slides.solve(drive, 1., ContactFriction::none);
-      const double P_free     = frictionless == nullptr ? 0. : observed_forces().P;
+      const auto free_forces  = frictionless == nullptr ? std::vector<SlidingForces>() : observed_forces();
       const double nearby     = 1e-3 * frame.geometries.front().cylinder_radius;
       auto slide              = slide_at(drive, friction, slides.speed_ratio(drive, nearby));
       if (!slide || !(slide->uniqueness > 0.))
@@ -186,7 +186,9 @@ namespace sprag
         if (!slide)
           return slide;
       }
-      slide->margin = P_free / slide->forces.P;
+      slide->margin = free_forces.empty() ? 0. : free_forces.front().P / slide->forces.P;
+      if (slide->second && slide->second->P > 0. && !free_forces.empty())
+        slide->margin = std::fmin(slide->margin, free_forces.back().P / slide->second->P);
       return slide;
     }
 
@@ -377,18 +379,27 @@ namespace sprag
       return completed(structure->deform(*forces), drive, *forces);
     }
 
-    /// Columns of the contact of the first lever at its last evaluation.
-    Row observed_contact() const
+    /// Columns of the contact of each lever at its last evaluation.
+    std::vector<Row> observed_contacts() const
     {
-      Row row;
-      contact->observe(found, row, 0);
-      return row;
+      std::vector<Row> rows(frame.layout.levers);
+      for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
+        contact->observe(found, rows[lever], lever);
+      return rows;
     }
 
-    SlidingForces observed_forces() const
+    std::vector<SlidingForces> observed_forces() const
     {
-      const Row row = observed_contact();
-      return { row[Column::P], row[Column::Q] };
+      return mapped(observed_contacts(), [](const Row &row) { return SlidingForces{ row[Column::P], row[Column::Q] }; });
+    }
+
+    /// Indentation of the lever that is indented most [mm].
+    double largest_indentation() const
+    {
+      double result = unknown;
+      for (const Row &row : observed_contacts())
+        result = std::fmax(result, row[Column::indentation]);
+      return result;
     }
 
     static SlidingState sliding_state(const HeldSlide &slide)
@@ -482,13 +493,15 @@ namespace sprag
       slide.friction      = friction;
       slide.speed         = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
       slide.penetration   = found.penetration();
-      const Row row       = observed_contact();
-      slide.indentation   = row[Column::indentation];
+      slide.indentation   = largest_indentation();
       if (with_friction && slide.indentation > frame.largest_indentation)
         return {};
       slide.margin     = 1.;
-      slide.mu         = with_friction ? row[Column::mu] : 0.;
-      slide.forces     = { row[Column::P], row[Column::Q] };
+      slide.mu         = with_friction ? observed_contacts().front()[Column::mu] : 0.;
+      const auto loads = observed_forces();
+      slide.forces     = loads.front();
+      if (loads.size() == 2)
+        slide.second = loads.back();
       slide.uniqueness = uniqueness(sliding_state(slide));
       return slide;
     }
@@ -522,7 +535,7 @@ namespace sprag
         const double next      = std::min(1., branch.back().share + step);
         const auto before      = slides.last;
         const bool is_followed = slides.solve_with_share(drive, next) != nullptr && is_unique(next);
-        is_pressed_too_far     = is_followed && observed_contact()[Column::indentation] > frame.largest_indentation;
+        is_pressed_too_far     = is_followed && largest_indentation() > frame.largest_indentation;
         if (is_followed && !is_pressed_too_far)
         {
           branch.push_back({ next, found.penetration() });

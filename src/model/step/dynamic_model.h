@@ -46,7 +46,7 @@ namespace sprag
     unsigned int iterations = 0;
   };
 
-  /// Forces of steady sliding without inertia.
+  /// Forces of steady sliding without inertia, of one lever.
   struct SlidingForces
   {
     double P; ///< [N]
@@ -66,7 +66,9 @@ namespace sprag
     double penetration       = 0.; ///< of the contact's spring, the largest: P follows from it [mm]
     double indentation       = 0.; ///< physical, that of the column of this name [mm]
     SlidingForces forces{};
-    double margin     = 0.; ///< to jamming: P without friction over P, (s + mu e)/s of a rigid lever with mu signed as the motion
+    std::optional<SlidingForces> second; ///< forces of a pair's second lever
+    double margin = 0.; ///< to jamming: P without friction over P, (s + mu e)/s of a rigid lever with mu signed as the motion;
+                        ///< of a pair the smaller one
     double uniqueness = 0.; ///< det(1 - G df/dz) over that without friction's part; <= 0 beyond where equilibria are unique
   };
 
@@ -84,8 +86,8 @@ namespace sprag
     /// One step of the time integration from an accepted motion. Throws AnalysisError if a factorisation fails.
     virtual StepOutcome step(const Motion &accepted, const DrivePoint &to, const StepWeights &weights) = 0;
 
-    /// Equilibrium of steady sliding with the drive at x and v, of a zero its sign; none where there is none.
-    virtual std::optional<SlidingForces> sliding_forces(const DrivePoint &drive) = 0;
+    /// Forces of each lever in steady sliding with the drive at x and v, of a zero its sign; empty without an equilibrium.
+    virtual std::vector<SlidingForces> sliding_forces(const DrivePoint &drive) = 0;
 
     /// The slide held at the drive's x, sliding as it does at its v; none where there is no equilibrium.
     virtual std::optional<HeldSlide> hold(const DrivePoint &drive, ContactFriction friction) = 0;
