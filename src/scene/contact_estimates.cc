@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/contact_estimates.h"
 
+#include "base/ranges.h"
 #include "scene/closed_form.h"
 #include "scene/device.h"
 #include "scene/lever_inertia.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace sprag
 {
@@ -24,6 +26,16 @@ namespace sprag
       if (device.layer.thickness > 0.)
         return { device.layer.young_modulus, device.layer.poisson_ratio, device.layer.thickness };
       return { device.lever.young_modulus, device.lever.poisson_ratio, device.lever.depth };
+    }
+
+    /// Returns what the contact compresses: the layer or of a bare lever the lever, and an elastic cylinder.
+    std::vector<FaceMaterial> compressed_bodies(const Device &device)
+    {
+      std::vector<FaceMaterial> result = { face_material(device) };
+      if (const auto &cylinder = device.cylinder; cylinder.type == CylinderType::solid)
+        result.push_back(
+            { cylinder.young_modulus, cylinder.poisson_ratio, device.geometry.cylinder_radius - cylinder.inner_radius });
+      return result;
     }
 
     // Shares of Mesh/Face size: of the shortest faces, as the width of a contact begins at none, and of the longest.
@@ -64,14 +76,20 @@ namespace sprag
     /// Returns dP/d(delta) of a contact of width w [N/mm]: b E w/(h (1 - nu^2)) of a thin bonded layer of thickness h, and of a
     /// contact that is narrow against it pi b E/(2 (1 - nu^2) log(1 + 2.426 h/w)), which tends to Johnson, Contact Mechanics,
     /// eq. 5.57. The larger of the two is within some 5 % of indentation by finite elements where nu is small, and up to a third
-    /// too small at nu = 0.4. A bare lever is its own layer, and the cylinder counts as rigid.
+    /// too small at nu = 0.4. A bare lever is its own layer, an elastic cylinder one on its shaft, in series.
     double face_stiffness(const Device &device, const double P)
     {
-      const auto [E, nu, h] = face_material(device);
-      const bool is_short   = device.analysis.dimension == 3 && device.cylinder.length > 0.;
-      const double width    = is_short ? std::min(device.lever.width, device.cylinder.length) : device.lever.width;
-      const double slender  = h / estimated_contact_width(device, P);
-      return width * E / (1. - nu * nu) / std::min(slender, M_2_PI * std::log1p(2.426 * slender));
+      const bool is_short = device.analysis.dimension == 3 && device.cylinder.length > 0.;
+      const double width  = is_short ? std::min(device.lever.width, device.cylinder.length) : device.lever.width;
+      const double wide   = estimated_contact_width(device, P);
+      const double compliance =
+          sum_over(compressed_bodies(device),
+                   [&](const FaceMaterial &body)
+                   {
+                     const double slender = body.h / wide;
+                     return (1. - body.nu * body.nu) / body.E * std::min(slender, M_2_PI * std::log1p(2.426 * slender));
+                   });
+      return width / compliance;
     }
 
     /// Returns dP/d(delta) of the contact law of reduced models [N/mm].
@@ -84,10 +102,15 @@ namespace sprag
 
   double estimated_contact_width(const Device &device, const double P)
   {
-    const auto [E, nu, h] = face_material(device);
-    const double load     = P * device.geometry.cylinder_radius * (1. - nu * nu) / (device.lever.width * E);
-    const double hertz    = 4. * std::sqrt(load / M_PI);
-    return device.layer.thickness > 0. ? std::min(hertz, 2. * std::cbrt(1.5 * load * h)) : hertz;
+    const auto width = [&](const FaceMaterial &body, const bool is_bonded)
+    {
+      const double load  = P * device.geometry.cylinder_radius * (1. - body.nu * body.nu) / (device.lever.width * body.E);
+      const double hertz = 4. * std::sqrt(load / M_PI);
+      return is_bonded ? std::min(hertz, 2. * std::cbrt(1.5 * load * body.h)) : hertz;
+    };
+    const auto bodies  = compressed_bodies(device);
+    const double first = width(bodies.front(), device.layer.thickness > 0.);
+    return bodies.size() == 1 ? first : std::max(first, width(bodies.back(), true));
   }
 
   std::optional<FaceGrading> face_grading(const Device &device)

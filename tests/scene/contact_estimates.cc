@@ -54,6 +54,24 @@ TEST(ContactReference, OfAContactThatIsNarrowAgainstItsLayerIsThatOfAHalfPlane)
   EXPECT_NEAR(reference.stiffness * per_force, 1., 0.05);
 }
 
+// A layer yields alike on the lever and, as a tyre, on the shaft; what it is pressed against hardly counts.
+TEST(ContactReference, OfATyreIsThatOfALayer)
+{
+  Scene layer                 = meshed_model_a();
+  layer.lever.young_modulus   = 2e6;
+  layer.layer.thickness       = 2.;
+  Scene tyre                  = layer;
+  tyre.layer.thickness        = 0.;
+  tyre.cylinder.type          = CylinderType::solid;
+  tyre.cylinder.inner_radius  = tyre.geometry.cylinder_radius - 2.;
+  tyre.cylinder.young_modulus = layer.layer.young_modulus;
+  tyre.cylinder.poisson_ratio = layer.layer.poisson_ratio;
+  const double P              = contact_reference(layer).P;
+  EXPECT_NEAR(contact_reference(tyre).relaxation, contact_reference(layer).relaxation,
+              1e-3 * contact_reference(layer).relaxation);
+  EXPECT_EQ(estimated_contact_width(tyre, P), estimated_contact_width(layer, P));
+}
+
 // Widths of hard contact on faces of 0.03125 mm, from tests/benchmarks/pressure.md; estimates need not be better than a fifth.
 TEST(FaceGrading, WidthsOfModelAAreEstimated)
 {
