@@ -28,7 +28,8 @@ namespace sprag
   SmoothedPressure smoothed_largest_pressure(const std::vector<Row> &rows, double face_size);
 
   /// Returns the relative error of the largest pressure to expect where the contact is `elements` > 0 face sizes wide: at most
-  /// 5/elements^3 (displacements of degree 1) or 0.8/elements^3 (degree 2), measured by tests/benchmarks/pressure.py, and 1.
+  /// 5/elements^3 (displacements of degree 1) or 0.8/elements^3 (degree 2), and 1; tests/benchmarks/pressure.md has the hard
+  /// contact against which they were measured.
   double expected_pressure_error(double elements, unsigned int degree);
 
   /// Warns where the mesh is too coarse, by more than 5 % expected, for the largest pressure of a run or for the

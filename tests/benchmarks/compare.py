@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Runs every scene of params/, long ones shortened, with two builds of sprag and prints a line a scene: how far results differ and
 what both cost. Exit status 1 where P, Q or theta differ by more than 1e-9 (--limit) of their peak or a verdict differs. With --speed, only
-what both builds cost, over a fixed list of runs; with --instructions, that in instructions. See README.md.
+what both builds cost, over a fixed list of runs. See README.md.
 
     tests/benchmarks/compare.py OLD NEW [--scenes WORD...]
     tests/benchmarks/compare.py OLD NEW --speed [--repeats 3] [--scenes WORD...]
-    tests/benchmarks/compare.py OLD NEW --instructions [--scenes WORD...]
 """
 
 import argparse
@@ -19,7 +18,6 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-from instructions import counter_class
 
 ROOT = Path(__file__).resolve().parents[2]
 LIMIT = 1e-9  # of the peak
@@ -50,6 +48,7 @@ IN_TIME = (*STATIC, "Time/Tolerance=0")
 FEW_STEPS = ("Drive/Start=58", "Drive/Stroke=60", "Time/Step=2e-4")
 NO_SEARCH = ("Stability/Critical=none", "Stability/Roles=off")
 SPEED = {
+    "start": ("closed-form-a", ()),
     "quasi-static, penalty": ("model-a", STATIC),
     "quasi-static, augmented": ("augmented-lagrangian-a", STATIC),
     "elastic cylinder": ("cylinder-a", STATIC),
@@ -68,15 +67,14 @@ KINDS = ("P", "Q", "theta", "growth", "frequency", "other")
 
 
 class Run:
-    """Holds the result and the cost of a scene run by one build. A counter is a command before that of the run."""
+    """Holds the result and the cost of a scene run by one build."""
 
-    def __init__(self, program, scene, changes, folder, counter=()):
-        command = [*counter, program, ROOT / "params" / f"{scene}.prm"]
+    def __init__(self, program, scene, changes, folder):
+        command = [program, ROOT / "params" / f"{scene}.prm"]
         command += ["--output", folder / "output", "--overwrite", "--quiet", "--jobs", "1"]
         for change in changes:
             command += ["--set", change]
-        by_clock = {"SPRAG_CHECKPOINT_SECONDS": "1e9"} if counter else {}  # how many there are, a slower program would count
-        environment = {**os.environ, **by_clock, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "XDG_CACHE_HOME": str(folder / "cache")}
+        environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "XDG_CACHE_HOME": str(folder / "cache")}
         with open(folder / "messages", "w", encoding="utf-8") as messages:
             with subprocess.Popen(list(map(str, command)), env=environment, stdout=messages, stderr=messages) as process:
                 _, status, usage = os.wait4(process.pid, 0)
@@ -213,42 +211,21 @@ def compare_speed(arguments, name, folder):
     return True
 
 
-def compare_instructions(arguments, name, folder):
-    scene, changes = SPEED[name]
-    make_counter = counter_class()
-    counts = []
-    for build in ("old", "new"):
-        (folder / build).mkdir(parents=True)
-        program = getattr(arguments, build)
-        counter = make_counter(folder / build / "counted")
-        Run(program, scene, changes, folder / build)  # fills the caches that timed runs find filled
-        run = Run(program, scene, changes, folder / build, counter.command)
-        if run.status != 0:
-            print(f"{name}: {build}: {run.message}", flush=True)
-            return False
-        counts.append(counter.count() / 1e9)
-    print(line(name, [f"{count:.3f}" for count in counts] + [f"{counts[0] / counts[1]:.3f}"]), flush=True)
-    return True
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("old", type=Path)
     parser.add_argument("new", type=Path)
     parser.add_argument("--scenes", nargs="+", default=[""], help="only those with one of these words in their name")
     parser.add_argument("--speed", action="store_true", help="what a fixed list of runs costs, results aside")
-    parser.add_argument("--instructions", action="store_true", help="the same by instructions, which other work does not change")
     parser.add_argument("--repeats", type=int, default=3, help="of each run of --speed, old and new in turn; the least counts")
     parser.add_argument("--limit", type=float, default=LIMIT, help="of P, Q and theta over their peaks")
     arguments = parser.parse_args()
     arguments.old, arguments.new = arguments.old.resolve(), arguments.new.resolve()
 
-    fixed = arguments.speed or arguments.instructions
-    names = SPEED if fixed else [path.stem for path in sorted((ROOT / "params").glob("*.prm"))]
+    names = SPEED if arguments.speed else [path.stem for path in sorted((ROOT / "params").glob("*.prm"))]
     names = [name for name in names if any(word in name for word in arguments.scenes)]
-    units = ["old 1e9", "new 1e9", "old/new"] if arguments.instructions else ["old s", "new s", "speed"]
-    print(line("run" if fixed else "scene", ([] if fixed else list(KINDS)) + units))
-    act = compare_instructions if arguments.instructions else compare_speed if arguments.speed else compare_scene
+    print(line("run" if arguments.speed else "scene", ([] if arguments.speed else list(KINDS)) + ["old s", "new s", "speed"]))
+    act = compare_speed if arguments.speed else compare_scene
     passed = []
     with tempfile.TemporaryDirectory(prefix="sprag-compare-") as folder:
         for number, name in enumerate(names):

@@ -1,93 +1,79 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-only
-"""Prints what model A costs, both strokes: CPU time by phase over face size and degree, and ratios between methods. Run it on a
-machine that does nothing else; see without-inertia.md."""
+"""Prints what runs cost, group by group: without inertia, parts of the apparatus, in time, maps, eigenvalues. Ratios are those of CPU
+time to the first run of a group. Run it on a machine that does nothing else; see without-inertia.md, parts.md and in-time.md."""
 
 import argparse
-import resource
-import sys
 import tempfile
 from pathlib import Path
 
 import h5py
 from runs import add_program, print_row, run_scene
 
-PHASES = ("mesh", "model", "steps_and_output", "output")
-COLUMNS = ("run", "DOF", *PHASES, "in all", "process", "steps", "iterations", "MiB", "ratio")
-WIDTHS = (36, 8, 7, 7, 18, 8, 8, 9, 7, 12, 6, 0)
+COLUMNS = ("run", "DOF", "coordinates", "steps", "iterations", "model s", "steps s", "CPU s", "steps/CPU s", "MiB", "ratio")
+WIDTHS = (36, 8, 13, 8, 12, 9, 9, 8, 13, 6, 7)
+MODEL, STEPS = ("mesh", "basis", "model"), ("eigenvalues", "steps_and_output", "map")
 
-FINITE_STRAIN = {"Analysis/Step": 10, "Analysis/Plane": "strain", "Lever/Material": "neo-Hookean"}
-LINEAR_STRAIN = {"Analysis/Step": 10, "Analysis/Plane": "strain"}
+PARTS = {
+    "no part": {},
+    "sprung pivot frame": {"Support/Type": "sprung"},
+    "leaf spring": {"Rotational spring/Type": "leaf"},
+    "lever frame": {"Lever/Outline": "frame"},
+    "plate on sensors": {"Friction plate/Type": "on sensors"},
+    "elastic cylinder": {"Cylinder/Type": "solid"},
+    "second lever": {"Mirrored pair/Type": "full"},
+}
+PARTS["all parts"] = {name: value for part in PARTS.values() for name, value in part.items()}
+ALONE = {"Stability/Critical": "none", "Stability/Roles": "off"}
+EVERY_CELL = {"Map/Coarsest": 1, "Map/Bisections": 0}
+STRAIN = {"Analysis/Step": 10, "Analysis/Plane": "strain"}
+MODELS = ("finite element", "condensed", "beam", "rigid", "closed form")
 
-# name, changes to the scene, name of the run that the ratio of CPU times is to
-RUNS = (
-    ("degree 2, face size 1", {"Mesh/Face size": 1}, "degree 2, face size 0.5"),
-    ("degree 2, face size 0.5", {}, "degree 2, face size 0.5"),
-    ("degree 2, face size 0.25", {"Mesh/Face size": 0.25}, "degree 2, face size 0.5"),
-    ("degree 2, face size 0.125", {"Mesh/Face size": 0.125}, "degree 2, face size 0.5"),
-    ("degree 1, face size 0.5", {"Mesh/Degree": 1}, "degree 2, face size 0.5"),
-    ("augmented Lagrangian", {"Contact/Enforcement": "augmented Lagrangian"}, "degree 2, face size 0.5"),
-    ("factorise once, step 5", {"Analysis/Step": 5}, "factorise once, step 5"),
-    ("general path, step 5", {"Analysis/Step": 5, "Analysis/Solution": "general"}, "factorise once, step 5"),
-    ("plane strain, linear, step 10", LINEAR_STRAIN, "plane strain, linear, step 10"),
-    ("plane strain, neo-Hookean, step 10", FINITE_STRAIN, "plane strain, linear, step 10"),
-)
-
-
-def children_cpu():
-    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return usage.ru_utime + usage.ru_stime
-
-
-def run(sprag, changes, output):
-    """{column: number} of one run; its message where it failed."""
-    before = children_cpu()
-    try:
-        run_scene(sprag, "model-a.prm", {"Output/Fields": "turning points", "Mesh/Face size": 0.5, **changes}, output)
-    except RuntimeError as failure:
-        return str(failure)
-    process = children_cpu() - before
-    with h5py.File(output / "result.h5", "r") as file:
-        meta, summary = file["meta"], file["summary"]
-        cost = {phase: meta[f"cpu_time_{phase}"][()] for phase in PHASES}
-        cost["DOF"] = meta["degrees_of_freedom"][()]
-        cost["in all"] = meta["cpu_time"][()]
-        cost["MiB"] = meta["peak_memory"][()]
-        cost["steps"] = summary["steps"][()]
-        cost["iterations"] = summary["iterations"][()]
-    return {**cost, "process": process}
+# Group, scene of params/, {run: changes}.
+GROUPS = [
+    ("face size", "model-a", {f"face size {size}": {"Mesh/Face size": size} for size in (0.5, 1, 0.25, 0.125)}),
+    ("enforcement", "model-a", {"penalty": {}, "augmented Lagrangian": {"Contact/Enforcement": "augmented Lagrangian"}}),
+    ("solution", "model-a", {"factorise once": {}, "general path": {"Analysis/Solution": "general"}}),
+    ("finite strain", "model-a", {"linear": STRAIN, "neo-Hookean": {**STRAIN, "Lever/Material": "neo-Hookean"}}),
+    ("parts", "model-a", PARTS),
+    ("parts in time", "reversal-a", {name: {"Analysis/Model": "condensed", **part} for name, part in PARTS.items()}),
+    ("in time", "reversal-a", {model: {"Analysis/Model": model, "Time/Step": "5e-5"} for model in MODELS}),
+    ("map", "map-friction-depth-a", {"beam, every cell": EVERY_CELL, "beam, refined": {}}),
+    ("condensed map", "map-friction-depth-a",
+     {"every cell": {"Analysis/Model": "condensed", **EVERY_CELL}, "refined": {"Analysis/Model": "condensed"}}),
+    ("eigenvalues", "stability-a", {model: {"Analysis/Model": model, **ALONE} for model in MODELS[:3]}),
+]
 
 
-def text(column, cost):
-    whole = column in ("DOF", "steps", "iterations", "MiB")
-    return f"{cost[column]:.0f}" if whole else f"{cost[column]:.2f}"
+def measure(sprag, scene, changes, folder):
+    """Numbers of a run in the order of COLUMNS, without its name and ratio."""
+    cache = tempfile.mkdtemp(dir=folder)  # a stored basis would be used
+    run_scene(sprag, scene + ".prm", {"Output/Fields": "none", "Condensed/Cache": cache, **changes}, folder + "/out", "--overwrite")
+    with h5py.File(Path(folder) / "out/result.h5") as file:
+        number = lambda name: float(file[name][()]) if name in file else 0.0
+        sums = [sum(number("meta/cpu_time_" + phase) for phase in phases) for phases in (MODEL, STEPS)]
+        counts = [number(name) for name in ("meta/degrees_of_freedom", "meta/coordinates", "summary/steps", "summary/iterations")]
+        cpu = number("meta/cpu_time_all") or number("meta/cpu_time")
+        return [*counts, *sums, cpu, number("meta/steps_per_cpu_second"), number("meta/peak_memory")]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     add_program(parser)
-    parser.add_argument("--only", default="", help="runs whose name contains this text, and what they are compared with")
-    options = parser.parse_args()
-
-    chosen = [entry for entry in RUNS if options.only in entry[0]]
-    needed = {name for entry in chosen for name in (entry[0], entry[2])}
-    runs = [entry for entry in RUNS if entry[0] in needed]
-    costs = {}
-    with tempfile.TemporaryDirectory(prefix="sprag-cost-") as folder:
-        for name, changes, _ in runs:
-            print(f"... {name}", file=sys.stderr)
-            cost = run(options.sprag.resolve(), changes, Path(folder) / str(len(costs)))
-            if isinstance(cost, str):
-                print(f"{name}: {cost}", file=sys.stderr)
-            else:
-                costs[name] = cost
-    print_row([{"steps_and_output": "steps and output"}.get(column, column) for column in COLUMNS], WIDTHS)
-    for name, _, reference in runs:
-        if name in costs and reference in costs:
-            ratio = costs[name]["process"] / costs[reference]["process"]
-            print_row([name, *(text(column, costs[name]) for column in COLUMNS[1:-1]), f"{ratio:.2f} of '{reference}'"], WIDTHS)
-    return 0 if len(costs) == len(runs) else 1
+    parser.add_argument("--only", default="", help="groups whose name contains this text")
+    arguments = parser.parse_args()
+    for group, scene, runs in GROUPS:
+        if arguments.only not in group:
+            continue
+        print_row((f"\n{group}", *COLUMNS[1:]), (WIDTHS[0] + 1, *WIDTHS[1:]))
+        reference = None
+        for name, changes in runs.items():
+            with tempfile.TemporaryDirectory(prefix="sprag-cost-") as folder:
+                row = measure(arguments.sprag, scene, changes, folder)
+            reference = reference or row[6]
+            cells = [f"{value:.2f}" if 4 <= column <= 6 else f"{value:.0f}" for column, value in enumerate(row)]
+            print_row((name, *cells, f"{row[6] / reference:.2f}"), WIDTHS)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-only
 """Rigid parabola sliding on an elastic layer bonded to a rigid base, plane strain: the reference behind the fits in
-tests/deviation.md (nu = 0) and behind tests/verification/incompressible_layer.cc and tests/benchmarks/locking.py (nu up to 0.5).
+tests/deviation.md (nu = 0) and behind tests/verification/incompressible_layer.cc (nu up to 0.5).
 
 The layer's surface compliance is exact, mode by mode: u = U(z) exp(ikx), w = W(z) exp(ikx) obey a linear system of four ordinary
 equations through the thickness. The contact, w = delta - x^2/2R under p >= 0 with the traction mu p, is solved on a grid by an

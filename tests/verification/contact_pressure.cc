@@ -10,7 +10,7 @@
 using namespace sprag;
 
 // Largest pressure and contact width of model A with mu 0.73 and the default mesh against hard contact on a fine one: penalties
-// of 3200 and 9600 N/mm^3 on faces of 0.03125 mm, extrapolated to none. `tests/benchmarks/pressure.py` prints how they converge.
+// of 3200 and 9600 N/mm^3 on faces of 0.03125 mm, extrapolated to none. See tests/benchmarks/pressure.md.
 // An elastic cylinder of aluminium changes them by less than 0.1 %.
 
 namespace
