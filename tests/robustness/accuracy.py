@@ -9,7 +9,7 @@ from pathlib import Path
 import h5py
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, RunTest, sprag  # noqa: E402
+from runs import SOURCE, RunTest, sets, sprag  # noqa: E402
 
 # Scene, what is asked of it, and a part of what is chosen.
 ASKED = (
@@ -18,10 +18,6 @@ ASKED = (
     ("accuracy-a", ("Accuracy/Target=0.01", "Accuracy/Quantity=P"), "Analysis/Model"),
     ("accuracy-a", ("Accuracy/Target=0", "Accuracy/Budget=0.3"), "Analysis/Model"),
 )
-
-
-def settings(changes):
-    return [word for change in changes for word in ("--set", change)]
 
 
 class Accuracy(RunTest):
@@ -34,8 +30,8 @@ class Accuracy(RunTest):
                 output = self.folder / str(number)
                 path = SOURCE / "params" / f"{scene}.prm"
                 if number == 0:  # chooses as the run does
-                    self.assertEqual(sprag(path, *settings(changes), "--validate").returncode, 0)
-                done = sprag(path, *settings(changes), "--output", output)
+                    self.assertEqual(sprag(path, *sets(changes), "--validate").returncode, 0)
+                done = sprag(path, *sets(changes), "--output", output)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 with self.read(str(number)) as file:
                     self.assertIn(chosen, file["meta/chosen_settings"].asstr()[()])
@@ -45,13 +41,13 @@ class Accuracy(RunTest):
     def expect_rows_alone(self, scene, changes, name, values, count):
         study = ("Analysis/Type=study", f"Study/Vary={name} = {', '.join(values)}")
         path = SOURCE / "params" / f"{scene}.prm"
-        done = sprag(path, *settings((*changes, *study)), "--output", self.output)
+        done = sprag(path, *sets((*changes, *study)), "--output", self.output)
         self.assertEqual(done.returncode, 0, done.stderr)
         with self.read("output") as file:
             steps = list(file["table/steps"][:])
         self.assertNotEqual(steps[0], steps[1])
         value = values[1]
-        self.assertEqual(sprag(path, *settings((*changes, f"{name}={value}")), "--output", self.folder / value, "--quiet").returncode, 0)
+        self.assertEqual(sprag(path, *sets((*changes, f"{name}={value}")), "--output", self.folder / value, "--quiet").returncode, 0)
         with self.read(value) as file:
             self.assertEqual(steps[1], count(file))
 

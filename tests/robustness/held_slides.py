@@ -6,110 +6,81 @@ import math
 import re
 import unittest
 
-import h5py
 import numpy as np
 
-from bad_input import COARSE, ProgramTest, section
-from runs import SOURCE, RunTest, sprag
+from bad_input import ProgramTest
+from runs import SOURCE, RunTest, run_scene, sets, sprag
+
+
+BEAM = {"Analysis/Model": "beam"}
+MAP = {**BEAM, "Analysis/Type": "map"}
+SLIP = {**BEAM, "Analysis/Type": "sprag slip"}
+# {what is refused: (what is set, {setting: texts of the one message about it})}
+REFUSED = {
+    "map of other parameters": (MAP, {
+        "Map/First parameter=Lever/Dept": ["Lever/Dept is no parameter with a number", "did you mean 'Lever/Depth'"],
+        "Map/Second parameter=Friction/Law": ["no parameter with a number"],
+        "Map/Coarsest=6": ["power of 2"],
+    }),
+    "map of bad ranges": ({**MAP, "Map/First to": 25, "Map/Second from": 0.5, "Map/Second to": 0.5, "Map/First from": 0}, {
+        "Map/First parameter=Lever/Depth": ["Lever/Depth = 0 ", "> 0"],
+        "Map/First points=1": [">= 2"],
+        "Map/Second parameter=Friction/Factor": ["Friction/Factor must have a range, not 0.5 alone"],
+        "Map/Second points=2.5": ["must be an integer >= 2"],
+        "Map/Bisections=-1": ["Map/Bisections"],
+    }),
+    "map of one parameter": (
+        {**MAP, "Map/First parameter": "Lever/Depth", "Map/First from": 3, "Map/First to": 9, "Map/Second from": 3, "Map/Second to": 9},
+        {"Map/Second parameter=Lever/Depth": ["must be another than First parameter"]},
+    ),
+    **{f"{kind} that cannot be held": ({"Analysis/Type": kind}, {
+        "Stability/Position=80": ["0 ... 65 mm"],
+        "Contact/Type=ideal": ["must be compliant"],
+        "Analysis/Model=closed form": ["which has no vibration"],
+    }) for kind in ("modal", "stability", "sprag slip")},
+    **{f"{kind} of what is not linear": ({"Analysis/Type": kind, "Analysis/Model": "condensed"}, {
+        "Lever/Material=neo-Hookean": ["must be linear", "where a slide is held"],
+        "Contact/Enforcement=augmented Lagrangian": ["must be penalty", "where a slide is held"],
+    }) for kind in ("modal", "stability", "sprag slip", "map")},
+    **{f"critical values {text}": ({**BEAM, "Analysis/Type": "stability"}, {f"Stability/Critical={text}": says}) for text, says in {
+        "Lever/Depth -3 25": ["Lever/Depth = -3", "> 0"],
+        "Lever/Depht 3 25": ["Lever/Depht is no parameter with a number", "did you mean 'Lever/Depth'"],
+        "Lever/Material 0 1": ["Lever/Material is no parameter with a number"],
+        "Lever/Depth 3 3": ["Lever/Depth must have a range, not 3 alone"],
+        "Lever/Depth 3": ["must be auto, none or a list of SECTION/NAME FROM TO"],
+        "Friction/Coefficient 0.1 1": ["Friction/Coefficient counts only with Friction/Law = Coulomb", "Friction/Factor"],
+    }.items()},
+    "sprag slip that cannot begin": ({**SLIP, "Sprag slip/Initial amplitude": 0.1}, {
+        "Sprag slip/Final amplitude=0.01": ["more than Initial amplitude = 0.1"],
+        "Sprag slip/Turn=70": ["0 ... 65 mm"],
+    }),
+    "continuation to where it begins": (
+        {**SLIP, "Stability/Position": 30}, {"Sprag slip/Turn=30": ["must be another x than Stability/Position = 30 mm"]},
+    ),
+}  # fmt: skip
 
 
 class BadSlide(ProgramTest):
-    """Mistakes that reading the scene finds."""
+    def test_is_refused(self):
+        scene = self.write("")
+        for name, (changes, wrong) in REFUSED.items():
+            with self.subTest(name):
+                messages = self.refused(scene, *sets(changes), *sets([*wrong]), says=(), mistakes=len(wrong))
+                for setting, texts in wrong.items():
+                    (message,) = [each for each in messages if each.startswith(f"--set: {setting.replace('=', ' = ', 1)}: ")]
+                    for text in texts:
+                        self.assertIn(text, message)
 
-    def test_map_of_other_parameters(self):
-        analysis = section("Analysis", Type=("map", None), Model=("beam", None))
-        first = ("Lever/Dept", ["Map/First parameter", "Lever/Dept is no parameter with a number", "did you mean 'Lever/Depth'"])
-        second = ("Friction/Law", ["Map/Second parameter", "no parameter with a number"])
-        coarsest = ("6", ["Map/Coarsest = 6", "power of 2"])
-        parameters = section("Map", First_parameter=first, Second_parameter=second, Coarsest=coarsest)
-        self.refused_lines(analysis + parameters, older=True)
-
-    def test_map_of_bad_ranges(self):
-        analysis = section("Analysis", Type=("map", None), Model=("beam", None))
-        ranges = section(
-            "Map",
-            First_parameter=("Lever/Depth", ["Map/First parameter", "Lever/Depth = 0 ", "> 0"]),
-            First_from=("0", None),
-            First_to=("25", None),
-            First_points=("1", ["Map/First points = 1", ">= 2"]),
-            Second_parameter=("Friction/Factor", ["Map/Second parameter", "Friction/Factor must have a range, not 0.5 alone"]),
-            Second_from=("0.5", None),
-            Second_to=("0.5", None),
-            Second_points=("2.5", ["Map/Second points = 2.5", "must be an integer >= 2"]),
-            Bisections=("-1", ["Map/Bisections = -1"]),
-        )
-        self.refused_lines(analysis + ranges)
-
-    def test_map_of_one_parameter(self):
-        analysis = section("Analysis", Type=("map", None), Model=("beam", None))
-        settings = dict(Second_parameter=("Lever/Depth", ["Map/Second parameter", "must be another than First parameter"]))
-        ranges = dict(First_from=("3", None), First_to=("9", None), Second_from=("3", None), Second_to=("9", None))
-        self.refused_lines(analysis + section("Map", First_parameter=("Lever/Depth", None), **settings, **ranges))
-
-    def test_slide_that_cannot_be_held(self):
-        for kind in ("modal", "stability", "sprag slip"):
-            with self.subTest(kind=kind):
-                place = section("Stability", Position=("80", ["Stability/Position = 80", "0 ... 65 mm"]))
-                contact = section("Contact", Type=("ideal", ["Contact/Type = ideal", "must be compliant"]))
-                model = ("closed form", ["Analysis/Model = closed form", "which has no vibration"])
-                analysis = section("Analysis", Type=(kind, None), Model=model)
-                self.refused_lines(analysis + place + contact)
-
-    def test_slide_of_what_is_not_linear(self):
-        for kind in ("modal", "stability", "sprag slip", "map"):
-            with self.subTest(kind=kind):
-                held = "where a slide is held"
-                lines = section("Analysis", Type=(kind, None), Model=("condensed", None))
-                lines += section("Lever", Material=("neo-Hookean", ["Lever/Material", "must be linear", held]))
-                enforcement = ("augmented Lagrangian", ["Contact/Enforcement", "must be penalty", held])
-                lines += section("Contact", Enforcement=enforcement)
-                self.refused_lines(lines)
-
-    def test_critical_values(self):
-        for text, says in {
-            "Lever/Depth -3 25": ["Lever/Depth = -3", "> 0"],
-            "Lever/Depht 3 25": ["Lever/Depht is no parameter with a number", "did you mean 'Lever/Depth'"],
-            "Lever/Material 0 1": ["Lever/Material is no parameter with a number"],
-            "Lever/Depth 3 3": ["Lever/Depth must have a range, not 3 alone"],
-            "Lever/Depth 3": ["must be auto, none or a list of SECTION/NAME FROM TO"],
-            "Lever/Depth 3 25;; Friction/Factor 0 2": ["must be auto, none or a list"],
-            "Lever/Depth three 25": ["must be auto, none or a list"],
-            "Lever/Depth 3 25 N": ["mm"],
-            "Friction/Coefficient 0.1 1": ["Friction/Coefficient counts only with Friction/Law = Coulomb", "Friction/Factor"],
-            "yes": ["must be auto, none or a list"],
-        }.items():
-            with self.subTest(critical=text):
-                analysis = section("Analysis", Type=("stability", None), Model=("beam", None))
-                critical = section("Stability", Critical=(text, [f"Stability/Critical = {text}", *says]))
-                self.refused_lines(analysis + critical)
-
-    def test_sprag_slip_that_cannot_begin(self):
-        analysis = section("Analysis", Type=("sprag slip", None), Model=("beam", None))
-        lines = analysis + section(
-            "Sprag slip",
-            Initial_amplitude=("0.1", None),
-            Final_amplitude=("0.01", ["Sprag slip/Final amplitude = 0.01", "more than Initial amplitude = 0.1"]),
-            Turn=("70", ["Sprag slip/Turn = 70", "0 ... 65 mm"]),
-        )
-        self.refused_lines(lines, older=True)
-
-    def test_continuation_to_where_it_begins(self):
-        analysis = section("Analysis", Type=("sprag slip", None), Model=("beam", None))
-        turn = ("30", ["Sprag slip/Turn = 30", "must be another x than Stability/Position = 30 mm"])
-        lines = analysis + section("Stability", Position=("30", None)) + section("Sprag slip", Turn=turn)
-        self.refused_lines(lines)
-        scene = self.write("".join(f"{line}\n" for line, _ in lines))
-        done = sprag(scene, "--set", "Sprag slip/Continuation=0", "--validate")
+    def test_turn_does_not_count_without_continuation(self):
+        there = {**SLIP, "Stability/Position": 30, "Sprag slip/Turn": 30, "Sprag slip/Continuation": 0}
+        done = sprag(self.write(""), *sets(there), "--validate")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_values_that_cannot_be_judged_are_told(self):
         """The drive ends at 65 mm; 100 mm is a number like any other."""
-        scene = SOURCE / "params" / "stability-a.prm"
-        options = ("--set", "Stability/Roles=off", "--set", "Stability/Critical=Stability/Position 40 100")
-        done = sprag(scene, *options, "--output", self.output)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        found = re.search(r"from 40 to 100 mm: stable, flutter from 5\d\.\d+ mm; cannot be judged at (\S+) to 100 mm \(\d+ values\), as \S", done.stdout)
-        self.assertTrue(found, done.stdout)
+        printed = self.completed("stability-a", ("Stability/Roles=off", "Stability/Critical=Stability/Position 40 100"))
+        found = re.search(r"from 40 to 100 mm: stable, flutter from 5\d\.\d+ mm; cannot be judged at (\S+) to 100 mm \(\d+ values\), as \S", printed)
+        self.assertTrue(found, printed)
         self.assertTrue(65 < float(found.group(1)) <= 70, found.group(0))
 
     def test_processes_of_a_map(self):
@@ -123,23 +94,14 @@ class JammedSlide(ProgramTest):
     """Model A moving back at x = 65 mm with 5 times the friction, mu = 3.6: s = 120 mm < mu e = 164 mm. Its own lever of 6 mm bends
     away: it slides at any friction, under forces that crush its layer. One of 20 mm locks soon after the rigid one."""
 
-    def run_at(self, kind, *changes):
-        scene = SOURCE / "params" / "stability-a.prm"
-        options = ("--set", f"Analysis/Type={kind}", "--set", "Friction/Factor=5", "--set", "Lever/Depth=20", *changes)
-        return sprag(scene, *options, "--output", self.output, "--overwrite")
-
-    def summary(self):
-        with h5py.File(self.output / "result.h5", "r") as file:
-            return {name: data.asstr()[()] if data.dtype.kind == "O" else data[()] for name, data in file["summary"].items()}
+    JAMMED = ("Friction/Factor=5", "Lever/Depth=20")
 
     def test_is_a_verdict(self):
         for model in ("beam", "condensed"):  # of the rigid lever below
             with self.subTest(model=model):
-                changes = (*COARSE, "--set", f"Analysis/Model={model}", "--set", "Stability/Critical=none")
-                done = self.run_at("stability", *changes)
-                self.assertEqual((done.returncode, done.stderr), (0, ""))
-                self.assertRegex(done.stdout, r"verdict +jammed\n")
-                found = self.summary()
+                changes = ("Mesh/Face size=4", f"Analysis/Model={model}", "Stability/Critical=none")
+                self.assertRegex(self.completed("stability-a", (*self.JAMMED, *changes)), r"verdict +jammed\n")
+                found = self.read("summary")
                 self.assertEqual((found["verdict"], found["status"]), ("jammed", "completed"))
                 self.assertTrue(np.isnan(found.get("growth_rate", np.nan)))
 
@@ -148,27 +110,24 @@ class JammedSlide(ProgramTest):
         it there at a margin m of about sqrt(delta_0/s) already: with P = 18.6 N / m and k_c = 1e9 N/mm that is 1e-5."""
         changes = ("Analysis/Model=rigid", "Friction/Law=Coulomb", "Friction/Factor=1", "Contact/Stiffness=1e9", "Contact/Exponent=1")
         search = "Stability/Critical=Friction/Coefficient 1 5"
-        done = self.run_at("stability", *(part for change in (*changes, search) for part in ("--set", change)))
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.completed("stability-a", ("Lever/Depth=20", *changes, search))
         radius, offset, pivot = 56.0, 45.6, 185.5
         distance = pivot - 65
         expected = distance * np.cos(np.arcsin((radius - offset) / distance)) / offset
-        found = self.summary()["critical_friction_coefficient_1"]
+        found = self.read("summary")["critical_friction_coefficient_1"]
         self.assertAlmostEqual(found, expected, delta=1e-4 * expected)
 
     def test_has_modes(self):
-        done = self.run_at("modal")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        with h5py.File(self.output / "result.h5", "r") as file:
-            self.assertTrue((file["modes/frequency"][:] > 0).all())
+        self.completed("stability-a", (*self.JAMMED, "Analysis/Type=modal"))
+        self.assertTrue((self.read("modes")["frequency"] > 0).all())
 
     def test_cannot_be_perturbed(self):
-        done = self.run_at("sprag slip")
+        done = run_scene("stability-a", (*self.JAMMED, "Analysis/Type=sprag slip"), "--output", self.output)
         self.assertEqual(done.returncode, 1)
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         for text in ("no slide in contact", "x = 65 mm", "Try another Stability/Position or a smaller friction"):
             self.assertIn(text, done.stderr)
-        found = self.summary()
+        found = self.read("summary")
         self.assertEqual(found["slide"], "jammed")
         self.assertIn("no slide in contact", found["status"])
 
@@ -177,31 +136,23 @@ class LimitCycle(RunTest):
     """A beam of 7.5 mm, whose vibration repeats itself, and one of 6 mm, whose vibration does not."""
 
     def run_lever(self, depth):
-        settings = [word for change in (f"Lever/Depth={depth}", "Sprag slip/Continuation=0") for word in ("--set", change)]
-        done = sprag(SOURCE / "params" / "onset-a.prm", *settings, "--output", self.output, "--overwrite")
+        done = run_scene("onset-a", (f"Lever/Depth={depth}", "Sprag slip/Continuation=0"), "--output", self.output, "--overwrite")
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout
 
     def test_tells_its_error(self):
         self.assertRegex(self.run_lever(7.5), r"errors, estimated +cycle_amplitude_P [\d.]+ %, cycle_frequency [\d.]+ %\n")
-        with h5py.File(self.output / "result.h5", "r") as file:
-            self.assertTrue(1e-3 < file["accuracy/cycle_amplitude_P"][()] < 2e-2)
+        self.assertTrue(1e-3 < self.read("accuracy", "cycle_amplitude_P")["cycle_amplitude_P"] < 2e-2)
         self.assertRegex(self.run_lever(6), r"not estimated +cycle_amplitude_P, cycle_frequency: .*P does not repeat itself")
 
 
 class Damping(RunTest):
     """A beam of 15 mm moving out at x = 40 mm, which damping of the contact makes grow."""
 
-    ENTRIES = ("growth_rate", "frequency", "P", "contact_damping_limit_low", "contact_damping_limit_high", "contact_loss_factor_limit_high")
-
     def summary(self, damping):
         changes = ("Analysis/Model=beam", "Lever/Depth=15", "Stability/Direction=forward", "Stability/Position=40", "Stability/Critical=none")
-        settings = [word for change in (*changes, f"Contact/Damping={damping}") for word in ("--set", change)]
-        done = sprag(SOURCE / "params" / "stability-a.prm", *settings, "--output", self.output, "--overwrite")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertIn("verdict holds", done.stdout)
-        with h5py.File(self.output / "result.h5", "r") as file:
-            return {name: file["summary"][name][()] for name in self.ENTRIES}
+        self.assertIn("verdict holds", self.completed("stability-a", (*changes, f"Contact/Damping={damping}")))
+        return self.read("summary")
 
     def test_is_told_with_the_verdict(self):
         found = self.summary(0.02)
@@ -225,11 +176,8 @@ class FallingFriction(RunTest):
     CHANGES = ("Analysis/Model=beam", "Stability/Critical=none", "Stability/Roles=off", "Friction/Law=Stribeck", "Friction/Stribeck speed=10", "Drive/Speed=10")
 
     def run_with(self, *changes):
-        settings = [word for change in (*self.CHANGES, *changes) for word in ("--set", change)]
-        done = sprag(SOURCE / "params" / "stability-a.prm", *settings, "--output", self.output, "--overwrite")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        with h5py.File(self.output / "result.h5", "r") as file:
-            return {name: file["summary"][name][()] for name in file["summary"]}, done.stdout
+        printed = self.completed("stability-a", (*self.CHANGES, *changes))
+        return self.read("summary"), printed
 
     def stiffness_in_stick(self):
         """dP/d(delta)/2 at the largest P of the closed form, the Poisson ratio of the layer being 0."""
@@ -276,11 +224,8 @@ class NearLocking(RunTest):
         changes = ("Analysis/Model=condensed", "Mesh/Face size=1", "Condensed/Modes=6", "Lever/Depth=20", "Friction/Law=Coulomb")
         changes += ("Analysis/Type=study", "Study/Type=stability", f"Study/Vary=Friction/Coefficient = {', '.join(map(str, coefficients))}", "Stability/Critical=none")
         changes += ("Stability/Roles=off", "Stability/Direction=backward", "Stability/Position=65", "Stability/Damping=off")
-        settings = [word for change in changes for word in ("--set", change)]
-        done = sprag(SOURCE / "params" / "stability-a.prm", *settings, "--output", self.output, "--overwrite", "--quiet")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        with h5py.File(self.output / "result.h5", "r") as file:
-            return file["runs/verdict"].asstr()[:], file["table/P"][:]
+        self.completed("stability-a", changes, "--quiet")
+        return self.read("runs", "verdict")["verdict"], self.read("table", "P")["P"]
 
     def test_is_followed_to_a_slide_and_jams_beyond_the_fold(self):
         """Equilibria end at mu = 2.6475, on faces of 0.5, 0.25 and 0.125 mm alike."""
@@ -297,14 +242,9 @@ class Stroke(RunTest):
     STROKE = ("Stability/Position=auto", "Stability/Direction=both", "Lever/Depth=10", "Stability/Critical=none", "Stability/Roles=off")
 
     def run_with(self, *changes):
-        settings = [word for change in changes for word in ("--set", change)]
-        done = sprag(SOURCE / "params" / "stability-a.prm", *settings, "--output", self.output, "--overwrite")
+        done = run_scene("stability-a", changes, "--output", self.output, "--overwrite")
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout
-
-    def numbers(self, group):
-        with h5py.File(self.output / "result.h5", "r") as file:
-            return {name: data[()] for name, data in file[group].items() if data.dtype.kind == "f"}
 
     PLACES = np.linspace(3.25, 65, 32)
 
@@ -312,11 +252,11 @@ class Stroke(RunTest):
         """Growth of slides held one by one: [depth, forward or backward, place]."""
         vary = f"Lever/Depth = {', '.join(map(str, depths))}; Stability/Direction = forward, backward; Stability/Position = {', '.join(map(str, self.PLACES))}"
         self.run_with(*self.STROKE, "Analysis/Type=study", "Study/Type=stability", f"Study/Vary={vary}")
-        return self.numbers("table")["growth_rate"].reshape(len(depths), 2, -1)
+        return self.read("table")["growth_rate"].reshape(len(depths), 2, -1)
 
     def test_is_looked_at_both_ways(self):
         printed = self.run_with(*self.STROKE)
-        found = self.numbers("summary")
+        found = self.read("summary")
         self.assertRegex(printed, r"looked at +modes up to [\d.e+]+ Hz, x = 3.25 mm to 65 mm, \d+ judged\n")
         self.assertRegex(printed, r"forward +growth at most [\d.]+ 1/s, unstable at x = [\d.]+ to [\d.]+ mm")
         places = self.PLACES
@@ -341,7 +281,7 @@ class Stroke(RunTest):
         printed = self.run_with(*changes, "Stability/Critical=Lever/Depth 11.5 14")
         self.assertRegex(printed, r"Lever/Depth from 11.5 to 14 mm: flutter, stable from [\d.]+ mm \(worst forward at x = ")
         depth = float(re.search(r"stable from ([\d.]+) mm", printed).group(1))
-        self.assertLess(0, depth - self.numbers("summary")["critical_lever_depth_1"])
+        self.assertLess(0, depth - self.read("summary")["critical_lever_depth_1"])
         thin, thick = self.dense((0.99 * depth, depth))
         self.assertGreater(thin.max(), 0)
         self.assertLess(thick.max(), 0)
@@ -350,10 +290,10 @@ class Stroke(RunTest):
         damping, friction = (0.005, 0.1), (0.8, 1.2)
         place = (*self.STROKE, "Lever/Depth=13", "Stability/Position=40")
         self.run_with(*place, "Stability/Ranges=Contact/Damping 0.005 0.1; Friction/Factor 0.8 1.2")
-        found = self.numbers("summary")["growth_rate"]
+        found = self.read("summary")["growth_rate"]
         vary = f"Contact/Damping = 0.02, {damping[0]}, {damping[1]}; Friction/Factor = 1, {friction[0]}, {friction[1]}; Stability/Direction = forward, backward"
         self.run_with(*place, "Analysis/Type=study", "Study/Type=stability", f"Study/Vary={vary}")
-        table = self.numbers("table")
+        table = self.read("table")
         corner = [(z == 0.02) == (f == 1) for z, f in zip(table["contact_damping"], table["friction_factor"])]
         self.assertAlmostEqual(found, table["growth_rate"][corner].max(), delta=1e-6 * abs(found))
         # Levers of 8, 20 and 24 mm are stable there, those between 8 and 14 mm flutter.
@@ -367,10 +307,7 @@ class StiffLever(RunTest):
 
     def test_is_condensed(self):
         changes = ("Analysis/Model=condensed", "Mesh/Face size=2", "Lever/Young's modulus=7e8", "Stability/Critical=none", "Stability/Roles=off")
-        settings = [word for change in changes for word in ("--set", change)]
-        done = sprag(SOURCE / "params" / "stability-a.prm", *settings, "--output", self.output, "--overwrite")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertRegex(done.stdout, r"verdict +stable")
+        self.assertRegex(self.completed("stability-a", changes), r"verdict +stable")
 
 
 class SlenderLever(RunTest):
@@ -378,11 +315,8 @@ class SlenderLever(RunTest):
 
     def frequencies(self, model):
         changes = ("Analysis/Type=modal", f"Analysis/Model={model}", "Stability/Contact=open", "Mesh/Face size=2", "Lever/Depth=5")
-        settings = [word for change in changes for word in ("--set", change)]
-        done = sprag(SOURCE / "params" / "leaf-a.prm", *settings, "--output", self.output, "--overwrite", "--quiet")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        with h5py.File(self.output / "result.h5", "r") as file:
-            return file["modes/frequency"][:3]
+        self.completed("leaf-a", changes, "--quiet")
+        return self.read("modes", "frequency")["frequency"][:3]
 
     def test_is_condensed(self):
         np.testing.assert_allclose(self.frequencies("condensed"), self.frequencies("beam"), rtol=0.01)

@@ -23,7 +23,7 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, SPRAG, TIMEOUT, RunTest, sprag  # noqa: E402
+from runs import SOURCE, SPRAG, TIMEOUT, RunTest, sets, sprag  # noqa: E402
 
 QUASI_STATIC = {"Mesh/Face size": "2", "Analysis/Step": "0.5", "Drive/Stroke": "30", "Output/Fields": "interval"}
 SOLID = {
@@ -94,8 +94,7 @@ ALWAYS = {**os.environ, "SPRAG_CHECKPOINT_SECONDS": "0"}
 
 
 def arguments(scene, changes, output):
-    words = [word for name, value in changes.items() for word in ("--set", f"{name}={value}")]
-    return [SOURCE / "params" / f"{scene}.prm", "--output", output, *words]
+    return [SOURCE / "params" / f"{scene}.prm", "--output", output, *sets(changes)]
 
 
 def content(path):

@@ -16,7 +16,7 @@ from pathlib import Path
 import h5py
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, SPRAG, TIMEOUT, RunTest, sprag  # noqa: E402
+from runs import SOURCE, SPRAG, TIMEOUT, RunTest, run_scene, sets, sprag  # noqa: E402
 
 SHORT = {
     "model-a": ("Mesh/Face size=1", "Analysis/Step=4", "Output/Fields=none"),
@@ -30,16 +30,7 @@ MOST_LINES = 20
 
 class Output(RunTest):
     def run_scene(self, scene, *options, **environment):
-        settings = [word for setting in SHORT[scene] for word in ("--set", setting)]
-        done = sprag(
-            SOURCE / "params" / f"{scene}.prm",
-            *settings,
-            *options,
-            "--output",
-            self.output,
-            "--overwrite",
-            env={**os.environ, **environment},
-        )
+        done = run_scene(scene, SHORT[scene], *options, "--output", self.output, "--overwrite", env={**os.environ, **environment})
         self.assertEqual(done.returncode, 0, done.stderr)
         return done
 
@@ -80,7 +71,7 @@ class Output(RunTest):
 
     def test_a_terminal_alone_gets_colours(self):
         settings = ("Friction/Law=Coulomb", "Friction/Coefficient=2.62")
-        warned = (SOURCE / "params/closed-form-a.prm", *(word for setting in settings for word in ("--set", setting)), "--output", self.output)
+        warned = (SOURCE / "params/closed-form-a.prm", *sets(settings), "--output", self.output)
         text, status = self.on_a_terminal(*warned)
         self.assertEqual(status, 0, text)
         self.assertIn("\033[33mWarning: near_locking\033[0m", text)
@@ -94,16 +85,15 @@ class Output(RunTest):
         self.assertTrue(text.startswith("\033[31m"), text)
         self.assertNotIn("\033", sprag(self.folder / "none.prm").stderr)
         # On all cores mpirun gives the processes a pseudo-terminal, whatever its own output is.
-        small = [word for name in ("First", "Second") for word in ("--set", f"Map/{name} points=2")]
-        small += ["--set", "Map/Coarsest=1", "--set", "Map/Bisections=0", "--jobs", "2", "--output", self.output / "map"]
+        small = sets(("Map/First points=2", "Map/Second points=2", "Map/Coarsest=1", "Map/Bisections=0"))
+        small += ["--jobs", "2", "--output", self.output / "map"]
         for show, colours in ((lambda *words: sprag(*words).stdout, 0), (lambda *words: self.on_a_terminal(*words)[0], 1)):
             text = show(SOURCE / "params/map-offset-inclination.prm", *small, "--overwrite")
             self.assertEqual((text.count("Warning: defaults_of_model_a"), text.count("\033[33m")), (1, colours), text)
 
     def test_lines_are_no_wider_than_the_terminal(self):
         columns = 60
-        settings = [word for setting in SHORT["model-a"] for word in ("--set", setting)]
-        text, status = self.on_a_terminal(SOURCE / "params/model-a.prm", *settings, "--output", self.output, columns=columns)
+        text, status = self.on_a_terminal(SOURCE / "params/model-a.prm", *sets(SHORT["model-a"]), "--output", self.output, columns=columns)
         self.assertEqual(status, 0, text)
         self.assertRegex(text, r" %  +\d+:\d\d left")
         self.assertLessEqual(max(map(len, re.split(r"[\r\n]+", text))), columns)
@@ -133,8 +123,7 @@ class Output(RunTest):
             self.assertIn(typed.rpartition("\n")[2], new.read_text())
 
     def test_many_reversals_are_a_table_with_an_end(self):
-        settings = [word for setting in MANY_TURNS for word in ("--set", setting)]
-        lines = self.run_scene("reversal-a", *settings).stdout.splitlines()
+        lines = self.run_scene("reversal-a", *sets(MANY_TURNS)).stdout.splitlines()
         with h5py.File(self.output / "result.h5") as file:
             turns = sum(name.endswith("_verdict") for name in file["summary"])
         self.assertGreater(turns, 12)
@@ -145,10 +134,6 @@ class Output(RunTest):
         with h5py.File(self.output / "result.h5") as file:
             for name in file["summary"]:
                 self.assertIn(name, text)
-
-    def test_verbose_and_quiet_exclude_each_other(self):
-        done = sprag(SOURCE / "params" / "fig10.prm", "--quiet", "--verbose")
-        self.assertEqual(done.returncode, 2)
 
     def expect_log(self, scene, done):
         log = (self.output / "run.log").read_text()
@@ -168,15 +153,9 @@ class Output(RunTest):
 
     def test_the_log_tells_of_a_failure(self):
         settings = (*SHORT["model-a"], "Analysis/Maximum deviation=1e-6")
-        words = [word for setting in settings for word in ("--set", setting)]
-        done = sprag(SOURCE / "params" / "model-a.prm", *words, "--output", self.output)
+        done = run_scene("model-a", settings, "--output", self.output)
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn(done.stderr.splitlines()[-1], (self.output / "run.log").read_text())
-
-    def test_no_log_where_nothing_runs(self):
-        done = sprag(SOURCE / "params" / "model-a.prm", "--set", "Mesh/File=/nowhere.msh", "--output", self.output)
-        self.assertEqual(done.returncode, 2)
-        self.assertFalse(self.output.exists())
 
 
 if __name__ == "__main__":

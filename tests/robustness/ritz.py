@@ -12,12 +12,11 @@ import unittest
 from functools import lru_cache
 from pathlib import Path
 
-import h5py
 import numpy as np
 from numpy.polynomial import legendre
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, RunTest, sprag  # noqa: E402
+from runs import RunTest  # noqa: E402
 
 NAMES = {
     "R": "Geometry/Cylinder radius",
@@ -286,11 +285,8 @@ class Growth(RunTest):
         devices = [device(rng) for _ in range(NUMBER)]
         devices += [{**d, "law": "loss factor"} for d in devices]
         vary = "; ".join(f"{name} = {', '.join(str(d[key]) for d in devices)}" for key, name in NAMES.items())
-        settings = [word for item in {**COMMON, "Study/Vary": vary}.items() for word in ("--set", "=".join(map(str, item)))]
-        run = sprag(SOURCE / "params/stability-a.prm", "--output", self.output, "--quiet", *settings)
-        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
-        with h5py.File(self.output / "result.h5") as file:
-            table = {name: file["table"][name][:] for name in file["table"]}
+        self.completed("stability-a", {**COMMON, "Study/Vary": vary}, "--quiet")
+        table = self.read("table")
         ways = {"rises": 0, "falls": 0, "grows": 0}
         for i, d in enumerate(devices):
             with self.subTest(**d):

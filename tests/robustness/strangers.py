@@ -16,7 +16,7 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, SPRAG, RunTest, sprag  # noqa: E402
+from runs import SOURCE, SPRAG, RunTest, sets, sprag  # noqa: E402
 from strip import MESH_22, SCRIPT  # noqa: E402
 from system_calls import CAN_FILTER, without_confinement, without_landlock  # noqa: E402
 
@@ -203,7 +203,7 @@ class Results(StrangerTest):
         self.assertGreater(found, 5)
 
     def test_earlier_fields_go_with_their_result(self):
-        coarse = [word for change in ("Mesh/Face size=4", "Analysis/Step=5", "Drive/Stroke=20") for word in ("--set", change)]
+        coarse = sets(("Mesh/Face size=4", "Analysis/Step=5", "Drive/Stroke=20"))
         self.assertEqual(self.run_scene(*coarse, "--set", "Analysis/Model=finite element").returncode, 0)
         self.assertTrue((self.output / "fields.xdmf").exists())
         shutil.copytree(self.output, self.folder / "earlier")
@@ -211,8 +211,7 @@ class Results(StrangerTest):
             with self.subTest(changes):
                 shutil.rmtree(self.output)
                 shutil.copytree(self.folder / "earlier", self.output)
-                words = [word for change in changes for word in ("--set", change)]
-                self.assertEqual(self.run_scene(*coarse, *words, "--overwrite").returncode, 0)
+                self.assertEqual(self.run_scene(*coarse, *sets(changes), "--overwrite").returncode, 0)
                 self.assertEqual([path.name for path in self.output.glob("f*")], [])
 
 
@@ -284,6 +283,8 @@ class Inputs(StrangerTest):
         self.refused(self.run_scene(), "scene.prm", "no pipe or device")
         (self.folder / "scene.prm").unlink()
         self.scene()
+        os.mkfifo(self.folder / "pipe.msh")
+        self.refused(self.run_scene("--set", "Analysis/Model=finite element", "--set", "Mesh/File=pipe.msh"), "pipe.msh", "no pipe or device")
         os.mkfifo(self.folder / "pipe.csv")
         with open(self.folder / "huge.csv", "wb") as file:
             file.truncate(1 << 40)

@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, SPRAG, TIMEOUT, RunTest, sprag  # noqa: E402
+from runs import SOURCE, SPRAG, TIMEOUT, RunTest, sets, sprag  # noqa: E402
 from system_calls import CAN_FILTER, without_locks  # noqa: E402
 
 STATIC = SOURCE / "params" / "model-a.prm"
@@ -30,7 +30,7 @@ COSTS = {"cpu_time", "cpu_time_spent", "wall_time", "peak_memory"}
 
 
 def settings(changes):
-    return [word for name, value in {"Analysis/Type": "study", **changes}.items() for word in ("--set", f"{name}={value}")]
+    return sets({"Analysis/Type": "study", **changes})
 
 
 def read(output):
@@ -56,18 +56,6 @@ class StudyTest(RunTest):
         for name in set(one) - COSTS:
             np.testing.assert_array_equal(one[name], other[name], err_msg=name)
 
-    def test_materials_are_their_constants(self):
-        table, texts, _, done = self.study(STATIC, {**COARSE, "Study/Vary": "Friction layer/Made of = cork, PTFE"}, "--verbose")
-        self.assertEqual(list(texts["friction_layer_made_of"]), ["cork", "PTFE"])
-        self.assertRegex(done.stdout, r"(?m)^  loop_area +\d.* least for Friction layer/Made of = ")
-        constants = {"Young's modulus": "20, 500", "Poisson's ratio": "0, 0.46", "Density": "2e-10, 2.17e-9"}
-        vary = "; ".join(f"Friction layer/{name} = {values}" for name, values in constants.items())
-        shutil.rmtree(self.output)
-        own = self.study(STATIC, {**COARSE, "Study/Vary": vary, "Study/Combine": "list"})[0]
-        for name in set(table) - COSTS - {"friction_layer_made_of"}:
-            np.testing.assert_allclose(table[name], own[name], rtol=1e-12, err_msg=name)
-        self.assertGreater(table["largest_pressure"][1], 2 * table["largest_pressure"][0])
-
     def test_rows_are_the_runs_by_themselves(self):
         vary = "Mesh/Degree = 1, 2; Friction/Law = Coulomb, cork on aluminium"
         table, texts, summary, _ = self.study(STATIC, {**COARSE, "Study/Vary": vary})
@@ -77,8 +65,7 @@ class StudyTest(RunTest):
         for row in (1, 2):  # each value once
             output = self.folder / str(row)
             own = {**COARSE, "Mesh/Degree": texts["mesh_degree"][row], "Friction/Law": texts["friction_law"][row]}
-            words = [word for name, value in own.items() for word in ("--set", f"{name}={value}")]
-            self.assertEqual(sprag(STATIC, "--output", output, *words, "--quiet").returncode, 0)
+            self.assertEqual(sprag(STATIC, "--output", output, *sets(own), "--quiet").returncode, 0)
             with h5py.File(output / "result.h5", "r") as file:
                 for name in ("peak_P_backward", "loop_area", "largest_pressure", "largest_layer_stress", "steps"):
                     self.assertEqual(table[name][row], file["summary"][name][()], name)
@@ -238,8 +225,6 @@ class StudyTest(RunTest):
                 self.assertIn("Study/Vary", done.stderr)
                 self.assertIn(message, done.stderr)
                 self.assertFalse(self.output.exists())
-
-    def test_a_reference_that_is_refused(self):
         done = sprag(STATIC, "--output", self.output, *settings({"Study/Reference": "Mesh/Face size = 300"}))
         self.assertEqual(done.returncode, 2)
         self.assertIn("Study/Reference is refused", done.stderr)

@@ -10,7 +10,7 @@ from pathlib import Path
 import h5py
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, RunTest, counted, sprag  # noqa: E402
+from runs import SOURCE, RunTest, counted, run_scene  # noqa: E402
 
 FORWARD = ("Drive/Cycles=0.5", "Output/Fields=none", "Analysis/Step=2")
 BEAM = ("Analysis/Model=beam", "Stability/Critical=none", "Stability/Roles=off")
@@ -62,10 +62,6 @@ MODEL_A = {
 }  # fmt: skip
 
 
-def run(scene, options, *arguments):
-    return sprag(SOURCE / "params" / f"{scene}.prm", *arguments, *(word for option in options for word in ("--set", option)))
-
-
 class WarnedRunsTest(RunTest):
     def stored(self, output=None):
         with h5py.File((output or self.output) / "result.h5", "r") as file:
@@ -76,7 +72,7 @@ class WarnedRunsTest(RunTest):
         for case, (scene, options, names) in PROVOKED.items():
             with self.subTest(case=case):
                 output = self.output / case.replace(" ", "-")
-                done = run(scene, options, "--output", output)
+                done = run_scene(scene, options, "--output", output)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertEqual(re.findall(r"^Warning: (\w+)$", done.stdout, re.MULTILINE), names)
                 self.assertEqual(done.stdout.splitlines()[-1], "completed, " + counted(names))
@@ -91,7 +87,7 @@ class WarnedRunsTest(RunTest):
     def test_each_is_told_of_a_row(self):
         changes = [dict(option.split("=") for option in options) for options, _ in ROWS.values()]
         vary = "; ".join(f"{name} = {', '.join(row.get(name, usual) for row in changes)}" for name, usual in MODEL_A.items())
-        done = run("model-a", (*FORWARD, "Analysis/Type=study", "Study/Combine=list", f"Study/Vary={vary}"), "--output", self.output, "--quiet")
+        done = run_scene("model-a", (*FORWARD, "Analysis/Type=study", "Study/Combine=list", f"Study/Vary={vary}"), "--output", self.output, "--quiet")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         with h5py.File(self.output / "result.h5", "r") as file:
             found = file["runs/warnings"].asstr()[:]
@@ -99,32 +95,32 @@ class WarnedRunsTest(RunTest):
 
     def test_error_fails_the_run_after_everything_is_written(self):
         scene, options, names = PROVOKED["near locking"]
-        done = run(scene, (*options, "Analysis/Warnings=error"), "--output", self.output)
+        done = run_scene(scene, (*options, "Analysis/Warnings=error"), "--output", self.output)
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stdout.splitlines()[-1], "completed, " + counted(names))
         self.assertRegex(done.stderr.splitlines()[-1], r"^sprag: Analysis/Warnings = error: 2 warnings: near_locking, pressure_beyond_strength. The first says: \w")
         self.assertEqual(list(self.stored()), names)
         with h5py.File(self.output / "result.h5", "r") as file:
             self.assertEqual(file["summary/status"].asstr()[()], "completed")
-        self.assertEqual(run("closed-form-a", ("Analysis/Warnings=error",), "--output", self.output, "--overwrite").returncode, 0)
+        self.assertEqual(run_scene("closed-form-a", ("Analysis/Warnings=error",), "--output", self.output, "--overwrite").returncode, 0)
 
     def test_quiet_prints_none_and_stores_them(self):
         scene, options, names = PROVOKED["near locking"]
-        done = run(scene, options, "--output", self.output, "--quiet")
+        done = run_scene(scene, options, "--output", self.output, "--quiet")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
         self.assertEqual(list(self.stored()), names)
 
     def test_validate_prints_those_of_the_scene(self):
         for scene, options, name in (("closed-form-a", PROVOKED["near locking"][1], "near_locking"), ("model-a", OTHER_DEVICE, "defaults_of_model_a")):
-            done = run(scene, options, "--validate")
+            done = run_scene(scene, options, "--validate")
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertTrue(done.stdout.endswith(f"{scene}.prm: valid, {counted([name])}\n"), done.stdout)
-            self.assertEqual(run(scene, (*options, "Analysis/Warnings=error"), "--validate").returncode, 1)
+            self.assertEqual(run_scene(scene, (*options, "Analysis/Warnings=error"), "--validate").returncode, 1)
         self.assertFalse(self.output.exists())
 
     def test_a_failed_run_tells_them_too(self):
         options = ("Friction layer/Strength=0.01", "Analysis/Maximum deviation=1e-9", "Mesh/Face size=2", *COARSE)
-        done = run("model-a", options, "--output", self.output)
+        done = run_scene("model-a", options, "--output", self.output)
         self.assertEqual(done.returncode, 1)
         self.assertIn("Maximum deviation", done.stderr)
         self.assertEqual(done.stdout.splitlines()[-1], "failed, 3 warnings: coarse_contact, pressure_beyond_strength, long_steps")

@@ -22,6 +22,17 @@ def sprag(*arguments, program=SPRAG, timeout=TIMEOUT, **options):
     )
 
 
+def sets(changes):
+    """The words of --set for {name: value} or texts of the form name=value."""
+    texts = [f"{name}={value}" for name, value in changes.items()] if isinstance(changes, dict) else changes
+    return [word for text in texts for word in ("--set", text)]
+
+
+def run_scene(scene, changes, *options, **settings):
+    """Runs a scene of params/ with these changes."""
+    return sprag(SOURCE / "params" / f"{scene}.prm", *sets(changes), *options, **settings)
+
+
 def counted(names):
     """Warnings as the last line that is printed tells them."""
     if not names:
@@ -35,6 +46,18 @@ class RunTest(FolderTest):
     def setUp(self):
         super().setUp()
         self.output = self.folder / "output"
+
+    def completed(self, scene, changes, *options):
+        """Runs a scene of params/ to its end without a message and returns its output."""
+        done = run_scene(scene, changes, *options, "--output", self.output, "--overwrite")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout
+
+    def read(self, group, *names):
+        """Numbers and texts of a group of the result, all or these."""
+        with h5py.File(self.output / "result.h5", "r") as file:
+            data = {name: file[group][name] for name in names or file[group]}
+            return {name: each.asstr()[()] if each.dtype.kind == "O" else each[()] for name, each in data.items()}
 
     def start(self, *arguments):
         process = subprocess.Popen([SPRAG, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
