@@ -17,8 +17,8 @@ import forces  # noqa: E402
 from sprag import parameters  # noqa: E402
 import several  # noqa: E402
 from sprag.results import NotAResult, read_result  # noqa: E402
-from style import plt, use_print_style  # noqa: E402
-from test_plot import fill_run, finish, make_run, make_transient, new_file, put  # noqa: E402
+from style import plt  # noqa: E402
+from test_plot import fill_run, finish, make_run, make_transient, new_file  # noqa: E402
 
 X = np.concatenate((np.arange(0.0, 11), np.arange(10.0, -1, -1)))
 LISTING = """# Listing of Parameters
@@ -49,11 +49,6 @@ def listing(**changes):
 
 
 class SeveralTest(PictureTest):
-    def setUp(self):
-        super().setUp()
-        use_print_style()
-        self.addCleanup(plt.close, "all")
-
     def write_run(self, name, factor=1.0, **changes):
         """Without inertia; forces grow with the factor."""
         file = new_file(self.folder / name)
@@ -164,22 +159,6 @@ class Pictures(SeveralTest):
         for figure in (forces.forces_over_x(results), forces.forces_over_time(results)):
             self.assertEqual(figure.axes[-1].get_ylabel(), "lever depth [mm]")
             self.expect_layout(figure)
-
-    def test_devices_in_time(self):
-        results = []
-        for i, growth in enumerate((-40.0, -30.0, 20.0)):
-            file = make_transient(self.folder / str(i), "beam", growth)
-            text = file["parameters"].asstr()[()]
-            del file["parameters"]
-            file["parameters"] = f"{text}subsection Lever\n  # Depth of the metal [mm]: a number > 0.\n  set Depth = {6 + i}\nend\n"
-            for name in ("peak_P_forward", "peak_P_backward", "loop_area"):
-                put(file.require_group("summary"), name, 1.0 + i, "N")
-            finish(file)
-            results.append(read_result(self.folder / str(i)))
-        figure = comparison.comparison(results)
-        self.assertEqual(len(figure.axes), 7)
-        self.assertEqual(figure.axes[2].get_ylabel(), "$Q$ [N]")
-        self.expect_layout(figure)
 
     def test_levels_have_deviations_from_the_finest(self):
         for model, growth in (("rigid", -30.0), ("finite element", -40.0), ("beam", 20.0)):

@@ -14,7 +14,7 @@ from pictures import PictureTest  # noqa: E402
 import design  # noqa: E402
 import plot  # noqa: E402
 from sprag import results  # noqa: E402
-from style import plt, use_print_style  # noqa: E402
+from test_plot import put  # noqa: E402
 
 PARAMETERS = """subsection Analysis
   set Type = design
@@ -27,12 +27,6 @@ subsection Design
   set Second aim = minimise largest force
 end
 """
-
-
-def put(group, name, values, unit="1"):
-    data = group.create_dataset(name, data=values)
-    data.attrs["unit"] = unit
-    data.attrs["description"] = ""
 
 
 def make_design(folder, points=6, judges=0):
@@ -64,11 +58,6 @@ def make_design(folder, points=6, judges=0):
 
 
 class DesignTest(PictureTest):
-    def setUp(self):
-        super().setUp()
-        use_print_style()
-        self.addCleanup(plt.close, "all")
-
     def draw_pictures(self, *arguments):
         result = results.read_result(make_design(self.folder / "design", *arguments))
         return plot.draw([result])

@@ -53,13 +53,6 @@ class ExportTest(PictureTest):
                 np.testing.assert_array_equal([float(cell or "nan") for cell in cells], data[:])
                 self.assertFalse(any("-0" == cell for cell in cells))
 
-    def test_table_read_by_numpy(self):
-        folder = self.make_run()
-        self.export(folder)
-        table = np.genfromtxt(folder / "table.csv", delimiter=",", names=True, deletechars="")
-        self.assertEqual(table["x_[mm]"][1], 1 / 3)
-        self.assertTrue(np.isnan(table["x_[mm]"][-1]))
-
     def test_decimal_comma(self):
         folder = self.make_run()
         self.export(folder, "--decimal-comma", "--format", "csv", "-o", self.pictures)

@@ -15,7 +15,6 @@ import identification  # noqa: E402
 import layout  # noqa: E402
 import measure  # noqa: E402
 from sprag.results import read_result  # noqa: E402
-from style import use_print_style  # noqa: E402
 from test_plot import finish, make_run, new_file, put  # noqa: E402
 
 ROWS = 120
@@ -46,10 +45,6 @@ def make_identification(folder, forces=("P", "Q")):
 
 
 class IdentificationTest(PictureTest):
-    def setUp(self):
-        super().setUp()
-        use_print_style()
-
     def test_shows_what_was_measured_and_what_is_left(self):
         result = make_identification(self.folder / "a")
         panels = identification.identification(result).axes

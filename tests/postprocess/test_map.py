@@ -13,14 +13,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from pictures import PictureTest, draw  # noqa: E402
 import map as stability  # noqa: E402
 from sprag import results  # noqa: E402
+from test_plot import put  # noqa: E402
 
 N_FIRST, N_SECOND = 5, 4
-
-
-def put(group, name, values, unit, description):
-    data = group.create_dataset(name, data=values)
-    data.attrs["unit"] = unit
-    data.attrs["description"] = description
 
 
 def make_map(folder, first="Friction/Factor", second="Lever/Depth"):

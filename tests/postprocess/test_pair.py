@@ -12,7 +12,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from pictures import PictureTest, draw  # noqa: E402
 import pair  # noqa: E402
 from sprag.results import read_result  # noqa: E402
-from style import use_print_style  # noqa: E402
 from test_plot import fill_run, finish, make_run, make_transient, new_file, put  # noqa: E402
 
 
@@ -47,10 +46,6 @@ def curve(axes, name):
 
 
 class PairTest(PictureTest):
-    def setUp(self):
-        super().setUp()
-        use_print_style()
-
     def test_over_x_each_way(self):
         result = make_static(self.folder / "a")
         panels = pair.draw_pair(result).axes

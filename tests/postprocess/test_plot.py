@@ -15,13 +15,12 @@ import forces  # noqa: E402
 import isolation  # noqa: E402
 from sprag import results  # noqa: E402
 import transient  # noqa: E402
-from style import use_print_style  # noqa: E402
 
 
-def put(group, name, values, unit):
+def put(group, name, values, unit="1", description=None):
     data = group.create_dataset(name, data=values, maxshape=None if np.isscalar(values) else (None,) * np.ndim(values))
     data.attrs["unit"] = unit
-    data.attrs["description"] = f"{name} of a test"
+    data.attrs["description"] = f"{name} of a test" if description is None else description
 
 
 def new_file(folder, kind="quasi-static", **arguments):
@@ -213,27 +212,22 @@ class PlotTest(PictureTest):
         finish(make_transient(self.folder / "a", growth=25.0, summary={"reversal_1_frequency": 290.1}))
         self.expect_pictures(self.plot(self.folder / "a"), TRANSIENT)
 
-    def test_transient_run_without_oscillation(self):
-        finish(make_transient(self.folder / "a", growth=-4000.0, summary={"reversal_1_frequency": np.nan}))
-        use_print_style()
-        self.expect_layout(transient.reversal(results.read_result(self.folder / "a")))
+    def test_transient_runs_without_all_there_may_be(self):
+        finish(make_transient(self.folder / "calm", growth=-4000.0, summary={"reversal_1_frequency": np.nan}))
+        self.expect_layout(transient.reversal(results.read_result(self.folder / "calm")))
+        finish(make_transient(self.folder / "three rows", rows=3))
+        self.expect_pictures(self.plot(self.folder / "three rows"), ["forces-over-time.png", "forces-over-x.png", "energy.png"])
+        file = make_transient(self.folder / "begun", rows=1800)
+        for name in ("P_quasi_static", "energy_residual", "drive_work", "kinetic_energy"):
+            file[f"table/{name}"][:] = np.nan
+        finish(file)
+        self.pictures = self.folder / "of one just begun"
+        self.expect_pictures(self.plot(self.folder / "begun"), TRANSIENT[:2])
 
     def test_transient_run_going_on(self):
         with make_transient(self.folder / "a", rows=1800, libver="latest") as file:
             file.swmr_mode = True
             self.expect_pictures(self.plot(self.folder / "a", own_process=True), TRANSIENT)
-
-    def test_transient_run_of_three_rows(self):
-        finish(make_transient(self.folder / "a", rows=3))
-        self.expect_pictures(self.plot(self.folder / "a"), ["forces-over-time.png", "forces-over-x.png", "energy.png"])
-
-    def test_transient_run_just_begun_or_without_quasi_static_values(self):
-        file = make_transient(self.folder / "a", rows=1800)
-        file["table/P_quasi_static"][:] = np.nan
-        for name in ("energy_residual", "drive_work", "kinetic_energy"):
-            file[f"table/{name}"][:] = np.nan
-        finish(file)
-        self.expect_pictures(self.plot(self.folder / "a"), TRANSIENT[:2])
 
     def test_levels_in_one_picture(self):
         make_run(self.folder / "no model named")
@@ -249,21 +243,18 @@ class PlotTest(PictureTest):
         self.assertEqual(done.returncode, 2)
         self.assertIn("comparison.py", done.stderr)
 
-    def test_sweep_and_run_do_not_mix(self):
+    def test_sweeps(self):
+        mu, theta0 = np.linspace(0, 1.2, 5), np.tile(np.linspace(0, 1, 5), 2)
+        sweeps = {
+            "coefficient": {"mu": mu, "dimensionless_forward": mu, "dimensionless_backward": -mu},
+            "inclination": {"theta0": theta0, "offset_ratio": np.repeat((0, 0.2), 5), "dimensionless_forward": theta0, "dimensionless_backward": -theta0},
+        }
+        for name, columns in sweeps.items():
+            with self.subTest(name):
+                make_sweep(self.folder / name, columns)
+                self.expect_pictures(self.plot(self.folder / name), ["slope.png"])
         make_run(self.folder / "a")
-        make_sweep(self.folder / "b", {"mu": np.linspace(0, 1.2, 5)})
-        self.expect_refusal(self.plot(self.folder / "a", self.folder / "b"), "nothing in common")
-
-    def test_sweep_over_coefficient(self):
-        mu = np.linspace(0, 1.2, 5)
-        make_sweep(self.folder / "a", {"mu": mu, "dimensionless_forward": mu, "dimensionless_backward": -mu})
-        self.expect_pictures(self.plot(self.folder / "a"), ["slope.png"])
-
-    def test_sweep_over_inclination(self):
-        theta0 = np.tile(np.linspace(0, 1, 5), 2)
-        columns = {"theta0": theta0, "offset_ratio": np.repeat((0, 0.2), 5)}
-        make_sweep(self.folder / "a", {**columns, "dimensionless_forward": theta0, "dimensionless_backward": -theta0})
-        self.expect_pictures(self.plot(self.folder / "a"), ["slope.png"])
+        self.expect_refusal(self.plot(self.folder / "a", self.folder / "coefficient"), "nothing in common")
 
     def test_run_going_on(self):
         file = new_file(self.folder / "a", libver="latest")
@@ -274,22 +265,19 @@ class PlotTest(PictureTest):
         names = ["forces-over-x.png", "contact.png"]
         self.expect_pictures(self.plot(self.folder / "a", own_process=True), names)
 
-    def test_run_without_steps(self):
+    def test_what_is_no_result(self):
+        self.expect_refusal(self.plot(self.folder), str(self.folder), "no result.h5")
+        (self.folder / "result.h5").write_text("something else")
+        self.expect_refusal(self.plot(self.folder), "result.h5")
+        h5py.File(self.folder / "result.h5", "w").close()
+        self.expect_refusal(self.plot(self.folder), "not a result of sprag")
         file = new_file(self.folder / "a")
         fill_run(file, np.empty(0))
         finish(file)
         self.expect_refusal(self.plot(self.folder / "a"), "no step")
-
-    def test_folder_without_result(self):
-        self.expect_refusal(self.plot(self.folder), str(self.folder), "no result.h5")
-
-    def test_not_hdf5(self):
-        (self.folder / "result.h5").write_text("something else")
-        self.expect_refusal(self.plot(self.folder), "result.h5")
-
-    def test_somebody_elses_hdf5(self):
-        h5py.File(self.folder / "result.h5", "w").close()
-        self.expect_refusal(self.plot(self.folder), "not a result of sprag")
+        (self.folder / "b").mkdir()
+        (self.folder / "b/map.journal").write_text("sprag map 1\n")
+        self.expect_refusal(self.plot(self.folder / "b"), "a map that was cut short", "takes it up")
 
     def test_damaged_results(self):
         for name in ("table/P", "table/x", "parameters", "face/xi", "meta"):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Scenes of params/ that run in a second or so: the layout of all their pictures, and that the pages name all that their results hold.
-contact_sheet.py looks at the pictures of every scene. Run with /usr/bin/python3."""
+Run with /usr/bin/python3."""
 
 import os
 import shutil
@@ -16,7 +16,7 @@ import pages  # noqa: E402
 import plot  # noqa: E402
 from sprag import program  # noqa: E402
 from sprag.results import read_result  # noqa: E402
-from style import plt, use_print_style  # noqa: E402
+from style import plt  # noqa: E402
 
 SCENES = Path(os.environ.get("SPRAG_SOURCE", SOURCE)) / "params"
 COARSE = {"Mesh/Face size": 2}
@@ -55,11 +55,6 @@ OWN_COLUMNS = ("calibration-a", "identification-a", "study-a", "study-transmissi
 
 
 class ScenesTest(PictureTest):
-    def setUp(self):
-        super().setUp()
-        use_print_style()
-        self.addCleanup(plt.close, "all")
-
     def run_result(self, scene, changes, name=None):
         folder = self.folder / (name or scene)
         program.run_scene(program.program(), SCENES / f"{scene}.prm", folder, changes)
@@ -93,14 +88,6 @@ class ScenesTest(PictureTest):
         lines = {line.get_label(): line.get_xdata() for line in pictures["modes"].axes[0].lines}
         for name, result in zip(("8 mm", "16 mm"), results):
             self.assertEqual(max(lines[name]), result.summary["growth_rate"])
-
-    def test_comparison_of_many_devices(self):
-        results = []
-        for offset in range(2, 54, 4):
-            results.append(self.run_result("closed-form-a", {"Geometry/Interface offset": offset}, f"e{offset}"))
-        figure = comparison.comparison(results)
-        self.assertEqual(figure.axes[-1].get_ylabel(), "offset $e$ [mm]")
-        self.expect_layout(figure)
 
     def test_comparison_of_lever_depths_in_time(self):
         results = [self.run_result("reversal-a", {"Lever/Depth": depth}, f"d{depth}") for depth in (6, 12, 20)]

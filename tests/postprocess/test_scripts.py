@@ -9,6 +9,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
+from pages import PAGES  # noqa: E402
 from pictures import FOLDER, draw  # noqa: E402
 
 SCRIPTS = [path for path in sorted(FOLDER.glob("*.py")) if "def main(" in path.read_text(encoding="utf-8")]
@@ -24,6 +25,8 @@ class ScriptsTest(unittest.TestCase):
         self.assertLessEqual({"plot.py", "fields.py", "mesh.py", "comparison.py", "export.py", "device.py", "figures.py"}, names)
         for path in FOLDER.glob("*.py"):
             self.assertEqual(os.access(path, os.X_OK), path.name in names, path.name)
+        every = "\n".join(PAGES.values())
+        self.assertEqual([name for name in names if name not in every], [])
 
     def test_they_choose_the_python_that_has_h5py(self):
         for path in SCRIPTS:

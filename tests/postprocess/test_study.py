@@ -13,16 +13,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from pictures import PictureTest  # noqa: E402
 from sprag import results  # noqa: E402
 import study  # noqa: E402
-from style import plt, use_print_style  # noqa: E402
+from style import plt  # noqa: E402
+from test_plot import put  # noqa: E402
 
 SIZES = ("0.5", "1", "2")
 DEGREES = ("1", "2")
-
-
-def put(group, name, values, unit="1"):
-    data = group.create_dataset(name, data=values)
-    data.attrs["unit"] = unit
-    data.attrs["description"] = ""
 
 
 def make_study(folder, reference=True, many=0):
@@ -93,7 +88,6 @@ class StudyTest(PictureTest):
         np.testing.assert_allclose(sorted(front.get_ydata()), sorted(100 * np.array([0.0025, 0.01, 0.04, 0.00125, 0.01])))
 
     def test_labels_of_logarithms_stay_apart(self):
-        use_print_style()
         for low in (0.14, 2.1):
             for ratio in (1.1, 3, 4.9, 5.1, 20, 1e4):
                 figure, axes = plt.subplots(figsize=(2, 2))
@@ -107,14 +101,11 @@ class StudyTest(PictureTest):
 
     def test_pictures(self):
         self.expect_pictures(self.plot(make_study(self.folder / "run")), ["study.png", "trade.png"])
-
-    def test_without_a_reference(self):
-        self.expect_pictures(self.plot(make_study(self.folder / "run", reference=False)), ["study.png"])
-
-    def test_a_study_that_was_cut_short(self):
-        (self.folder / "run").mkdir()
-        (self.folder / "run" / "study.journal").touch()
-        self.expect_refusal(self.plot(self.folder / "run"), "study", "cut short")
+        self.pictures = self.folder / "others"
+        self.expect_pictures(self.plot(make_study(self.folder / "without", reference=False)), ["study.png"])
+        (self.folder / "cut").mkdir()
+        (self.folder / "cut" / "study.journal").touch()
+        self.expect_refusal(self.plot(self.folder / "cut"), "study", "cut short")
 
 
 if __name__ == "__main__":

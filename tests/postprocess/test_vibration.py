@@ -5,7 +5,6 @@ import sys
 import unittest
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
@@ -15,32 +14,9 @@ from sprag import results  # noqa: E402
 import sprag_slip  # noqa: E402
 import vibration  # noqa: E402
 from style import plt  # noqa: E402
+from test_plot import finish, new_file, put  # noqa: E402
 
 FEEDS = [f"growth_by_{name}" for name, _ in vibration.FEEDS]
-TEXTS = h5py.string_dtype()
-
-
-def put(group, name, values):
-    data = group.create_dataset(name, data=values, dtype=TEXTS if isinstance(values, str) else None)
-    data.attrs["unit"] = "1"
-    data.attrs["description"] = f"{name} of a test"
-
-
-def new_file(folder, kind, **arguments):
-    folder.mkdir()
-    file = h5py.File(folder / "result.h5", "w", **arguments)
-    file.attrs["format"] = "sprag result"
-    file["parameters"] = f"subsection Analysis\n  set Type = {kind}\nend\n"
-    file.create_group("table")
-    return file
-
-
-def finish(file, **summary):
-    for name, value in {"status": "completed", **summary}.items():
-        put(file.require_group("summary"), name, value)
-    file.require_group("meta")
-    file.close()
-
 
 def fill_modes(file, eigenvalues, xi):
     """Standing waves of growing number of nodes, the rotation turning the lever about its pivot; the lever's points in disorder."""
@@ -67,6 +43,7 @@ GROWING = (-180 + 1047j, 78 + 1162j, -110 + 4467j, -300 + 7700j, -400 + 15000j)
 
 def make_stability(folder, eigenvalues=GROWING, xi=FACE, kind="stability", searched=(), **summary):
     file = new_file(folder, kind)
+    file.create_group("table")
     fill_modes(file, eigenvalues, xi)
     for name, values in searched:
         put(file.require_group("critical_lever_depth"), name, values)
@@ -125,16 +102,13 @@ class SpragSlipRun:
 
 def make_sprag_slip(folder, end=0.3, **arguments):
     file = new_file(folder, "sprag slip", **arguments)
+    file.create_group("table")
     for name, values in SpragSlipRun().table(end).items():
         put(file["table"], name, values)
     return file
 
 
 class ModePictureTest(PictureTest):
-    def setUp(self):
-        super().setUp()
-        self.addCleanup(plt.close, "all")
-
     def expect_png(self, done, names):
         self.expect_pictures(done, [f"{name}.png" for name in names])
 
@@ -205,6 +179,7 @@ class Vibration(ModePictureTest):
             with self.subTest(case=name):
                 self.pictures = self.folder / f"pictures of {name}"
                 self.expect_png(self.plot(run), pictures)
+        self.expect_refusal(self.plot(make_stability(self.folder / "none", (), kind="modal")), "no mode")
 
     def test_map_shades_where_the_slide_grows(self):
         value, x, way = (grid.ravel() for grid in np.meshgrid(np.linspace(2, 12, 11), np.linspace(0, 60, 7), (1.0, -1.0)))
@@ -215,9 +190,6 @@ class Vibration(ModePictureTest):
         shaded = [path.vertices[:, 0] for shade in axes.collections for path in shade.get_paths() if len(path.vertices) > 2]
         self.assertAlmostEqual(np.concatenate(shaded).max(), 7.5)  # growth is 0 there, forward; backward it is negative
         self.assertIn(4.3, [line.get_xdata()[0] for line in axes.lines])
-
-    def test_nothing_to_draw(self):
-        self.expect_refusal(self.plot(make_stability(self.folder / "a", (), kind="modal")), "no mode")
 
 
 class SpragSlip(ModePictureTest):
@@ -252,39 +224,30 @@ class SpragSlip(ModePictureTest):
         lost = result.table["time"][result.table["P"] == 0][0]
         self.assertAlmostEqual(shown[-1] / 1e3, min(lost + 20 / 180, 0.2), delta=2.1e-4)
 
-    def test_a_slide_that_does_not_oscillate(self):
-        with make_sprag_slip(self.folder / "a") as file:
-            self.example.fill_growth(file)
-            finish(file, **{**self.example.summary, "linear_frequency": 0.0, "measured_frequency": np.nan})
-        self.expect_png(self.plot(self.folder / "a"), ["growth"])
-
-    def test_stopped_before_the_vibration_is_told(self):
-        with make_sprag_slip(self.folder / "a") as file:
-            self.example.fill_growth(file)
-            finish(file, **{**self.example.summary, "cycle_begin": np.nan, "status": "interrupted"})
-        self.expect_png(self.plot(self.folder / "a"), ["growth"])
-
-    def test_nothing_measured(self):
-        """Stopped while it grows: groups of no length."""
-        with make_sprag_slip(self.folder / "a", 0.01) as file:
-            for name in ("time", "amplitude", "predicted"):
-                put(file.require_group("growth"), name, np.empty(0))
-            finish(file, **self.example.summary)
-        self.expect_png(self.plot(self.folder / "a"), ["growth"])
-
-    def test_going_on_or_killed(self):
-        with make_sprag_slip(self.folder / "a", libver="latest") as file:
+    def test_runs_without_all_there_may_be(self):
+        """A slide that does not oscillate, one stopped before the vibration is told, one stopped at once, one that goes on."""
+        cases = {
+            "still": (0.3, {**self.example.summary, "linear_frequency": 0.0, "measured_frequency": np.nan}),
+            "stopped": (0.3, {**self.example.summary, "cycle_begin": np.nan, "status": "interrupted"}),
+            "begun": (0.01, self.example.summary),
+        }
+        for name, (end, summary) in cases.items():
+            with self.subTest(name), make_sprag_slip(self.folder / name, end) as file:
+                self.pictures = self.folder / f"pictures of {name}"
+                if name == "begun":
+                    for column in ("time", "amplitude", "predicted"):
+                        put(file.require_group("growth"), column, np.empty(0))
+                else:
+                    self.example.fill_growth(file)
+                finish(file, **summary)
+                self.expect_png(self.plot(self.folder / name), ["growth"])
+        self.pictures = self.folder / "others"
+        with make_sprag_slip(self.folder / "going on", libver="latest") as file:
             file.swmr_mode = True
-            self.expect_png(self.plot(self.folder / "a"), ["growth"])
-
-    def test_jammed(self):
-        with make_sprag_slip(self.folder / "a", 0.0) as file:
+            self.expect_png(self.plot(self.folder / "going on"), ["growth"])
+        with make_sprag_slip(self.folder / "jammed", 0.0) as file:
             finish(file, slide="jammed", status="no slide in contact that could be perturbed")
-        self.expect_refusal(self.plot(self.folder / "a"), "no step was made: no slide in contact")
-
-    def test_map_that_was_killed(self):
-        (self.folder / "map.journal").write_text("sprag map 1\n")
-        self.expect_refusal(self.plot(self.folder), "a map that was cut short", "takes it up")
+        self.expect_refusal(self.plot(self.folder / "jammed"), "no step was made: no slide in contact")
 
 
 if __name__ == "__main__":

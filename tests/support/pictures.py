@@ -12,6 +12,7 @@ from layout import problems
 SOURCE = Path(__file__).resolve().parents[2]
 FOLDER = SOURCE / "postprocess"
 sys.path.insert(0, str(FOLDER))
+from style import plt, use_print_style  # noqa: E402
 
 
 def draw(script, *arguments, own_process=False):
@@ -28,6 +29,8 @@ class PictureTest(FolderTest):
     def setUp(self):
         super().setUp()
         self.pictures = self.folder / "pictures"
+        use_print_style()
+        self.addCleanup(plt.close, "all")
 
     def plot(self, *arguments, **options):
         return draw("plot.py", "--output", self.pictures, *arguments, **options)
