@@ -7,6 +7,8 @@
 #include "scene/scene.h"
 #include "verification/run_transient.h"
 
+#include <gtest/gtest.h>
+
 namespace sprag
 {
   /// A scene's model with its slide checked.
@@ -46,6 +48,20 @@ namespace sprag
       return check_slide(dynamics.model(), there, checked_modes(scene));
     }
   };
+
+  /// A perturbation of a slide that flutters grows at the rate of its eigenvalue, up to the error of steps and of a nonlinear
+  /// contact.
+  inline void expect_predicted_growth(const JudgedSlide &checked)
+  {
+    ASSERT_EQ(checked.stability.kind, SlideKind::flutter);
+    HeldRun run(checked.dynamics.model(), checked.step());
+    const auto ignore = [](const Row &) {};
+    const auto growth = measure_growth(checked.dynamics.model(), checked.stability, checked.scene.sprag_slip, run, ignore);
+    EXPECT_TRUE(growth.reached);
+    EXPECT_TRUE(growth.slid);
+    EXPECT_NEAR(growth.growth_difference(), 0., 0.003);
+    EXPECT_NEAR(growth.frequency_difference(), 0., 0.0005);
+  }
 
   inline Scene held_at(Scene scene, const double x)
   {

@@ -52,16 +52,6 @@ TEST(Ladder, BeamAndCondensedLeverRingAtTheSameFrequency)
   }
 }
 
-TEST(Ladder, BeamAndCondensedLeverVibrateOrComeToRestAlikeSlow)
-{
-  for (const auto model : { ModelType::beam, ModelType::condensed })
-  {
-    EXPECT_EQ(oscillation(around_the_reversal(thick_a(model), 53.)).verdict, Verdict::decays);
-    EXPECT_EQ(oscillation(around_the_reversal(thick_b(model), 53.)).verdict, Verdict::decays);
-    EXPECT_EQ(oscillation(around_the_reversal(thin_a(model), 53.)).verdict, Verdict::vibrates);
-  }
-}
-
 TEST(Ladder, SlowFiniteElementsAgreeInFrequencyAndVerdict)
 {
   const auto meshed = oscillation(around_the_reversal(thick_a(ModelType::finite_element), 53.));
@@ -120,11 +110,6 @@ static void expect_a_closed_ledger(const ModelType model, const double face_size
 TEST(Ladder, CondensedLeverKeepsTheLedgerOfAFrictionlessStroke)
 {
   expect_a_closed_ledger(ModelType::condensed, 1.);
-}
-
-TEST(Ladder, SlowFiniteElementsKeepTheLedgerOfAFrictionlessStroke)
-{
-  expect_a_closed_ledger(ModelType::finite_element, 2.);
 }
 
 // With everything switched on.

@@ -115,13 +115,6 @@ TEST(Ledger, ClosesWithEverythingSwitchedOn)
         }
 }
 
-TEST(Ledger, ClosesUnderARegularisedLawToo)
-{
-  Scene scene                         = in_time(model_a(), ModelType::beam);
-  scene.friction.regularisation_speed = 1.;
-  EXPECT_LT(open_share(scene), 1e-7);
-}
-
 // Problem 16. The table's Q is that at the end of a step. The trapezoid errs by (omega dt)^2/12 = 7e-4 of the ringing, in which Q
 // gives and takes back a few tenths of its area, and by half a step's change where friction turns: 1e-4 of the area altogether.
 TEST(LoopArea, IsWhatIsDissipatedAndStored)

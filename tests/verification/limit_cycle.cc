@@ -119,12 +119,6 @@ TEST(LimitCycle, ClosesTheLedger)
   EXPECT_GT(run.ledger().largest_work, 100.);
 }
 
-TEST(LimitCycle, DiesWhereTheSlideIsStableAndTheKickSmall)
-{
-  const JudgedSlide checked(backward_a(ModelType::beam, 20.));
-  EXPECT_EQ(after_kick(checked, 0.5).kind, Settling::slide);
-}
-
 // Model B backward loses its stability between x = 41 and 42 and keeps the cycle that lives there down to below x = 40.
 TEST(Continuation, FindsWhereASlideAndACycleCoexistSlow)
 {

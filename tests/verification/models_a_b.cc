@@ -239,52 +239,6 @@ TEST(ModelsAAndB, NodesThatPassUnderTheContactHardlyRippleTheForceSlow)
   }
 }
 
-// The penetration sinks the cylinder into the lever, which turns by that much less: penetration / s, of th - th0. Twice that, as
-// the friction shifts the centre of pressure too. Compared where both runs have a row at the very same x: the steps of the
-// forward stroke, and the ends of return strokes.
-TEST(ModelsAAndB, PenaltyAndAugmentedLagrangianAgreeWithinThePenetration)
-{
-  for (const auto &[name, model] : models())
-  {
-    SCOPED_TRACE(name);
-    const auto expect_agreement = [&model = model](const Row &penalty, const Row &augmented)
-    {
-      ASSERT_EQ(penalty[Column::x], augmented[Column::x]);
-      const double turn  = penalty[Column::theta] - kinematics(model.geometry, 0.).theta;
-      const double bound = 2. * penalty[Column::penetration] / (penalty[Column::s] * turn);
-      EXPECT_LE(std::abs(penalty[Column::P] / augmented[Column::P] - 1.), bound) << "x = " << penalty[Column::x];
-    };
-    const auto forward = [](const Scene &scene)
-    { return run_scene(with_step(with_drive(scene, Drive(DriveProfile::triangle, 0., 65., 112., 0.5)), 2.5)); };
-    const auto penalty   = forward(model);
-    const auto augmented = forward(with_augmented_lagrangian(model));
-    ASSERT_EQ(penalty.size(), augmented.size());
-    EXPECT_GE(penalty.size(), 26u);
-    for (std::size_t i = 1; i < penalty.size(); ++i)
-      expect_agreement(penalty[i], augmented[i]);
-    for (const double x : { 60., 35. })
-      expect_agreement(run_scene(with_step(with_drive(model, turning_at_65(x)), 5.)).back(),
-                       run_scene(with_step(with_drive(with_augmented_lagrangian(model), turning_at_65(x)), 5.)).back());
-  }
-}
-
-TEST(ModelsAAndB, AugmentationRemovesTheOverlapInAFewSolutions)
-{
-  for (const auto &[name, model] : models())
-  {
-    const auto rows        = run_scene(with_augmented_lagrangian(model));
-    const auto penalty     = run_scene(model);
-    const auto penetration = [](const std::vector<Row> &run_rows) { return largest(run_rows, Column::penetration); };
-    EXPECT_GT(penetration(penalty), 0.);
-    EXPECT_LE(penetration(rows), 0.5 * penetration(penalty));
-    const double worst   = largest(rows, Column::augmentations);
-    const double average = sum(rows, Column::augmentations) / static_cast<double>(rows.size() - 1);
-    std::printf("%s: %.2f augmentations a step, %g in the worst\n", name, average, worst);
-    EXPECT_LE(average, 8.);
-    EXPECT_GT(average, 0.5);
-  }
-}
-
 namespace
 {
   /// Returns the row at x = 30 on the way back.
@@ -310,83 +264,6 @@ TEST(ModelsAAndB, CoarseStepsPassTheReversalToTheSameForce)
       const double P = back_at_30(scene)[Column::P];
       EXPECT_NEAR(back_at_30(with_step(scene, 10.))[Column::P] / P, 1., step_difference);
     }
-}
-
-// Multipliers are accepted with penetrations up to 1e-6 mm, so that two ways to the same place end 4e-5 of the largest P apart:
-// of model B's P at 30 mm, a third of that, 1.2e-4.
-TEST(SlowModelsAAndB, FineStepsPassTheReversalToTheSameForce)
-{
-  for (const auto &[name, model] : models())
-    for (const Scene &scene : { model, with_augmented_lagrangian(model), with_coulomb(model, 1.2) })
-    {
-      SCOPED_TRACE(name);
-      const double P       = back_at_30(scene)[Column::P];
-      const bool augmented = scene.contact.enforcement == Enforcement::augmented_lagrangian;
-      EXPECT_NEAR(back_at_30(with_step(scene, 0.1))[Column::P] / P, 1., augmented ? 2. * step_difference : step_difference);
-    }
-}
-
-// Geometry A does not lock at 1.2 anywhere: s > mu e up to the contact with the pivot.
-TEST(ModelsAAndB, StrongFrictionPassesTheReversal)
-{
-  for (const auto &[name, model] : models())
-    for (const Scene &scene : { with_coulomb(model, 1.2), with_augmented_lagrangian(with_coulomb(model, 1.2)) })
-    {
-      SCOPED_TRACE(name);
-      const auto rows = run_scene(scene);
-      EXPECT_EQ(rows.back()[Column::x], 0.);
-      const auto summary = make_summary(scene, rows);
-      // Bending and compression grow with the force: 1.4 times P of mu 0.73.
-      EXPECT_LT(find_value(summary, "deviation_P_forward"), 0.01);
-      EXPECT_LT(find_value(summary, "deviation_P_backward"), 0.017);
-    }
-}
-
-TEST(ModelsAAndB, SecondLoopRepeatsTheFirstSlow)
-{
-  for (const auto &[name, model] : models())
-  {
-    SCOPED_TRACE(name);
-    const auto rows  = run_scene(with_face_size(with_drive(model, Drive(DriveProfile::triangle, 0., 65., 112., 2.)), 1.));
-    const auto first = last_forward(rows);
-    auto second      = first + 1;
-    while (!(rows[second][Column::x] == 65.))
-      ++second;
-    const double peak = rows[first][Column::Q];
-    EXPECT_EQ(rows[first][Column::x], 65.);
-    EXPECT_NEAR(rows[second][Column::time] - rows[first][Column::time], 130. / 112., 1e-12);
-    // The turning point itself, and the return strokes row by row.
-    for (std::size_t i = 0; second + i < rows.size(); ++i)
-    {
-      const Row &a = rows[first + i];
-      const Row &b = rows[second + i];
-      EXPECT_NEAR(b[Column::x], a[Column::x], 1e-6);
-      EXPECT_NEAR(b[Column::P], a[Column::P], 1e-6 * peak);
-      EXPECT_NEAR(b[Column::Q], a[Column::Q], 1e-6 * peak);
-      EXPECT_NEAR(b[Column::theta], a[Column::theta], 1e-6 * a[Column::theta]);
-    }
-  }
-}
-
-TEST(Drives, EveryReversalIsHitExactly)
-{
-  const Scene scene = with_face_size(with_coulomb(model_a(), mu), 2.);
-  for (const Drive &drive :
-       { Drive(DriveProfile::triangle, 0., 64.7, 112., 2.), Drive(DriveProfile::triangle, 20., 33.3, 50., 1.5),
-         Drive(DriveProfile::harmonic, 0., 65., 180., 2.) })
-  {
-    const auto rows = run_scene(with_drive(scene, drive));
-    EXPECT_GE(drive.reversals().size(), 2u);
-    for (const double reversal : drive.reversals())
-    {
-      const auto at = std::find_if(rows.begin(), rows.end(), [&](const Row &row) { return row[Column::time] == reversal; });
-      ASSERT_NE(at, rows.end());
-      EXPECT_TRUE((*at)[Column::x] == drive.maximum() || (*at)[Column::x] == drive.minimum());
-    }
-    EXPECT_EQ(rows.front()[Column::x], drive.at(0.).x);
-    EXPECT_EQ(rows.back()[Column::time], drive.duration());
-    EXPECT_EQ(rows.back()[Column::x], drive.at(drive.duration()).x);
-  }
 }
 
 // The friction of a step is that of its mean speed, the closed form's that of the speed at its end. A step changes the speed by

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/stability/stability.h"
-#include "fe/dynamics/dynamic_face_lever.h"
 #include "scene/closed_form.h"
-#include "scene/contact_estimates.h"
 #include "scene/scene.h"
 #include "support/scene_parts.h"
 #include "verification/run_scene.h"
@@ -119,63 +117,6 @@ TEST(PreloadedSpring, PressesAtEveryFidelity)
       const auto checked = check_slide(scene, maker);
       EXPECT_NEAR(checked.slide->forces.P, moment / (at.s - mu * scene.geometry.interface_offset), 2e-3 * 20.) << x;
     }
-}
-
-// The model in time without inertia solves the same equations with the same points and, as it is told, the same penalty: 12
-// E/depth of the layer, under which a contact is wider than cells of 1 mm.
-TEST(SprungSupport, MeetsTheModelInTimeWithoutInertia)
-{
-  for (const Scene &model : { model_a(), model_b() })
-  {
-    Scene scene           = on_sprung_support(with_face_size(with_coulomb(model, mu), 1.), 50.);
-    scene.contact.penalty = 12. * scene.layer.young_modulus / scene.layer.thickness;
-    dealii::Triangulation<2> triangulation;
-    make_mesh(scene, triangulation);
-    const ElasticBody<2> body(triangulation, lever_properties(scene).body);
-    const auto in_time =
-        make_finite_element_dynamics(scene, body, make_finite_element_basis(scene, body), contact_reference(scene).relaxation);
-    const auto rows = run_scene(scene);
-    for (const double direction : { 1., -1. })
-    {
-      double off_P = 0., off_Q = 0., peak_P = 0., peak_Q = 0.;
-      for (const Row &row : rows)
-        if (row[Column::x] > 1. && row[Column::v] * direction > 0. && (direction > 0. || row[Column::x] < 60.))
-        {
-          const auto forces = in_time.model->sliding_forces({ 0., row[Column::x], direction * scene.drive.peak_speed(), 0. });
-          ASSERT_FALSE(forces.empty());
-          off_P  = std::max(off_P, std::abs(row[Column::P] - forces.front().P));
-          off_Q  = std::max(off_Q, std::abs(row[Column::Q] - forces.front().Q));
-          peak_P = std::max(peak_P, forces.front().P);
-          peak_Q = std::max(peak_Q, std::abs(forces.front().Q));
-        }
-      std::printf("direction %+.0f: P off by %.1e, Q by %.1e of their peaks\n", direction, off_P / peak_P, off_Q / peak_Q);
-      EXPECT_LT(off_P, 6.5e-4 * peak_P);
-      EXPECT_LT(off_Q, 6.5e-4 * peak_Q);
-    }
-  }
-}
-
-// u = Q / k_f = 1e-11 mm is below what the iterations resolve, 1e-7 of the penetration of some 1e-4 mm.
-TEST(SprungSupport, StiffIsRigid)
-{
-  for (const auto solution : { Solution::automatic, Solution::general })
-  {
-    Scene scene             = with_face_size(with_drive(model_a(), Drive(DriveProfile::triangle, 0., 65., 112., 0.5)), 2.);
-    scene.analysis.solution = solution;
-    scene.analysis.step     = 5.;
-    const auto rigid        = run_scene(scene);
-    const auto sprung       = run_scene(on_sprung_support(scene, 1e12));
-    ASSERT_EQ(rigid.size(), sprung.size());
-    const double peak = rigid.back()[Column::P];
-    for (std::size_t i = 0; i < rigid.size(); ++i)
-    {
-      EXPECT_NEAR(sprung[i][Column::P], rigid[i][Column::P], 1e-9 * peak);
-      EXPECT_NEAR(sprung[i][Column::Q], rigid[i][Column::Q], 1e-9 * peak);
-      EXPECT_NEAR(sprung[i][Column::Q_support], sprung[i][Column::Q], 1e-9 * peak);
-      EXPECT_EQ(rigid[i][Column::Q_support], rigid[i][Column::Q]);
-      EXPECT_EQ(rigid[i][Column::support_displacement], 0.);
-    }
-  }
 }
 
 // One stroke, at the end of which the support holds 2 to 5 % of the work: the ledger closes to a tenth of that with it.

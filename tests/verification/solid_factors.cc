@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "fe/body/cell_stiffness.h"
 #include "fe/statics/solid_body.h"
 #include "scene/scene.h"
 #include "verification/solid_run.h"
@@ -68,29 +67,4 @@ namespace
     fs::remove_all(folder);
   }
 
-  /// Stiffness times the displacements is the load: assembly and what refines by its cells know the same stiffness.
-  TEST(SolidFactors, WhatIsLeftOfALoadIsFoundByTheCells)
-  {
-    const Scene scene = tilted_model_a();
-    Mesh plane;
-    make_mesh(scene, plane);
-    const SolidBody body(scene, plane);
-    CellStiffness<3> stiffness(body);
-    std::vector<double> left(body.n_dofs(), 0.);
-    left[body.friction_face().nodes.front().dofs[0]] = 1.;
-    auto displacements                               = left;
-    body.respond(displacements);
-    std::vector<dealii::types::global_dof_index> dofs(body.dofs().get_fe().n_dofs_per_cell());
-    for (const auto &cell : body.dofs().active_cell_iterators())
-    {
-      if (cell->material_id() == material_id::hub)
-        continue;
-      cell->get_dof_indices(dofs);
-      const auto &matrix = stiffness(cell);
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-        for (unsigned int j = 0; j < dofs.size() && !body.is_held(dofs[i]); ++j)
-          left[dofs[i]] -= matrix(i, j) * displacements[dofs[j]];
-    }
-    EXPECT_LT(magnitude(left), 1e-8);
-  }
 } // namespace

@@ -138,47 +138,6 @@ TEST(SolidFields, WithoutContractionTheyAreThoseOfPlaneStress)
   EXPECT_LT(stress, 1e-6 * stressed);
 }
 
-// The three-dimensional code adds no error between displacements and stress, nor between nodes and the file.
-TEST(SolidFields, OfThePlanesDisplacementsTheyAreItsFields)
-{
-  const PlaneRun plane(model_a_forward(2));
-  const Scene scene = model_a_forward(3);
-  Mesh mesh;
-  make_mesh(scene, mesh);
-  const SolidBody body(scene, mesh);
-  const BodyFields fields(body);
-  dealii::Vector<double> displacement(body.n_dofs());
-  std::vector<dealii::types::global_dof_index> dofs(body.dofs().get_fe().n_dofs_per_cell());
-  dealii::FEValues<3> values(body.cell_mapping(), body.dofs().get_fe(),
-                             dealii::Quadrature<3>(body.dofs().get_fe().get_unit_support_points()),
-                             dealii::update_quadrature_points);
-  for (const auto &cell : body.dofs().active_cell_iterators())
-  {
-    values.reinit(cell);
-    cell->get_dof_indices(dofs);
-    for (unsigned int i = 0; i < dofs.size(); ++i)
-    {
-      const unsigned int component = body.dofs().get_fe().system_to_component_index(i).first;
-      BodyFields::Node node{ values.quadrature_point(i), cell->material_id(), false };
-      unsigned int other = below(plane.found, node);
-      if (other == plane.found.nodes.size())
-      {
-        node.at_hub = true;
-        other       = below(plane.found, node);
-      }
-      displacement[dofs[i]] = plane.found.fields[other].displacement[component];
-    }
-  }
-  const auto found = fields.at(displacement);
-  for (unsigned int i = 0; i < found.size(); ++i)
-  {
-    const auto &expected = plane.found.fields[below(plane.found, fields.nodes[i])];
-    EXPECT_LT((found[i].stress - expected.stress).norm(), 1e-8);
-    EXPECT_NEAR(von_mises(found[i]), von_mises(expected), 1e-8);
-    EXPECT_LT((found[i].displacement - expected.displacement).norm(), 1e-14);
-  }
-}
-
 // The half that is solved is there with its mirror image, all cells count their corners the same way round, and the cylinder is
 // a tube around its axis.
 TEST(SolidFields, TheMeshIsTheWholeLeverAndTheCylinder)

@@ -102,19 +102,6 @@ TEST(SolidLever, OneHalfIsEnoughWhereBothAreAlike)
     EXPECT_LT(difference(half.rows, whole.rows, column), 1e-6) << column_info(column).name;
 }
 
-TEST(SolidLever, AMirroredTiltGivesTheMirrorImageSlow)
-{
-  const Scene scene = solid_model_a(0.3);
-  const SolidRun one(tilted(scene, 2e-4)), other(tilted(scene, -2e-4));
-  for (const Column column : { Column::P, Column::Q, Column::theta })
-    EXPECT_LT(difference(one.rows, other.rows, column), 1e-6) << column_info(column).name;
-  ASSERT_EQ(one.rows.size(), other.rows.size());
-  const auto &last = one.rows[15], &mirrored = other.rows[15];
-  EXPECT_GT(last.across[1], 1.); // zeta of the centre of pressure, towards the side that the axis comes closer to
-  EXPECT_NEAR(last.across[1], -mirrored.across[1], 1e-4);
-  EXPECT_NEAR(last.across[2], -mirrored.across[2], 1e-4 * last.across[2]);
-}
-
 // The spring carries the moment of all forces on the face about the pivot, where the face has moved to. The table's columns tell
 // it but for how far the face moves along eta, and for the middle of the pressure in place of that of the forces along eta.
 TEST(SolidLever, MomentsBalanceAboutThePivot)

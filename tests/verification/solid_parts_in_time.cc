@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/errors.h"
 #include "fe/body/body_mass.h"
 #include "fe/dynamics/dynamic_face_lever.h"
 #include "fe/leaf/leaf_spring.h"
@@ -133,35 +132,6 @@ TEST(SolidPartsInTime, MassAndMomentOfInertiaAreThePlanes)
       }
 }
 
-TEST(SolidPartsInTime, PartsAloneMustNotHaveMoreThanTheMomentOfInertia)
-{
-  Scene scene          = in_space(AnalysisType::transient);
-  scene.lever.tip_mass = 1e-3;
-  Mesh plane;
-  make_mesh(scene, plane);
-  const SolidBody body(scene, plane);
-  EXPECT_THROW(BodyMass<3>(body, lever_inertia(scene)), InputError);
-}
-
-// The solver's relative error at the lowest frequency grows with the square of the ratio of the mesh's frequencies to it.
-TEST(SolidPartsInTime, ModesOfThePlaneAreThoseOfTheHalfSlow)
-{
-  const Scene bare = in_space(AnalysisType::transient);
-  for (const Scene &scene : { on_leaf_with_tip(bare), on_sensors(bare), on_sensors(on_leaf_with_tip(bare)) })
-  {
-    DynamicsMaker maker(false);
-    const auto plane           = maker.make(in_plane(scene)).lever;
-    const auto solid           = maker.make(scene).solid;
-    const auto &half_stiffness = solid->modes.stiffness;
-    for (std::size_t i = 0; i < 6; ++i)
-    {
-      const double expected = plane->condensed.lever->stiffness[i];
-      const auto is_closer  = [&](const double a, const double b) { return std::abs(a - expected) < std::abs(b - expected); };
-      EXPECT_NEAR(*std::min_element(half_stiffness.begin(), half_stiffness.end(), is_closer), expected, 1e-6 * expected) << i;
-    }
-  }
-}
-
 // A hub that is as good as held lets the leaf vibrate as a beam clamped at both ends, beta L = 4.7300; shear and rotary inertia
 // lower that by (beta t)^2/24 (1 + E/(kappa G)), 4e-4.
 TEST(SolidPartsInTime, ALeafVibratesAtItsOwnFrequency)
@@ -263,52 +233,7 @@ namespace
     scene.drive = Drive(DriveProfile::triangle, 18., 19., 112., 1.);
     return scene;
   }
-
-  std::vector<Row> compute_rows(const Scene &scene)
-  {
-    DynamicsMaker maker(false);
-    const auto dynamics = maker.make(scene);
-    return run_in_time(dynamics.model(), scene).rows;
-  }
 } // namespace
-
-// Round-off meets the contact's stiffness.
-TEST(SolidPartsInTime, AMirroredTiltSwapsLeftAndRightSlow)
-{
-  const auto one = compute_rows(at_corners(2e-4)), other = compute_rows(at_corners(-2e-4));
-  ASSERT_EQ(one.size(), other.size());
-  double most = 0., off = 0.;
-  for (std::size_t k = 0; k < one.size(); ++k)
-    for (const std::size_t place : { 0u, 1u })
-    {
-      const auto force = [&](const Row &row, const std::size_t side) { return row.across.at(first_sensor + 2 * place + side); };
-      most             = std::max(most, std::abs(force(one[k], 1) - force(one[k], 0)));
-      for (const std::size_t side : { 0u, 1u })
-        off = std::max(off, std::abs(force(one[k], side) - force(other[k], 1 - side)));
-    }
-  EXPECT_GT(most, 0.1);
-  EXPECT_LT(off, 1e-5 * most);
-}
-
-// Round-off meets the contact's stiffness.
-TEST(SolidPartsInTime, TheWholeBeforeATrueCylinderIsItsHalfSlow)
-{
-  DynamicsMaker half_maker(false), whole_maker(false);
-  const Scene scene = at_corners(0.);
-  const auto one    = half_maker.make(scene);
-  const auto other  = with_modes_up_to(one.solid->modes.stiffness.back(), tilted(scene, 1e-13), whole_maker);
-  const auto half = run_in_time(one.model(), scene).rows, whole = run_in_time(other.model(), scene).rows;
-  ASSERT_EQ(half.size(), whole.size());
-  double most = 0., off = 0.;
-  for (std::size_t k = 0; k < half.size(); ++k)
-    for (std::size_t i = first_sensor; i < first_sensor + 4; ++i)
-    {
-      most = std::max(most, half[k].across.at(i));
-      off  = std::max(off, std::abs(half[k].across[i] - whole[k].across.at(i)));
-    }
-  EXPECT_GT(most, 0.5);
-  EXPECT_LT(off, 1e-5 * most);
-}
 
 // At rest they balance the contact, whatever the number of modes; in motion they are those of the body as it is deformed.
 TEST(SolidPartsInTime, SensorsAreThoseOfTheDeformedBodySlow)
@@ -334,23 +259,4 @@ TEST(SolidPartsInTime, SensorsAreThoseOfTheDeformedBodySlow)
     for (std::size_t side = 0; side < expected.size(); ++side)
       EXPECT_NEAR(row.across[first_sensor + side], expected[side], 1e-7 * row[Column::P]);
   }
-}
-
-// See Growth.
-TEST(SolidPartsInTime, AVibrationGrowsAsItsEigenvalueSaysSlow)
-{
-  Scene scene              = on_leaf_with_tip(at_corners(1e-4, AnalysisType::sprag_slip));
-  scene.support.type       = SupportType::rigid;
-  scene.lever.depth        = 6.;
-  scene.drive              = Drive(DriveProfile::triangle, 0., 65., 112., 1.);
-  scene.stability.position = 65.;
-  scene.spring             = prepared_spring(scene);
-  const JudgedSlide checked(scene);
-  ASSERT_EQ(checked.stability.kind, SlideKind::flutter);
-  HeldRun run(checked.dynamics.model(), checked.step());
-  const auto growth = measure_growth(checked.dynamics.model(), checked.stability, scene.sprag_slip, run, [](const Row &) {});
-  EXPECT_TRUE(growth.reached);
-  EXPECT_TRUE(growth.slid);
-  EXPECT_NEAR(growth.growth_difference(), 0., 0.003);
-  EXPECT_NEAR(growth.frequency_difference(), 0., 0.0005);
 }

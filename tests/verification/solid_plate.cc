@@ -69,42 +69,6 @@ TEST(SolidPlate, WithoutContractionOnPadsOfTheWholeWidthItIsThePlanes)
   EXPECT_LT(sensor_difference(rows, solid.rows), 1e-5);
 }
 
-// Sensors at the corners let the plate bend between them, which P feels; how two places share it follows from balance alone.
-TEST(SolidPlate, ATrueCylinderGivesThePlanesSharesSlow)
-{
-  const Scene scene = on_sensors(0.);
-  const SolidRun solid(scene);
-  const auto rows = run_scene(in_plane(scene));
-  EXPECT_LT(solid.exactness.displacement, 1e-3);
-  for (const auto &row : solid.rows)
-  {
-    EXPECT_NEAR(sum(row.sensor_forces), row[Column::P], 1e-8 * std::max(1., row[Column::P]));
-    EXPECT_EQ(right_less_left(row), 0.);
-  }
-  const SolidRun whole(tilted(scene, 1e-13));
-  ASSERT_EQ(solid.rows.size(), whole.rows.size());
-  for (std::size_t k = 0; k < solid.rows.size(); ++k)
-    for (std::size_t i = columns_across().size(); i < columns_across().size() + 4; ++i)
-      EXPECT_NEAR(solid.rows[k].across[i], whole.rows[k].across[i], 1e-5) << k;
-}
-
-TEST(SolidPlate, AMirroredTiltSwapsLeftAndRightSlow)
-{
-  const Scene scene = on_sensors(0.3);
-  const SolidRun one(tilted(scene, 2e-4)), other(tilted(scene, -2e-4));
-  ASSERT_EQ(one.rows.size(), other.rows.size());
-  const auto first = columns_across().size();
-  double most      = 0.;
-  for (std::size_t k = 0; k < one.rows.size(); ++k)
-  {
-    most = std::max(most, std::abs(right_less_left(one.rows[k])));
-    for (const std::size_t place : { 0u, 1u })
-      for (const std::size_t side : { 0u, 1u })
-        EXPECT_NEAR(one.rows[k].across[first + 2 * place + side], other.rows[k].across[first + 2 * place + 1 - side], 1e-5) << k;
-  }
-  EXPECT_GT(most, 0.5);
-}
-
 // The sensors alone carry normal force and the moment about xi; the guide carries what draws the plate across at its back.
 TEST(SolidPlate, TheSensorsCarryForceAndTwistingMoment)
 {

@@ -166,34 +166,3 @@ TEST(SolidTorsion, ItsFieldsHaveSaintVenantsStress)
   EXPECT_LT(off, 0.075 * largest);
   EXPECT_LT(off_within, 0.2 * 0.075 * largest);
 }
-
-// Without contraction a force on the free end bends a bar as a beam: M eta/I along it and a parabola of shear across.
-TEST(SolidTorsion, AForceOnTheEndGivesTheStressOfABeam)
-{
-  Scene scene               = bar_scene();
-  scene.lever.poisson_ratio = 0.;
-  Mesh plane;
-  make_bar(plane);
-  const SolidBody body(scene, plane);
-  std::vector<double> displacement(body.n_dofs(), 0.);
-  double force = 0.;
-  for (const auto &node : section(body, length))
-    force += displacement[node.dof_eta] = 1.;
-  body.respond(displacement);
-  const BodyFields fields(body);
-  const auto nodal   = fields.at(dealii::Vector<double>(displacement.begin(), displacement.end()));
-  const double I     = width * depth * depth * depth / 12.;
-  unsigned int found = 0;
-  for (unsigned int i = 0; i < nodal.size(); ++i)
-  {
-    const auto &place = fields.nodes[i].position;
-    if (place[0] < 30. - 1e-9 || place[0] > 60. + 1e-9)
-      continue;
-    const double eta     = place[1] - 0.5 * depth;
-    const double largest = force * length * 0.5 * depth / I;
-    EXPECT_NEAR(nodal[i].stress[0][0], -force * (length - place[0]) * eta / I, 1e-3 * largest) << place;
-    EXPECT_NEAR(nodal[i].stress[0][1], force * (0.25 * depth * depth - eta * eta) / (2. * I), 2e-3 * largest) << place;
-    ++found;
-  }
-  EXPECT_GT(found, 1000u);
-}

@@ -2,7 +2,6 @@
 #include "analysis/stability/stability.h"
 
 #include "analysis/statics/contact_law.h"
-#include "model/lever/reduced_lever.h"
 #include "model/structure/modal_vibration.h"
 #include "mpi_environment.h"
 #include "scene/held_slide.h"
@@ -66,8 +65,6 @@ namespace
     return scene;
   }
 
-  constexpr DrivePoint at_65 = { 0., 65., -112., 0. };
-
   double bisected(const std::function<bool(double)> &is_beyond, double low, double high)
   {
     for (unsigned int i = 0; i < 60; ++i)
@@ -76,12 +73,6 @@ namespace
       (is_beyond(middle) ? high : low) = middle;
     }
     return high;
-  }
-
-  double sum(const GrowthShares &g)
-  {
-    return g.friction_rotation + g.friction_bending + g.friction_support + g.friction_speed + g.contact_damping +
-           g.structure_damping;
   }
 } // namespace
 
@@ -139,33 +130,6 @@ TEST(ModelB, NeverFluttersWithItsNeutralAxisAtThePivot)
       }
 }
 
-// Flutter of model A's lever of 6 mm at x = 65 backward, with damping and mu(v): frequency and growth against 32 elements.
-// Hermite elements of length h leave h^4 of frequencies; growth is a small difference of two meeting ones.
-TEST(Beam, OfEightElementsHasConverged)
-{
-  Scene scene = stability_scene(with_depth(model_a(), 6.), ModelType::beam);
-  for (const bool coulomb : { false, true })
-  {
-    if (coulomb)
-      scene = with_coulomb(scene, 0.73);
-    const Scene held   = held_scene(scene);
-    const auto flutter = [&](const unsigned int elements)
-    {
-      const auto found = check_slide(*make_reduced_lever(held, elements), at_65, { 10 });
-      EXPECT_EQ(found.kind, SlideKind::flutter) << elements;
-      return found.worst_mode().mode.eigenvalue;
-    };
-    const Complex fine = flutter(32);
-    const Complex used = flutter(beam_elements);
-    EXPECT_NEAR(used.real(), fine.real(), 0.007 * fine.real());
-    EXPECT_NEAR(used.imag(), fine.imag(), 5e-4 * fine.imag());
-    // The cubic shapes' order between 4 and 8 elements, as far as the contact's place in its element allows.
-    EXPECT_LT(std::abs(used - fine), 0.25 * std::abs(flutter(4) - fine));
-    RecordProperty("growth_at_8", std::to_string(used.real() / fine.real() - 1.));
-    RecordProperty("frequency_at_8", std::to_string(used.imag() / fine.imag() - 1.));
-  }
-}
-
 // Static face shapes answer at once for what the modes leave out.
 // Without modal damping a beam of 20 mm has a growing mode above 100 kHz, which no lever has.
 TEST(Beam, LeavesOutModesWithWavesShorterThanSixDepths)
@@ -185,28 +149,6 @@ TEST(Beam, LeavesOutModesWithWavesShorterThanSixDepths)
   ASSERT_TRUE(found.beyond);
   EXPECT_GT(found.beyond->mode.eigenvalue.imag() / (2. * M_PI), 1e5);
   EXPECT_GT(found.beyond->mode.eigenvalue.real(), 0.);
-}
-
-TEST(Condensed, OfTwentyModesHasConverged)
-{
-  DynamicsMaker maker(false);
-  Scene scene        = stability_scene(with_depth(coarse(model_a()), 6.), ModelType::condensed);
-  const auto flutter = [&](const unsigned int modes)
-  {
-    scene.condensed.modes = modes;
-    const auto found      = check_slide(scene, maker);
-    EXPECT_EQ(found.kind, SlideKind::flutter) << modes;
-    return found.worst_mode().mode.eigenvalue;
-  };
-  const Complex fine = flutter(40);
-  for (const unsigned int modes : { 10u, 20u })
-  {
-    const Complex used = flutter(modes);
-    EXPECT_NEAR(used.real(), fine.real(), 1e-3 * fine.real()) << modes;
-    EXPECT_NEAR(used.imag(), fine.imag(), 1e-4 * fine.imag()) << modes;
-    RecordProperty("growth_at_" + std::to_string(modes), std::to_string(used.real() / fine.real() - 1.));
-    RecordProperty("frequency_at_" + std::to_string(modes), std::to_string(used.imag() / fine.imag() - 1.));
-  }
 }
 
 // With the mesh's neutral axis, behind the interface by the layer and half the depth, it can: 12 mm, mu 0.73, k_c = 1e4 N/mm,
@@ -237,37 +179,6 @@ TEST(MeshedLever, MassDampingTakesHalfOfItsFactorOffEveryVibration)
       for (const auto &mode : lever.model().vibrations(*slide, in_contact, 6))
         EXPECT_NEAR(mode.mode.eigenvalue.real(), -17., 1e-8 * std::abs(mode.mode.eigenvalue));
   }
-}
-
-// Everything on: friction with mu(v) behind the spring of stick, or constant, damping of lever, layer and support. To round-off
-// of 1e-16 of the stiffest, 1e8 times what moves. An eigenvalue that a point's delay brings along is close to its -1/time, and
-// the traction is divided by the difference.
-TEST(MeshedLever, SharesOfGrowthAddUp)
-{
-  DynamicsMaker maker(false);
-  for (const auto model : meshed_models)
-    for (const auto support : { SupportType::rigid, SupportType::sprung })
-      for (const bool coulomb : { false, true })
-      {
-        Scene scene = with_depth(coarse(stability_scene(model_a(), model)), 6.);
-        if (coulomb)
-          scene = with_coulomb(scene, 0.73);
-        scene.support.type            = support;
-        scene.lever.mass_damping      = 5.;
-        scene.lever.stiffness_damping = 1e-6;
-        scene.stability.modes         = 6;
-        unsigned int vibrations       = 0;
-        for (const auto &mode : check_slide(scene, maker).modes)
-        {
-          const Complex lambda   = mode.mode.eigenvalue;
-          const double round_off = lambda.imag() > 0. ? 1e-8 : 3e-5;
-          EXPECT_NEAR(sum(mode.growth), lambda.real(), round_off * std::abs(lambda)) << lambda;
-          EXPECT_NEAR(mode.energy.rotation + mode.energy.bending + mode.energy.support + mode.energy.contact, 1., 1e-10);
-          EXPECT_EQ(mode.growth.friction_speed == 0., coulomb);
-          vibrations += lambda.imag() > 0. ? 1 : 0;
-        }
-        EXPECT_GE(vibrations, 6u);
-      }
 }
 
 namespace
@@ -311,36 +222,6 @@ TEST(MeshedLever, UnderALawThatRisesWithSpeedCondensedVibratesAsTheFiniteElement
   }
 }
 
-TEST(MeshedLever, OutOfContactVibratesAsItsFreeModes)
-{
-  DynamicsMaker maker(false);
-  for (const auto model : meshed_models)
-  {
-    const Scene scene = held_scene(without_damping(coarse(stability_scene(model_a(), model))));
-    const auto lever  = maker.make(scene);
-    const auto slide  = lever.model().hold(held_drive(scene), ContactFriction::sliding);
-    ASSERT_TRUE(slide);
-    const auto modes = lever.model().vibrations(*slide, false, 6);
-    ASSERT_GE(modes.size(), 6u);
-    for (unsigned int i = 0; i < 6; ++i)
-      EXPECT_NEAR(modes[i].mode.eigenvalue.imag() / (2. * M_PI), lever.meshed.frequencies[i], 1e-8 * lever.meshed.frequencies[i]);
-  }
-}
-
-// Two computations of the flutter of the meshed lever, and of its other vibrations below 3 kHz.
-TEST(MeshedLeverSlow, CondensedToTwentyModesVibratesAsTheFiniteElements)
-{
-  DynamicsMaker maker(false);
-  for (const double depth : { 6., 20. })
-  {
-    const Scene scene    = with_depth(stability_scene(model_a(), ModelType::finite_element), depth);
-    const auto whole     = check_slide(scene, maker);
-    const auto condensed = check_slide(stability_scene(scene, ModelType::condensed), maker);
-    EXPECT_EQ(whole.kind, condensed.kind);
-    EXPECT_GE(expect_among(whole.modes, condensed.modes, 3000., 1e-3), 3u) << depth;
-  }
-}
-
 // Moving backwards from x = 65 undamped model A flutters when its lever is thinner than some 8.35 mm, in the beam on the contact
 // law fitted to the mesh as in the mesh: all do at 8.2 mm and none at 8.6 mm.
 TEST(ModelASlow, FluttersBelowTheSameDepthInEveryFlexibleModel)
@@ -360,17 +241,5 @@ TEST(ModelASlow, FluttersBelowTheSameDepthInEveryFlexibleModel)
       EXPECT_NEAR(other.frequency(), whole.frequency(), 0.01 * whole.frequency()) << depth;
       EXPECT_NEAR(other.growth_rate(), whole.growth_rate(), 0.1 * whole.growth_rate()) << depth;
     }
-  }
-}
-
-TEST(ModelBSlow, IsStableInEveryFlexibleModel)
-{
-  DynamicsMaker maker(false);
-  for (const double depth : { 6., 12. })
-  {
-    const Scene scene = without_damping(with_depth(stability_scene(with_coulomb(model_b(), 0.73), ModelType::beam), depth));
-    EXPECT_EQ(check_slide(with_fitted_law(scene), maker).kind, SlideKind::stable) << depth;
-    for (const auto model : meshed_models)
-      EXPECT_EQ(check_slide(stability_scene(scene, model), maker).kind, SlideKind::stable) << depth;
   }
 }

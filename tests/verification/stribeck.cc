@@ -178,20 +178,3 @@ TEST(Stribeck, FrictionBehindAReversalIsThatOfTheSpeed)
     EXPECT_NEAR(mean / time, expected / time, 3e-3) << model;
   }
 }
-
-// Without inertia mu is that of a rigid lever's speed of sliding, wherever the whole contact slides.
-TEST(Stribeck, FrictionWithoutInertiaIsThatOfTheSpeed)
-{
-  const auto scene  = read_scene((params_folder() / "model-a.prm").string(),
-                                 { "Friction/Law=Stribeck", "Friction/Static coefficient=0.9", "Friction/Kinetic coefficient=0.5",
-                                   "Friction/Stribeck speed=60", "Drive/Stroke=20", "Mesh/Face size=1" });
-  unsigned int slid = 0;
-  for (const auto &row : run_scene(scene))
-    if (row[Column::P] > 1. && (row[Column::v] > 0. || row[Column::x] < 18.))
-    {
-      const double share = std::abs(row[Column::friction_resultant]) / row[Column::normal_resultant];
-      EXPECT_NEAR(share, 0.5 + 0.4 * std::exp(-std::abs(row[Column::v_rel]) / 60.), 5e-3) << row[Column::x];
-      ++slid;
-    }
-  EXPECT_GT(slid, 10u);
-}

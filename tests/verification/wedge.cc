@@ -77,20 +77,6 @@ TEST(ForceControlledWedge, AugmentationEndsAtOnceAndRemovesTheOverlap)
     }
 }
 
-TEST(ForceControlledWedge, WouldRunAwayWithTheConeFrozenAtTheLastPressure)
-{
-  // The test above must not do this: it takes friction mu N of the last augmentation, N sin a = F - mu N_last cos a.
-  const double exact = full_force / (sine + coefficient * cosine);
-  double normal      = 0.99 * exact;
-  for (int augmentation = 0; augmentation < 10; ++augmentation)
-  {
-    const double next = (full_force - coefficient * cosine * normal) / sine;
-    EXPECT_NEAR((next - exact) / (normal - exact), -coefficient / slope, 1e-9);
-    normal = next;
-  }
-  EXPECT_GT(std::abs(normal - exact), exact);
-}
-
 TEST(ForceControlledWedge, NormalForceFollowsTheCoefficient)
 {
   for (const double mu : { 0., 0.9 * coefficient, 1. })
