@@ -7,14 +7,6 @@
 
 namespace sprag
 {
-  /// Slips of a point of the lever, round the cylinder and along it [mm].
-  inline std::array<double, 2> compute_slips(const RigidCylinder &cylinder, const RigidCylinder::Pose &at,
-                                             const dealii::Point<3> &point)
-  {
-    const Triple<double> place{ point[0], point[1], point[2] };
-    return { { cylinder.slip(at, point), seen(cylinder.shape, at, place).along } };
-  }
-
   /// Gap and slips of a point of the lever against the cylinder, with derivatives by the coordinates (displacement along xi, eta
   /// and zeta, theta, x, tilt, skew).
   struct SurfaceKinematics

@@ -44,43 +44,6 @@ TEST(ElasticCounterface, ForcesOnLeverAndCylinderAreEqualAndOpposite)
   EXPECT_NEAR((on_lever + on_cylinder).norm(), 0., 1e-12 * on_lever.norm());
 }
 
-// Facets of 0.025 mm average where the circle's points sample: the force differs where the contact ends, by a facet's share of a
-// half width of some 0.35 mm, squared.
-TEST(ElasticCounterface, AnUndeformedCylinderIsARigidOne)
-{
-  const MeshedPair bodies;
-  const auto properties = make_properties(*bodies, false, 0.);
-  const MeshedBar bar(bar_on_cylinder());
-  const auto rigid_properties = make_properties(*bar, false, 0.);
-  FaceContact contact(*bodies, properties);
-  FaceEvaluation<2> found;
-  FaceContact rigid(*bar, rigid_properties);
-  FaceEvaluation<2> rigid_evaluation;
-  for (const double speed : { 100., -100. })
-  {
-    Vector displacements(properties.layout.size()), rigid_displacements(rigid_properties.layout.size());
-    for (unsigned int i = 0; i < rigid_properties.layout.surface; ++i)
-      displacements[i] = rigid_displacements[i] = i % 2 == 1 ? -0.01 : 0.;
-    const DrivePoint drive{ 0., 0., speed };
-    contact.evaluate_sliding({ displacements, drive, speed }, found);
-    rigid.evaluate_sliding({ rigid_displacements, drive, speed }, rigid_evaluation);
-    Row row, circle_row;
-    contact.observe(found, row);
-    rigid.observe(rigid_evaluation, circle_row);
-    for (const auto column : { Column::P, Column::F, Column::Q, Column::normal_resultant, Column::friction_resultant })
-      EXPECT_NEAR(row[column], circle_row[column], 5e-3 * circle_row[Column::P]) << speed;
-    EXPECT_NEAR(row[Column::F] / row[Column::P], circle_row[Column::F] / circle_row[Column::P], 1e-4);
-    EXPECT_NEAR(row[Column::s], circle_row[Column::s], 1e-3);
-    EXPECT_NEAR(found.energy(), rigid_evaluation.energy(), 1e-2 * rigid_evaluation.energy());
-    const double h = 1e-4;
-    EXPECT_NEAR(contact.mean_slip(found, displacements, 0., displacements, h),
-                rigid.mean_slip(rigid_evaluation, rigid_displacements, 0., rigid_displacements, h), 5e-5 * h);
-    Vector change(displacements.size()), rigid_change(rigid_displacements.size());
-    change[properties.layout.rotation()] = rigid_change[rigid_properties.layout.rotation()] = 1e-6;
-    EXPECT_NEAR(contact.gap_change(found, change), rigid.gap_change(rigid_evaluation, rigid_change), 1e-8);
-  }
-}
-
 TEST(ElasticCounterface, RefusesAContactBeyondTheCylindersFace)
 {
   const MeshedPair bodies;

@@ -81,53 +81,6 @@ TEST_P(FaceContactOn, TangentOfSteadySlidingIsTheDerivativeOfTheForces)
     }
 }
 
-// The contact widens its search as it goes, and the width outlasts a kill.
-TEST_P(FaceContactOn, CandidatesAreHistory)
-{
-  const auto contact_properties = properties(false, 0.);
-  FaceContact contact(body, contact_properties), fresh(body, contact_properties);
-  const PerLever theta{ { contact_properties.rest_inclination } };
-  const auto narrow = contact.candidate_dofs(1., theta);
-  contact.widen_candidates();
-  const auto wide = contact.candidate_dofs(1., theta);
-  Archive archive;
-  contact.serialise_history(archive);
-  Archive kept(archive.bytes());
-  fresh.serialise_history(kept);
-  EXPECT_TRUE(kept.at_end());
-  EXPECT_GT(wide.size(), narrow.size());
-  EXPECT_EQ(fresh.candidate_dofs(1., theta), wide);
-}
-
-// The work of interface, drive and turn of the cylinder is stored or dissipated, up to third order in the movement of a step.
-// With a spectral radius of 0 forces are balanced where the step ends, but are not those of a step without inertia.
-TEST_P(FaceContactOn, WorksBalance)
-{
-  for (const double spectral_radius : { 0.8, 0. })
-  {
-    double last = 0.;
-    for (const double share : { 1., 0.5 })
-    {
-      const auto contact_properties = properties(true, 0.);
-      FaceContact contact(body, contact_properties);
-      const auto taken    = step(contact, contact_properties.layout, 1. + 0.05 * share, share, spectral_radius);
-      const double before = taken.found.energy();
-      FaceEvaluation<2> found;
-      contact.evaluate(*taken, found);
-      const StepWork work         = found.work();
-      const double interface_work = compute_work(found.forces, taken.begin.position, taken.end);
-      const double left           = work.drive - interface_work - (found.energy() - before) - work.friction - work.algorithmic;
-      EXPECT_GT(work.friction, 0.);
-      EXPECT_LE(std::abs(left), 1e-3 * share * share * work.friction) << spectral_radius;
-      if (share < 1.)
-      {
-        EXPECT_LE(std::abs(left), (elastic ? 0.25 : 0.2) * last) << spectral_radius;
-      }
-      last = std::abs(left);
-    }
-  }
-}
-
 TEST_P(FaceContactOn, ApartNothingHappens)
 {
   const auto contact_properties = properties(false, 0.);
@@ -202,16 +155,4 @@ TEST(FaceContact, ForcesOfSlidingAreThoseObserved)
   const double mu = friction_coefficient(properties.friction, 100.).coefficient;
   EXPECT_NEAR(row[Column::friction_resultant], mu * row[Column::normal_resultant], 1e-12 * P);
   EXPECT_DOUBLE_EQ(row[Column::v_rel], 100.);
-}
-
-// A drive that moves the cylinder along the face by dx slips it by dx cos theta.
-TEST(FaceContact, TellsTheMeanSlip)
-{
-  const MeshedBar bar(bar_on_cylinder());
-  const auto properties = make_properties(*bar, false, 0.);
-  FaceContact contact(*bar, properties);
-  const PressedStep step(contact, *bar, properties.layout, 1e-3, 1.01);
-  const auto &displacements = step.begin.position;
-  EXPECT_NEAR(contact.mean_slip(step.found, displacements, 1., displacements, 1. + 1e-4), 1e-4 * std::cos(rest_inclination),
-              1e-6);
 }

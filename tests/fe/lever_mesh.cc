@@ -355,53 +355,24 @@ TEST(Mesh, UsersMeshIsTakenAsItIs)
   EXPECT_NEAR(boundary(triangulation, boundary_id::friction_face).length, 200., 1e-9);
 }
 
-TEST(Mesh, MissingFrictionFaceIsNamedAndTheCurvesFoundAreListed)
+TEST(Mesh, WhatIsWrongWithAFileIsNamed)
 {
-  const auto message = complaint(bar("lever", "frictionface", "hub"));
-  expect_named(message, "no physical curve 'friction face'");
-  expect_named(message, "'frictionface'");
-}
-
-TEST(Mesh, MissingHubIsNamed)
-{
-  expect_named(complaint(bar("lever", "friction face", "")), "'hub'");
-}
-
-TEST(Mesh, UnknownSurfaceIsNamedWithTheKnownOnes)
-{
-  const auto message = complaint(bar("leever", "friction face", "hub"));
-  expect_named(message, "unknown physical surface 'leever'");
-  expect_named(message, "no physical surface 'lever'");
-}
-
-TEST(Mesh, EverythingMissingIsSaidAtOnce)
-{
-  const auto message = complaint(bar("", "", ""));
-  expect_named(message, "'friction face'");
-  expect_named(message, "'lever'");
-  expect_named(message, "'hub'");
-}
-
-TEST(Mesh, TrianglesAreRefusedWithTheRemedy)
-{
-  const auto message = complaint(bar("lever", "friction face", "hub", 45.6, 210., ""));
-  expect_named(message, "quadrilaterals");
-  expect_named(message, "Recombine");
-}
-
-TEST(Mesh, FaceOffTheScenesInterfaceIsRefusedWithBothNumbers)
-{
-  const auto message = complaint(bar("lever", "friction face", "hub", 40.));
-  expect_named(message, "Geometry/Interface offset");
-  expect_named(message, "40");
-  expect_named(message, "45.6");
-}
-
-TEST(Mesh, FaceThatTheContactLeavesIsRefusedWithBothSpans)
-{
-  const auto message = complaint(bar("lever", "friction face", "hub", 45.6, 150.));
-  expect_named(message, "150");
-  expect_named(message, "sweeps");
+  const std::string lever = "lever", face = "friction face", hub = "hub";
+  const std::vector<std::pair<std::string, std::vector<std::string>>> wrong = {
+    { bar(lever, "frictionface", hub), { "no physical curve 'friction face'", "'frictionface'" } },
+    { bar("leever", face, hub), { "unknown physical surface 'leever'", "no physical surface 'lever'" } },
+    { bar("", "", ""), { "'friction face'", "'lever'", "'hub'" } },
+    { bar(lever, face, hub, 45.6, 210., ""), { "quadrilaterals", "Recombine" } },
+    { bar(lever, face, hub, 40.), { "Geometry/Interface offset", "40", "45.6" } },
+    { bar(lever, face, hub, 45.6, 150.), { "150", "sweeps" } },
+    { bar("plate", face, hub), { "has a surface 'plate', but Friction plate/Type = none" } },
+  };
+  for (const auto &[text, all_words] : wrong)
+  {
+    const auto message = complaint(text);
+    for (const auto &words : all_words)
+      expect_named(message, words);
+  }
 }
 
 TEST(Mesh, PlateThatTheFileLacksIsNamed)
@@ -422,11 +393,6 @@ TEST(Mesh, PlateThatTheFileLacksIsNamed)
     expect_named(error.what(), "'sensor plate'");
     expect_named(error.what(), "'sensor lever'");
   }
-}
-
-TEST(Mesh, PlateThatTheSceneLacksIsNamed)
-{
-  expect_named(complaint(bar("plate", "friction face", "hub")), "has a surface 'plate', but Friction plate/Type = none");
 }
 
 TEST(Mesh, MissingFileIsNamed)

@@ -102,35 +102,6 @@ TEST(PlateInTime, ContactLessSensorsIsThePlatesInertia)
   EXPECT_GT(largest, 0.05);
 }
 
-TEST(PlateInTime, SensorsAreOnlyReadButAnswerAsTheInterface)
-{
-  const PlateOnBar scene;
-  const MeshedPlate plate(scene);
-  for (const bool sprung : { false, true })
-  {
-    auto structure     = sparse_structure(*plate, plate_inertia(), 4, undamped_dynamics(sprung));
-    const auto &layout = structure.layout();
-    structure.use_statics();
-    const auto forces        = step_forces(0);
-    const auto motion        = structure.deform(forces);
-    const auto displacements = structure.positions(motion);
-    for (unsigned int i = 0; i < layout.sensors; ++i)
-    {
-      const unsigned int dof = layout.sensor(i);
-      EXPECT_NEAR(structure.dof_state(motion, dof).position, displacements[dof], 1e-15);
-      double by_compliance = 0.;
-      for (unsigned int a = 0; a < 4; ++a)
-      {
-        EXPECT_EQ(structure.compliance()(dof, forces.dofs[a]), structure.compliance()(forces.dofs[a], dof));
-        by_compliance += structure.compliance()(dof, forces.dofs[a]) * forces.values[a];
-      }
-      EXPECT_NEAR(by_compliance, displacements[dof], 1e-9 * std::abs(displacements[dof]));
-    }
-    // At rest the sensors carry what is laid on.
-    EXPECT_NEAR(sensor_sum(scene, displacements, layout), forces.values[1] + forces.values[3], 1e-8);
-  }
-}
-
 TEST(PlateInTime, CondensedSensorsAreThoseOfTheFiniteElements)
 {
   const PlateOnBar scene;
@@ -165,16 +136,4 @@ TEST(PlateInTime, CondensedSensorsAreThoseOfTheFiniteElements)
     EXPECT_LT(error(20), 2e-2) << sprung;
     EXPECT_LT(error(80), 2e-3) << sprung;
   }
-}
-
-TEST(PlateInTime, CondensedStaticsAreExactWithAnyNumberOfModes)
-{
-  const PlateOnBar scene;
-  const MeshedPlate plate(scene);
-  const auto basis = make_basis(*plate, { 3, bar_spring, plate_inertia(), {}, {} });
-  ModalStructure condensed(modal_data(basis, undamped_dynamics(false)));
-  condensed.use_statics();
-  const auto forces        = step_forces(0);
-  const auto displacements = condensed.positions(condensed.deform(forces));
-  EXPECT_NEAR(sensor_sum(scene, displacements, condensed.layout()), forces.values[1] + forces.values[3], 1e-8);
 }

@@ -216,53 +216,6 @@ TEST(SparseStructure, ItsComplianceIsWhatForcesDoToTheInterface)
   }
 }
 
-// [T] + [U] + damping + algorithmic dissipation = forces times displacements, whatever the step.
-TEST(SparseStructure, WorksBalance)
-{
-  for (const bool sprung : { false, true })
-  {
-    SmallLever lever(sprung);
-    for (const double dt : { 1e-3, 1e-5 })
-    {
-      const auto step   = one_step(lever, dt);
-      const auto begin  = lever.structure.stored_energy(step.begin);
-      const auto end    = lever.structure.stored_energy(step.end);
-      const auto sum    = [](const StoredEnergy &e) { return e.kinetic + e.spring + e.elastic + e.support; };
-      const auto from   = lever.structure.positions(step.begin);
-      const auto to     = lever.structure.positions(step.end);
-      double force_work = 0.;
-      for (unsigned int a = 0; a < step.forces.dofs.size(); ++a)
-        force_work += step.forces.values[a] * (to[step.forces.dofs[a]] - from[step.forces.dofs[a]]);
-      StepWork work;
-      lever.structure.add_work(step.begin, step.end, work);
-      const double size = sum(begin) + sum(end) + std::abs(work.damping) + std::abs(work.algorithmic);
-      EXPECT_NEAR(sum(end) - sum(begin) + work.damping + work.algorithmic, force_work, 1e-11 * size) << sprung << " " << dt;
-      EXPECT_GT(end.layer, 0.);
-      EXPECT_LT(end.layer, end.elastic);
-    }
-  }
-}
-
-// In steps beyond all periods everything dies away by the spectral radius, times n in the nth step as the root is a double one.
-TEST(SparseStructure, HighFrequenciesDecayByTheSpectralRadius)
-{
-  SmallLever lever(false);
-  const double radius = 0.8;
-  const auto w        = generalised_alpha(radius, 1e3);
-  lever.structure.use_step(w);
-  Motion motion = random_motion(lever.structure);
-  motion.coordinates.velocity *= 1e-9;
-  motion.coordinates.acceleration *= 1e-16;
-  std::vector<double> sizes;
-  for (unsigned int i = 0; i < 60; ++i)
-  {
-    lever.structure.free_displacements(motion, all_dofs(lever.structure.layout().size()));
-    motion = lever.structure.advance(motion, InterfaceForces(), {});
-    sizes.push_back(motion.coordinates.position.l2_norm());
-  }
-  EXPECT_NEAR(std::pow(sizes[59] / sizes[29], 1. / 30.), radius, 0.03);
-}
-
 // Over a short step an undamped oscillation is off by dt^3 a' (beta - 1/6), a' = -omega^2 v.
 TEST(SparseStructure, TellsTheLocalErrorOfAMode)
 {
@@ -283,17 +236,4 @@ TEST(SparseStructure, TellsTheLocalErrorOfAMode)
   const unsigned int hub = structure.layout().rotation();
   const double expected  = -dt * dt * dt * (w.beta - 1. / 6.) * omega * omega * rate[hub];
   EXPECT_NEAR(error[hub], expected, 0.02 * std::abs(expected));
-}
-
-TEST(SparseStructure, KeepsMotionsApart)
-{
-  SmallLever lever(true);
-  const auto first  = one_step(lever, 1e-4);
-  const auto energy = lever.structure.stored_energy(first.end).kinetic;
-  const auto other  = one_step(lever, 3e-4);
-  lever.structure.stored_energy(other.end);
-  lever.structure.stored_energy(lever.structure.rest());
-  EXPECT_EQ(lever.structure.stored_energy(first.end).kinetic, energy);
-  const auto again = one_step(lever, 1e-4);
-  EXPECT_TRUE(again.end.coordinates.position == first.end.coordinates.position);
 }

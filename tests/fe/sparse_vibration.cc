@@ -308,45 +308,6 @@ TEST(SparseVibration, WithoutFrictionIsThatOfTheSymmetricProblem)
   }
 }
 
-// With all modes there is nothing left for static shapes, modal damping is the same on both.
-TEST(SparseVibration, IsThatOfAllModes)
-{
-  for (const bool sprung : { false, true })
-  {
-    auto constants          = make_dynamics(sprung, true);
-    constants.modal_damping = 0.02;
-    const unsigned int all  = MeshedLever(constants, 1).matrices->coordinates.size();
-    MeshedLever lever(constants, all);
-    const auto forces    = contact_on(lever.structure.layout(), 1.);
-    const auto found     = lever.structure.vibrations(forces, 8);
-    const auto condensed = lever.condensed(all).vibrations(forces, 8);
-    for (unsigned int i = 0; i < 8; ++i)
-      EXPECT_LT(nearest(found[i].eigenvalue, condensed), 1e-8) << sprung << found[i].eigenvalue;
-  }
-}
-
-// Static shapes leave out the inertia of the modes beyond: of an eigenvalue at most its square over that of the first of them.
-TEST(SparseVibration, OfFewModesWithStaticShapesComesNear)
-{
-  MeshedLever lever(make_dynamics(false, false), 41);
-  auto forces          = contact_on(lever.structure.layout(), 1.);
-  forces.friction_rate = 0.;
-  forces.delays.clear();
-  forces.pressure_rate = 0.;
-  const auto found     = lever.structure.vibrations(forces, 3);
-  double before        = 1.;
-  for (const unsigned int n_modes : { 5u, 10u, 20u, 40u })
-  {
-    const auto condensed = lever.condensed(n_modes).vibrations(forces, 3);
-    double error         = 0.;
-    for (unsigned int i = 0; i < 3; ++i)
-      error = std::max(error, nearest(found[i].eigenvalue, condensed));
-    EXPECT_LT(error, before);
-    EXPECT_LT(error, std::norm(found[2].eigenvalue) / lever.modes.stiffness[n_modes]);
-    before = error;
-  }
-}
-
 TEST(SparseVibration, MassDampingTakesHalfOfItsFactorOffEveryVibration)
 {
   auto constants         = make_dynamics(false, false);

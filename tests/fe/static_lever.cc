@@ -3,7 +3,6 @@
 
 #include "fe/meshed.h"
 #include "mpi_environment.h"
-#include "scene/closed_form.h"
 #include "scene/scene.h"
 #include "scenes.h"
 #include "support/newton_step.h"
@@ -198,85 +197,4 @@ TEST(StaticLever, ATriedStepLeavesTheNextStepAsItWas)
   ASSERT_EQ(second.contact.size(), first.contact.size());
   for (std::size_t q = 0; q < first.contact.size(); ++q)
     ASSERT_EQ(first.contact[q].traction, second.contact[q].traction);
-}
-
-// In 1 mm the contact moves by more than its half width, and displacements that stayed where they are would let the cylinder
-// three times as deep into the face. Moved along over 30 mm they would lose contact, which no guess may.
-TEST(StaticLever, AStepBeginsWithTheContactMovedAlong)
-{
-  MeshedLever meshed(coarse_scene(Solution::automatic));
-  auto &model           = meshed.model;
-  const auto accepted   = slid(model);
-  const auto guessed_at = [&](const double x)
-  {
-    Step step = model.begin_step(accepted, forward_to(x));
-    return model.evaluate(step, FrictionMode::cone).penetration;
-  };
-  const double penetration = guessed_at(accepted.drive.x);
-  EXPECT_GT(guessed_at(accepted.drive.x + 1.), 0.);
-  EXPECT_LT(guessed_at(accepted.drive.x + 1.), 1.2 * penetration);
-  EXPECT_GT(guessed_at(accepted.drive.x + 30.), 0.);
-}
-
-// P sin th + F cos th is Q by definition of the columns; equilibrium of the hub: the moment of the contact about the pivot is
-// the spring's, with P at the centre of the normal forces but for tractions' arms of the same size as the deflection.
-TEST(StaticLever, MomentOfTheContactIsTheSprings)
-{
-  const auto scene = coarse_scene(Solution::automatic);
-  MeshedLever meshed(scene);
-  auto &model          = meshed.model;
-  const auto accepted  = slid(model);
-  const Row row        = observed(model, solved(model, accepted, forward_to(30.)));
-  const double rest    = kinematics(scene.geometry, 0.).theta;
-  const double moment  = scene.spring.stiffness * (row[Column::theta] - rest);
-  const double contact = row[Column::P] * row[Column::s] + row[Column::F] * scene.geometry.interface_offset;
-  // Deflections of some 0.1 mm under s = 150 mm and e = 45.6 mm.
-  EXPECT_NEAR(contact, moment, 3e-3 * moment);
-  EXPECT_NEAR(row[Column::friction_resultant], row[Column::mu] * row[Column::normal_resultant], 1e-9 * row[Column::P]);
-}
-
-// A spring of the secant's stiffness holds the lever in the same place: the two states are equal but for round-off.
-TEST(StaticLever, HardeningSpringIsItsSecantAtEachTurn)
-{
-  for (const auto solution : { Solution::automatic, Solution::general })
-  {
-    Scene scene = coarse_scene_with_springs(solution);
-    MeshedLever hardening(scene);
-    const auto accepted = slid(hardening.model);
-    const Row row       = observed(hardening.model, solved(hardening.model, accepted, forward_to(30.)));
-    const double turn   = row[Column::theta] - kinematics(scene.geometry, 0.).theta;
-    const double moment = scene.spring.behaviour.law.moment(turn);
-    EXPECT_GT(moment, 1.5 * scene.spring.stiffness * turn);
-
-    scene.spring           = {};
-    scene.spring.stiffness = moment / turn;
-    MeshedLever secant(scene);
-    const Row secant_row = observed(secant.model, solved(secant.model, accepted, forward_to(30.)));
-    EXPECT_NEAR(row[Column::theta], secant_row[Column::theta], 1e-13);
-    EXPECT_NEAR(row[Column::P], secant_row[Column::P], 1e-9 * row[Column::P]);
-    EXPECT_NEAR(row[Column::support_displacement], secant_row[Column::support_displacement], 1e-11);
-    // The moment k turn + c turn^3 stores k turn^2 / 2 + c turn^4 / 4.
-    const double linear = model_a().spring.stiffness * turn;
-    EXPECT_NEAR(row[Column::spring_energy], 0.5 * linear * turn + 0.25 * (moment - linear) * turn,
-                1e-9 * row[Column::spring_energy]);
-  }
-}
-
-// To round-off: the x-force of the contact on the lever is that of its spring on the frame.
-TEST(StaticLever, SupportsSpringCarriesTheForceAlongX)
-{
-  for (const auto solution : { Solution::automatic, Solution::general })
-  {
-    const Scene scene = coarse_scene_with_springs(solution);
-    MeshedLever meshed(scene);
-    const auto accepted = slid(meshed.model);
-    for (const auto &drive : { forward_to(30.), back_by(5e-3), back_by(5.) })
-    {
-      const Row row = observed(meshed.model, solved(meshed.model, accepted, drive));
-      EXPECT_GT(std::abs(row[Column::support_displacement]), 0.05);
-      EXPECT_NEAR(row[Column::Q_support], row[Column::Q], 1e-9 * std::abs(row[Column::Q]));
-      EXPECT_NEAR(row[Column::Q], 10. * row[Column::support_displacement], 1e-9 * std::abs(row[Column::Q]));
-      EXPECT_NEAR(row[Column::support_energy], 5. * std::pow(row[Column::support_displacement], 2), 1e-12);
-    }
-  }
 }

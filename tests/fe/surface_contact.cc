@@ -188,20 +188,6 @@ class SurfaceContactOfAnAxis : public testing::TestWithParam<bool>
 
 INSTANTIATE_TEST_SUITE_P(IsFree, SurfaceContactOfAnAxis, testing::Bool());
 
-TEST_P(SurfaceContactOfAnAxis, TheTangentIsTheDerivativeOfTheForces)
-{
-  Bed bed(skewed(GetParam()), 12.5, 6);
-  const auto begin = bed.pressed(0.02);
-  for (const double friction : { 0.4, 50. }) // slips, sticks
-  {
-    auto end = bed.pressed(0.03);
-    for (unsigned int dof = 0; dof < bed.layout.surface; ++dof)
-      end[dof] += 1e-3 * std::sin(1.3 * dof);
-    expect_tangent(
-        bed, end, [&](const dealii::Vector<double> &at) { return bed.evaluated(begin, Bed::x - 0.7, at, friction); }, friction);
-  }
-}
-
 // Friction changes with the speed, which follows from the slope of the slip along the face. That makes 1e-5 of the tangent and
 // more; no point changes its state.
 TEST_P(SurfaceContactOfAnAxis, TheTangentKnowsTheSpeedOfAContactThatTravels)
@@ -265,29 +251,6 @@ TEST_P(SurfaceContactOfAnAxis, SlidingIsLinearisedByDisplacementsAndVelocities)
     weigh(bed, linear.dofs, difference);
     weigh(bed, linear.dofs, slope);
     EXPECT_LT(difference.l2_norm(), (by_rates ? 1e-7 : 1e-4) * slope.l2_norm()) << by_rates;
-  }
-}
-
-// The tangent of a step in time, and forces that balance between its ends: pressure does the work of its springs.
-TEST_P(SurfaceContactOfAnAxis, AStepInTimeHasItsTangent)
-{
-  const StepWeights weights{ 1e-4, 0., 0., 0.25, 0.5 };
-  const DrivePoint from{ 0., Bed::x - 0.7, 112., 0. }, to{ 1e-4, Bed::x, 112., 0. };
-  for (const double friction : { 0.4, 50. }) // slips, sticks
-  {
-    Bed bed(skewed(GetParam()), 12.5, 6, { CoulombFriction{ friction } });
-    const auto begin     = bed.pressed(0.02);
-    const auto evaluated = [&](const dealii::Vector<double> &end)
-    {
-      FaceEvaluation<3> found;
-      const std::vector<ContactHistory> none;
-      bed.surface().evaluate(InterfaceStep{ from, none, to, { begin, {}, {} }, end, {}, weights }, found);
-      return found;
-    };
-    auto end = bed.pressed(0.03);
-    for (unsigned int dof = 0; dof < bed.layout.surface; ++dof)
-      end[dof] += 1e-3 * std::sin(1.3 * dof);
-    expect_tangent(bed, end, evaluated, friction);
   }
 }
 
