@@ -85,16 +85,6 @@ TEST(Calibration, TargetsThatCannotBeReachedAreRefused)
   EXPECT_TRUE(contains(soft, "cannot be reached")) << soft;
 }
 
-TEST(Calibration, WithoutTargetsThePartsStayAsTheyAre)
-{
-  const auto scene = calibration("a", { "Calibration/Stiffness=auto", "Calibration/Moment of inertia=auto" });
-  const auto parts = calibrate_parts(scene);
-  EXPECT_FALSE(parts.thickness);
-  EXPECT_FALSE(parts.added);
-  EXPECT_TRUE(parts.overrides.empty());
-  EXPECT_EQ(parts.scene.lever.inertia, InertiaSource::scaled);
-}
-
 /// Round trip: k, J and the section of the bar come back from its mesh, and the beam made of them does what the mesh does.
 TEST(Calibration, TheBeamOfAMeshDoesWhatTheMeshDoesSlow)
 {

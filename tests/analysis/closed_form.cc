@@ -74,14 +74,6 @@ TEST(ClosedFormRows, StepsAreNoLongerThanAskedAndEndExactly)
     }
 }
 
-TEST(ClosedFormRows, ForcesVanishAtTheStart)
-{
-  const auto first = compute_rows(model_a()).front();
-  for (const auto column : { Column::P, Column::F, Column::Q, Column::friction_work, Column::drive_work, Column::spring_energy })
-    EXPECT_EQ(first[column], 0.);
-  EXPECT_EQ(first[Column::v], 112.);
-}
-
 TEST(ClosedFormRows, EveryReversalHasARowBeforeAndOneAfterIt)
 {
   for (const Scene &scene : scenes())
@@ -104,18 +96,6 @@ TEST(ClosedFormRows, EveryReversalHasARowBeforeAndOneAfterIt)
       EXPECT_EQ(before[Column::F] * after[Column::F]<0., before[Column::x]> 0.);
     }
   }
-}
-
-TEST(ClosedFormRows, NormalForceJumpsAtTheReversalByTheSelfServoEffect)
-{
-  const auto rows   = compute_rows(with_friction_by_drive_speed(model_a()));
-  const auto second = second_rows(rows).at(0);
-  EXPECT_EQ(rows[second][Column::x], 65.);
-  // Reference numbers with half a unit of their last digit.
-  EXPECT_NEAR(rows[second - 1][Column::P], 14.63888028, 5e-9);
-  EXPECT_NEAR(rows[second][Column::P], 25.84035609, 5e-9);
-  EXPECT_NEAR(rows[second - 1][Column::Q], 11.88836354, 5e-9);
-  EXPECT_NEAR(rows[second][Column::Q], -16.52477063, 5e-9);
 }
 
 TEST(ClosedFormRows, SmoothDriveAtRestKeepsTheDirectionItComesFromOrGoesTo)
@@ -143,40 +123,6 @@ TEST(ClosedFormRows, RowsOfATurnKeepTheirPlacesInEveryCycle)
     EXPECT_NEAR(after[Column::Q], -5.634, 5e-4);
     EXPECT_EQ(before[Column::mu], 0.3491);
   }
-}
-
-TEST(ClosedFormRows, FrictionAndNormalForceMakeUpTheForceOnTheDrive)
-{
-  for (const Scene &scene : scenes())
-    for (const Row &row : compute_rows(scene))
-    {
-      const double theta = row[Column::theta];
-      EXPECT_NEAR(row[Column::Q], row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta), 1e-13);
-      EXPECT_NEAR(std::abs(row[Column::friction_resultant]), row[Column::mu] * row[Column::normal_resultant], 1e-13);
-      EXPECT_EQ(row[Column::friction_resultant], row[Column::F]);
-      EXPECT_EQ(row[Column::normal_resultant], row[Column::P]);
-    }
-}
-
-TEST(ClosedFormRows, RestKeepsTheDirectionItWasReachedIn)
-{
-  const auto rows = compute_rows(driven(model_a(), Drive({ 0., 1., 2., 3., 4. }, { 0., 60., 20., 20., 0. })));
-  const auto rest = std::find_if(rows.begin(), rows.end(), [](const Row &row) { return row[Column::time] == 3.; });
-  ASSERT_NE(rest, rows.end());
-  EXPECT_EQ((*rest)[Column::step], 0.);
-  EXPECT_LT((*rest)[Column::F], 0.);
-  EXPECT_EQ((*rest)[Column::F], (*(rest - 1))[Column::F]);
-}
-
-TEST(ClosedFormRows, ComparingTheClosedFormWithItselfShowsNoDeviation)
-{
-  for (const Scene &scene : scenes())
-    for (const Row &row : compute_rows(scene))
-    {
-      EXPECT_EQ(row[Column::P_closed_form], row[Column::P]);
-      EXPECT_EQ(row[Column::Q_closed_form], row[Column::Q]);
-      EXPECT_EQ(row[Column::theta_closed_form], row[Column::theta]);
-    }
 }
 
 TEST(ClosedFormRows, EnergyBalancesInEveryRow)
@@ -210,15 +156,6 @@ TEST(ClosedFormRows, LoopAreaOfTheRowsEqualsFrictionWork)
     EXPECT_NEAR(rows.back()[Column::drive_work], loop_area(scene), alike * area);
     EXPECT_NEAR(rows.back()[Column::friction_work], friction_work(scene), alike * area);
   }
-}
-
-TEST(ClosedFormRows, WorksDoNotDependOnTheStep)
-{
-  Scene scene         = model_a();
-  scene.analysis.step = 10.;
-  const double coarse = compute_rows(scene).back()[Column::friction_work];
-  scene.analysis.step = 0.1;
-  EXPECT_NEAR(compute_rows(scene).back()[Column::friction_work], coarse, 1e-11 * coarse);
 }
 
 TEST(ClosedFormRows, APairWithoutOffsetIsASingleLeverTwice)

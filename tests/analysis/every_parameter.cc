@@ -16,7 +16,6 @@
 
 #include <functional>
 #include <gtest/gtest.h>
-#include <optional>
 #include <set>
 
 // Each parameter that the program declares is changed in turn: what is shared between scenes must be what the changed scene makes
@@ -416,35 +415,6 @@ TEST(EveryParameter, SparedOnesAreDeclared)
     EXPECT_EQ(names.count(name), 1u) << name;
   for (const auto &section : spared_sections())
     EXPECT_EQ(sections.count(section), 1u) << section;
-}
-
-TEST(EveryParameter, FilesCountByWhatTheyHold)
-{
-  const TemporaryFolder folder;
-  const Scene scene = from_files(folder);
-  const auto key    = scene_key(scene);
-  const auto body   = body_key(scene);
-  for (const auto &[file, text] : std::vector<std::pair<std::string, std::string>>{ { "drive.csv", drive_table(61.) },
-                                                                                    { "mu.csv", friction_table(0.51) },
-                                                                                    { "base.csv", drive_table(1.1) },
-                                                                                    { "loop.csv", drive_table(2.1) },
-                                                                                    { "stroke.csv", drive_table(3.1) },
-                                                                                    { "lever.geo", mesh_script() + "// more\n" },
-                                                                                    { "depth.geo", "h = 21;\n" } })
-  {
-    folder.write(file, text);
-    const Scene changed = variant(scene, {});
-    EXPECT_NE(scene_key(changed), key) << file;
-    EXPECT_EQ(body_key(changed) == body, file != "drive.csv" && file.find(".geo") == std::string::npos) << file;
-    expect_shared_is_fresh(scene, changed, file);
-    from_files(folder);
-    EXPECT_EQ(scene_key(scene), key) << file;
-  }
-  for (const auto &parameter : declared())
-    if (parameter.rule.kind == Rule::Kind::file)
-    {
-      EXPECT_NE(value_in(scene, full_name(parameter)), "") << full_name(parameter) << " needs a file here";
-    }
 }
 
 TEST(EveryParameter, AMeshIsMadeAnewWhenItsFileChangesInOneProcess)

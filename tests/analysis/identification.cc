@@ -175,17 +175,6 @@ TEST(Identification, IntervalsHoldTheTruthUnderCorrelatedNoise)
                 });
 }
 
-TEST(Identification, CountsCorrelatedRowsAsFewer)
-{
-  const Scene truth             = device();
-  Scene scene                   = guess(truth, { Unknown::friction_constant, Unknown::stiffness });
-  scene.identification.measured = measured(sampled(truth, 1e-4), { 0.2, 0.8 }, 1);
-  // An autoregressive noise has (1 + r)/(1 - r) rows for an independent one.
-  const auto found = identified(scene);
-  EXPECT_NEAR(found.noise[0].correlation, 9., 1.5);
-  EXPECT_NEAR(found.noise[0].deviation, 0.2, 0.01);
-}
-
 TEST(Identification, FindsOffsetsAndLag)
 {
   const Scene truth             = device();
@@ -330,18 +319,6 @@ TEST(Identification, HubersLossIsLeastWhereTheFitEnds)
   }
 }
 
-TEST(Identification, HubersIntervalsHoldTheTruth)
-{
-  const Scene truth         = device();
-  const auto rows           = compute_rows(truth);
-  Scene scene               = guess(truth, { Unknown::friction_constant, Unknown::stiffness });
-  scene.identification.loss = IdentificationLoss::Huber;
-  expect_honest(scene, { { "mu", 0.73 }, { "k", 7.4e4 } },
-                [&](const unsigned int seed) {
-                  return measured(rows, { 0.2, 0. }, seed);
-                });
-}
-
 TEST(Identification, RefusesWhatLeavesTooFewRows)
 {
   const Scene truth             = device();
@@ -380,14 +357,6 @@ TEST_F(IdentificationInTime, LeavesTheVibrationOutAndCorrectsFlexure)
         return measured(rows, { 0.2, 0. }, seed);
       },
       40);
-}
-
-TEST_F(IdentificationInTime, TellsKTooLowWhereFlexureIsNotCorrected)
-{
-  Scene rigid                   = scene(ModelType::closed_form);
-  rigid.identification.measured = measured(rows, { 0.05, 0. }, 1);
-  const auto found              = number(identified(rigid), "k");
-  EXPECT_LT(found.high, 7.4e4);
 }
 
 TEST_F(IdentificationInTime, FindsTheWindowFromTheData)

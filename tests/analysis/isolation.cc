@@ -170,17 +170,6 @@ TEST(Isolation, ConstantFrictionLeavesTheOffsetOfTheHalfCycles)
     }
 }
 
-TEST(Isolation, FrictionThatHoldsTheBeginningNeverLetsGo)
-{
-  Scene scene                          = isolated(DamperType::constant_friction);
-  scene.isolation.friction_force       = 10.;
-  scene.isolation.initial_displacement = 4.9;
-  const auto found                     = compute_findings(scene);
-  EXPECT_EQ(found.residual_offset, 4.9);
-  EXPECT_EQ(found.turns, 0u);
-  EXPECT_EQ(found.energy_residual, 0.);
-}
-
 TEST(Isolation, ConstantFrictionIsLockedUpToTheForceOfTheBase)
 {
   for (const double r : { 0.3, 1., 2.5 })
@@ -355,20 +344,6 @@ TEST(Isolation, LeversKeepTheLedgerOfSpringAndFriction)
   EXPECT_LT(found.energy_residual, 1e-9);
 }
 
-TEST(Isolation, ARestoringLeverIsLinearFriction)
-{
-  Scene scene                        = isolated(DamperType::restoring_lever);
-  scene.friction.law                 = CoulombFriction{ 0.5 };
-  scene.isolation.lever_ratio        = 0.4;
-  scene.isolation.friction_arm_ratio = 0.;
-  const auto damper                  = make_damper(scene);
-  EXPECT_NEAR(damper.resistance(7., 3., 1).force, 0.5 * 0.4 * 2. * 7., 1e-12);
-  EXPECT_NEAR(damper.resistance(7., 3., -1).force, -0.5 * 0.4 * 2. * 7., 1e-12);
-  scene.isolation.friction_arm_ratio = 0.6;
-  EXPECT_NEAR(make_damper(scene).resistance(7., 3., 1).force, 2.8 / 1.3, 1e-12);
-  EXPECT_NEAR(make_damper(scene).resistance(7., 3., -1).force, -2.8 / 0.7, 1e-12);
-}
-
 // Exact: sqrt(int S |H|^2 / int S) over the band.
 TEST(Isolation, TheIntervalOfARandomBaseHasTheValueOfItsSpectrum)
 {
@@ -450,17 +425,6 @@ TEST(Isolation, LeversThatEndOrLockStopTheRunAndKeepWhatWasFound)
   IsolationFindings locked;
   EXPECT_THROW(run_isolation(scene, locked, {}), AnalysisError);
   EXPECT_GT(locked.largest_displacement, 110.);
-}
-
-TEST(Isolation, ATableWithoutADamperConservesItsEnergy)
-{
-  Scene scene                          = isolated(DamperType::none);
-  scene.isolation.initial_displacement = 10.;
-  scene.isolation.initial_velocity     = -100.;
-  const auto found                     = compute_findings(scene);
-  EXPECT_NEAR(found.largest_displacement, std::hypot(10., 100. / w_n), 1e-9);
-  EXPECT_EQ(found.dissipated, 0.);
-  EXPECT_LT(found.energy_residual, 1e-10);
 }
 
 TEST(Isolation, PeriodsOfLeversInTimeRepeatWithinTheErrorOfTheirSteps)

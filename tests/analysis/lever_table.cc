@@ -133,39 +133,6 @@ TEST(LeverTable, AMotionBeyondTheWayOfTheLeversStopsTheRunAndSaysHowFarItGoes)
   }
 }
 
-TEST(LeverTable, GoesOnFromItsProgressToTheLastBit)
-{
-  Scene scene                    = on_levers(ModelType::beam);
-  scene.isolation.base           = BaseMotionType::harmonic;
-  scene.isolation.base_amplitude = 5.;
-  scene.isolation.base_frequency = 2.;
-  DynamicsMaker maker(false, 2);
-  const auto made = [&] { return std::make_pair(maker.make(scene), maker.make(scene)); };
-  const auto go   = [](LeverTable &table, const double from, const double to)
-  {
-    for (double until = from + 0.01; until < to + 5e-3; until += 0.01)
-      while (table.state().time < until)
-        table.advance(until);
-  };
-  const auto first = made(), second = made();
-  LeverTable whole(scene, first.first.model(), first.second.model(), transient_settings(scene, {}));
-  go(whole, 0., 0.3);
-  Archive archive;
-  archive(whole);
-  LeverTable resumed(scene, second.first.model(), second.second.model(), transient_settings(scene, {}));
-  Archive back(archive.bytes());
-  back(resumed);
-  EXPECT_TRUE(back.at_end());
-  for (LeverTable *const table : { &whole, &resumed })
-    go(*table, 0.3, 0.6);
-  EXPECT_EQ(whole.state().z, resumed.state().z);
-  EXPECT_EQ(whole.state().rate, resumed.state().rate);
-  EXPECT_EQ(whole.state().dissipated, resumed.state().dissipated);
-  EXPECT_EQ(whole.damper_force(), resumed.damper_force());
-  EXPECT_EQ(whole.energy_residual(), resumed.energy_residual());
-  EXPECT_EQ(whole.step_count(), resumed.step_count());
-}
-
 TEST(LeverTable, ThinLeversSpragSlipUnderATable)
 {
   const auto variation = [](const double depth)
@@ -199,17 +166,6 @@ TEST(StepGrid, StepsOfAnyLengthMeetTheEndInFewDurations)
   EXPECT_LE(step_durations(grid).size(), 26u); // 1, 2, 3, 4, 6, 8 ... 4096, 6144 parts
   grid.use_halves_alone();
   EXPECT_LE(step_durations(grid).size(), 14u); // 1, 2, 4, 8 ... 8192 parts
-}
-
-TEST(StepGrid, AnUnfinishedSpanGoesOn)
-{
-  StepGrid grid;
-  grid.begin(0., 1., 0.5);
-  grid.choose(0.5);
-  EXPECT_DOUBLE_EQ(grid.step_end(), 0.5);
-  grid.advance();
-  EXPECT_FALSE(grid.needs_span(1.));
-  EXPECT_TRUE(grid.needs_span(0.9));
 }
 
 TEST(StepGrid, ShorterStepsAreBetweenHalfAndTwoThirds)

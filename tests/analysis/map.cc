@@ -151,13 +151,6 @@ TEST(MapGrid, BoundaryThroughASideOfTheGridWhoseEndIsNoMultiple)
   EXPECT_LT(found.on_grid, 600u);
 }
 
-TEST(MapGrid, OneKindNeedsNoMoreThanTheCoarseGrid)
-{
-  const auto found = find({ { 33, 17 } }, 8, 3, nothing, nothing);
-  EXPECT_EQ(found.on_grid, 5u * 3u);
-  EXPECT_TRUE(found.boundary.empty());
-}
-
 TEST(MapGrid, EveryPointWhereTheCoarsestIsOne)
 {
   const auto found = find({ { 7, 5 } }, 1, 0, disc(3., 2., 1.5), nothing);

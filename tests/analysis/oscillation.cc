@@ -335,22 +335,6 @@ TEST(Oscillation, WindowEndsWhereTheNextReversalBegins)
   EXPECT_LE(found[0].extent, 6.5);
 }
 
-TEST(Oscillation, EntriesSayWhatTheyAre)
-{
-  const Drive quick(DriveProfile::triangle, 0., 6.5, 112., 1.5, duration);
-  const auto found = oscillations(rows_with(sinusoid(8., 290., -45.), quick), quick);
-  auto entries     = oscillation_entries(found);
-  describe_entries("entry", "transient", entries);
-  const auto entry = [&](const std::string &name)
-  { return *std::find_if(entries.begin(), entries.end(), [&](const Entry &e) { return e.name == name; }); };
-  EXPECT_EQ(std::get<double>(entry("reversal_1_frequency").value), found[0].frequency);
-  EXPECT_EQ(entry("reversal_1_frequency").unit, "Hz");
-  EXPECT_EQ(std::get<double>(entry("reversal_2_x").value), 0.);
-  EXPECT_EQ(std::get<std::string>(entry("reversal_1_verdict").value), "rings");
-  for (const auto &each : entries)
-    EXPECT_FALSE(each.description.empty()) << each.name;
-}
-
 // 50 Hz, with a half of it after a period doubling, and two sines whose periods have no common multiple within the signal.
 // Between values the interpolation errs by (omega step)^2 / 8 = 1e-4 of the amplitude.
 TEST(Recurrence, IsThePeriodOfWhatRepeatsItself)

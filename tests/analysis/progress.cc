@@ -16,29 +16,7 @@ using namespace sprag;
 
 namespace
 {
-  template <class Thing>
-  Thing restored(Thing thing)
-  {
-    Archive archive;
-    archive(thing);
-    Thing result;
-    Archive back(archive.bytes());
-    back(result);
-    EXPECT_TRUE(back.at_end());
-    return result;
-  }
-
   using Vector = dealii::Vector<double>;
-
-  Vector make_vector(const std::vector<double> &values)
-  {
-    return Vector(values.begin(), values.end());
-  }
-
-  DrivePoint make_drive_point(const double first)
-  {
-    return { first, first + 1., first + 2., first + 3., first + 4. };
-  }
 
   template <class Plain>
   bool same_bytes(const Plain &a, const Plain &b)
@@ -51,43 +29,6 @@ namespace
   bool same_bytes(const std::vector<Plain> &a, const std::vector<Plain> &b)
   {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Plain)) == 0);
-  }
-
-  std::vector<ContactHistory> make_history(const double first)
-  {
-    std::vector<ContactHistory> result(2);
-    std::memset(static_cast<void *>(result.data()), 0, 2 * sizeof(ContactHistory)); // padding is compared as well
-    for (unsigned int i = 0; i < 2; ++i)
-    {
-      auto &[multiplier, traction, damping, slip_speed, speed, step, point] = result[i];
-      multiplier                                                            = first + i;
-      traction                                                              = Slip({ first + 10. + i, first + 15. + i });
-      damping                                                               = first + 20. + i;
-      slip_speed                                                            = Slip({ first + 30. + i, first + 33. + i });
-      speed                                                                 = first + 35. + i;
-      step                                                                  = first + 40. + i;
-      point                                                                 = 50 + i;
-    }
-    return result;
-  }
-
-  DofLoads make_loads(const double first)
-  {
-    return { { 3, 7 }, make_vector({ first, -first }) };
-  }
-
-  Row make_row(const double first)
-  {
-    Row row, second;
-    for (std::size_t i = 0; i < n_columns; ++i)
-    {
-      row[static_cast<Column>(i)]    = first + static_cast<double>(i);
-      second[static_cast<Column>(i)] = first - static_cast<double>(i);
-    }
-    row[Column::layer_energy] = std::numeric_limits<double>::quiet_NaN();
-    row.sensor_forces         = { first, 2. * first };
-    row.add_second_lever(second);
-    return row;
   }
 
   bool same_rows(const Row &a, const Row &b)
@@ -163,108 +104,6 @@ namespace
       }
   }
 } // namespace
-
-TEST(Archive, KeepsEveryField)
-{
-  const auto loads   = make_loads(2.);
-  const auto history = make_history(100.);
-  const dealii::FullMatrix<double> matrix(1, 1, std::array<double, 1>{ { -3. } }.data());
-  const Motion motion{ make_drive_point(1.),
-                       { make_vector({ 1., 2. }), make_vector({ 3. }), make_vector({ 4., 5., 6. }) },
-                       make_vector({ 7., 8. }),
-                       history,
-                       loads,
-                       std::make_shared<const StoredJacobian>(StoredJacobian{ { 5 }, matrix }) };
-  {
-    const auto &[drive, coordinates, face_force, contact, forces, tangent] = restored(motion);
-    ASSERT_NE(tangent, nullptr);
-    EXPECT_EQ(tangent->dofs, std::vector<unsigned int>{ 5 });
-    EXPECT_EQ(tangent->matrix, matrix);
-    EXPECT_EQ(restored(Motion()).tangent, nullptr);
-    EXPECT_TRUE(same_bytes(drive, motion.drive));
-    EXPECT_EQ(coordinates.position, motion.coordinates.position);
-    EXPECT_EQ(coordinates.velocity, motion.coordinates.velocity);
-    EXPECT_EQ(coordinates.acceleration, motion.coordinates.acceleration);
-    EXPECT_EQ(face_force, motion.face_force);
-    EXPECT_TRUE(same_bytes(contact, history));
-    EXPECT_EQ(forces.dofs, loads.dofs);
-    EXPECT_EQ(forces.values, loads.values);
-  }
-  const State state{ make_drive_point(3.), make_vector({ 9., -0. }), history, loads };
-  {
-    const auto &[drive, coordinates, contact, forces] = restored(state);
-    EXPECT_TRUE(same_bytes(drive, state.drive));
-    EXPECT_EQ(coordinates, state.coordinates);
-    EXPECT_TRUE(std::signbit(coordinates[1]));
-    EXPECT_TRUE(same_bytes(contact, history));
-    EXPECT_EQ(forces.values, loads.values);
-  }
-  const FaceState face{ 1., 2., { 3., 4. }, { 5. }, { 10., 0. }, { 6., 7., 8. }, { 9. }, { 0., 11. } };
-  {
-    const auto &[time, x, pressure, traction, traction_across, pressure_2, traction_2, traction_across_2] = restored(face);
-    EXPECT_EQ(traction_across, face.traction_across);
-    EXPECT_EQ(time, 1.);
-    EXPECT_EQ(x, 2.);
-    EXPECT_EQ(pressure, face.pressure);
-    EXPECT_EQ(traction, face.traction);
-    EXPECT_EQ(pressure_2, face.pressure_2);
-    EXPECT_EQ(traction_2, face.traction_2);
-    EXPECT_EQ(traction_across_2, face.traction_across_2);
-  }
-  InterfaceForces forces{ { 1, 4 }, make_vector({ 2., 3. }), dealii::FullMatrix<double>(2, 2) };
-  forces.tangent(0, 1) = 5.;
-  forces.tangent(1, 0) = -6.;
-  {
-    const auto &[dofs, values, tangent, has_tangent] = restored(forces);
-    EXPECT_TRUE(has_tangent);
-    EXPECT_EQ(dofs, forces.dofs);
-    EXPECT_EQ(values, forces.values);
-    EXPECT_TRUE(tangent == forces.tangent);
-  }
-  EXPECT_TRUE(same_rows(restored(make_row(1000.)), make_row(1000.)));
-  {
-    const LedgerReport report{ 1., 2., 3., "friction" };
-    const auto &[residual, largest_work, time, term] = restored(report);
-    EXPECT_EQ(residual, 1.);
-    EXPECT_EQ(largest_work, 2.);
-    EXPECT_EQ(time, 3.);
-    EXPECT_EQ(term, "friction");
-  }
-}
-
-TEST(Archive, LedgerAndClockGoOn)
-{
-  EnergyLedger ledger({ 1., 2., 3., 4., 5., 6. });
-  StepClock clock(Drive(DriveProfile::triangle, 0., 65., 112., 1., 5e-3), 1e-2, 4);
-  for (unsigned int i = 0; !clock.finished(); ++i)
-  {
-    Archive archive;
-    archive(ledger, clock);
-    EnergyLedger ledger_again;
-    StepClock clock_again(Drive(), 1., 0);
-    Archive back(archive.bytes());
-    back(ledger_again, clock_again);
-    const auto step = [&](EnergyLedger &energies, StepClock &by)
-    {
-      if (i % 5 == 1)
-        by.halve();
-      if (i % 3 == 2)
-        by.grow();
-      const double t = by.step_end();
-      energies.add(t, { t, std::sin(40. * t), t * t, 1. - t, 0.2, 0.1 * t }, { std::cos(30. * t), t, 0.1, 0.2, 0.3 });
-      by.advance();
-      Row row;
-      energies.fill(row);
-      row[Column::x] = energies.report().residual;
-      row[Column::P] = energies.report().largest_work;
-      row[Column::Q] = energies.report().time;
-      row[Column::v] = static_cast<double>(energies.report().term.size());
-      row[Column::s] = by.finished() ? 0. : by.duration();
-      return row;
-    };
-    EXPECT_TRUE(same_rows(step(ledger_again, clock_again), step(ledger, clock))) << i;
-  }
-}
 
 TEST(Archive, BytesThatAreNotAsTheyWereAreNoBytes)
 {

@@ -81,15 +81,6 @@ TEST(StudyPoints, ARunIsTheSceneWithItsValues)
   EXPECT_EQ(run.output.fields, FieldOutput::none);
 }
 
-// Whoever gives a step has fixed ones, as with --set.
-TEST(StudyPoints, AStepWithoutAToleranceIsFixed)
-{
-  const auto tolerance = [](const Messages &overrides) { return scene_at(make_scene(overrides), { 0 }).time.tolerance; };
-  EXPECT_EQ(tolerance(with(study, "Study/Vary=Time/Step = 1e-5, 2e-5")), 0.);
-  EXPECT_EQ(tolerance(with(with(study, "Time/Tolerance=1e-3"), "Study/Vary=Time/Step = 1e-5, 2e-5")), 1e-3);
-  EXPECT_EQ(tolerance(with(study, "Study/Vary=Lever/Depth = 10, 20")), 5e-3);
-}
-
 TEST(StudyPoints, ASceneThatIsRefusedSaysWhy)
 {
   const Scene scene = make_scene(with(study, "Study/Vary=Lever/Length = 210, 100"));
@@ -231,40 +222,4 @@ TEST(StudyTrade, IsNoneWithoutAReferenceThatIsCompleted)
   EXPECT_TRUE(compute_trade(settings, make_study_points(settings), records).measured.empty());
   records.erase(2);
   EXPECT_TRUE(compute_trade(settings, make_study_points(settings), records).measured.empty());
-}
-
-TEST(StudyRecord, IsGivenBackByItsLine)
-{
-  StudyRecord record;
-  record.run           = 12345;
-  record.outcome       = RunOutcome::refused;
-  record.reason        = "a\tb\nc \\t d\\";
-  record.cpu_time      = 1. / 3.;
-  record.cpu_spent     = -0.;
-  record.work          = 1. / 7.;
-  record.wall_time     = std::numeric_limits<double>::denorm_min();
-  record.peak_memory   = 1e300;
-  record.warnings      = { "one", "" };
-  record.found.summary = { { "P", none, "N", "of\tthe slide" }, { "verdict", std::string("flutter \\n"), "", "" } };
-  record.found.curve   = there_and_back({ 0., 1. / 3. }, { 0. });
-  const auto line      = to_line(record);
-  EXPECT_EQ(line.find('\n'), std::string::npos);
-  StudyRecord again;
-  read_line(line, again);
-  EXPECT_EQ(again.run, record.run);
-  EXPECT_EQ(again.outcome, record.outcome);
-  EXPECT_EQ(again.reason, record.reason);
-  EXPECT_EQ(again.cpu_time, record.cpu_time);
-  EXPECT_TRUE(std::signbit(again.cpu_spent));
-  EXPECT_EQ(again.work, record.work);
-  EXPECT_EQ(again.wall_time, record.wall_time);
-  EXPECT_EQ(again.peak_memory, record.peak_memory);
-  EXPECT_EQ(again.warnings, record.warnings);
-  ASSERT_EQ(again.found.summary.size(), 2u);
-  EXPECT_TRUE(std::isnan(std::get<double>(again.found.summary[0].value)));
-  EXPECT_EQ(again.found.summary[0].description, "of\tthe slide");
-  EXPECT_EQ(std::get<std::string>(again.found.summary[1].value), "flutter \\n");
-  ASSERT_EQ(again.found.curve.size(), 3u);
-  EXPECT_EQ(again.found.curve[1].x, 1. / 3.);
-  EXPECT_EQ(to_line(again), line);
 }

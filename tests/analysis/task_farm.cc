@@ -7,7 +7,6 @@
 #include "scene/scene.h"
 #include "support/temporary_folder.h"
 
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -95,15 +94,6 @@ namespace
   }
 } // namespace
 
-TEST_F(ResultsLogTest, GivesBackEveryBit)
-{
-  const auto cells = some_cells();
-  write(cells);
-  const ResultsLog again(path, "map", "a scene");
-  expect_same_bits(cells_in(again), cells);
-  EXPECT_FALSE(again.dropped());
-}
-
 TEST_F(ResultsLogTest, DropsATornLineWhereverItIsTornAndGoesOn)
 {
   const auto cells = some_cells();
@@ -124,37 +114,6 @@ TEST_F(ResultsLogTest, DropsATornLineWhereverItIsTornAndGoesOn)
   }
 }
 
-// Any character of a line changed or taken away: as a rule it would still read as numbers.
-TEST_F(ResultsLogTest, DropsAGarbledLineAndKeepsTheOthers)
-{
-  const auto cells = some_cells();
-  write(cells);
-  const auto lines = read_lines(path);
-  ASSERT_EQ(lines.size(), cells.size() + 1);
-  auto fewer = cells;
-  fewer.erase(std::next(fewer.begin()));
-  for (std::size_t i = 0; i < lines[2].size(); ++i)
-    for (const bool taken_away : { true, false })
-    {
-      auto garbled = lines;
-      if (taken_away)
-        garbled[2].erase(i, 1);
-      else
-        garbled[2][i] = garbled[2][i] == '1' ? '2' : '1';
-      std::ofstream output(path);
-      for (const auto &line : garbled)
-        output << line << '\n';
-      output.close();
-      {
-        ResultsLog results_log(path, "map", "a scene");
-        expect_same_bits(cells_in(results_log), fewer);
-        EXPECT_EQ(results_log.damaged_lines(), 1u);
-        append(results_log, { *std::next(cells.begin()) });
-      }
-      expect_same_bits(cells_in(ResultsLog(path, "map", "a scene")), cells);
-    }
-}
-
 TEST_F(ResultsLogTest, DropsALineOfAnotherScenesLog)
 {
   write(some_cells(), "another scene");
@@ -167,19 +126,6 @@ TEST_F(ResultsLogTest, DropsALineOfAnotherScenesLog)
   const ResultsLog results_log(path, "map", "a scene");
   EXPECT_TRUE(cells_in(results_log).empty());
   EXPECT_EQ(results_log.damaged_lines(), 1u);
-}
-
-TEST_F(ResultsLogTest, BeginsAnewForAnotherScene)
-{
-  write(some_cells());
-  {
-    const ResultsLog other(path, "map", "another scene");
-    EXPECT_TRUE(other.dropped());
-    EXPECT_TRUE(cells_in(other).empty());
-  }
-  const ResultsLog again(path, "map", "another scene");
-  EXPECT_FALSE(again.dropped());
-  EXPECT_TRUE(cells_in(again).empty());
 }
 
 TEST_F(ResultsLogTest, SurvivesATornHeader)

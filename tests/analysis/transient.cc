@@ -96,30 +96,6 @@ namespace
     const std::unique_ptr<DynamicModel> inner;
   };
 
-  /// Before each third step tries another one, half again as long or to where the drive never goes.
-  class Straying : public Wrapped
-  {
-  public:
-    using Wrapped::Wrapped;
-
-    StepOutcome step(const Motion &accepted, const DrivePoint &to, const StepWeights &weights) override
-    {
-      if (++calls % 3 == 0)
-      {
-        DrivePoint wrong = to;
-        wrong.x += calls % 2 == 0 ? 0.05 : -0.05;
-        wrong.time += 0.5 * weights.dt;
-        strayed += Wrapped::step(accepted, wrong, generalised_alpha(0.5, 1.5 * weights.dt)).motion ? 1 : 0;
-      }
-      return Wrapped::step(accepted, to, weights);
-    }
-
-    unsigned int strayed = 0;
-
-  private:
-    unsigned int calls = 0;
-  };
-
   /// Finds no solution, or throws, in each 31st attempt.
   class Failing : public Wrapped
   {
@@ -139,31 +115,6 @@ namespace
   private:
     unsigned int calls = 0;
   };
-
-  bool same_bits(const double a, const double b)
-  {
-    return std::memcmp(&a, &b, sizeof(double)) == 0;
-  }
-
-  bool same_bits(const std::vector<double> &a, const std::vector<double> &b)
-  {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const double one, const double other) { return same_bits(one, other); });
-  }
-
-  std::vector<double> column_values(const Row &row)
-  {
-    std::vector<double> result;
-    for (std::size_t i = 0; i < n_columns; ++i)
-      result.push_back(row[static_cast<Column>(i)]);
-    return result;
-  }
-
-  bool same_bits(const Row &a, const Row &b)
-  {
-    return same_bits(column_values(a), column_values(b)) && same_bits(a.sensor_forces, b.sensor_forces) &&
-           same_bits(a.second_lever(), b.second_lever());
-  }
 
   Scene around_the_reversal(const double depth, const bool sprung)
   {
@@ -262,26 +213,6 @@ TEST(StepClock, DividesEverySegmentEquallyIntoStepsNoLongerThanAsked)
     }
 }
 
-TEST(StepClock, HasOneDurationASegmentSoThatPreparedMatricesServeAgain)
-{
-  const Drive drive(DriveProfile::triangle, 0., 65., 112., 1., 5e-3);
-  std::vector<double> durations;
-  for (StepClock clock(drive, 5e-5, 0); !clock.finished(); clock.advance())
-    if (durations.empty() || durations.back() != clock.duration())
-      durations.push_back(clock.duration());
-  EXPECT_LE(durations.size(), drive.kinks().size() + 1);
-
-  // Halved and doubled again it is the same one, bit for bit.
-  StepClock clock(drive, 5e-5, 0);
-  const double before = clock.duration();
-  clock.halve();
-  EXPECT_EQ(clock.duration(), 0.5 * before);
-  clock.advance();
-  clock.advance();
-  clock.grow();
-  EXPECT_EQ(clock.duration(), before);
-}
-
 TEST(StepClock, HalvesWithoutMovingWhatIsBehindAndDoublesOnlyInStepWithTheWholeSteps)
 {
   const Drive drive(DriveProfile::harmonic, 0., 10., 100., 0.5);
@@ -306,17 +237,6 @@ TEST(StepClock, HalvesWithoutMovingWhatIsBehindAndDoublesOnlyInStepWithTheWholeS
     EXPECT_LE(clock.step_end(), drive.duration());
     clock.advance();
   }
-}
-
-TEST(StepClock, NeverGrowsBeyondTheDoublingsAllowed)
-{
-  const Drive drive(DriveProfile::harmonic, 0., 10., 100., 0.5);
-  for (const unsigned int doublings : { 0u, 1u, 3u })
-    for (StepClock clock(drive, drive.duration() / 200., doublings); !clock.finished(); clock.advance())
-    {
-      EXPECT_LE(clock.duration(), std::ldexp(drive.duration() / 200., static_cast<int>(doublings)) * (1. + 1e-6));
-      clock.grow();
-    }
 }
 
 class Ledger : public ::testing::TestWithParam<Column>
@@ -354,40 +274,6 @@ TEST(EnergyLedger, ReportsTheLargestResidualAndWhereItOpenedMost)
   EXPECT_DOUBLE_EQ(ledger.report().share(), 0.5 / 3.);
   EXPECT_DOUBLE_EQ(ledger.report().time, 0.2);
   EXPECT_EQ(ledger.report().term, "friction");
-}
-
-TEST(EnergyLedger, ColumnsAddUpToTheirResidual)
-{
-  const auto rows   = run_in_time(scene_with_everything()).rows;
-  const auto energy = [](const Row &row)
-  {
-    double sum = 0.;
-    for (const auto &[column, sign] : terms)
-      sum += sign * row[column];
-    return sum;
-  };
-  ASSERT_GT(rows.size(), 100u);
-  for (const auto &row : rows)
-    // Round-off of a dozen energies of 100 N mm.
-    EXPECT_NEAR(row[Column::energy_residual], energy(row) - energy(rows.front()), 1e-12);
-}
-
-// Problem 18.
-TEST(RejectedStep, LeavesNoTrace)
-{
-  for (const bool sprung : { false, true })
-    for (const double tolerance : { 0., 1e-3 })
-    {
-      Scene scene          = around_the_reversal(6., sprung);
-      scene.time.tolerance = tolerance;
-      Straying straying(scene);
-      const auto straight = run_in_time(scene);
-      const auto strayed  = run_in_time(straying, scene);
-      EXPECT_GT(straying.strayed, 100u);
-      ASSERT_EQ(straight.rows.size(), strayed.rows.size());
-      for (std::size_t i = 0; i < straight.rows.size(); ++i)
-        ASSERT_TRUE(same_bits(straight.rows[i], strayed.rows[i])) << "row " << i;
-    }
 }
 
 TEST(RejectedStep, LeavesTheRunWhereTheAcceptedStepsAloneLead)
@@ -432,17 +318,6 @@ TEST(RejectedStep, LeavesTheRunWhereTheAcceptedStepsAloneLead)
       ASSERT_TRUE(history.step == 0. || history.step == durations[i]) << i;
     }
   }
-}
-
-TEST(Transient, StepsGrowAsLongAsTheToleranceAllows)
-{
-  // So wide a tolerance that nothing but failures shortens the steps: up to 16 times Time/Step, 8 steps for each doubling.
-  Scene scene          = around_the_reversal(20., false);
-  scene.time.tolerance = 10.;
-  Failing failing(scene);
-  const double longest = 16. * scene.time.step;
-  EXPECT_LT(run_in_time(scene).report.steps, 1.5 * scene.drive.duration() / longest);
-  EXPECT_LT(run_in_time(failing, scene).report.steps, 1.5 * scene.drive.duration() / longest);
 }
 
 TEST(Transient, GivesUpWhereHalvingDoesNotHelpAndTellsWhere)

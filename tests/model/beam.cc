@@ -159,16 +159,6 @@ TEST(BeamFrequencies, OfALeverOnItsSpringWithArmAndTipMass)
       }
 }
 
-TEST(BeamFrequencies, ConvergeWithTheFourthPowerOfTheElements)
-{
-  const Scene scene  = bar(1e-6, 0., 0.);
-  const double exact = root([](const double z) { return std::tan(z) - std::tanh(z); }, 6.4, 7.5);
-  const auto error   = [&](const unsigned int number)
-  { return beta_L(scene, free_frequencies(scene, make_beam_mesh(scene, number))[2]) / exact - 1.; };
-  // Terms of higher order add a tenth at beta h = 0.9.
-  EXPECT_NEAR(std::log2(error(8) / error(16)), 4., 0.1);
-}
-
 TEST(BeamMass, MeetsTheMomentOfInertiaExactly)
 {
   for (const double arm : { 0., 45.6, 56.6 })

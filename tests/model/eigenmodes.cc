@@ -201,25 +201,6 @@ TEST(MassDamping, TakesHalfOfItsFactorOffEveryVibration)
   }
 }
 
-// At equal mass-proportional damping friction changes no more than it does without: lambda = -alpha/2 + sqrt(alpha^2/4 + mu^2).
-TEST(MassDamping, ShiftsTheEigenvaluesOfAFlutter)
-{
-  Scene scene              = undamped(with_coulomb(lever_scene(ModelType::beam, false), 0.73));
-  const auto without       = modes_at(scene, 65., -1.);
-  scene.lever.mass_damping = 34.;
-  const auto with          = modes_at(scene, 65., -1.);
-  for (unsigned int i = 0; i < 4; ++i)
-  {
-    const Complex before = without[i].mode.eigenvalue;
-    double nearest       = 1e300;
-    for (const Complex root :
-         { -17. + std::sqrt(289. + before * before), -17. - std::sqrt(289. + before * before),
-           -17. + std::sqrt(289. + std::conj(before * before)), -17. - std::sqrt(289. + std::conj(before * before)) })
-      nearest = std::min(nearest, std::abs(root - with[i].mode.eigenvalue));
-    EXPECT_LT(nearest, 1e-9 * std::abs(before)) << before;
-  }
-}
-
 TEST(Vibrations, OutOfContactAreThoseOfTheFreeLever)
 {
   const Scene scene = undamped(lever_scene(ModelType::beam, false));
@@ -291,70 +272,6 @@ TEST(HeldSlide, OfABeamIsInEquilibrium)
         EXPECT_GT(slide.forces.P, 10.);
       }
   }
-}
-
-// In time the held slide stays where it is while the surface runs on.
-TEST(HeldSlide, StaysInTime)
-{
-  for (const auto &lever : levers())
-  {
-    const Scene scene = held_scene(lever);
-    const auto model  = make_reduced_lever(scene);
-    const auto slide  = held(*model, drive(65., 1.));
-    const auto w      = generalised_alpha(0.8, 2e-5);
-    Motion motion     = slide.motion;
-    for (unsigned int i = 1; i <= 50; ++i)
-    {
-      const DrivePoint to{ i * w.dt, 65., 0., 0., i * w.dt * slide.speed };
-      const auto step = model->step(motion, to, w);
-      ASSERT_TRUE(step.motion);
-      motion = *step.motion;
-    }
-    Row row;
-    model->observe(motion, row);
-    EXPECT_NEAR(row[Column::P], slide.forces.P, 1e-7 * slide.forces.P);
-    EXPECT_NEAR(row[Column::Q], slide.forces.Q, 1e-7 * slide.forces.P);
-    EXPECT_NEAR(row[Column::v_rel], slide.speed, 1e-6 * slide.speed);
-    EXPECT_NEAR(row[Column::mu], slide.mu, 1e-8);
-  }
-}
-
-// Perturbed along a mode that decays it follows exp(lambda t): the hub's rotation after one period, in small steps. Constant mu,
-// mu(v) behind the spring of stick, mu(v) regularised.
-TEST(HeldSlide, PerturbedFollowsItsEigenvalue)
-{
-  for (const auto type : { ModelType::rigid, ModelType::beam })
-    for (unsigned int law = 0; law < 3; ++law)
-    {
-      Scene scene                         = lever_scene(type, false);
-      scene                               = held_scene(law > 0 ? scene : with_coulomb(scene, 0.73));
-      scene.lever.depth                   = 20.;
-      scene.friction.regularisation_speed = law == 2 ? 1. : 0.;
-      const auto model                    = make_reduced_lever(scene);
-      const auto slide                    = held(*model, drive(65., -1.));
-      const auto mode                     = model->vibrations(slide, true, 1).front();
-      const auto lambda                   = mode.mode.eigenvalue;
-      const auto start                    = model->perturbed(slide, mode, 1e-4 * slide.penetration);
-      const double T                      = 2. * M_PI / lambda.imag();
-      constexpr unsigned int steps        = 400;
-      const auto w                        = generalised_alpha(1., T / steps);
-      Motion motion                       = start;
-      for (unsigned int i = 1; i <= steps; ++i)
-      {
-        const auto step = model->step(motion, { i * w.dt, 65., 0., 0., i * w.dt * slide.speed }, w);
-        ASSERT_TRUE(step.motion);
-        motion = *step.motion;
-      }
-      const auto turned = [&](const Motion &at)
-      {
-        Row row;
-        model->observe(at, row);
-        return row[Column::theta] - kinematics(scene.geometry, 0.).theta - slide.displacements[slide.displacements.size() - 1];
-      };
-      // The phase of the steps, (omega dt)^2 / 12 a radian, is 1.3e-4 over the period; the amplitude of 1e-4 bends the law by as
-      // much.
-      EXPECT_NEAR(turned(motion) / turned(start), std::exp(lambda.real() * T), 1e-3) << static_cast<int>(type) << law;
-    }
 }
 
 TEST(ModeSymmetry, IsOneOrMinusOneOfLeversThatMoveAlike)

@@ -9,7 +9,6 @@ using namespace sprag;
 namespace
 {
   using Vector = dealii::Vector<double>;
-  using Full   = dealii::FullMatrix<double>;
 
   const InterfaceLayout layout = { 2, true };
   constexpr double rest        = 0.056;
@@ -156,20 +155,6 @@ TEST(FrameCoupling, AddsToTheForcesOfTheContact)
   }
 }
 
-TEST(FrameCoupling, DoesNothingOnARigidSupport)
-{
-  const InterfaceLayout rigid = { 2, false };
-  FrameCoupling coupling(rigid, rest);
-  InterfaceForces contact;
-  contact.dofs   = { 2 };
-  contact.values = Vector(1);
-  contact.tangent.reinit(1, 1);
-  const auto both = with(coupling, contact, {}, Vector(3), implicit());
-  EXPECT_EQ(both.dofs, contact.dofs);
-  EXPECT_EQ(both.values, contact.values);
-  EXPECT_EQ(both.tangent, contact.tangent);
-}
-
 TEST(FrameCoupling, WorkOfItsForcesIsTheKineticEnergyButForTheSchemesDissipation)
 {
   // Up to third order in the step; with a spectral radius below 1 the forces that go with products of rates count a little later
@@ -197,62 +182,4 @@ TEST(FrameCoupling, WorkOfItsForcesIsTheKineticEnergyButForTheSchemesDissipation
     EXPECT_LT(open(1e-2), 1e-4);
     EXPECT_LT(open(2.5e-3), open(1e-2) / (radius == 1. ? 50. : 12.)) << radius;
   }
-}
-
-TEST(FrameCoupling, EachLeverOfAPairCouplesAsASingleOne)
-{
-  InterfaceLayout pair = layout;
-  pair.levers          = 2;
-  const auto part      = [&](const Vector &pair_vector, const unsigned int lever)
-  {
-    return interface_vector(pair_vector[pair.rotation(lever)], pair_vector[pair.momentum_eta(lever)],
-                            pair_vector[pair.momentum_xi(lever)], pair_vector[pair.support()]);
-  };
-  const auto joined = [&](const Vector &first, const Vector &second)
-  {
-    Vector result(pair.size());
-    for (unsigned int i = 0; i < pair.dofs_per_lever(); ++i)
-    {
-      result[pair.first(0) + i] = first[i];
-      result[pair.first(1) + i] = second[i];
-    }
-    result[pair.support()] = first[layout.support()];
-    return result;
-  };
-  const Kinematic at{ joined(begin().position, interface_vector(-0.2, 0.3, 0.5, 0.)),
-                      joined(begin().velocity, interface_vector(0.4, -1.2, 0.3, 0.)),
-                      joined(begin().acceleration, interface_vector(1., 2., -0.7, 0.)) };
-  Vector z = at.position;
-  z.add(step, at.velocity, 0.3 * step * step, at.acceleration);
-
-  FrameCoupling coupling(pair, rest), single(layout, rest);
-  const InterfaceForces both = with(coupling, InterfaceForces(), at, z, implicit());
-  StepWork work, single_work;
-  coupling.add_work(at, z, implicit(), work);
-  double energy = 0.;
-  Vector values(pair.size());
-  Full tangent(pair.size(), pair.size());
-  for (unsigned int lever = 0; lever < 2; ++lever)
-  {
-    const Kinematic own{ part(at.position, lever), part(at.velocity, lever), part(at.acceleration, lever) };
-    const auto &forces = with(single, InterfaceForces(), own, part(z, lever), implicit());
-    const auto place = [&](const unsigned int dof) { return dof == layout.support() ? pair.support() : pair.first(lever) + dof; };
-    for (unsigned int i = 0; i < 4; ++i)
-    {
-      values[place(forces.dofs[i])] += forces.values[i];
-      for (unsigned int j = 0; j < 4; ++j)
-        tangent(place(forces.dofs[i]), place(forces.dofs[j])) += forces.tangent(i, j);
-    }
-    single.add_work(own, part(z, lever), implicit(), single_work);
-    energy += single.kinetic_energy(own);
-  }
-  ASSERT_EQ(both.dofs, coupling.coupled_dofs());
-  for (unsigned int i = 0; i < both.dofs.size(); ++i)
-  {
-    EXPECT_NEAR(both.values[i], values[both.dofs[i]], 1e-14 * values.linfty_norm());
-    for (unsigned int j = 0; j < both.dofs.size(); ++j)
-      EXPECT_NEAR(both.tangent(i, j), tangent(both.dofs[i], both.dofs[j]), 1e-14 * tangent.linfty_norm());
-  }
-  EXPECT_NEAR(work.algorithmic, single_work.algorithmic, 1e-14);
-  EXPECT_NEAR(coupling.kinetic_energy(at), energy, 1e-14);
 }

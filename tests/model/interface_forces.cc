@@ -134,27 +134,3 @@ TEST(InterfaceForces, DeterminantIsThatOfTheWholeMatrix)
     EXPECT_NEAR(InterfaceFactors(compliance, f.dofs, f.tangent).determinant(), expected, 1e-11 * std::abs(expected)) << coupled;
   }
 }
-
-TEST(InterfaceForces, CorrectionOfASingleBlockSolvesTheLinearisedEquations)
-{
-  for (const unsigned int n : { 5u, 12u, 20u })
-  {
-    InterfaceCompliance compliance;
-    compliance.append(symmetric(n));
-    const auto everywhere = all_dofs(n);
-    Matrix tangent(n);
-    Vector mismatch(n), force_changes(n);
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      mismatch[i] = any();
-      for (unsigned int j = 0; j < n; ++j)
-        tangent(i, j) = any();
-    }
-    const auto change = interface_correction(compliance, everywhere, tangent, everywhere, mismatch);
-    tangent.vmult(force_changes, change);
-    Vector expected = mismatch;
-    add_response(compliance, everywhere, force_changes, everywhere, expected);
-    expected -= change;
-    EXPECT_LE(expected.linfty_norm(), 1e-11 * change.linfty_norm()) << n;
-  }
-}

@@ -154,59 +154,7 @@ namespace
             << slide.name << ", force on dof " << dofs[i] << " by dof " << dofs[j];
     }
   }
-
-  /// Twelve delays on three dofs whose times are those given in turn, with numbers of either sign and no pattern.
-  LinearisedForces many_delays(const std::vector<double> &times)
-  {
-    LinearisedForces forces({ 2, 5, 7 });
-    for (unsigned int k = 0; k < 12; ++k)
-    {
-      FrictionDelay delay{ times[k % times.size()], Vector(3), Vector(3), Vector(3) };
-      for (unsigned int i = 0; i < 3; ++i)
-      {
-        delay.force[i]         = std::sin(1. + 3. * k + i);
-        delay.stiffness_row[i] = 500. * std::cos(2. + 5. * k + 3. * i);
-        delay.rate_row[i]      = 0.1 * std::sin(4. + 7. * k + 2. * i);
-      }
-      forces.delays.push_back(delay);
-    }
-    return forces;
-  }
-
-  /// The largest difference of two complex forces over the largest of the first.
-  double largest_difference(const ComplexAmplitudes &a, const ComplexAmplitudes &b)
-  {
-    double size = 0., difference = 0.;
-    for (std::size_t i = 0; i < a.size(); ++i)
-    {
-      size       = std::max(size, std::abs(a[i]));
-      difference = std::max(difference, std::abs(a[i] - b[i]));
-    }
-    return difference / size;
-  }
 } // namespace
-
-// A delay takes lambda t/(1 + lambda t) off a force. Joined, it changes what it takes off by lambda (T - t)/(1 + lambda T), by
-// nothing where times are equal.
-TEST(Linearisation, JoinedDelaysGiveTheSameForces)
-{
-  constexpr double highest = 4e4, t = 1e-7, longest = 2e-7;
-  const ComplexAmplitudes z = { { 0.3, -0.1 }, { 0.2, 0.5 }, { -0.4, 0.1 } };
-  const auto equal = many_delays({ 1e-3 }), apart = many_delays({ t, longest }), far_apart = many_delays({ 1e-5, 2e-5 });
-  EXPECT_EQ(equal.with_joined_delays(highest).delays.size(), 3u);
-  EXPECT_EQ(apart.with_joined_delays(highest).delays.size(), 3u);
-  EXPECT_EQ(far_apart.with_joined_delays(highest).delays.size(), 12u);
-  EXPECT_EQ(many_delays({ 1e-3, -1e-3 }).with_joined_delays(highest).delays.size(), 12u);
-  for (const auto lambda : ComplexAmplitudes{ { 0., 3e3 }, { 200., 1e4 }, { -500., highest } })
-  {
-    EXPECT_LT(largest_difference(equal.forces(lambda, z), equal.with_joined_delays(highest).forces(lambda, z)), 1e-12);
-    // Without forces of another kind these are what the delays take off.
-    const double bound = std::abs(lambda) * (longest - t);
-    const double found = largest_difference(apart.forces(lambda, z), apart.with_joined_delays(highest).forces(lambda, z));
-    EXPECT_LT(found, bound);
-    EXPECT_GT(found, 0.1 * bound);
-  }
-}
 
 // Over 2e-6 mm: the law's third derivative, 1.5e7 N/mm^3, makes 1e-5 N/mm; round-off of the gap, 2e-14 mm times 1500 N/mm over
 // 2e-6 mm, as much. The tangent itself is 1500 N/mm.
@@ -348,15 +296,6 @@ TEST(Linearisation, IsNothingOutOfContact)
       EXPECT_TRUE(open.delays.empty()) << slide.name;
     }
   }
-}
-
-// A lever held out of contact has matrices without rows, which libraries' assertions do not take everywhere.
-TEST(Linearisation, WithoutDofsIsEmpty)
-{
-  const LinearisedForces open;
-  for (const Full &sum : { open.stiffness(), open.damping(), open.immediate_stiffness(), open.immediate_damping() })
-    EXPECT_TRUE(sum.empty());
-  EXPECT_TRUE(open.forces({ -1., 20. }, {}).empty());
 }
 
 TEST(Linearisation, InertiaOfTheCouplingIsTheDerivativeOfItsForcesByAccelerations)

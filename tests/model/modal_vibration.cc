@@ -11,7 +11,6 @@ using namespace sprag;
 namespace
 {
   using Complex = std::complex<double>;
-  using Full    = dealii::FullMatrix<double>;
 
   /// Two modes of mass 1 with one dof each.
   ModalData two_modes(const double first, const double second)
@@ -130,28 +129,6 @@ TEST(ModalVibration, OfADampedOscillatorIsThatOfTheFormula)
   expect_near(found[2], -50. - std::sqrt(1600.), 1e-12);
 }
 
-// The eigenvalue with Im >= 0 stands for its pair, and the vector belongs to it. With the wrong sign the equation would not be
-// fulfilled.
-TEST(ModalVibration, ItsVectorsBelongToItsEigenvalues)
-{
-  auto data             = two_modes(10., 11.);
-  auto forces           = no_forces({ 0, 1 });
-  forces.friction(0, 1) = 1.;
-  forces.friction(1, 0) = -2.;
-  const auto modes      = modal_vibrations(data, forces);
-  ASSERT_EQ(modes.size(), 2u);
-  for (const auto &mode : modes)
-  {
-    const Complex q[2]   = { { mode.coordinates[0][0], mode.coordinates[1][0] },
-                             { mode.coordinates[0][1], mode.coordinates[1][1] } };
-    const Complex square = mode.eigenvalue * mode.eigenvalue;
-    const double size    = std::abs(q[0]) + std::abs(q[1]);
-    EXPECT_GT(std::abs(mode.eigenvalue.real()), 0.1);
-    EXPECT_LT(std::abs((square + 10.) * q[0] - q[1]), 1e-13 * size);
-    EXPECT_LT(std::abs((square + 11.) * q[1] + 2. * q[0]), 1e-13 * size);
-  }
-}
-
 // Static shapes with relaxation, forces by displacements, rates and accelerations, all unsymmetric: against roots of the
 // determinant at the interface alone, where neither modes nor states appear.
 TEST(ModalVibration, FulfilsTheEquationOfTheInterface)
@@ -217,17 +194,6 @@ TEST(ModalVibration, CreepWithoutAForceIsNoMode)
       for (const double force : part)
         EXPECT_TRUE(std::isfinite(force)) << mode.eigenvalue;
   }
-}
-
-TEST(ModalVibration, MassOnTheInterfaceLowersTheFrequency)
-{
-  const auto data      = two_modes(10., 400.);
-  auto forces          = no_forces({ 0 });
-  forces.inertia(0, 0) = 1.5;
-  const auto found     = eigenvalues(data, forces);
-  ASSERT_EQ(found.size(), 2u);
-  expect_near(found[0], { 0., 2. }, 1e-14);
-  expect_near(found[1], { 0., 20. }, 1e-13);
 }
 
 // The eleventh power of ten between the highest and the lowest: the low one keeps its digits.

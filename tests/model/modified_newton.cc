@@ -157,40 +157,6 @@ TEST(ModifiedNewton, FindsWhatNewtonsMethodFinds)
   EXPECT_LT(tangents, 36u); // else nothing is kept
 }
 
-TEST(ModifiedNewton, GoesOnFromARestoredTangentToTheLastBit)
-{
-  JacobianFactors factors;
-  std::shared_ptr<const StoredJacobian> kept;
-  auto guess = solved_loads(by_newton(12., 0.5));
-  guess      = solved_loads(by_stored_jacobian(12., 0.5, guess, factors, kept));
-
-  JacobianFactors others;
-  Archive written;
-  serialise(written, kept);
-  Archive read(written.bytes());
-  std::shared_ptr<const StoredJacobian> restored;
-  serialise(read, restored);
-  const auto next  = by_stored_jacobian(12.1, 0.51, guess, factors, kept),
-             again = by_stored_jacobian(12.1, 0.51, guess, others, restored);
-  EXPECT_EQ(next.z, again.z);
-  EXPECT_EQ(next.solution.newton.iterations, again.solution.newton.iterations);
-}
-
-TEST(ModifiedNewton, LetsGoOfWhatItHeld)
-{
-  JacobianFactors factors;
-  std::shared_ptr<const StoredJacobian> kept;
-  auto guess      = solved_loads(by_newton(12., 0.5));
-  guess           = solved_loads(by_stored_jacobian(12., 0.5, guess, factors, kept));
-  const auto open = by_stored_jacobian(12., -1., guess, factors, kept);
-  ASSERT_TRUE(open.solution.newton.converged);
-  EXPECT_TRUE(open.ball.forces.dofs.empty());
-  for (unsigned int i = 0; i < n; ++i)
-    EXPECT_NEAR(open.z[i], -1., 1e-12);
-  const auto again = by_stored_jacobian(12., -1., {}, factors, kept);
-  EXPECT_TRUE(again.solution.newton.converged);
-}
-
 TEST(ModifiedNewton, SaysWhereItDoesNotConverge)
 {
   JacobianFactors factors;

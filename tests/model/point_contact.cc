@@ -359,47 +359,6 @@ TEST(PointContact, CarriesNothingWhileOpen)
   EXPECT_EQ(stepped.found.penetration(), 0.);
 }
 
-TEST(PointContact, DriveGivesWhatLeverTakesAndContactStoresOrDissipates)
-{
-  const Case lever   = full_case();
-  constexpr double T = 1e-3;
-  const Vector from  = lever.position(0., 0.01);
-  const Vector to    = lever.position(T, 0.02);
-  PointContact contact(lever.properties());
-  PointContact::Evaluation found;
-  contact.touch(from, lever.drive(0.), found);
-  const double begin_energy =
-      spring_energy(lever.normal, -found.penetration()) + 0.5 * lever.history.traction.norm_square() / 1000.;
-
-  // Returns the open energy of a step over a share of the way.
-  const auto open = [&](const double share)
-  {
-    Motion accepted;
-    accepted.drive   = lever.drive(0.);
-    accepted.contact = { lever.history };
-    Kinematic begin{ from, Vector(from.size()), Vector(from.size()) };
-    Vector moved = to;
-    moved -= from;
-    moved *= share;
-    Vector end = from;
-    end += moved;
-    const DrivePoint drive = lever.drive(share * T);
-    contact.evaluate(
-        InterfaceStep{ accepted.drive, accepted.contact, drive, begin, end, begin.velocity, generalised_alpha(0.8, share * T) },
-        found);
-    const StepWork work = found.work();
-    EXPECT_GT(std::abs(work.drive), 1. * share);
-    EXPECT_GT(work.friction, 1. * share);
-    const double taken  = on_all_dofs(lever, found.forces) * moved;
-    const double stored = found.energy() - begin_energy;
-    return std::abs(work.drive - taken - stored - work.friction - work.damping - work.algorithmic);
-  };
-  // Third order in the movement of 0.1 mm: of works of 1 N mm, (0.1/56)^2 times the turn of the rows within it at most.
-  EXPECT_LT(open(1.), 1e-5);
-  EXPECT_LT(open(0.5), open(1.) / 7.);
-  EXPECT_LT(open(0.25), open(1.) / 50.);
-}
-
 TEST(PointContact, ForcesAreContinuousWhereTheContactCrossesNodesAndMiddlesOfElements)
 {
   // The contact is where the circle's centre is along the lever but for micrometres: the same bisection from 1e-3 mm
