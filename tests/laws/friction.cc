@@ -47,15 +47,6 @@ TEST(Friction, CorkOnAluminiumHasThePapersValues)
   EXPECT_EQ(friction_coefficient(law, 5000.).coefficient, 1.076);
 }
 
-TEST(Friction, CorkOnAluminiumHardlyJumpsAtItsJoints)
-{
-  const auto law  = make_law(CorkOnAluminium{});
-  const auto jump = [&](const double joint)
-  { return friction_coefficient(law, joint).coefficient - friction_coefficient(law, std::nextafter(joint, 0.)).coefficient; };
-  EXPECT_NEAR(std::abs(jump(200.)), 5.6e-5, 1e-6);
-  EXPECT_NEAR(std::abs(jump(750.)), 1.9e-4, 1e-5);
-}
-
 TEST(Friction, StribeckFallsFromRestAndGrowsAgainWithSpeed)
 {
   const auto law = make_law(StribeckFriction{ 0.9, 0.6, 30., 2., 1e-3 });

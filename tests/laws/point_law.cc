@@ -150,17 +150,6 @@ TEST(FrictionTraction, SlipSpeedAndCoefficientAreSolvedTogether)
         }
 }
 
-TEST(FrictionTraction, SlipSpeedIsTheOneThatTheTrialWasMadeOf)
-{
-  // mu rises, so the answer is the only one; its error is that of |trial| over eps dt.
-  for (const double speed : { 1., 112., 190., 300., 740., 900. })
-  {
-    const double trial  = compute_trial(speed, 0.8, cork, 500., 0.01);
-    const auto friction = friction_traction(trial, 0.8, cork, 500., 0.01);
-    EXPECT_NEAR((trial - friction.traction) / 5., speed, 1e-14 * trial);
-  }
-}
-
 TEST(FrictionTraction, DerivativesAgreeWithFiniteDifferencesOverThreeDecades)
 {
   for (const auto &law : { coulomb, cork })
@@ -178,21 +167,4 @@ TEST(FrictionTraction, DerivativesAreSignedWithTheTrial)
   EXPECT_EQ(forward.traction, -backward.traction);
   EXPECT_EQ(forward.d_trial, backward.d_trial);
   EXPECT_EQ(forward.d_pressure, -backward.d_pressure);
-}
-
-TEST(FrictionTraction, IsContinuousAtTheStickLimit)
-{
-  for (const auto &law : { coulomb, cork, table })
-    for (const double dt : { 1e-2, 1. })
-    {
-      const double limit = friction_coefficient(law, 0.).coefficient * 0.8;
-      for (const double distance : { 1e-3, 1e-6, 1e-9 })
-      {
-        const auto inside  = friction_traction(limit * (1. - distance), 0.8, law, 500., dt);
-        const auto outside = friction_traction(limit * (1. + distance), 0.8, law, 500., dt);
-        EXPECT_FALSE(inside.slipping);
-        EXPECT_TRUE(outside.slipping);
-        EXPECT_NEAR(inside.traction, outside.traction, 2. * limit * distance + 4. * epsilon);
-      }
-    }
 }

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -148,59 +147,6 @@ TEST_F(ResultFileTest, EveryDatasetHasUnitAndDescription)
             "rad N mm^2 N mm 1\n");
 }
 
-TEST_F(ResultFileTest, ReadableWhileWritten)
-{
-  ResultFile file(path(), "set A = 1\n", three_points);
-  EXPECT_EQ(h5py("print(len(f[\"table/time\"]))", ", swmr=True"), "0\n");
-  write_rows(file, 5);
-  EXPECT_EQ(h5py(print_progress, ", swmr=True"), "5 448.0 (5, 3) 4.0\n");
-  usleep(10000);
-  file.append(row(5.));
-  EXPECT_EQ(h5py("print(f[\"table/time\"][:], f[\"table/Q\"].attrs[\"unit\"], f[\"parameters\"].asstr()[()])", ", swmr=True"),
-            "[0. 1. 2. 3. 4. 5.] N set A = 1\n\n");
-}
-
-TEST_F(ResultFileTest, FollowedByAReaderWhileWritten)
-{
-  ResultFile file(path(), "", {});
-  file.append(row(0.));
-  const std::string answer = (folder / "answer").string();
-  const std::string go     = (folder / "go").string();
-  std::FILE *reader =
-      popen(("/usr/bin/python3 -c 'import h5py, os, time\nf = h5py.File(\"" + path() +
-             "\", swmr=True)\nt = f[\"table/time\"]\nn = len(t)\nprint(n, file=open(\"" + answer + "\", \"w\"), flush=True)\n" +
-             "while not os.path.exists(\"" + go + "\"): time.sleep(0.01)\nt.refresh()\nprint(n, len(t), t[-1])'")
-                .c_str(),
-            "r");
-  while (!std::filesystem::exists(answer) || std::filesystem::file_size(answer) == 0)
-    usleep(10000);
-  usleep(10000);
-  file.append(row(7.));
-  std::ofstream(go) << "go";
-  std::array<char, 64> line{};
-  EXPECT_NE(std::fgets(line.data(), static_cast<int>(line.size()), reader), nullptr);
-  pclose(reader);
-  EXPECT_STREQ(line.data(), "1 2 7.0\n");
-}
-
-TEST_F(ResultFileTest, ReadableAfterTheWriterIsKilled)
-{
-  const pid_t writer = fork();
-  if (writer == 0)
-  {
-    ResultFile file(path(), "set A = 1\n", three_points);
-    write_rows(file, 20);
-    raise(SIGKILL);
-  }
-  int status = 0;
-  waitpid(writer, &status, 0);
-  ASSERT_TRUE(WIFSIGNALED(status));
-
-  EXPECT_EQ(h5py(print_progress, ", swmr=True"), "20 2128.0 (20, 3) 19.0\n");
-  EXPECT_EQ(read_output("h5clear -s " + path() + " && h5dump -d /table/time " + path() + " | grep -c ', 19$'"), "1\n");
-  EXPECT_EQ(h5py(print_progress), "20 2128.0 (20, 3) 19.0\n");
-}
-
 TEST_F(ResultFileTest, UnfinishedFileKeepsItsRows)
 {
   {
@@ -210,14 +156,6 @@ TEST_F(ResultFileTest, UnfinishedFileKeepsItsRows)
   EXPECT_EQ(h5py("print(len(f[\"table/time\"]), \"summary\" in f)"), "3 False\n");
 }
 
-TEST_F(ResultFileTest, FinishedFileIsReadByH5dump)
-{
-  ResultFile file(path(), "set A = 1\n", three_points);
-  write_rows(file, 2);
-  file.finish({}, {});
-  EXPECT_EQ(read_output("h5dump -d /table/Q " + path() + " | grep -c -e 'NATIVE_DOUBLE\\|IEEE_F64LE'"), "1\n");
-}
-
 TEST_F(ResultFileTest, ColumnsOfItsOwn)
 {
   ResultFile file(path(), "", {}, { { "mu", "1", "friction coefficient" }, { "slope_forward", "N/mm", "C_Q" } });
@@ -225,13 +163,6 @@ TEST_F(ResultFileTest, ColumnsOfItsOwn)
   file.finish({}, {});
   EXPECT_EQ(h5py("print(sorted(f[\"table\"]), f[\"table/slope_forward\"][:], \"face\" in f)"),
             "['mu', 'slope_forward'] [0.08] False\n");
-}
-
-TEST_F(ResultFileTest, ReplacesAnOlderFile)
-{
-  std::ofstream(path()) << "not HDF5";
-  ResultFile(path(), "", {}).finish({}, {});
-  EXPECT_EQ(h5py("print(sorted(f))"), "['meta', 'parameters', 'summary', 'table', 'warnings']\n");
 }
 
 TEST_F(ResultFileTest, UnwritablePathIsTheUsersMistake)
@@ -249,34 +180,6 @@ TEST_F(ResultFileTest, UnwritablePathIsTheUsersMistake)
       EXPECT_NE(std::string(error.what()).find(folder.string() + place), std::string::npos) << error.what();
     }
   }
-}
-
-TEST_F(ResultFileTest, FullDiskEndsTheAnalysisAndKeepsTheRows)
-{
-  const pid_t writer = fork();
-  if (writer == 0)
-  {
-    const rlimit limit = { 2000000, 2000000 };
-    setrlimit(RLIMIT_FSIZE, &limit);
-    bool refused = false;
-    {
-      ResultFile file(path(), "", three_points);
-      try
-      {
-        write_rows(file, 100000);
-      }
-      catch (const AnalysisError &error)
-      {
-        refused = std::string(error.what()).find("File too large") != std::string::npos;
-      }
-    }
-    std::_Exit(refused ? 0 : 1); // without ending the MPI of the parent
-  }
-  int status = 0;
-  waitpid(writer, &status, 0);
-  EXPECT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 0);
-  EXPECT_EQ(h5py("t = f[\"table/time\"][:]\nprint(len(t) > 300, t[-1] == len(t) - 1)"), "True True\n");
 }
 
 TEST_F(ResultFileTest, NoMoreDiskThanNeeded)

@@ -54,14 +54,6 @@ TEST(PeakReport, LooksWhereFrictionHasTurned)
   EXPECT_EQ(find_value(entries, "largest_pressure"), 0.31);
 }
 
-TEST(PeakReport, IsEmptyWithoutAFace)
-{
-  std::vector<Entry> entries;
-  add_largest_pressure({ Row() }, entries);
-  EXPECT_TRUE(entries.empty());
-  EXPECT_TRUE(coarse_contact_warnings(model_a(), { Row() }).empty());
-}
-
 TEST(PeakReport, WarnsOfAContactOfFewElements)
 {
   Scene scene          = model_a();
@@ -75,19 +67,6 @@ TEST(PeakReport, WarnsOfAContactOfFewElements)
   scene.mesh.face_size = 0.55;
   scene.mesh.degree    = 1; // 4.4 elements, 6 % expected
   EXPECT_EQ(coarse_contact_warnings(scene, rows).size(), 1u);
-}
-
-TEST(PeakReport, WarnsOfAContactOfFewElementsOfAnOwnMesh)
-{
-  Scene scene          = model_a();
-  scene.mesh.face_size = 1.2; // see with_own_face_size()
-  scene.mesh.file      = "own.msh";
-  const auto warnings  = coarse_contact_warnings(scene, rows);
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].found.find("2 times the longest side on the friction face, 1.2 mm"), std::string::npos)
-      << warnings[0].found;
-  EXPECT_NE(warnings[0].remedy.find("Give the friction face of Mesh/File sides of at most"), std::string::npos)
-      << warnings[0].remedy;
 }
 
 // Widths about those of model A.
@@ -117,10 +96,4 @@ TEST(PeakReport, TakesTheScatterOfPassingElementsOffTheLargestPressure)
   std::vector<Entry> entries;
   add_largest_pressure(all, entries, 0.25);
   EXPECT_EQ(find_value(entries, "largest_pressure"), found.value);
-}
-
-TEST(PeakReport, LeavesFewRowsAsTheyAre)
-{
-  EXPECT_EQ(smoothed_largest_pressure(rows, 0.25).value, 0.3);
-  EXPECT_EQ(smoothed_largest_pressure(rows, 0.25).scatter, 0.);
 }

@@ -101,19 +101,35 @@ namespace
   }
 } // namespace
 
-TEST(RowWarnings, ModelAHasNone)
+TEST(RowWarnings, AreGivenBeyondTheirBounds)
 {
-  EXPECT_EQ(names(row_warnings(model_a(), { first_row(), usual_row() })), Names{});
-  EXPECT_EQ(names(row_warnings(model_a(), {})), Names{});
+  const double exact = usual_row()[Column::theta_closed_form];
+  expect_bound(Column::penetration, 0.19 / 0.81 * 0.0164, 0.21 / 0.79 * 0.0164, "soft_penalty");
+  expect_bound(Column::elastic_slip, 0.019 * 2.5, 0.021 * 2.5, "soft_tangential_penalty");
+  // Compression and penetration take (0.0164 + 0.0014)/120 = 0.00015 of the difference.
+  expect_bound(Column::theta, exact - 0.0201, exact - 0.0202, "large_deflection");
+  expect_bound(Column::indentation, 0.099, 0.101, "large_strain");
+  expect_bound(Column::friction_work, 60.25, 60.26, "long_steps");
+  EXPECT_EQ(names_with(Column::penetration, 0.11), (Names{ "overlap_of_layer", "soft_penalty" }));
+  EXPECT_EQ(names_with(Column::theta, exact - 0.021, at_finite_strain()), Names{});
+  EXPECT_EQ(names_with(Column::indentation, 0.101, at_finite_strain()), Names{});
+  Scene in_time         = model_a();
+  in_time.analysis.type = AnalysisType::transient;
+  EXPECT_EQ(names_with(Column::friction_work, 61.1, in_time), Names{});
 }
 
-TEST(RowWarnings, OverlapAgainstApproachAndLayer)
+TEST(SceneWarnings, AreGivenBeyondTheirBounds)
 {
-  expect_bound(Column::penetration, 0.19 / 0.81 * 0.0164, 0.21 / 0.79 * 0.0164, "soft_penalty");
-  EXPECT_EQ(names_with(Column::penetration, 0.11), (Names{ "overlap_of_layer", "soft_penalty" }));
-  Scene thick           = model_a();
-  thick.layer.thickness = 2.;
-  EXPECT_EQ(names_with(Column::penetration, 0.11, thick), Names{ "soft_penalty" });
+  Scene leaf       = model_a();
+  leaf.spring.type = SpringType::leaf;
+  // 2 t/L times a turn of 0.0303 rad: 0.4 % from 6.6 mm on.
+  expect_bound(leaf, leaf.spring.leaf.thickness, 6.5, 6.8, "leaf_beyond_yield");
+  Scene layer       = model_a();
+  layer.layer.plane = PlaneState::stress;
+  expect_bound(layer, layer.layer.poisson_ratio, 0.41, 0.42, "plane_stress_of_layer");
+  // mu / (s/e - mu) = 10 at a gap of an eleventh of s/e = 2.633.
+  EXPECT_EQ(names(scene_warnings(near_locking(0.25))), Names{});
+  EXPECT_EQ(names(scene_warnings(near_locking(0.23))), Names{ "near_locking" });
 }
 
 TEST(RowWarnings, OverlapOfABareLever)
@@ -135,13 +151,6 @@ TEST(RowWarnings, OverlapOfABareLever)
   EXPECT_TRUE(contains(names_at(0.21), "soft_penalty"));
 }
 
-TEST(RowWarnings, CoarseContact)
-{
-  Scene scene          = model_a();
-  scene.mesh.face_size = 2.;
-  EXPECT_EQ(names(row_warnings(scene, { first_row(), usual_row() })), Names{ "coarse_contact" });
-}
-
 TEST(RowWarnings, PressureOfSinglePoints)
 {
   const auto with_peak = [](const double over_mean, const bool specified, const double poisson_ratio)
@@ -159,30 +168,6 @@ TEST(RowWarnings, PressureOfSinglePoints)
   EXPECT_EQ(with_peak(1.65, false, 0.), Names{});
   EXPECT_EQ(with_peak(1.9, true, 0.45), Names{});
   EXPECT_EQ(with_peak(2.1, true, 0.45), Names{ "stiff_penalty" });
-}
-
-TEST(RowWarnings, ElasticSlipAgainstContactWidth)
-{
-  expect_bound(Column::elastic_slip, 0.019 * 2.5, 0.021 * 2.5, "soft_tangential_penalty");
-}
-
-TEST(RowWarnings, DeflectionInLinearTheory)
-{
-  // Compression and penetration take (0.0164 + 0.0014)/120 = 0.00015 of the difference.
-  const double exact = usual_row()[Column::theta_closed_form];
-  expect_bound(Column::theta, exact - 0.0201, exact - 0.0202, "large_deflection");
-  EXPECT_EQ(names_with(Column::theta, exact - 0.021, at_finite_strain()), Names{});
-  // A lever that has left the cylinder turns freely.
-  Row free            = usual_row();
-  free[Column::theta] = exact + 0.05;
-  free[Column::P]     = 0.;
-  EXPECT_EQ(names(row_warnings(model_a(), { first_row(), free, usual_row() })), Names{});
-}
-
-TEST(RowWarnings, CompressionInLinearTheory)
-{
-  expect_bound(Column::indentation, 0.099, 0.101, "large_strain");
-  EXPECT_EQ(names_with(Column::indentation, 0.101, at_finite_strain()), Names{});
 }
 
 TEST(RowWarnings, PressureBeyondStrength)
@@ -217,24 +202,6 @@ TEST(RowWarnings, PressureOfAnElasticFoundation)
   // Finite elements on a fine mesh: 0.338 MPa.
   EXPECT_NEAR(layer_pressure(model_a(), 25.41), 0.338, 0.03 * 0.338);
   EXPECT_NEAR(layer_pressure(model_a(), 8. * 25.41), 4. * layer_pressure(model_a(), 25.41), 1e-12);
-}
-
-TEST(RowWarnings, LongStepsLeaveEnergyOpen)
-{
-  expect_bound(Column::friction_work, 60.25, 60.26, "long_steps");
-  Scene in_time         = model_a();
-  in_time.analysis.type = AnalysisType::transient;
-  EXPECT_EQ(names_with(Column::friction_work, 61.1, in_time), Names{});
-  // The energy in the springs of a soft penalty is no open energy.
-  Row soft                  = usual_row();
-  soft[Column::penetration] = 0.5;
-  soft[Column::spring_energy] -= 10.;
-  EXPECT_EQ(names(row_warnings(model_a(), { first_row(), soft })), (Names{ "overlap_of_layer", "soft_penalty" }));
-}
-
-TEST(SceneWarnings, ModelAHasNone)
-{
-  EXPECT_EQ(names(scene_warnings(model_a())), Names{});
 }
 
 TEST(SceneWarnings, DefaultsInAnotherDevice)
@@ -332,17 +299,6 @@ TEST(SceneWarnings, ForeignContactLaw)
   EXPECT_EQ(names(scene_warnings(scene)), Names{});
 }
 
-TEST(SceneWarnings, NearLocking)
-{
-  // mu / (s/e - mu) = 10 at a gap of an eleventh of s/e = 2.633.
-  EXPECT_EQ(names(scene_warnings(near_locking(0.25))), Names{});
-  EXPECT_EQ(names(scene_warnings(near_locking(0.23))), Names{ "near_locking" });
-  EXPECT_EQ(names(scene_warnings(near_locking(0.01))), Names{ "near_locking" });
-  Scene held         = near_locking(0.01);
-  held.analysis.type = AnalysisType::slope;
-  EXPECT_EQ(names(scene_warnings(held)), Names{});
-}
-
 TEST(SceneWarnings, LockingOfModelsThatCanBend)
 {
   const auto locks = [](const Warnings &warnings)
@@ -389,31 +345,6 @@ TEST(SceneWarnings, NearLockingTellsTheSensitivityOfTheClosedForm)
   const auto found      = scene_warnings(scene).at(0).found;
   const auto begin      = found.find("mu e/(s - mu e) = ") + 18;
   EXPECT_NEAR(std::stod(found.substr(begin)), expected, 1e-4 * expected) << found;
-}
-
-TEST(SceneWarnings, StrainOfALeaf)
-{
-  // 2 t/L times a turn of 0.0303 rad: 0.4 % from 6.6 mm on.
-  Scene scene       = model_a();
-  scene.spring.type = SpringType::leaf;
-  expect_bound(scene, scene.spring.leaf.thickness, 6.5, 6.8, "leaf_beyond_yield");
-  scene.spring.leaf.end = LeafEnd::pinned;
-  EXPECT_EQ(names(scene_warnings(scene)), Names{});
-  scene.spring.leaf.clamp_distance = 40.;
-  EXPECT_EQ(names(scene_warnings(scene)), Names{ "leaf_beyond_yield" });
-}
-
-TEST(SceneWarnings, PlaneStressOfALayer)
-{
-  Scene scene       = model_a();
-  scene.layer.plane = PlaneState::stress;
-  expect_bound(scene, scene.layer.poisson_ratio, 0.41, 0.42, "plane_stress_of_layer");
-  Scene other       = scene;
-  other.layer.plane = PlaneState::strain;
-  EXPECT_EQ(names(scene_warnings(other)), Names{});
-  other                = scene;
-  other.analysis.model = ModelType::closed_form;
-  EXPECT_EQ(names(scene_warnings(other)), Names{});
 }
 
 // Each number is that of model A in another unit.

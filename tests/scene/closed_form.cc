@@ -121,20 +121,6 @@ TEST(ClosedForm, SlopesOfBothModelsAreTheReference)
   EXPECT_NEAR(dimensionless_slope(b.geometry, 0.73, -1), -0.0073919573, 5e-11);
 }
 
-TEST(ClosedForm, SlopeIsTheDerivativeOfTheForceAtTheStart)
-{
-  // The formula is smooth through x = 0, although the contact carries nothing before it.
-  for (const auto &geometry : geometries())
-    for (const int sign : { 1, -1 })
-    {
-      Scene scene           = with_coulomb(model_a(), 0.73);
-      scene.geometry        = geometry;
-      const double expected = derivative([&](const double x) { return closed_form(scene, x, sign * 112.).Q; }, 0.);
-      const double slope    = representative_slope(geometry, scene.spring.stiffness, 0.73, sign);
-      EXPECT_NEAR(slope, expected, 1e-9 * std::abs(expected));
-    }
-}
-
 TEST(ClosedForm, ForcesAtTheTurningPointAreTheReference)
 {
   const Scene a = with_friction_by_drive_speed(model_a()), b = with_friction_by_drive_speed(model_b());
@@ -163,16 +149,6 @@ TEST(ClosedForm, SlidingSpeedIsBelowTheSpeedOfTheDrive)
   EXPECT_NEAR(state.Q, -16.18988401659527, 1e-11);
   EXPECT_NEAR(1. - state.P / by_drive.P, 0.00511, 5e-6);
   EXPECT_NEAR(1. - state.Q / by_drive.Q, 0.0203, 5e-5);
-}
-
-TEST(ClosedForm, ForcesVanishAtTheStart)
-{
-  for (const Scene &scene : scenes())
-    for (const double v : { 112., -112. })
-    {
-      EXPECT_EQ(closed_form(scene, 0., v).P, 0.);
-      EXPECT_EQ(closed_form(scene, 0., v).Q, 0.);
-    }
 }
 
 TEST(ClosedForm, MomentsAboutThePivotBalance)
@@ -228,39 +204,6 @@ TEST(ClosedForm, LoopAreaEqualsFrictionWork)
     EXPECT_GT(friction_work(scene), 0.);
     EXPECT_NEAR(loop_area(scene), friction_work(scene), 1e-9 * friction_work(scene));
   }
-}
-
-/// The time of a row is rounded the more the later it is, and with it a power that begins at zero.
-TEST(ClosedForm, WorkLateInALongDriveTakesNoMoreThanInTheFirstCycle)
-{
-  Scene scene                 = model_a();
-  scene.drive                 = Drive(DriveProfile::triangle, 0., 65., 112., 1e4);
-  const double cycle          = 2. * 65. / 112.;
-  const auto first_cycle_step = [&](const double number)
-  {
-    unsigned int states = 0;
-    const auto count    = [&](const DrivePoint &point)
-    {
-      ++states;
-      return closed_form(scene, point.x, point.v);
-    };
-    const double begin = scene.drive.reversals()[static_cast<std::size_t>(2. * number) - 1];
-    const Work work    = work_between(scene.drive, count, begin, begin + cycle / 130.);
-    return std::make_pair(work.drive, states);
-  };
-  const auto [early_work, early] = first_cycle_step(1.);
-  const auto [late_work, late]   = first_cycle_step(9999.);
-  EXPECT_EQ(late, early);
-  EXPECT_NEAR(late_work, early_work, 1e-9 * early_work);
-}
-
-TEST(ClosedForm, HalfACycleStoresTheEnergyOfTheSpring)
-{
-  Scene scene         = model_a();
-  scene.drive         = Drive(DriveProfile::triangle, 0., 65., 112., 0.5);
-  const double turn   = kinematics(scene.geometry, 65.).theta - kinematics(scene.geometry, 0.).theta;
-  const double stored = 0.5 * scene.spring.stiffness * turn * turn;
-  EXPECT_NEAR(loop_area(scene), friction_work(scene) + stored, 1e-9 * loop_area(scene));
 }
 
 TEST(ClosedForm, BackwardStrokeStopsDampingAtTheCriticalInclination)

@@ -72,18 +72,6 @@ namespace
   }
 } // namespace
 
-TEST(Drive, DefaultGoesSixtyFiveMillimetresAndBack)
-{
-  const Drive drive;
-  EXPECT_EQ(drive.profile(), DriveProfile::triangle);
-  EXPECT_EQ(drive.minimum(), 0.);
-  EXPECT_EQ(drive.maximum(), 65.);
-  EXPECT_EQ(drive.peak_speed(), 112.);
-  EXPECT_DOUBLE_EQ(drive.duration(), 130. / 112.);
-  ASSERT_EQ(drive.reversals().size(), 1u);
-  EXPECT_DOUBLE_EQ(drive.reversals()[0], 65. / 112.);
-}
-
 TEST(Drive, TriangleHasTwoSpeedsAtItsReversal)
 {
   const Drive drive(DriveProfile::triangle, 3., 60.1, 112., 2.);
@@ -387,20 +375,6 @@ TEST(SmoothDrive, LongestReversalsFillTheStrokes)
   }
 }
 
-TEST(SmoothDrive, ClosedFormDoesTheWorkOfTheSharpOne)
-{
-  Scene sharp    = with_coulomb(model_a(), 0.73);
-  Scene smoothed = sharp;
-  smoothed.drive = smooth(0., 1.);
-  EXPECT_NEAR(loop_area(smoothed), loop_area(sharp), 1e-8 * loop_area(sharp));
-  EXPECT_NEAR(friction_work(smoothed), loop_area(smoothed), 1e-8 * loop_area(sharp));
-  // mu(v) falls where the cylinder is slow.
-  smoothed.friction.law = CorkOnAluminium{};
-  sharp.friction.law    = CorkOnAluminium{};
-  EXPECT_LT(loop_area(smoothed), loop_area(sharp));
-  EXPECT_NEAR(friction_work(smoothed), loop_area(smoothed), 1e-8 * loop_area(sharp));
-}
-
 TEST(Drive, KinksAreWhereATimeStepMustBegin)
 {
   const Drive sharp(DriveProfile::triangle, 0., 65., 112., 2.), harmonic(DriveProfile::harmonic, 0., 65., 112., 2.);
@@ -424,28 +398,4 @@ TEST(Drive, LongTableHasKinksWhereItTurnsOrRestsOnly)
   }
   EXPECT_EQ(Drive(times, positions).kinks(), (std::vector<double>{ 1., 1.5 }));
   EXPECT_EQ(Drive(times, positions).reversals(), (std::vector<double>{ 1.5 }));
-}
-
-// A step that evaluates its forces at every row costs more the longer the table is.
-TEST(Drive, WorksOfALongTableCostNoMoreThanThoseOfAShortOne)
-{
-  const Scene scene = with_coulomb(model_a(), 0.5);
-  std::vector<double> times, positions;
-  for (unsigned int i = 0; i <= 20000; ++i)
-  {
-    times.push_back(1e-4 * i);
-    positions.push_back(20. * (1. - std::cos(pi * times.back())));
-  }
-  unsigned int evaluations = 0;
-  const auto state_at      = [&](const DrivePoint &point)
-  {
-    ++evaluations;
-    return closed_form(scene, point.x, point.v);
-  };
-  const Work work   = work_between(Drive(times, positions), state_at, 0.2, 0.3);
-  const auto counts = evaluations;
-  const Work exact  = work_between(Drive(DriveProfile::harmonic, 0., 40., 20. * pi, 1.), state_at, 0.2, 0.3);
-  EXPECT_LT(counts, 2000u);
-  EXPECT_NEAR(work.drive, exact.drive, 1e-6 * exact.drive);
-  EXPECT_NEAR(work.friction, exact.friction, 1e-6 * exact.friction);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "input/read.h"
+#include "base/text.h"
 #include "laws/friction_law.h"
 
 #include "scene/messages.h"
@@ -8,6 +9,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <hdf5.h>
 
 using namespace sprag;
@@ -127,56 +129,45 @@ TEST(ReadScene, PrintedParametersKeepTheTimeSteps)
 
 TEST(ReadScene, WhatATransientAnalysisNeedsReachesTheScene)
 {
-  const Scene scene = make_scene({ "Analysis/Type=transient",
-                                   "Analysis/Model=beam",
-                                   "Analysis/Maximum energy residual=0.1",
-                                   "Lever/Moment of inertia=7",
-                                   "Lever/Tip mass=1e-5",
-                                   "Lever/Neutral axis offset=0",
-                                   "Lever/Modal damping=0.03",
-                                   "Lever/Mass damping=4",
-                                   "Lever/Stiffness damping=1e-6",
-                                   "Friction layer/Density=3e-10",
-                                   "Contact/Stiffness=3000",
-                                   "Contact/Exponent=1.5",
-                                   "Contact/Damping=0.1",
-                                   "Contact/Tangential stiffness=900",
-                                   "Support/Type=sprung",
-                                   "Support/Mass=1e-3",
-                                   "Support/Stiffness=6000",
-                                   "Support/Damping=0.05",
-                                   "Time/Step=1e-5",
-                                   "Time/Tolerance=1e-4",
-                                   "Time/Spectral radius=1",
-                                   "Condensed/Modes=7",
-                                   "Condensed/Cache=bases",
-                                   "Friction/Regularisation speed=0.5",
-                                   "Drive/Reversal duration=0.01" });
+  struct Number
+  {
+    std::string name;
+    double value;
+    std::function<double(const Scene &)> read;
+  };
+  const std::vector<Number> numbers = {
+    { "Analysis/Maximum energy residual", 0.1, [](const Scene &s) { return s.analysis.maximum_residual; } },
+    { "Lever/Moment of inertia", 7., [](const Scene &s) { return s.lever.moment_of_inertia; } },
+    { "Lever/Tip mass", 1e-5, [](const Scene &s) { return s.lever.tip_mass; } },
+    { "Lever/Neutral axis offset", 0., [](const Scene &s) { return s.lever.neutral_axis_offset.value(); } },
+    { "Lever/Modal damping", 0.03, [](const Scene &s) { return s.lever.modal_damping; } },
+    { "Lever/Mass damping", 4., [](const Scene &s) { return s.lever.mass_damping; } },
+    { "Lever/Stiffness damping", 1e-6, [](const Scene &s) { return s.lever.stiffness_damping; } },
+    { "Friction layer/Density", 3e-10, [](const Scene &s) { return s.layer.density; } },
+    { "Contact/Stiffness", 3000., [](const Scene &s) { return s.contact.stiffness; } },
+    { "Contact/Exponent", 1.5, [](const Scene &s) { return s.contact.exponent; } },
+    { "Contact/Damping", 0.1, [](const Scene &s) { return s.contact.damping; } },
+    { "Contact/Tangential stiffness", 900., [](const Scene &s) { return s.contact.tangential_stiffness.value(); } },
+    { "Support/Mass", 1e-3, [](const Scene &s) { return s.support.mass; } },
+    { "Support/Stiffness", 6000., [](const Scene &s) { return s.support.stiffness; } },
+    { "Support/Damping", 0.05, [](const Scene &s) { return s.support.damping; } },
+    { "Time/Step", 1e-5, [](const Scene &s) { return s.time.step; } },
+    { "Time/Tolerance", 1e-4, [](const Scene &s) { return s.time.tolerance; } },
+    { "Time/Spectral radius", 1., [](const Scene &s) { return s.time.spectral_radius; } },
+    { "Condensed/Modes", 7., [](const Scene &s) { return static_cast<double>(s.condensed.modes); } },
+    { "Friction/Regularisation speed", 0.5, [](const Scene &s) { return s.friction.regularisation_speed; } },
+    { "Drive/Reversal duration", 0.01, [](const Scene &s) { return s.drive.reversal_duration(); } }
+  };
+  Messages overrides = { "Analysis/Type=transient", "Analysis/Model=beam", "Support/Type=sprung", "Condensed/Cache=bases" };
+  for (const auto &number : numbers)
+    overrides.push_back(number.name + "=" + number_text(number.value));
+  const Scene scene = make_scene(overrides);
+  for (const auto &number : numbers)
+    EXPECT_EQ(number.read(scene), number.value) << number.name;
   EXPECT_EQ(scene.analysis.type, AnalysisType::transient);
   EXPECT_EQ(scene.analysis.model, ModelType::beam);
-  EXPECT_EQ(scene.analysis.maximum_residual, 0.1);
-  EXPECT_EQ(scene.lever.moment_of_inertia, 7.);
-  EXPECT_EQ(scene.lever.tip_mass, 1e-5);
-  EXPECT_EQ(scene.lever.neutral_axis_offset, 0.);
-  EXPECT_EQ(scene.lever.modal_damping, 0.03);
-  EXPECT_EQ(scene.lever.mass_damping, 4.);
-  EXPECT_EQ(scene.lever.stiffness_damping, 1e-6);
-  EXPECT_EQ(scene.layer.density, 3e-10);
-  EXPECT_EQ(scene.contact.stiffness, 3000.);
-  EXPECT_EQ(scene.contact.exponent, 1.5);
-  EXPECT_EQ(scene.contact.damping, 0.1);
-  EXPECT_EQ(scene.contact.tangential_stiffness, 900.);
   EXPECT_EQ(scene.support.type, SupportType::sprung);
-  EXPECT_EQ(scene.support.mass, 1e-3);
-  EXPECT_EQ(scene.support.stiffness, 6000.);
-  EXPECT_EQ(scene.support.damping, 0.05);
-  EXPECT_EQ(scene.time.step, 1e-5);
-  EXPECT_EQ(scene.time.tolerance, 1e-4);
-  EXPECT_EQ(scene.time.spectral_radius, 1.);
-  EXPECT_EQ(scene.condensed.modes, 7u);
   EXPECT_EQ(scene.condensed.cache, (folder() / "bases").string());
-  EXPECT_EQ(scene.friction.regularisation_speed, 0.5);
-  EXPECT_EQ(scene.drive.reversal_duration(), 0.01);
   EXPECT_EQ(parameters_text(read_scene(written(parameters_text(scene)))), parameters_text(scene));
 }
 
@@ -236,14 +227,6 @@ TEST(ReadScene, DriveMustMoveForward)
             (Messages{ "--set: Drive/Stroke = 10: must be more than Start = 20 mm" }));
 }
 
-TEST(ReadScene, MaterialsMustBePossible)
-{
-  EXPECT_EQ(find_mistakes({ "Lever/Poisson's ratio=0.5", "Friction layer/Poisson's ratio=-1", "Friction/Coefficient=-0.1" }),
-            (Messages{ "--set: Lever/Poisson's ratio = 0.5: must be a number > -1 and < 0.5",
-                       "--set: Friction layer/Poisson's ratio = -1: must be a number > -1 and < 0.5",
-                       "--set: Friction/Coefficient = -0.1: must be a number >= 0" }));
-}
-
 TEST(ReadScene, TablesMustBeReadable)
 {
   EXPECT_EQ(find_mistakes({ "Friction/Law=table" }), (Messages{ "scene.prm: Friction/Table = : must name a file" }));
@@ -269,23 +252,6 @@ TEST(ReadScene, GuessesBringNoFurtherMistakes)
   // With the default radius in place of the misspelt one the pivot distance would be too small.
   EXPECT_EQ(find_mistakes({ "Geometry/Cylinder radus=20", "Geometry/Interface offset=0", "Geometry/Pivot distance=50" }).size(),
             1u);
-}
-
-TEST(ReadScene, UnreadableFileIsAllThatIsWrong)
-{
-  EXPECT_THROW(
-      {
-        try
-        {
-          read_scene("/nowhere/scene.prm");
-        }
-        catch (const InputError &error)
-        {
-          EXPECT_EQ(error.messages, (Messages{ "/nowhere/scene.prm: cannot be read" }));
-          throw;
-        }
-      },
-      InputError);
 }
 
 TEST(ReadScene, TablesMayBeHDF5)
