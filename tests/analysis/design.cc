@@ -198,6 +198,19 @@ TEST(Design, FrontOfTwoAimsIsOfLeversThatNoneBeats)
   }
 }
 
+TEST(Design, LargestRadiusWithinAReach)
+{
+  const TemporaryFolder folder;
+  const auto found =
+      best_design(design(folder, { "Geometry/Pivot height=30", "Design/Free=Geometry/Cylinder radius = 35 ... 100",
+                                   "Design/Demands=reach >= 150", "Design/Aim=maximise Geometry/Cylinder radius" }));
+  ASSERT_TRUE(found.meets_all);
+  // The circle about (x, 0) meets the pivot (200, -30) at x = 150.
+  const double R = std::hypot(50., 30.);
+  EXPECT_NEAR(found.lever.parameters[0], R, 1e-3 * R);
+  EXPECT_NEAR(found.lever.quantities[DesignQuantity::reach], 150., 0.15);
+}
+
 TEST(Design, LargestBeginningWithinAResidualOffset)
 {
   const TemporaryFolder folder;

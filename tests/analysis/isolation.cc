@@ -344,6 +344,20 @@ TEST(Isolation, LeversKeepTheLedgerOfSpringAndFriction)
   EXPECT_LT(found.energy_residual, 1e-9);
 }
 
+TEST(Isolation, ARestoringLeverIsLinearFriction)
+{
+  Scene scene                        = isolated(DamperType::restoring_lever);
+  scene.friction.law                 = CoulombFriction{ 0.5 };
+  scene.isolation.lever_ratio        = 0.4;
+  scene.isolation.friction_arm_ratio = 0.;
+  const auto damper                  = make_damper(scene);
+  EXPECT_NEAR(damper.resistance(7., 3., 1).force, 0.5 * 0.4 * 2. * 7., 1e-12);
+  EXPECT_NEAR(damper.resistance(7., 3., -1).force, -0.5 * 0.4 * 2. * 7., 1e-12);
+  scene.isolation.friction_arm_ratio = 0.6;
+  EXPECT_NEAR(make_damper(scene).resistance(7., 3., 1).force, 2.8 / 1.3, 1e-12);
+  EXPECT_NEAR(make_damper(scene).resistance(7., 3., -1).force, -2.8 / 0.7, 1e-12);
+}
+
 // Exact: sqrt(int S |H|^2 / int S) over the band.
 TEST(Isolation, TheIntervalOfARandomBaseHasTheValueOfItsSpectrum)
 {

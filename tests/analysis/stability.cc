@@ -46,6 +46,28 @@ TEST(Jamming, RigidMarginIsThatOfTheClosedForm)
   EXPECT_FALSE(margin.flexible);
 }
 
+// P without friction over P is (s - mu e)/s for a rigid lever, and the beam has 1e4 times the stiffness of aluminium.
+TEST(Jamming, StiffBeamJamsWhereTheRigidLeverLocks)
+{
+  Scene scene               = with_coulomb(model_a(), 0.73);
+  scene.analysis.model      = ModelType::beam;
+  scene.lever.young_modulus = 7e8;
+  scene.contact.stiffness   = 1e7;
+  const auto margin         = jamming_margin(scene, true);
+  ASSERT_TRUE(margin.flexible);
+  EXPECT_NEAR(*margin.flexible, 1. - 0.73 / margin.critical_mu, 1e-4);
+  ASSERT_TRUE(margin.flexible_critical_mu);
+  EXPECT_NEAR(*margin.flexible_critical_mu, margin.critical_mu, 0.02 * margin.critical_mu);
+  const auto is_held = [&](const double mu)
+  {
+    scene.friction.law = CoulombFriction{ mu };
+    const auto slide   = make_reduced_lever(scene)->hold({ 0., margin.x, margin.v, 0. }, ContactFriction::sliding);
+    return slide && slide->uniqueness > 0.;
+  };
+  EXPECT_TRUE(is_held(0.9998 * *margin.flexible_critical_mu));
+  EXPECT_FALSE(is_held(1.0002 * *margin.flexible_critical_mu));
+}
+
 // mu falls with speed, and a harmonic motion is slowest where s is shortest.
 TEST(Jamming, MarginIsTheLeastOnTheWayWithMuAtTheSpeedThere)
 {

@@ -10,15 +10,6 @@
 
 namespace sprag
 {
-  /// Returns the work of constant forces on dofs that move.
-  inline double compute_work(const InterfaceForces &forces, const dealii::Vector<double> &from, const dealii::Vector<double> &to)
-  {
-    double sum = 0.;
-    for (unsigned int a = 0; a < forces.dofs.size(); ++a)
-      sum += forces.values[a] * (to[forces.dofs[a]] - from[forces.dofs[a]]);
-    return sum;
-  }
-
   /// Largest difference between the tangent and divided differences of the forces, over the largest entry. `evaluate` sets the
   /// forces to those at the displacements.
   template <class Evaluate>

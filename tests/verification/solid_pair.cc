@@ -139,3 +139,36 @@ TEST(SolidPair, InTimeItIsThatOfThePlane)
     EXPECT_LT(apart(plane, second_value(column), solid, second_value(column)), 1e-5) << column_info(column).name;
   }
 }
+
+// Modes in which levers mirror each other and in which they swing, under an axis out of true; those of a lever alone are those in
+// which its mirror image moves with it.
+TEST(SolidPair, ItsModesAreThoseOfALeverAndOfTheSwingSlow)
+{
+  Scene scene              = in_time(3);
+  scene.pair               = paired(scene, SpringJoint::free).pair;
+  scene.analysis.type      = AnalysisType::stability;
+  scene.stability.critical = "none";
+  scene.stability.position = 22.;
+  Scene alone              = scene;
+  alone.pair.type          = PairType::half;
+  const auto compute_modes = [](const Scene &slide_scene)
+  {
+    DynamicsMaker maker(false);
+    const auto dynamics = maker.make(slide_scene);
+    const auto slide    = dynamics.model().hold(held_drive(slide_scene), ContactFriction::sliding);
+    EXPECT_TRUE(slide);
+    return dynamics.model().vibrations(*slide, true, 40);
+  };
+  const auto pair_modes = compute_modes(scene), lever_modes = compute_modes(alone);
+  unsigned int symmetric = 0;
+  for (const auto &mode : pair_modes)
+  {
+    EXPECT_NEAR(std::abs(mode.symmetry), 1., 1e-6);
+    const auto is_same = [&](const Eigenmode &other)
+    { return std::abs(other.mode.eigenvalue - mode.mode.eigenvalue) < 1e-6 * std::abs(mode.mode.eigenvalue); };
+    if (mode.symmetry > 0.)
+      symmetric += std::any_of(lever_modes.begin(), lever_modes.end(), is_same) ? 1 : 0;
+  }
+  EXPECT_EQ(pair_modes.size(), 2 * lever_modes.size());
+  EXPECT_EQ(symmetric, lever_modes.size());
+}

@@ -164,23 +164,6 @@ TEST(ModelB, FluttersWithAnAxisBehindTheInterfaceOnAStiffContact)
   EXPECT_NEAR(found.frequency(), 778., 8.);
 }
 
-// C = alpha M, no friction: every vibration has the real part -alpha/2.
-TEST(MeshedLever, MassDampingTakesHalfOfItsFactorOffEveryVibration)
-{
-  DynamicsMaker maker(false);
-  for (const auto model : meshed_models)
-  {
-    Scene scene              = held_scene(without_damping(coarse(stability_scene(model_a(), model))));
-    scene.lever.mass_damping = 34.;
-    const auto lever         = maker.make(scene);
-    const auto slide         = lever.model().hold(held_drive(scene), ContactFriction::none);
-    ASSERT_TRUE(slide);
-    for (const bool in_contact : { true, false })
-      for (const auto &mode : lever.model().vibrations(*slide, in_contact, 6))
-        EXPECT_NEAR(mode.mode.eigenvalue.real(), -17., 1e-8 * std::abs(mode.mode.eigenvalue));
-  }
-}
-
 namespace
 {
   /// Each vibration below a frequency [Hz] is one of the others too, but for a share of its eigenvalue; returns their number.
