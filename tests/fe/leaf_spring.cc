@@ -8,6 +8,7 @@
 #include "scene/closed_form.h"
 #include "scene/scene.h"
 #include "scenes.h"
+#include "support/root.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -31,16 +32,6 @@ namespace
   }
 
   const std::vector<LeafEnd> ends = { LeafEnd::clamped, LeafEnd::pinned, LeafEnd::guided };
-
-  double root(const std::function<double(double)> &f, double low, double high)
-  {
-    for (unsigned int i = 0; i < 100; ++i)
-    {
-      const double middle                              = 0.5 * (low + high);
-      ((f(middle) > 0.) == (f(low) > 0.) ? low : high) = middle;
-    }
-    return low;
-  }
 
   /// Integral over the length by Simpson's rule.
   double integral(const LeafSpring &leaf, const std::function<double(double)> &f)

@@ -3,9 +3,9 @@
 #include "fe/dynamics/condensed_basis.h"
 #include "fe/dynamics/inertial_matrices.h"
 #include "mpi_environment.h"
+#include "support/root.h"
 
 #include <cmath>
-#include <functional>
 #include <gtest/gtest.h>
 
 using namespace sprag;
@@ -34,16 +34,6 @@ namespace
     const double rotary  = bar.depth * bar.depth / 12.;
     const double inertia = bar_mass(bar) * (L * L / 3. + rotary) + tip_mass * (L * L + rotary);
     return lever_modes(*meshed, make_response(*meshed), bar_inertia(inertia, tip_mass), spring, n);
-  }
-
-  double root(const std::function<double(double)> &f, double low, double high)
-  {
-    for (unsigned int i = 0; i < 100; ++i)
-    {
-      const double middle                              = 0.5 * (low + high);
-      ((f(middle) > 0.) == (f(low) > 0.) ? low : high) = middle;
-    }
-    return low;
   }
 
   /// omega of an Euler-Bernoulli beam with wave number `beta_length` over its length.

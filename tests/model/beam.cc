@@ -5,9 +5,9 @@
 #include "scene/scene.h"
 #include "scenes.h"
 #include "support/free_frequencies.h"
+#include "support/root.h"
 
 #include <cmath>
-#include <functional>
 #include <gtest/gtest.h>
 
 using namespace sprag;
@@ -42,18 +42,6 @@ namespace
   double beta_L(const Scene &scene, const double omega)
   {
     return scene.lever.length * std::pow(omega * omega * mass_per_length(scene) / bending_stiffness(scene), 0.25);
-  }
-
-  double root(const std::function<double(double)> &f, double low, double high)
-  {
-    const bool rising = f(high) > 0.;
-    EXPECT_NE(f(low) > 0., rising) << "no root between " << low << " and " << high;
-    for (unsigned int i = 0; i < 200; ++i)
-    {
-      const double middle                       = 0.5 * (low + high);
-      ((f(middle) > 0.) == rising ? high : low) = middle;
-    }
-    return low;
   }
 
   /// With z = beta L, m = tip mass over the bar's, k = spring over EI/L, i = hub inertia over the bar's mass times L^2:

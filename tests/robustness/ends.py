@@ -52,12 +52,6 @@ class EndsTest(RunTest):
             self.assertIn("subsection Drive", file["parameters"].asstr()[()])
             return file["summary/status"].asstr()[()], len(file["table/x"]) if "x" in file["table"] else 0
 
-    def refused(self, done, *texts):
-        self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
-        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
-        for text in texts:
-            self.assertIn(text, done.stderr)
-
     def working_process(self, process):
         children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
         return int(children[0]) if children else None
@@ -172,7 +166,7 @@ class Refused(EndsTest):
         for options in ((), ("--set", "Analysis/Type=transient", "--set", "Analysis/Model=condensed")):
             with self.subTest(options=options):
                 done = self.run_to_end("--set", "Mesh/Face size=0.0005", *options)
-                self.refused(done, "Mesh/Face size = 0.0005", "GB of memory", "free on this machine")
+                self.expect_refused(done, "Mesh/Face size = 0.0005", "GB of memory", "free on this machine")
                 self.assertFalse(self.output.exists())
 
     def test_too_small_a_stack(self):
@@ -189,7 +183,7 @@ class Refused(EndsTest):
             ("--set", "Analysis/Type=transient", "--set", "Analysis/Model=beam", "--set", "Drive/Speed=1e-8"),
         ):
             with self.subTest(options=options):
-                self.refused(self.run_to_end(*options), "e+", "rows or more, of which a run may have 1e+07")
+                self.expect_refused(self.run_to_end(*options), "e+", "rows or more, of which a run may have 1e+07")
                 self.assertFalse(self.output.exists())
 
     def test_slow_and_held(self):
@@ -199,17 +193,17 @@ class Refused(EndsTest):
 
     def test_second_run_in_the_folder(self):
         first = self.start_with_rows(1)
-        self.refused(self.run_to_end(*COARSE), str(self.output), "another run writes there", f"process {self.working_process(first)}")
+        self.expect_refused(self.run_to_end(*COARSE), str(self.output), "another run writes there", f"process {self.working_process(first)}")
         first.kill()
         first.wait(TIMEOUT)
-        self.refused(self.run_to_end(*COARSE), "unfinished result of a run with other parameters")
+        self.expect_refused(self.run_to_end(*COARSE), "unfinished result of a run with other parameters")
         self.assertEqual(self.run_to_end(*COARSE, "--overwrite").returncode, 0)
 
     def test_another_result(self):
         self.assertEqual(self.run_to_end(*CLOSED_FORM).returncode, 0)
         before = (self.output / "result.h5").read_bytes()
         other = (*CLOSED_FORM, "--set", "Drive/Stroke=10")
-        self.refused(self.run_to_end(*other), str(self.output), "result.h5", "--overwrite")
+        self.expect_refused(self.run_to_end(*other), str(self.output), "result.h5", "--overwrite")
         self.assertEqual((self.output / "result.h5").read_bytes(), before)
         self.assertEqual(self.run_to_end(*CLOSED_FORM).returncode, 0)
         self.assertEqual(self.run_to_end(*other, "--overwrite").returncode, 0)
@@ -219,7 +213,7 @@ class Refused(EndsTest):
     def test_result_that_is_no_file(self):
         self.output.mkdir()
         os.mkfifo(self.output / "result.h5")
-        self.refused(self.run_to_end(*CLOSED_FORM), "result.h5 is no regular file")
+        self.expect_refused(self.run_to_end(*CLOSED_FORM), "result.h5 is no regular file")
 
     def test_damaged_earlier_result(self):
         self.assertEqual(self.run_to_end(*CLOSED_FORM).returncode, 0)
@@ -227,7 +221,7 @@ class Refused(EndsTest):
         whole = path.read_bytes()
         for size in (100, len(whole) // 2):
             path.write_bytes(whole[:size])
-            self.refused(self.run_to_end(*CLOSED_FORM), "result.h5", "damaged", "--overwrite")
+            self.expect_refused(self.run_to_end(*CLOSED_FORM), "result.h5", "damaged", "--overwrite")
             self.assertEqual(path.read_bytes(), whole[:size])
         self.assertEqual(self.run_to_end(*CLOSED_FORM, "--overwrite").returncode, 0)
         for zeros in (0, 1000):  # of a run that was killed before it wrote

@@ -4,6 +4,7 @@
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"
 #include "scenes.h"
+#include "support/scene_parts.h"
 
 #include <cmath>
 #include <functional>
@@ -13,15 +14,6 @@ using namespace sprag;
 
 namespace
 {
-  Scene pair(Scene scene, const SpringJoint joint, const double offset, const double friction_ratio = 1.)
-  {
-    scene.pair.type            = PairType::full;
-    scene.pair.joint           = joint;
-    scene.pair.cylinder_offset = offset;
-    scene.pair.friction_ratio  = friction_ratio;
-    return scene;
-  }
-
   constexpr SpringJoint joints[] = { SpringJoint::held, SpringJoint::free };
 
   /// Both joints, linear springs and hardening ones, cork and constant friction.
@@ -32,7 +24,7 @@ namespace
     std::vector<Scene> result;
     for (const auto joint : joints)
       for (const Scene &scene : { model_a(), model_b(), with_friction_by_drive_speed(model_a()), hardening })
-        result.push_back(pair(scene, joint, offset, friction_ratio));
+        result.push_back(paired(scene, joint, offset, friction_ratio));
     return result;
   }
 
@@ -160,7 +152,7 @@ TEST(PairClosedForm, WithoutFrictionForcesAreTheDerivativesOfTheSpringsEnergy)
 TEST(PairClosedForm, ALeverThatACylinderOffTheMiddleDoesNotReachRestsWithAHeldJoint)
 {
   const double offset = 0.5;
-  const Scene scene   = pair(model_a(), SpringJoint::held, offset);
+  const Scene scene   = paired(model_a(), SpringJoint::held, offset);
   const Geometry &g   = scene.geometry;
   const double rest   = kinematics(g, 0.).theta;
   const double reached_at =
@@ -179,7 +171,7 @@ TEST(PairClosedForm, ALeverThatACylinderOffTheMiddleDoesNotReachRestsWithAHeldJo
   EXPECT_GT(after[1].state.P, 0.);
 
   // The other way round it is the first.
-  const auto mirrored = pair_closed_form(pair(model_a(), SpringJoint::held, -offset), reached_at - 0.1, 1.);
+  const auto mirrored = pair_closed_form(paired(model_a(), SpringJoint::held, -offset), reached_at - 0.1, 1.);
   EXPECT_EQ(mirrored[1].state.P, before[0].state.P);
   EXPECT_FALSE(mirrored[0].touches);
 }
@@ -187,7 +179,7 @@ TEST(PairClosedForm, ALeverThatACylinderOffTheMiddleDoesNotReachRestsWithAHeldJo
 // A cylinder off the middle needs less room, by some offset^2 / l^2: at x = 0 the springs are not quite reached.
 TEST(PairClosedForm, LeversThatSwingTogetherStandClearAtTheStartAndPressAtOnce)
 {
-  const Scene scene = pair(model_a(), SpringJoint::free, 0.5);
+  const Scene scene = paired(model_a(), SpringJoint::free, 0.5);
   const auto start  = pair_closed_form(scene, 0., 1.);
   const auto theta  = pair_inclinations(scene, 0.);
   for (const auto &lever : start)

@@ -53,6 +53,13 @@ class RunTest(FolderTest):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return done.stdout
 
+    def expect_refused(self, done, *texts):
+        """One message with these texts."""
+        self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        for text in texts:
+            self.assertIn(text, done.stderr)
+
     def read(self, group, *names):
         """Numbers and texts of a group of the result, all or these."""
         with h5py.File(self.output / "result.h5", "r") as file:

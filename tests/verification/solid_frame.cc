@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "fe/body/body_mass.h"
-#include "fe/dynamics/dynamic_face_lever.h"
-#include "fe/dynamics/inertial_matrices.h"
 #include "scene/scene.h"
 #include "verification/solid_run.h"
 
@@ -49,25 +46,4 @@ TEST(SolidFrame, AWebInTheMiddleIsSofterThanThePlanesSlow)
   };
   EXPECT_LT(std::abs(loss(0.)), 3e-6);
   EXPECT_GT(loss(10.), 3e-5);
-}
-
-// Cells that are alike to a nanometre share their mass.
-TEST(SolidFrame, MassAndMomentOfInertiaAreThePlanes)
-{
-  const std::pair<double, unsigned int> webs_and_elements[] = { { 0., 2 }, { 3., 1 }, { 10., 5 }, { 40., 4 } };
-  for (const auto &[web, across] : webs_and_elements)
-  {
-    Scene scene                = tilted(frame(web), across % 2 == 0 ? 0. : 1e-4);
-    scene.mesh.elements_across = across;
-    scene.mesh.degree          = 1;
-    scene.lever.inertia        = InertiaSource::as_built;
-    Mesh plane;
-    make_mesh(scene, plane);
-    const ElasticBody<2> plane_body(plane, lever_properties(scene).body);
-    const InertialMatrices expected(plane_body, lever_inertia(scene));
-    const SolidBody body(scene, plane);
-    const BodyMass<3> mass(body, lever_inertia(scene));
-    EXPECT_NEAR(mass.total_mass, expected.total_mass, 1e-10 * expected.total_mass) << web;
-    EXPECT_NEAR(mass.moment_of_inertia, expected.moment_of_inertia, 1e-10 * expected.moment_of_inertia) << web;
-  }
 }
