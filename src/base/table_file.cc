@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/table_file.h"
 
-#include "base/archive.h"
 #include "base/errors.h"
-#include "base/hdf5_handle.h"
 #include "base/ranges.h"
-#include "base/system/child_process.h"
-#include "base/system/confinement.h"
 #include "base/system/file_content.h"
+#include "base/table_hdf5.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "base/unknown.h"
@@ -18,38 +15,16 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <functional>
-#include <numeric>
 #include <optional>
 #include <sstream>
 
 namespace sprag
 {
-  SPRAG_SERIALISE(NamedColumn, name, unit, values)
-
   namespace
   {
-    using hdf5::Handle;
     using Names = std::vector<std::string>;
 
-    /// Far beyond any measurement, and short enough for memory.
-    constexpr std::size_t most_rows = 10000000;
-
     constexpr std::size_t most_mistakes = 20;
-
-    /// Indices of the requested columns; none for one that the file lacks.
-    using Chosen = std::vector<std::optional<std::size_t>>;
-    using Choose = std::function<Chosen(const std::vector<NamedColumn> &header)>;
-
-    /// The columns of a file, or what is wrong with it.
-    struct Content
-    {
-      std::vector<NamedColumn> columns;
-      Chosen chosen;
-      Names mistakes;
-    };
-
-    SPRAG_SERIALISE(Content, columns, chosen, mistakes)
 
     std::string lower(const std::string &text)
     {
@@ -132,48 +107,82 @@ namespace sprag
       return { name(slash), slash == std::string::npos ? "" : trim(cell.substr(slash + 1)), {} };
     }
 
+    /// Returns all that a comment may give as the unit of a column: units in brackets, behind "in", and at the end of a cell.
+    Names likely_units(const std::string &text, const bool is_cell)
+    {
+      Names units;
+      std::size_t begin = 0;
+      int depth         = 0;
+      for (std::size_t i = 0; i < text.size(); ++i)
+      {
+        const bool opens = text[i] == '[' || text[i] == '(', closes = text[i] == ']' || text[i] == ')';
+        if (opens && ++depth == 1)
+          begin = i + 1;
+        if (closes && --depth == 0)
+          units.push_back(trim(text.substr(begin, i - begin)));
+      }
+      const auto words = split(single_spaced(text), ' ');
+      for (std::size_t i = 1; i < words.size(); ++i)
+        if (lower(words[i - 1]) == "in")
+          units.push_back(boost::algorithm::trim_right_copy_if(words[i], boost::algorithm::is_any_of(",;.:")));
+      if (is_cell)
+        append(units, { parse_column(text).unit, text.substr(text.find_last_of(" _") + 1) });
+      return filtered(units, [](const auto &unit) { return !unit.empty() && is_unit(unit); });
+    }
+
     std::string with_points(std::string line)
     {
       std::replace(line.begin(), line.end(), ',', '.');
       return line;
     }
 
+    /// A text behind #.
+    struct Comment
+    {
+      unsigned int line;
+      std::string text;
+      bool is_alone; ///< in its line
+    };
+
     /// Reads a text line by line.
     struct TextReader
     {
       const std::string file;
-      const Choose &choose;
+      const ChooseColumns &choose;
       const bool named; ///< whether the columns must be; a cell may be empty then
       unsigned int number              = 0;
       bool has_rows                    = false;
       bool decimal_commas              = false;
       std::vector<NamedColumn> columns = {};
       std::vector<char> is_read        = {}; ///< of each column
-      Chosen chosen                    = {};
+      ChosenColumns chosen             = {};
       Names mistakes                   = {};
+      std::vector<Comment> comments    = {}; ///< before the rows, but for one that is the header
 
-      Content read()
+      TableContent read()
       {
         std::istringstream input(read_whole_file(file, largest_table));
-        std::string line, comment;
+        std::string line;
         for (number = 1; std::getline(input, line); ++number)
         {
           if (line.find('\0') != std::string::npos)
             throw InputError(file + ": is not a text in UTF-8");
           const auto hash = line.find('#');
           const auto row  = trim(line.substr(0, hash));
-          if (row.empty() && hash != std::string::npos && columns.empty())
-            comment = trim(line.substr(hash + 1));
+          if (hash != std::string::npos && !has_rows)
+            comments.push_back({ number, trim(line.substr(hash + 1)), row.empty() });
           if (row.empty())
             continue;
           auto cells = split_cells(row);
           if (!named && row.find('\t') != std::string::npos) // several of which may align two columns
             cells.erase(std::remove(cells.begin(), cells.end(), ""), cells.end());
-          if (!columns.empty() || !read_header(cells, row, comment))
+          if (!columns.empty() || !read_header(cells, row))
             read_row(cells, row);
         }
         if (mistakes.empty() && !has_rows)
           mistakes.push_back(file + (named && columns.empty() ? ": holds no columns" : ": holds no numbers"));
+        for (const auto &comment : comments)
+          add_remarks(comment);
         return { std::move(columns), std::move(chosen), std::move(mistakes) };
       }
 
@@ -183,20 +192,55 @@ namespace sprag
           mistakes.push_back(file + ":" + std::to_string(number) + ": " + rule);
       }
 
-      /// Returns whether the first line is a header. Before one that is none, a comment of as many cells with a unit in square
-      /// brackets is it, as numpy.savetxt() writes; without any there are two columns.
-      bool read_header(const Names &cells, const std::string &line, const std::string &comment)
+      void add_remarks(const Comment &comment)
       {
-        const bool is_header     = std::none_of(cells.begin(), cells.end(), is_like_number);
-        const auto comment_cells = split_cells(comment);
-        const bool commented     = !is_header && comment_cells.size() == cells.size() && comment.find('[') != std::string::npos;
-        if (!is_header && !commented && named)
+        const auto cells = split_cells(comment.text);
+        const bool fits  = cells.size() == columns.size();
+        const auto place = file + ":" + std::to_string(comment.line) + ": the comment '" + comment.text + "'";
+        for (std::size_t i = 0; i < columns.size(); ++i)
+          if (const auto units = likely_units(fits ? cells[i] : comment.text, fits); columns[i].unit.empty() && !units.empty())
+            columns[i].remarks.push_back({ place, units });
+      }
+
+      /// Returns the columns of a comment that may stand for a header above rows of this width.
+      static std::vector<NamedColumn> commented_columns(const Comment &comment, const std::size_t width)
+      {
+        const auto result = mapped(split_cells(comment.text), parse_column);
+        const auto units  = filtered(mapped(result, &NamedColumn::unit), [](const auto &unit) { return !unit.empty(); });
+        const bool named  = comment.text.find('[') != std::string::npos ||
+                           (comment.text.find(" (") != std::string::npos && std::all_of(units.begin(), units.end(), is_unit));
+        return comment.is_alone && result.size() == width && named ? result : std::vector<NamedColumn>{};
+      }
+
+      /// Takes the comment that is the header, as numpy.savetxt() writes, out of the others. Returns its text; empty without one.
+      std::string take_commented_header(const std::size_t width)
+      {
+        const auto is_header = [&](const Comment &comment) { return !commented_columns(comment, width).empty(); };
+        const auto headers   = filtered(comments, is_header);
+        const auto units = [&](const Comment &comment) { return mapped(commented_columns(comment, width), &NamedColumn::unit); };
+        for (const auto &header : headers)
+          if (units(header) != units(headers.back()))
+            throw InputError(file + ":" + std::to_string(header.line) + ": the comments '" + header.text + "' and '" +
+                             headers.back().text + "' name different units: one alone may");
+        comments.erase(std::remove_if(comments.begin(), comments.end(), is_header), comments.end());
+        if (headers.empty())
+          return {};
+        columns = commented_columns(headers.back(), width);
+        return headers.back().text;
+      }
+
+      /// Returns whether the first line is a header. Before one that is none, a comment with units may be it; without any there
+      /// are two columns.
+      bool read_header(const Names &cells, const std::string &line)
+      {
+        const bool is_header = std::none_of(cells.begin(), cells.end(), is_like_number);
+        const auto comment   = is_header ? "" : take_commented_header(cells.size());
+        if (!is_header && comment.empty() && named)
           throw InputError(file + ":" + std::to_string(number) + ": " + line +
                            ": must be the names of the columns with their units, as in 'time [s], Q [N]'");
-        if (is_header || commented)
-          for (const auto &cell : commented ? comment_cells : cells)
-            columns.push_back(parse_column(cell));
-        else
+        if (is_header)
+          columns = mapped(cells, parse_column);
+        else if (comment.empty())
           columns.resize(2);
         try
         {
@@ -205,7 +249,7 @@ namespace sprag
         catch (const InputError &error)
         {
           for (const auto &message : error.messages)
-            mistakes.push_back(file + ": the header '" + (commented ? comment : line) + "' " + message);
+            mistakes.push_back(file + ": the header '" + (comment.empty() ? line : comment) + "' " + message);
           throw InputError(mistakes);
         }
         is_read.resize(columns.size(), 0);
@@ -228,8 +272,8 @@ namespace sprag
           if (!value && !(named && is_missing(cells[i])))
             return report_cell(cells[i], line);
           columns[i].values.push_back(value.value_or(unknown));
-          if (columns[i].values.size() > most_rows)
-            throw InputError(file + ": must have at most " + std::to_string(most_rows) + " rows");
+          if (columns[i].values.size() > most_table_rows)
+            throw InputError(file + ": must have at most " + std::to_string(most_table_rows) + " rows");
         }
       }
 
@@ -263,129 +307,6 @@ namespace sprag
         decimal_commas = true;
       }
     };
-
-    bool holds_numbers(const Handle &dataset)
-    {
-      const Handle type(H5Dget_type(dataset.id()), H5Tclose);
-      const auto kind = type.id() >= 0 ? H5Tget_class(type.id()) : H5T_NO_CLASS;
-      return kind == H5T_FLOAT || kind == H5T_INTEGER;
-    }
-
-    /// Vectors of MATLAB have two dimensions, one of which is 1. None where more are above that.
-    std::optional<std::size_t> dataset_length(const Handle &dataset)
-    {
-      const Handle space(H5Dget_space(dataset.id()), H5Sclose);
-      const int dimensions = H5Sget_simple_extent_ndims(space.id());
-      if (dimensions < 1)
-        return std::nullopt;
-      std::vector<hsize_t> extents(dimensions);
-      H5Sget_simple_extent_dims(space.id(), extents.data(), nullptr);
-      if (std::count_if(extents.begin(), extents.end(), [](const hsize_t extent) { return extent > 1; }) > 1)
-        return std::nullopt;
-      return std::accumulate(extents.begin(), extents.end(), std::size_t{ 1 }, std::multiplies<>());
-    }
-
-    void read_dataset(const Handle &group, const std::string &path, NamedColumn &column)
-    {
-      const std::string what = path + ": dataset '" + column.name + "': ";
-      const Handle dataset(H5Dopen2(group.id(), column.name.c_str(), H5P_DEFAULT), H5Dclose);
-      if (dataset.id() < 0)
-        throw InputError(what + "is none");
-      const auto rows = dataset_length(dataset);
-      if (!rows)
-        throw InputError(what + "must have one dimension, or one above 1");
-      const Handle storage(H5Dget_create_plist(dataset.id()), H5Pclose);
-      if (H5Pget_layout(storage.id()) == H5D_VIRTUAL || H5Pget_external_count(storage.id()) > 0)
-        throw InputError(what + "must lie in this file, not in another");
-      if (!holds_numbers(dataset))
-        throw InputError(what + "must hold numbers");
-      if (*rows > most_rows)
-        throw InputError(what + "has " + std::to_string(*rows) + " numbers: must have at most " + std::to_string(most_rows));
-      column.values.resize(*rows);
-      if (*rows > 0 && H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, column.values.data()) < 0)
-        throw InputError(what + "cannot be read");
-      for (const auto &attribute : hdf5::attribute_names(dataset))
-        if (lower(attribute) == "unit" || lower(attribute) == "units")
-        {
-          const auto unit = hdf5::text_attribute(dataset, attribute);
-          if (!unit)
-            throw InputError(what + "its attribute '" + attribute + "' must be a text");
-          column.unit = column.unit.empty() ? *unit : column.unit;
-        }
-    }
-
-    Content read_open_hdf5(const std::string &path, const Choose &choose)
-    {
-      hdf5::silence();
-      const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-      // Disks that are read-only or without locks are as good as others.
-      H5Pset_file_locking(access.id(), false, true);
-      const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
-      if (file.id() < 0)
-        return { {}, {}, { path + ": cannot be read as HDF5" } };
-      H5O_info_t info;
-      const bool grouped = H5Lexists(file.id(), "table", H5P_DEFAULT) > 0 &&
-                           H5Oget_info_by_name(file.id(), "table", &info, H5P_DEFAULT) >= 0 && info.type == H5O_TYPE_GROUP;
-      const Handle table(H5Gopen2(file.id(), grouped ? "table" : "/", H5P_DEFAULT), H5Gclose);
-      Content content;
-      auto &[columns, chosen, mistakes] = content;
-      for (const auto &name : hdf5::names_in(table))
-        columns.push_back({ name, "", {} });
-      try
-      {
-        chosen = choose(columns);
-      }
-      catch (const InputError &error)
-      {
-        for (const auto &message : error.messages)
-          mistakes.push_back(path + ": " + message);
-      }
-      const NamedColumn *first = nullptr;
-      for (const auto &index : chosen)
-        try
-        {
-          if (!index)
-            continue;
-          NamedColumn &column = columns[*index];
-          read_dataset(table, path, column);
-          if (first != nullptr && column.values.size() != first->values.size())
-            throw InputError(path + ": dataset '" + column.name + "': must be as long as '" + first->name + "'");
-          first = &column;
-        }
-        catch (const InputError &error)
-        {
-          mistakes.push_back(error.what());
-        }
-      return content;
-    }
-
-    /// Limits of time [s] and memory [bytes] for HDF5, which may never end on a damaged file.
-    constexpr double file_timeout     = 20.;
-    constexpr std::size_t file_memory = std::size_t(1) << 30;
-
-    /// Reads the file in a process without rights, as it may crash the library or name other files.
-    Content read_hdf5(const std::string &path, const Choose &choose)
-    {
-      if (const auto reason = reason_unreadable(path, largest_table); !reason.empty())
-        throw InputError(path + ": " + reason);
-      const auto bytes = std::filesystem::file_size(path);
-      const auto work  = [&]
-      {
-        limit_growth(file_memory + 20 * bytes);
-        confine({ path });
-        auto content = read_open_hdf5(path, choose);
-        Archive archive;
-        archive(content);
-        return archive.bytes();
-      };
-      const auto answer = in_child_process(work, file_timeout + 1e-7 * static_cast<double>(bytes));
-      if (!answer.failure.empty())
-        throw InputError(path + ": HDF5 " + answer.failure + " on it: the file is damaged");
-      Content content;
-      Archive archive(answer.text);
-      archive(content);
-      return content;
-    }
 
     /// The columns whose names satisfy `is_named`.
     template <class Condition>
@@ -430,10 +351,10 @@ namespace sprag
       return found.empty() ? std::nullopt : std::make_optional(found.front());
     }
 
-    Chosen choose_two(const std::vector<NamedColumn> &header, const ColumnNames &first, const ColumnNames &second,
-                      const bool is_ordered)
+    ChosenColumns choose_two(const std::vector<NamedColumn> &header, const ColumnNames &first, const ColumnNames &second,
+                             const bool is_ordered)
     {
-      Chosen found;
+      ChosenColumns found;
       for (const auto &[names, other] : { std::tie(first, second), std::tie(second, first) })
       {
         found.push_back(column_called(header, names));
@@ -463,9 +384,9 @@ namespace sprag
       return ending == ".h5" || ending == ".hdf5";
     }
 
-    NamedColumns read_table(const std::string &file, const Choose &choose, const bool named)
+    NamedColumns read_table(const std::string &file, const ChooseColumns &choose, const bool named)
     {
-      auto [columns, chosen, mistakes] = is_hdf5(file) ? read_hdf5(file, choose) : TextReader{ file, choose, named }.read();
+      auto [columns, chosen, mistakes] = is_hdf5(file) ? read_hdf5_table(file, choose) : TextReader{ file, choose, named }.read();
       if (!mistakes.empty())
         throw InputError(mistakes);
       NamedColumns table;
@@ -480,19 +401,33 @@ namespace sprag
       return table;
     }
 
-    /// The last word of a name without unit where the numbers would change if it was theirs, as in "x_m" or "Weg in m".
-    std::string unit_in_name(const std::string &unit, const NamedColumn &column)
+    /// Returns whether numbers would change if this was their unit, which a word of another kind is not.
+    bool changes_numbers(const std::string &word, const std::string &unit)
     {
-      const auto before = column.unit.empty() ? column.name.find_last_of(" _") : std::string::npos;
       try
       {
-        const auto word = before == std::string::npos ? "" : column.name.substr(before + 1);
-        return word.empty() || unit_factor(word, unit) == 1. ? "" : word;
+        return !word.empty() && unit_factor(word, unit) != 1.;
       }
       catch (const InputError &)
       {
-        return {}; // a word of another kind
+        return false;
       }
+    }
+
+    /// Throws where the name of a column without unit, as "x_m" or "Weg in m", or a comment above it may tell another.
+    void need_no_other_unit(const std::string &unit, const NamedColumn &column)
+    {
+      const auto before = column.name.find_last_of(" _");
+      const auto word   = before == std::string::npos ? "" : column.name.substr(before + 1);
+      if (changes_numbers(word, unit))
+        throw InputError("column '" + column.name + "': '" + word + "' may be its unit: must be in brackets, as '[" + word +
+                         "]', or not there");
+      for (const auto &remark : column.remarks)
+        for (const auto &likely : remark.likely_units)
+          if (changes_numbers(likely, unit))
+            throw InputError(remark.place + " may tell the unit '" + likely + "', and the column '" + column.name +
+                             "' has none: write a first line as '" + column.name + " [" + likely + "], ...', with [" +
+                             (unit.empty() ? "-" : unit) + "] where the comment means something else");
     }
   } // namespace
 
@@ -506,10 +441,13 @@ namespace sprag
   NamedColumns read_two_columns(const std::string &file, const ColumnNames &first, const ColumnNames &second)
   {
     const bool is_ordered = !is_hdf5(file);
-    const auto table      = read_table(
-             file, [&](const auto &header) { return choose_two(header, first, second, is_ordered); }, false);
-    for (const auto &column : table.columns)
+    auto table            = read_table(
+                   file, [&](const auto &header) { return choose_two(header, first, second, is_ordered); }, false);
+    for (std::size_t place = 0; place < 2; ++place)
     {
+      auto &column = table.columns[place];
+      if (column.name.empty())
+        column.name = (place == 0 ? first : second).front();
       if (column.values.empty())
         throw InputError(file + ": holds no numbers");
       for (std::size_t i = 0; i < column.values.size(); ++i)
@@ -521,9 +459,8 @@ namespace sprag
 
   double factor_to(const std::string &unit, const NamedColumn &column)
   {
-    if (const auto likely = unit_in_name(unit, column); !likely.empty())
-      throw InputError("column '" + column.name + "': '" + likely + "' may be its unit: must be in brackets, as '[" + likely +
-                       "]', or not there");
+    if (column.unit.empty())
+      need_no_other_unit(unit, column);
     try
     {
       return column.unit.empty() ? 1. : unit_factor(column.unit, unit);

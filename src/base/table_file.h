@@ -6,12 +6,20 @@
 
 namespace sprag
 {
+  /// Holds a comment above the rows of a table that may tell the unit of a column.
+  struct UnitRemark
+  {
+    std::string place; ///< "FILE:LINE: the comment 'TEXT'"
+    std::vector<std::string> likely_units;
+  };
+
   /// Holds a column of a table file.
   struct NamedColumn
   {
     std::string name;
     std::string unit; ///< as it was written; empty: none
     std::vector<double> values;
+    std::vector<UnitRemark> remarks = {};
   };
 
   /// A column may be called any of these; capitals do not count. Messages name the first one.
@@ -27,10 +35,11 @@ namespace sprag
 
   // Tables are texts, or HDF5 where the file's name ends in .h5 or .hdf5. Cells of a text are separated by semicolons, tabs,
   // commas or other white space; a byte-order mark, empty lines and everything behind a # are passed over. A first line without
-  // any number is a header: names with units in brackets, as in "time [s], Q [N]". Of HDF5 columns are datasets at the root, or
-  // in a group `table` where there is one, with at most one dimension above 1 and the unit in the attribute `unit` or `units`.
-  // All functions throw InputError with one message a faulty line or column, naming the file; decimal commas are told once. HDF5
-  // prints nothing.
+  // any number is a header: names with units in brackets, as in "time [s], Q [N]"; so is a comment of as many cells before the
+  // rows. Another comment there that may name a unit is refused where it would change a column without unit. Of HDF5 columns are
+  // datasets at the root, or in a group `table` where there is one, with at most one dimension above 1 and the unit in the
+  // attribute `unit` or `units`. All functions throw InputError with one message a faulty line or column, naming the file;
+  // decimal commas are told once. HDF5 prints nothing.
 
   /// Reads the columns of these names. A text must have a header; an empty cell is NaN.
   NamedColumns read_columns(const std::string &file, const std::vector<ColumnNames> &requested);

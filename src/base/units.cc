@@ -68,6 +68,11 @@ namespace sprag
     }
   } // namespace
 
+  bool is_unit(const std::string &text)
+  {
+    return parsed(text) != nullptr;
+  }
+
   double unit_factor(const std::string &from, const std::string &to)
   {
     if (from == to)

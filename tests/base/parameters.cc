@@ -329,8 +329,10 @@ TEST(Csv, ColumnsAreFoundByNameInTheirUnits)
                                              "\"Friction coefficient\"; \"sliding speed (mm/s)\"",
                                              "mu\tv/(km/h)",
                                              "# mu [1] speed [m/s]",
-                                             "mu speed [m/s]" };
-  const std::vector<double> speeds       = { 1000., 10., 1., 1e6 / 3600., 1000., 1000. };
+                                             "mu speed [m/s]",
+                                             "# mu, speed (m/s)\n# measured today",
+                                             "# in the lab\n# mu (1); speed (m/s)\n#----" };
+  const std::vector<double> speeds       = { 1000., 10., 1., 1e6 / 3600., 1000., 1000., 1000., 1000. };
   for (std::size_t i = 0; i < headers.size(); ++i)
   {
     const auto columns = friction_columns(headers[i] + "\n0.3 0\n0.5 1\n");
@@ -370,6 +372,38 @@ TEST(Csv, ColumnsThatAreNotClearAreRefused)
   EXPECT_EQ(said("speed_knot, mu\n1, 2\n"),
             "column 'speed_knot': 'knot' may be its unit: must be in brackets, as '[knot]', or not there");
   EXPECT_EQ(said("speed_mean, mu_k\n1, 2\n"), "");
+}
+
+// Such comments would be passed over beside numbers 1000 times as large.
+TEST(Csv, AUnitInACommentIsReadOrRefused)
+{
+  const auto said = [](const std::string &header)
+  {
+    try
+    {
+      const auto columns = friction_columns(header + "\n0, 1\n0.5, 1\n");
+      values_in("mm/s", columns[0]);
+      values_in("", columns[1]);
+      return std::string();
+    }
+    catch (const InputError &error)
+    {
+      const std::string what = error.what();
+      return what.find("mu.csv") == std::string::npos ? what : what.substr(what.find("mu.csv"));
+    }
+  };
+  EXPECT_EQ(said("speed, mu\n# [m/s], [-]"),
+            "mu.csv:2: the comment '[m/s], [-]' may tell the unit 'm/s', and the column 'speed' has none: write a first line as "
+            "'speed [m/s], ...', with [mm/s] where the comment means something else");
+  EXPECT_EQ(said("# v (m/s), mu\n# v (cm/s), mu"),
+            "mu.csv:1: the comments 'v (m/s), mu' and 'v (cm/s), mu' name different units: one alone may");
+  for (const std::string header :
+       { "# speed in m/s, mu", "# speeds in m/s.", "# speed_m/s, mu", "# speed m/s, mu", "# m/s, 1", "# v/(m/s), mu",
+         "# v/km/h, mu", "# a lab, a day: all speeds [m/s]", "speed, mu # m/s, -", "speed, mu\n# rows of v (m/s) and mu" })
+    EXPECT_NE(said(header), "") << header;
+  for (const std::string header :
+       { "# speed in mm/s, mu", "# in the lab, on 3/4", "# s, mu", "# in m/s\nspeed [mm/s], mu", "# v, mu(v)" })
+    EXPECT_EQ(said(header), "") << header;
 }
 
 // A first row taken for a header would leave a table without its friction at rest.
