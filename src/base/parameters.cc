@@ -431,12 +431,28 @@ namespace sprag
     if (rule.kind == Rule::Kind::numbers)
     {
       const auto specified = split(value, ',');
-      const auto parts     = mapped(specified, [&](const auto &part) { return without_unit(rule, part); });
-      kept                 = parts == specified ? value : boost::algorithm::join(parts, ", ");
+      const auto parts = mapped(with_common_unit(rule, specified), [&](const auto &part) { return without_unit(rule, part); });
+      kept             = parts == specified ? value : boost::algorithm::join(parts, ", ");
     }
     if (const auto broken = violation(rule, kept))
       throw InputError(*broken);
     return kept;
+  }
+
+  std::vector<std::string> with_common_unit(const Rule &rule, const std::vector<std::string> &numbers)
+  {
+    std::set<std::string> units;
+    std::string last;
+    for (const auto &text : numbers)
+      if (const auto number = leading_number(text); number && (number->rest.empty() || begins_as_unit(number->rest)))
+        units.insert(last = number->rest);
+    if (units.size() < 2 || units.count("") == 0)
+      return numbers;
+    if (last.empty() || units.size() > 2 || rule.unit.empty())
+      throw InputError("has numbers with and without unit: " +
+                       std::string(rule.unit.empty() ? "each must have one, or none"
+                                                     : "each must have one, or the last alone, whose unit is that of all"));
+    return mapped(numbers, [&](const auto &text) { return number_alone(text) ? text + ' ' + last : text; });
   }
 
   std::vector<double> parse_numbers(const std::string &value)

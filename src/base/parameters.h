@@ -83,6 +83,11 @@ namespace sprag
   /// value must be.
   std::string kept_value(const Rule &rule, const std::string &value);
 
+  /// Returns the numbers of a group, those without unit with that of the last. Other texts stay. Throws InputError where the unit
+  /// that is meant is not clear: where an earlier number has another one, or the last one none. Without dimension, where a number
+  /// alone is complete, each or none must have a unit.
+  std::vector<std::string> with_common_unit(const Rule &rule, const std::vector<std::string> &numbers);
+
   /// Reads the numbers of a comma-separated list that keeps its rule.
   std::vector<double> parse_numbers(const std::string &value);
 

@@ -10,6 +10,8 @@
 #include "scene/design.h"
 #include "scene/scene.h"
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -69,19 +71,28 @@ namespace sprag
         check_models();
       }
 
-      /// Returns a number converted to `unit`; NaN if the text is no number. Reports a unit that does not fit and returns none.
-      std::optional<double> number_in(const std::string &unit, const std::string &text, const std::string &what) const
+      /// Returns numbers of a group converted to `unit`; NaN for a text that is no number. Reports a unit that does not fit and
+      /// returns none.
+      std::optional<std::vector<double>> numbers_in(const std::string &unit, const std::vector<std::string> &texts,
+                                                    const std::string &what) const
       {
         Rule rule;
-        rule.kind = Rule::Kind::number;
-        rule.unit = unit == "1" ? "" : unit;
+        rule.kind          = Rule::Kind::number;
+        rule.unit          = unit == "1" ? "" : unit;
+        std::string number = boost::algorithm::join(texts, " and ");
         try
         {
-          return leading_number(text) ? leading_number(kept_value(rule, text))->value : unknown;
+          std::vector<double> result;
+          for (const auto &text : with_common_unit(rule, texts))
+          {
+            number = text;
+            result.push_back(leading_number(text) ? leading_number(kept_value(rule, text))->value : unknown);
+          }
+          return result;
         }
         catch (const InputError &error)
         {
-          mistake("'" + what + "': " + text + ' ' + error.what());
+          mistake("'" + what + "': " + number + ' ' + error.what());
           return {};
         }
       }
@@ -102,18 +113,19 @@ namespace sprag
         const Parameter *parameter = free_parameter(name);
         if (parameter == nullptr)
           return;
-        const auto from = number_in(parameter->rule.unit, trim(part.substr(equals + 1, dots - equals - 1)), name);
-        const auto to   = number_in(parameter->rule.unit, trim(part.substr(dots + 3)), name);
-        if (!from || !to)
+        const auto bound = numbers_in(parameter->rule.unit,
+                                      { trim(part.substr(equals + 1, dots - equals - 1)), trim(part.substr(dots + 3)) }, name);
+        if (!bound)
           return;
-        if (std::isnan(*from) || std::isnan(*to))
+        const double from = bound->at(0), to = bound->at(1);
+        if (std::isnan(from) || std::isnan(to))
           return mistake("'" + part + "' must have the form Section/Name = FROM ... TO");
-        for (const double value : { *from, *to })
+        for (const double value : { from, to })
           if (const auto broken = violation(parameter->rule, number_text(value)))
             return mistake(name + " = " + number_text(value) + " " + *broken);
-        if (!(*from < *to))
+        if (!(from < to))
           return mistake(name + " must have bounds of which the second is larger");
-        bounds.push_back({ name, *from, *to, parameter->rule.unit.empty() ? "1" : parameter->rule.unit });
+        bounds.push_back({ name, from, to, parameter->rule.unit.empty() ? "1" : parameter->rule.unit });
       }
 
       const Parameter *free_parameter(const std::string &name) const
@@ -165,15 +177,16 @@ namespace sprag
         const auto &free = settings.free_parameters;
         const auto &unit =
             term->quantity == DesignQuantity::parameter ? free[term->parameter].unit : design_quantity_info(term->quantity).unit;
-        const auto target = number_in(unit, trim(right.substr(0, within)), text);
-        const auto margin = number_in(unit, within == std::string::npos ? "" : trim(right.substr(within + 2)), text);
-        if (!target || !margin)
+        const auto numbers = numbers_in(
+            unit, { trim(right.substr(0, within)), within == std::string::npos ? "" : trim(right.substr(within + 2)) }, text);
+        if (!numbers)
           return;
-        if (std::isnan(*target) || (is_equal ? !(*margin > 0.) : within != std::string::npos))
+        const double target = numbers->at(0), margin = numbers->at(1);
+        if (std::isnan(target) || (is_equal ? !(margin > 0.) : within != std::string::npos))
           return mistake("'" + text + "' must have " +
                          (is_equal ? "a value and a tolerance > 0 behind =: VALUE +- TOLERANCE" : "a single number at its end"));
         const auto kind = is_equal ? DemandKind::equal : text[sign] == '<' ? DemandKind::at_most : DemandKind::at_least;
-        settings.demanded.push_back({ *term, kind, *target, is_equal ? *margin : 0., text });
+        settings.demanded.push_back({ *term, kind, target, is_equal ? margin : 0., text });
       }
 
       void read_aim(const std::string &text)

@@ -93,10 +93,10 @@ namespace sprag
           ++second;
         if (second == words.size())
           continue;
-        const auto own = [&](const std::size_t begin, const std::size_t end)
-        { return number_text(in_own_unit(declared, *parameter, joined_words(words, begin, end), look_up)); };
-        const auto from = own(name_end, second), to = own(second, words.size());
-        entries.back() = full_name(*parameter) + ' ' + from + ' ' + to;
+        const auto ends = with_common_unit(parameter->rule,
+                                           { joined_words(words, name_end, second), joined_words(words, second, words.size()) });
+        const auto own  = [&](const std::string &end) { return number_text(in_own_unit(declared, *parameter, end, look_up)); };
+        entries.back()  = full_name(*parameter) + ' ' + own(ends[0]) + ' ' + own(ends[1]);
       }
     }
     return boost::algorithm::join(entries, "; ");

@@ -30,16 +30,55 @@ namespace sprag
       return number && !number->rest.empty() ? number_alone(kept_value(rule, text)) : number_alone(text);
     }
 
-    /// The values of FIRST ... LAST : NUMBER [log]; none where the text is another. Throws InputError where a unit does not fit.
-    std::vector<std::string> range_values(const Rule &rule, const std::string &text)
+    /// FIRST ... LAST : NUMBER [log]
+    struct RangeText
+    {
+      std::string first, last, count;
+    };
+
+    /// None where a colon is missing.
+    std::optional<RangeText> split_range(const std::string &text)
     {
       const auto middle = text.find(dots);
       const auto colon  = text.find(':', middle);
-      if (colon == std::string::npos)
+      if (middle == std::string::npos || colon == std::string::npos)
+        return std::nullopt;
+      const auto behind = middle + dots.size();
+      return RangeText{ trim(text.substr(0, middle)), trim(text.substr(behind, colon - behind)), trim(text.substr(colon + 1)) };
+    }
+
+    /// The items of a list with the unit that stands on the last number; ends of ranges are numbers of it.
+    std::vector<std::string> items_with_units(const Rule &rule, const std::vector<std::string> &items)
+    {
+      std::vector<std::string> numbers;
+      for (const auto &item : items)
+        if (const auto range = split_range(item))
+          append(numbers, { range->first, range->last });
+        else
+          numbers.push_back(item);
+      numbers = with_common_unit(rule, numbers);
+      std::vector<std::string> result;
+      auto number = numbers.begin();
+      for (const auto &item : items)
+        if (const auto range = split_range(item))
+        {
+          const auto &first = *number++, &last = *number++;
+          result.push_back(first == range->first && last == range->last ? item : first + " ... " + last + " : " + range->count);
+        }
+        else
+          result.push_back(*number++);
+      return result;
+    }
+
+    /// The values of a range; none where the text is another. Throws InputError where a unit does not fit.
+    std::vector<std::string> range_values(const Rule &rule, const std::string &text)
+    {
+      const auto range = split_range(text);
+      if (!range)
         return {};
-      const auto first = number_in_unit(rule, trim(text.substr(0, middle)));
-      const auto last  = number_in_unit(rule, trim(text.substr(middle + dots.size(), colon - middle - dots.size())));
-      const auto count = leading_number(trim(text.substr(colon + 1)));
+      const auto first = number_in_unit(rule, range->first);
+      const auto last  = number_in_unit(rule, range->last);
+      const auto count = leading_number(range->count);
       if (!first || !last || !count || (!count->rest.empty() && count->rest != "log"))
         return {};
       const bool by_ratio = count->rest == "log";
@@ -136,12 +175,27 @@ namespace sprag
       void take(const Parameter &parameter, const std::string &text)
       {
         VariedParameter varied{ full_name(parameter), {} };
-        for (const auto &item : lists ? split_all(text, ',') : std::vector<std::string>{ text })
+        for (const auto &item : lists ? list_items(text, parameter) : std::vector<std::string>{ text })
           if (lists && is_number(parameter.rule) && item.find(dots) != std::string::npos)
             take_range(item, parameter, varied);
           else
             take_value(item, parameter, varied);
         result.parameters.push_back(varied);
+      }
+
+      /// Empty after a mistake.
+      std::vector<std::string> list_items(const std::string &text, const Parameter &parameter)
+      {
+        const auto items = split_all(text, ',');
+        try
+        {
+          return is_number(parameter.rule) ? items_with_units(parameter.rule, items) : items;
+        }
+        catch (const InputError &broken)
+        {
+          mistake(full_name(parameter) + " = " + text + " " + broken.what());
+          return {};
+        }
       }
 
       void take_range(const std::string &item, const Parameter &parameter, VariedParameter &varied)

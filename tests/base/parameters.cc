@@ -116,7 +116,7 @@ TEST(Parameters, NumbersMayHaveUnitsThatAreConverted)
 {
   const auto settings = read("subsection Geometry\n set Cylinder radius = 5.6 cm\n set Pivot height = -1 in\nend\n"
                              "subsection Friction\n set Coefficient = 73%\nend\n"
-                             "subsection Mesh\n set Penalty = 2 GPa/m\n set Ratios = 5 %, 0.1\nend\n");
+                             "subsection Mesh\n set Penalty = 2 GPa/m\n set Ratios = 5 %, 10 %\nend\n");
   EXPECT_TRUE(settings.mistakes.empty()) << settings.mistakes[0];
   const auto values = to_values(settings.specified);
   EXPECT_EQ(values.at("Geometry/Cylinder radius"), "56");
@@ -129,6 +129,21 @@ TEST(Parameters, NumbersMayHaveUnitsThatAreConverted)
   const auto text = parameters_text(declared(), values, { { "Geometry/Cylinder radius", "5.6 cm" } });
   EXPECT_NE(text.find("set Cylinder radius = 56    # given as 5.6 cm\n"), std::string::npos) << text;
   EXPECT_EQ(to_values(read(text).specified).at("Geometry/Cylinder radius"), "56");
+}
+
+TEST(Parameters, AUnitBehindTheLastNumberIsThatOfAll)
+{
+  const auto common = [](const Messages &numbers) { return with_common_unit(number(any_number(), "mm"), numbers); };
+  EXPECT_EQ(common({ "1", "3 cm" }), (Messages{ "1 cm", "3 cm" }));
+  EXPECT_EQ(common({ "1", "auto", "2 cm", "3 cm" }), (Messages{ "1 cm", "auto", "2 cm", "3 cm" }));
+  EXPECT_EQ(common({ "1", "2" }), (Messages{ "1", "2" }));
+  EXPECT_EQ(common({ "1 cm", "2 mm" }), (Messages{ "1 cm", "2 mm" }));
+  for (const Messages &unclear : { Messages{ "1 cm", "3" }, { "1 mm", "3", "5 cm" } })
+    EXPECT_THROW(common(unclear), InputError);
+  // 1 is a number of its own: 1 +- 25 % are not 0.01 +- 0.25.
+  EXPECT_THROW(with_common_unit(number(any_number()), { "1", "25 %" }), InputError);
+  EXPECT_EQ(mistakes("subsection Mesh\n set Ratios = 5 %, 0.1\nend\n").at(0),
+            "scene.prm:2: Mesh/Ratios = 5 %, 0.1: has numbers with and without unit: each must have one, or none");
 }
 
 TEST(Parameters, UnitsOfAnotherDimensionAreRefused)

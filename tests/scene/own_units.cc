@@ -65,7 +65,7 @@ TEST(OwnUnits, EndsOfASearchHaveThatOfItsParameter)
     return critical_searches(make_scene({ "Analysis/Type=stability", "Analysis/Model=beam", "Stability/Critical=" + text }))
         .value();
   };
-  const auto found = searches("Rotational spring/Stiffness 10 N m/rad 2e5; Lever/Depth 3mm 2.5 cm; Friction/Factor 50 % 2");
+  const auto found = searches("Rotational spring/Stiffness 10 200 N m/rad; Lever/Depth 3mm 2.5 cm; Friction/Factor 50 % 200 %");
   ASSERT_EQ(found.size(), 3u);
   EXPECT_EQ(found[0].name, "Rotational spring/Stiffness");
   EXPECT_DOUBLE_EQ(found[0].from, 1e4);
@@ -73,16 +73,17 @@ TEST(OwnUnits, EndsOfASearchHaveThatOfItsParameter)
   EXPECT_DOUBLE_EQ(found[1].from, 3.);
   EXPECT_DOUBLE_EQ(found[1].to, 25.);
   EXPECT_DOUBLE_EQ(found[2].from, 0.5);
-  for (const std::string wrong : { "Lever/Depth 3 N 20 mm", "Lever/Depth 3 mm", "Lever/Depth mm 3 20" })
+  for (const std::string wrong :
+       { "Lever/Depth 3 N 20 mm", "Lever/Depth 3 mm", "Lever/Depth mm 3 20", "Lever/Depth 3 mm 20", "Friction/Factor 0.5 200 %" })
     EXPECT_EQ(find_mistakes({ "Analysis/Type=stability", "Analysis/Model=beam", "Stability/Critical=" + wrong }).size(), 1u)
         << wrong;
 }
 
 TEST(OwnUnits, BoundsAndDemandsOfADesignHaveThoseOfTheirQuantities)
 {
-  const auto scene = make_scene({ "Analysis/Type=design", "Design/Free=Rotational spring/Stiffness = 10 N m/rad ... 200 N m/rad",
-                                  "Design/Demands=damping slope = 0.1 kN/m +- 1 N/m; Rotational spring/Stiffness <= 0.1 kN m/rad",
-                                  "Design/Aim=minimise largest force" });
+  const auto scene   = make_scene({ "Analysis/Type=design", "Design/Free=Rotational spring/Stiffness = 10 ... 200 N m/rad",
+                                    "Design/Demands=damping slope = 0.1 kN/m +- 1 N/m; Rotational spring/Stiffness <= 0.1 kN m/rad",
+                                    "Design/Aim=minimise largest force" });
   const auto &design = scene.design;
   ASSERT_EQ(design.free_parameters.size(), 1u);
   EXPECT_DOUBLE_EQ(design.free_parameters[0].from, 1e4);
@@ -91,7 +92,16 @@ TEST(OwnUnits, BoundsAndDemandsOfADesignHaveThoseOfTheirQuantities)
   EXPECT_DOUBLE_EQ(design.demanded[0].target, 0.1);
   EXPECT_DOUBLE_EQ(design.demanded[0].tolerance, 1e-3);
   EXPECT_DOUBLE_EQ(design.demanded[1].target, 1e5);
-  expect_message({ "Analysis/Type=design", "Design/Demands=damping slope = 0.1 MPa +- 1" },
-                 "--set: Design/Demands = damping slope = 0.1 MPa +- 1: 'damping slope = 0.1 MPa +- 1': 0.1 MPa must be a number "
-                 "[N/mm]: 'MPa' has");
+  const auto narrow = make_scene({ "Analysis/Type=design", "Design/Demands=damping slope = 80 +- 1 N/m" });
+  EXPECT_DOUBLE_EQ(narrow.design.demanded[0].target, 0.08);
+  expect_message({ "Analysis/Type=design", "Design/Demands=damping slope = 80 N/m +- 1" },
+                 "--set: Design/Demands = damping slope = 80 N/m +- 1: 'damping slope = 80 N/m +- 1': 80 N/m and 1 has numbers");
+  expect_message({ "Analysis/Type=design", "Design/Demands=slope ratio = 1 +- 25 %" },
+                 "--set: Design/Demands = slope ratio = 1 +- 25 %: 'slope ratio = 1 +- 25 %': 1 and 25 % has numbers");
+  expect_message({ "Analysis/Type=design", "Design/Free=Lever/Depth = 1 cm ... 25" },
+                 "--set: Design/Free = Lever/Depth = 1 cm ... 25: 'Lever/Depth': 1 cm and 25 has numbers");
+  expect_message(
+      { "Analysis/Type=design", "Design/Demands=damping slope = 0.1 MPa +- 1 MPa" },
+      "--set: Design/Demands = damping slope = 0.1 MPa +- 1 MPa: 'damping slope = 0.1 MPa +- 1 MPa': 0.1 MPa must be a number "
+      "[N/mm]: 'MPa' has");
 }

@@ -87,13 +87,23 @@ TEST(Variation, OfAReference)
   EXPECT_EQ(scene.study.reference_values[1].values, (Messages{ "105, 135" }));
   expect_wrong("Study/Reference=Mesh/Face size = 1, 2",
                { "Mesh/Face size = 1, 2 must be auto or a number > 0 and nothing else" });
-  const auto metres = make_scene({ "Analysis/Type=study", "Study/Vary=Lever/Depth = 1 cm, 20" });
-  EXPECT_EQ(metres.study.varied[0].values, (Messages{ "10", "20" }));
-  const auto range = make_scene({ "Analysis/Type=study", "Study/Vary=Lever/Depth = 1 cm ... 20 : 3" });
-  EXPECT_EQ(range.study.varied[0].values, (Messages{ "10", "15", "20" }));
-  expect_wrong("Study/Vary=Lever/Depth = 1 N ... 2 : 3", { "Lever/Depth = 1 N ... 2 : 3 must be a number > 0 [mm]: 'N' has the "
-                                                           "dimension m.kg.s-2, mm has the dimension m" });
+  expect_wrong("Study/Vary=Lever/Depth = 1 N ... 2 N : 3",
+               { "Lever/Depth = 1 N ... 2 N : 3 must be a number > 0 [mm]: 'N' has the "
+                 "dimension m.kg.s-2, mm has the dimension m" });
   EXPECT_EQ(find_mistakes({ "Analysis/Type=study", "Study/Type=slope", "Study/Reference=Lever/Depth = 1" }).size(), 1u);
+}
+
+TEST(Variation, AUnitBehindTheLastNumberIsThatOfAll)
+{
+  EXPECT_EQ(values("Lever/Depth = 1 cm, 20 mm"), (Messages{ "10", "20" }));
+  EXPECT_EQ(values("Lever/Depth = 1, 2 cm"), (Messages{ "10", "20" }));
+  EXPECT_EQ(values("Lever/Depth = 1 ... 2 cm : 3"), (Messages{ "10", "15", "20" }));
+  EXPECT_EQ(values("Lever/Depth = 1 ... 2 : 3, 3 cm"), (Messages{ "10", "15", "20", "30" }));
+  EXPECT_EQ(values("Mesh/Face size = 1, 2 cm, auto"), (Messages{ "10", "20", "auto" }));
+  for (const std::string list : { "1 cm, 20", "1 cm ... 20 : 3", "1 mm, 2, 3 cm" })
+    expect_wrong("Study/Vary=Lever/Depth = " + list,
+                 { "Lever/Depth = " + list +
+                   " has numbers with and without unit: each must have one, or the last alone, whose unit is that of all" });
 }
 
 TEST(Variation, ItsOwnSceneIsNotChecked)
