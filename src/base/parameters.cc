@@ -48,8 +48,8 @@ namespace sprag
     std::optional<std::string> number_violation(const Rule &rule, const std::string &value)
     {
       const auto number = leading_number(value);
-      if (const auto match = with_decimal_point(value); match && rule.kind != Rule::Kind::integer)
-        return "must be " + description(rule) + " with a decimal point: did you mean '" + *match + "'?";
+      if (const auto comma = comma_rule(value); comma && rule.kind != Rule::Kind::integer)
+        return "must be " + description(rule) + ' ' + *comma;
       if (number && !number->rest.empty())
         return "must be " + description(rule) + " and nothing else";
       const bool whole = rule.kind != Rule::Kind::integer || (number && number->value == std::floor(number->value));
@@ -68,7 +68,7 @@ namespace sprag
     std::string without_unit(const Rule &rule, const std::string &value)
     {
       const auto number = leading_number(value);
-      if (!number || !begins_as_unit(number->rest) || with_decimal_point(value))
+      if (!number || !begins_as_unit(number->rest))
         return value;
       if (number->rest == rule.unit)
         return number_text(number->value);
@@ -425,7 +425,7 @@ namespace sprag
   std::string kept_value(const Rule &rule, const std::string &value)
   {
     const auto number = leading_number(value);
-    if (is_number(rule) && depends_on_others(rule) && number && begins_as_unit(number->rest) && !with_decimal_point(value))
+    if (is_number(rule) && depends_on_others(rule) && number && begins_as_unit(number->rest))
       return value;
     std::string kept = is_number(rule) ? without_unit(rule, value) : value;
     if (rule.kind == Rule::Kind::numbers)

@@ -294,7 +294,7 @@ namespace sprag
 
       void report_cell(const std::string &cell, const std::string &line)
       {
-        if (with_decimal_point(cell))
+        if (comma_rule(cell))
           report_decimal_comma(line);
         else
           mistake(named ? cell + ": must be a number" : row_rule(line));
@@ -303,7 +303,8 @@ namespace sprag
       void report_decimal_comma(const std::string &line)
       {
         if (!decimal_commas)
-          mistake(line + ": numbers need a decimal point: " + with_points(line));
+          mistake(line + ": numbers need a decimal point" +
+                  (may_separate_thousands(line) ? " and no separator of thousands" : ": " + with_points(line)));
         decimal_commas = true;
       }
     };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/text.h"
 
+#include "base/pattern.h"
+
 #include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/split.hpp>
@@ -126,17 +128,21 @@ namespace sprag
     return number && number->rest.empty() ? std::make_optional(number->value) : std::nullopt;
   }
 
-  std::optional<std::string> with_decimal_point(const std::string &text)
+  bool may_separate_thousands(const std::string &text)
   {
-    const auto whole   = leading_number(text);
-    const auto is_part = [](const std::string &rest)
-    { return rest.size() > 1 && rest[0] == ',' && std::isdigit(static_cast<unsigned char>(rest[1])); };
-    if (!whole || !is_part(whole->rest))
+    return contains_match(text, "(^|[^0-9.,])[1-9][0-9]{0,2}[.,][0-9]{3}(?![0-9])") && contains_match(text, "[0-9],[0-9]");
+  }
+
+  std::optional<std::string> comma_rule(const std::string &text)
+  {
+    const auto whole = leading_number(text);
+    if (!whole || !contains_match(whole->rest, "^,[0-9]"))
       return std::nullopt;
-    std::string pointed        = trim(text);
-    pointed[pointed.find(',')] = '.';
-    const auto number          = leading_number(pointed);
-    return trim(pointed.substr(0, pointed.size() - number->rest.size()));
+    if (may_separate_thousands(text))
+      return "with a decimal point and no separator of thousands";
+    const auto pointed = replace_matches(trim(text), "^([^,]*),", "$1.");
+    const bool is_one  = contains_match(leading_number(pointed)->rest, "^($|[^.,])");
+    return "with a decimal point" + std::string(is_one ? ": did you mean '" + pointed + "'?" : "");
   }
 
   std::optional<std::string> nearest(const std::string &name, const std::vector<std::string> &candidates)

@@ -54,9 +54,12 @@ namespace sprag
   /// Reads a text that is a finite decimal number and nothing else; returns none for another.
   std::optional<double> number_alone(const std::string &text);
 
-  /// Returns the number that a text begins with, written with a decimal point, where the text has a comma instead; none
-  /// otherwise.
-  std::optional<std::string> with_decimal_point(const std::string &text);
+  /// Returns whether a number in the text may have a separator of thousands, as 74,000 or 1.234,5 but not 0,123.
+  bool may_separate_thousands(const std::string &text);
+
+  /// Returns how a number with a comma must be written, as "with a decimal point: did you mean '5.6 mm'?"; none where a text does
+  /// not begin with one. A value that may be meant otherwise is not proposed.
+  std::optional<std::string> comma_rule(const std::string &text);
 
   /// Returns the candidate with the smallest edit distance (Levenshtein, capitals ignored), 1 where it begins with the name, of
   /// four characters at least; none where even that would change more than half of the name.

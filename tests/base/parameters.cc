@@ -209,6 +209,24 @@ TEST(Parameters, IntegersListsChoicesAndAutoKeepTheirRules)
   EXPECT_TRUE(mistakes("subsection Mesh\n set Degree = 1\n set Penalty = auto\n set Ratios = 0.1,0.9\nend\n").empty());
 }
 
+// 74,000 may be 74 and 74000, and the unit counts.
+TEST(Parameters, NoHintIsAThousandTimesOff)
+{
+  const auto rule = [](const std::string &value)
+  {
+    const auto said = mistakes("subsection Geometry\n set Cylinder radius = " + value + "\nend\n").at(0);
+    return said.substr(said.rfind("must be a number > 0") + 21);
+  };
+  EXPECT_EQ(rule("5,6"), "with a decimal point: did you mean '5.6'?");
+  EXPECT_EQ(rule("5,6 m"), "with a decimal point: did you mean '5.6 m'?");
+  EXPECT_EQ(rule("0,125"), "with a decimal point: did you mean '0.125'?");
+  EXPECT_EQ(rule("1234,567"), "with a decimal point: did you mean '1234.567'?");
+  for (const std::string unclear : { "74,000", "1.234,5", "1,234.5", "1,234,567" })
+    EXPECT_EQ(rule(unclear), "with a decimal point and no separator of thousands") << unclear;
+  for (const std::string several : { "5,6,7", "12.5,3" })
+    EXPECT_EQ(rule(several), "with a decimal point") << several;
+}
+
 TEST(Parameters, BrokenStructureIsReported)
 {
   EXPECT_EQ(mistakes("set Coefficient = 1\n"),
@@ -419,6 +437,25 @@ TEST(Csv, AUnitInACommentIsReadOrRefused)
   for (const std::string header :
        { "# speed in mm/s, mu", "# in the lab, on 3/4", "# s, mu", "# in m/s\nspeed [mm/s], mu", "# v, mu(v)" })
     EXPECT_EQ(said(header), "") << header;
+}
+
+TEST(Csv, NoHintIsAThousandTimesOff)
+{
+  const auto said = [](const std::string &rows)
+  {
+    try
+    {
+      friction_columns(rows);
+      return std::string();
+    }
+    catch (const InputError &error)
+    {
+      const std::string what = error.what();
+      return what.substr(what.find("mu.csv"));
+    }
+  };
+  EXPECT_EQ(said("0;0,3\n"), "mu.csv:1: 0;0,3: numbers need a decimal point: 0;0.3");
+  EXPECT_EQ(said("10;2,000\n"), "mu.csv:1: 10;2,000: numbers need a decimal point and no separator of thousands");
 }
 
 // A first row taken for a header would leave a table without its friction at rest.

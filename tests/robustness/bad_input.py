@@ -136,7 +136,7 @@ class BadScene(ProgramTest):
         says = ["Friction/Coefficient = 0,73", "decimal point", "'0.73'"]
         changes = ("--set", "Friction/Law=Coulomb", "--set", "Friction/Coefficient=0,73")
         self.refused(self.write(""), *changes, says=says, mistakes=1)
-        offset = section("Geometry", Interface_offset=("45,6 mm", ["decimal point", "'45.6'"]))
+        offset = section("Geometry", Interface_offset=("45,6 mm", ["decimal point", "'45.6 mm'"]))
         mass = section("Support", Type=("sprung", None), Mass=("2,5e-3", ["decimal point", "'2.5e-3'"]))
         self.refused_lines(offset + mass)
 
