@@ -430,6 +430,8 @@ namespace sprag
     std::string kept = is_number(rule) ? without_unit(rule, value) : value;
     if (rule.kind == Rule::Kind::numbers)
     {
+      if (const auto unclear = list_comma_rule(value))
+        throw InputError(*unclear);
       const auto specified = split(value, ',');
       const auto parts = mapped(with_common_unit(rule, specified), [&](const auto &part) { return without_unit(rule, part); });
       kept             = parts == specified ? value : boost::algorithm::join(parts, ", ");

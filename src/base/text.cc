@@ -145,6 +145,18 @@ namespace sprag
     return "with a decimal point" + std::string(is_one ? ": did you mean '" + pointed + "'?" : "");
   }
 
+  std::optional<std::string> list_comma_rule(const std::string &text)
+  {
+    const std::string between = "([0-9]),([0-9])";
+    if (!contains_match(text, between))
+      return std::nullopt;
+    if (may_separate_thousands(text))
+      return "must have a blank behind each comma between numbers, and no separator of thousands";
+    const auto list   = replace_matches(text, "([0-9]),(?=[0-9])", "$1, ");
+    const bool is_one = !contains_match(text, "[0-9]\\.[0-9]|,[0-9]+,[0-9]");
+    return "must be '" + list + "'" + (is_one ? " for a list, or '" + replace_matches(text, between, "$1.$2") + "'" : "");
+  }
+
   std::optional<std::string> nearest(const std::string &name, const std::vector<std::string> &candidates)
   {
     std::optional<std::string> best;

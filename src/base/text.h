@@ -61,6 +61,9 @@ namespace sprag
   /// not begin with one. A value that may be meant otherwise is not proposed.
   std::optional<std::string> comma_rule(const std::string &text);
 
+  /// Returns how a list must be written whose commas may be decimal, as they stand between two digits; none where none does.
+  std::optional<std::string> list_comma_rule(const std::string &text);
+
   /// Returns the candidate with the smallest edit distance (Levenshtein, capitals ignored), 1 where it begins with the name, of
   /// four characters at least; none where even that would change more than half of the name.
   std::optional<std::string> nearest(const std::string &name, const std::vector<std::string> &candidates);

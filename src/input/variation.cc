@@ -189,7 +189,11 @@ namespace sprag
         const auto items = split_all(text, ',');
         try
         {
-          return is_number(parameter.rule) ? items_with_units(parameter.rule, items) : items;
+          if (!is_number(parameter.rule))
+            return items;
+          if (const auto unclear = list_comma_rule(text))
+            throw InputError(*unclear);
+          return items_with_units(parameter.rule, items);
         }
         catch (const InputError &broken)
         {

@@ -206,7 +206,7 @@ TEST(Parameters, IntegersListsChoicesAndAutoKeepTheirRules)
                        "scene.prm:3: Mesh/Penalty = automatic: must be auto or a number > 0 [N/mm3]",
                        "scene.prm:4: Mesh/Ratios = 0.1, 1: must be numbers >= 0 and < 1, separated by commas",
                        "scene.prm:7: Drive/Profile = harmonics: must be one of triangle | harmonic; did you mean 'harmonic'?" }));
-  EXPECT_TRUE(mistakes("subsection Mesh\n set Degree = 1\n set Penalty = auto\n set Ratios = 0.1,0.9\nend\n").empty());
+  EXPECT_TRUE(mistakes("subsection Mesh\n set Degree = 1\n set Penalty = auto\n set Ratios = 0.1, 0.9\nend\n").empty());
 }
 
 // 74,000 may be 74 and 74000, and the unit counts.
@@ -225,6 +225,20 @@ TEST(Parameters, NoHintIsAThousandTimesOff)
     EXPECT_EQ(rule(unclear), "with a decimal point and no separator of thousands") << unclear;
   for (const std::string several : { "5,6,7", "12.5,3" })
     EXPECT_EQ(rule(several), "with a decimal point") << several;
+}
+
+TEST(Parameters, AListWithDecimalCommasIsRefused)
+{
+  const auto rule = [](const std::string &value)
+  {
+    const auto said = mistakes("subsection Mesh\n set Ratios = " + value + "\nend\n").at(0);
+    return said.substr(said.rfind(": ") + 2);
+  };
+  EXPECT_EQ(rule("0,5"), "must be '0, 5' for a list, or '0.5'");
+  EXPECT_EQ(rule("0,1, 0,5"), "must be '0, 1, 0, 5' for a list, or '0.1, 0.5'");
+  EXPECT_EQ(rule("0.1,0.9"), "must be '0.1, 0.9'");
+  EXPECT_EQ(rule("0,0,0"), "must be '0, 0, 0'");
+  EXPECT_EQ(rule("1,000, 0"), "must have a blank behind each comma between numbers, and no separator of thousands");
 }
 
 TEST(Parameters, BrokenStructureIsReported)

@@ -32,7 +32,7 @@ namespace
 
 TEST(Variation, ReadsListsAndRanges)
 {
-  EXPECT_EQ(values("Mesh/Face size = 0.5,1 , auto"), (Messages{ "0.5", "1", "auto" }));
+  EXPECT_EQ(values("Mesh/Face size = 0.5 , 1,auto"), (Messages{ "0.5", "1", "auto" }));
   EXPECT_EQ(values("Analysis/Model = beam, closed form"), (Messages{ "beam", "closed form" }));
   EXPECT_EQ(values("Lever/Depth = 0.1 ... 0.5 : 5"), (Messages{ "0.1", "0.2", "0.3", "0.4", "0.5" }));
   EXPECT_EQ(values("Lever/Depth = 3, 20 ... 10 : 3"), (Messages{ "3", "20", "15", "10" }));
@@ -104,6 +104,14 @@ TEST(Variation, AUnitBehindTheLastNumberIsThatOfAll)
     expect_wrong("Study/Vary=Lever/Depth = " + list,
                  { "Lever/Depth = " + list +
                    " has numbers with and without unit: each must have one, or the last alone, whose unit is that of all" });
+}
+
+TEST(Variation, ADecimalCommaIsRefused)
+{
+  expect_wrong("Study/Vary=Lever/Depth = 10,5", { "Lever/Depth = 10,5 must be '10, 5' for a list, or '10.5'" });
+  expect_wrong("Study/Vary=Lever/Depth = 1,5 ... 3 : 4",
+               { "Lever/Depth = 1,5 ... 3 : 4 must be '1, 5 ... 3 : 4' for a list, or '1.5 ... 3 : 4'" });
+  EXPECT_EQ(values("Analysis/Model = beam,rigid"), (Messages{ "beam", "rigid" }));
 }
 
 TEST(Variation, ItsOwnSceneIsNotChecked)
