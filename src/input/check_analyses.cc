@@ -78,8 +78,17 @@ namespace sprag
       const auto &isolation = scene.isolation;
       rules.need(isolation.damper == DamperType::lever, "Isolation/Damper", { "Analysis/Type", "Design/Demands", "Design/Aim" },
                  "must be lever where something of the table is asked for: its levers are designed");
-      rules.need(!asks_for(scene.design, DesignQuantity::residual_offset) || isolation.base != BaseMotionType::none ||
-                     isolation.initial_displacement != 0. || isolation.initial_velocity != 0.,
+      const bool asks_offset = asks_for(scene.design, DesignQuantity::residual_offset);
+      rules.need(!asks_offset || isolation.base == BaseMotionType::none || isolation.base == BaseMotionType::record,
+                 "Isolation/Base motion", { "Analysis/Type", "Design/Demands", "Design/Aim", "Design/Second aim" },
+                 "must be none or record where a residual offset is asked for: on a base that moves until the end there is none");
+      const auto &record = isolation.base_table.at;
+      rules.need(!asks_offset || isolation.base != BaseMotionType::record || record.empty() || record.back() < isolation.duration,
+                 "Isolation/Duration", { "Analysis/Type", "Isolation/Base motion", "Isolation/Base table" },
+                 "must be more than the " + (record.empty() ? "" : rounded_text(record.back())) +
+                     " s of Base table where a residual offset is asked for");
+      rules.need(!asks_offset || isolation.base != BaseMotionType::none || isolation.initial_displacement != 0. ||
+                     isolation.initial_velocity != 0.,
                  "Isolation/Initial displacement", { "Analysis/Type", "Isolation/Base motion", "Isolation/Initial velocity" },
                  "must not be 0 mm with Base motion = none where a residual offset is asked for: nothing moves");
     }

@@ -2,6 +2,7 @@
 #include "scene/design.h"
 #include "messages.h"
 #include "scene/scene.h"
+#include "support/written.h"
 
 #include <set>
 
@@ -91,6 +92,22 @@ TEST(ReadDesign, QuantitiesOfTheTableNeedLevers)
   ASSERT_EQ(all.size(), 1u);
   EXPECT_NE(all.front().find("Isolation/Damper"), std::string::npos) << all.front();
   EXPECT_NE(mistakes("", design({ "Design/Demands=residual offset <= 1", "Isolation/Base motion=none" })), Messages());
+  for (const std::string base : { "harmonic", "random" })
+  {
+    const auto moving = mistakes("", design({ "Design/Demands=residual offset <= 1", "Isolation/Base motion=" + base }));
+    ASSERT_FALSE(moving.empty()) << base;
+    EXPECT_NE(moving.front().find("must be none or record where a residual offset is asked for"), std::string::npos)
+        << moving.front();
+  }
+  const auto record = written("time [s], acceleration [m/s2]\n0, 0\n0.1, 1\n0.2, -1\n1, 0\n", "record.csv");
+  const auto ends   = [&](const std::string &duration)
+  {
+    return mistakes("", design({ "Design/Demands=residual offset <= 1", "Isolation/Base motion=record",
+                                 "Isolation/Base table=" + record, "Isolation/Duration=" + duration }));
+  };
+  EXPECT_EQ(ends("1.1"), Messages());
+  ASSERT_EQ(ends("0.9").size(), 1u);
+  EXPECT_NE(ends("0.9").front().find("must be more than the 1 s of Base table"), std::string::npos) << ends("0.9").front();
 }
 
 TEST(ReadDesign, EveryQuantityHasOneName)
