@@ -156,6 +156,25 @@ namespace sprag
     return largest;
   }
 
+  const ModelCheck &nearest_check(const std::vector<ModelCheck> &checks, const std::vector<Demand> &demands)
+  {
+    const ModelCheck *nearest = &checks.back();
+    for (const auto &check : checks)
+    {
+      const bool is_known = check.check_model == nearest->check_model && check.failure.empty();
+      if (is_known && (!nearest->failure.empty() || check.violation(demands) < nearest->violation(demands)))
+        nearest = &check;
+    }
+    return *nearest;
+  }
+
+  const ModelCheck *last_check(const std::vector<ModelCheck> &checks, const Proposal &lever)
+  {
+    const auto found = std::find_if(checks.rbegin(), checks.rend(),
+                                    [&](const ModelCheck &check) { return check.lever.parameters == lever.parameters; });
+    return found == checks.rend() ? nullptr : &*found;
+  }
+
   DesignChecks::DesignChecks(const Scene &scene_)
       : design(scene_)
   {

@@ -6,6 +6,7 @@
 #include "run/in_memory.h"
 
 #include <string>
+#include <vector>
 
 namespace sprag
 {
@@ -38,6 +39,12 @@ namespace sprag
       return failure.empty() && violation(demands) <= 0.;
     }
   };
+
+  /// Returns the check, by the model of the last one, whose lever misses the demands least; the last one where none has a result.
+  const ModelCheck &nearest_check(const std::vector<ModelCheck> &checks, const std::vector<Demand> &demands);
+
+  /// Returns the last check of a lever; null without any.
+  const ModelCheck *last_check(const std::vector<ModelCheck> &checks, const Proposal &lever);
 
   /// Computes levers of a design again by more expensive models. Forces come from steady slides at Design/Positions both ways,
   /// and one near x = 0 for the slopes; in time from the drive followed once.

@@ -310,16 +310,20 @@ namespace sprag
       return text;
     }
 
-    /// Says in a sentence by how much a lever misses the demands according to a check model.
-    std::string missed_text(const DesignSettings &design, const ModelCheck &check)
+    /// Says by how much the lever that is kept misses the demands according to a check model, and why there is no further one.
+    std::string missed_text(const DesignSettings &design, const ModelCheck &kept, const ModelCheck &last)
     {
-      const std::string by = "by the judge " + enumerator_name(check.check_model);
-      if (!check.failure.empty())
-        return "The lever proposed cannot be followed " + by + ": " + check.failure;
-      std::string text = "No lever proposed meets all demands " + by + "; of the last one";
+      const std::string by = "by the judge " + enumerator_name(last.check_model);
+      std::string text     = "No lever proposed meets all demands " + by;
+      if (!last.failure.empty())
+        text = "The lever proposed cannot be followed " + by + ": " + last.failure;
+      if (!kept.failure.empty())
+        return text;
+      text += (last.failure.empty() ? "; that" : ". That") + std::string(" of round ") + std::to_string(kept.round) +
+              " misses them by the least, " + formatted("%.3g", 100. * kept.violation(design.demanded)) + " %:";
       for (const auto &demand : design.demanded)
         if (demand.term.quantity != DesignQuantity::parameter)
-          if (const double value = check.worst(demand); demand_violation(demand, value) > 0.)
+          if (const double value = kept.worst(demand); demand_violation(demand, value) > 0.)
             text += " '" + demand.text + "' becomes " + rounded_text(value) + term_unit(design, demand.term) + ';';
       text.pop_back();
       return text + ". More Design/Rounds may help";
@@ -412,7 +416,10 @@ namespace sprag
           const bool is_last = round == design.rounds;
           if (is_last || (!check.failure.empty() && !misses_growth(check)))
           {
-            findings.unmet = missed_text(design, check);
+            const auto &kept = nearest_check(findings.checks, design.demanded);
+            findings.unmet   = missed_text(design, kept, check);
+            if (kept.failure.empty())
+              findings.found = { kept.lever, false, kept.violation(design.demanded) };
             throw AnalysisError(findings.unmet);
           }
           learn(check);
@@ -508,7 +515,8 @@ namespace sprag
                                                              four_digits(speed->other_mu), other_missed_text(design, *speed) }));
       if (findings.checks.empty())
         return;
-      const auto &last = findings.checks.back();
+      const auto *const checked = last_check(findings.checks, findings.found->lever);
+      const auto &last          = checked != nullptr ? *checked : findings.checks.back();
       append(warnings, last.warnings);
       const auto by_table = [](const ModelCheck &check) { return check.check_model == CheckModel::table; };
       const auto judged   = std::find_if(findings.checks.rbegin(), findings.checks.rend(), by_table);
@@ -520,11 +528,12 @@ namespace sprag
     /// Names the command that gives the values printed of a lever: by the closed form and by the last model that checked it.
     std::string command_text(const std::vector<ModelCheck> &checks, const Proposal &lever, const std::string &name)
     {
-      std::string text = "# By the closed form: sprag " + name + ".prm";
-      if (checks.empty() || checks.back().lever.parameters != lever.parameters)
+      std::string text          = "# By the closed form: sprag " + name + ".prm";
+      const auto *const checked = last_check(checks, lever);
+      if (checked == nullptr)
         return text;
-      text += "; by the judge " + enumerator_name(checks.back().check_model) + " with";
-      for (const auto &change : checks.back().changes)
+      text += "; by the judge " + enumerator_name(checked->check_model) + " with";
+      for (const auto &change : checked->changes)
         text += " --set '" + change + '\'';
       return text;
     }

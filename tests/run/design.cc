@@ -101,6 +101,50 @@ TEST(RunDesign, WithoutALeverTheNearestIsKept)
   EXPECT_NO_THROW(read_scene(read_output(folder) + "/design-nearest.prm"));
 }
 
+TEST(RunDesign, TheRoundThatMissesLeastIsTheNearest)
+{
+  const auto make_check = [](const unsigned int round, const double force, const std::string &failure = {})
+  {
+    ModelCheck check;
+    check.round                                = round;
+    check.found                                = {};
+    check.found[DesignQuantity::largest_force] = force;
+    check.failure                              = failure;
+    check.lever.parameters                     = { static_cast<double>(round) };
+    return check;
+  };
+  const std::vector<Demand> demands = { { { DesignQuantity::largest_force, 0 }, DemandKind::at_most, 10., 0., "" } };
+  const auto first = make_check(1, 10.5), second = make_check(2, 10.1), third = make_check(3, 10.2);
+  EXPECT_EQ(nearest_check({ first, second, third }, demands).round, 2u);
+  EXPECT_EQ(nearest_check({ first, third, make_check(4, 0., "it jams") }, demands).round, 3u);
+  EXPECT_EQ(nearest_check({ make_check(1, 0., "it jams") }, demands).round, 1u);
+  auto beam        = first;
+  beam.check_model = CheckModel::condensed;
+  EXPECT_EQ(nearest_check({ second, beam }, demands).round, 1u);
+}
+
+TEST(RunDesign, ALeverThatFailsItsJudgesIsThatOfTheNearestRound)
+{
+  const TemporaryFolder folder;
+  const Scene scene = design(folder, { "Lever/Depth=6", "Design/Free=Rotational spring/Stiffness = 1e4 ... 2e5",
+                                       "Design/Judges=beam", "Design/Demands=largest force = 20 +- 1e-9",
+                                       "Design/Aim=minimise largest force", "Design/Judge in time=off", "Design/Rounds=2" });
+  try
+  {
+    run_in(folder, scene);
+    ADD_FAILURE() << "a lever was found";
+  }
+  catch (const AnalysisError &error)
+  {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("; that of round 2 misses them by the least, "), std::string::npos) << text;
+  }
+  std::ifstream file(read_output(folder) + "/design-nearest.prm");
+  std::string first_line;
+  std::getline(file, first_line);
+  EXPECT_NE(first_line.find("by the judge beam"), std::string::npos) << first_line;
+}
+
 TEST(RunDesign, AJudgeCorrectsTheClosedFormAtEachTolerance)
 {
   const TemporaryFolder folder;
