@@ -59,6 +59,13 @@ namespace sprag
       return "at x = " + mm(row[Column::x]) + (row[Column::v] < 0. ? " backward" : " forward");
     }
 
+    /// Height of the cylinder's arc over Hertz's contact width, as far as this body yields: 2 P (1 - nu^2)/(pi b E).
+    template <class Body>
+    double hertz_height(const Scene &scene, const Body &body, const double P)
+    {
+      return 2. * P * (1. - body.poisson_ratio * body.poisson_ratio) / (M_PI * scene.lever.width * body.young_modulus);
+    }
+
     /// The rows have penetration of a mesh and compression of the layer both.
     void add_penetration(const Scene &scene, const std::vector<Row> &rows, const Row &peak, Warnings &warnings)
     {
@@ -70,10 +77,10 @@ namespace sprag
       if (thickness > 0. && penetration > largest_layer_penetration * thickness)
         warnings.push_back(make_warning("overlap_of_layer", { mm(penetration), place(*deepest), per_cent(penetration / thickness),
                                                               per_cent(largest_layer_penetration) }));
-      // A bare lever has no layer to compress: in its contact it yields by the height of the cylinder's arc over Hertz's width.
-      const double width = estimated_contact_width(scene, peak[Column::P]);
-      const double compression =
-          thickness > 0. ? peak[Column::indentation] : width * width / (8. * scene.geometry.cylinder_radius);
+      // A bare lever has no layer to compress: it yields in its contact, as an elastic cylinder does.
+      const double P     = peak[Column::P];
+      double compression = thickness > 0. ? peak[Column::indentation] : hertz_height(scene, scene.lever, P);
+      compression += scene.cylinder.type == CylinderType::solid ? hertz_height(scene, scene.cylinder, P) : 0.;
       const double at_peak  = peak[Column::penetration];
       const double approach = at_peak + compression;
       if (at_peak > largest_approach_penetration * approach)

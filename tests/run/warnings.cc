@@ -151,6 +151,33 @@ TEST(RowWarnings, OverlapOfABareLever)
   EXPECT_TRUE(contains(names_at(0.21), "soft_penalty"));
 }
 
+// A cylinder of 60 MPa yields 3500 times as far as a lever of steel and hides what the penalty overlaps.
+TEST(RowWarnings, OverlapBesideAnElasticCylinder)
+{
+  Scene soft                  = model_a();
+  soft.layer.thickness        = 0.;
+  soft.cylinder.type          = CylinderType::solid;
+  soft.cylinder.young_modulus = 60.;
+  soft.cylinder.poisson_ratio = 0.49;
+  Row row                     = usual_row();
+  row[Column::indentation]    = 0.;
+  const auto names_at         = [&](const double share)
+  {
+    const double compliance = (1. - std::pow(soft.lever.poisson_ratio, 2)) / soft.lever.young_modulus + (1. - 0.49 * 0.49) / 60.;
+    const double a = std::sqrt(4. * row[Column::P] * soft.geometry.cylinder_radius * compliance / (M_PI * soft.lever.width));
+    row[Column::penetration] = share / (1. - share) * a * a / (2. * soft.geometry.cylinder_radius);
+    return names(row_warnings(soft, { first_row(), row }));
+  };
+  EXPECT_FALSE(contains(names_at(0.19), "soft_penalty"));
+  EXPECT_TRUE(contains(names_at(0.21), "soft_penalty"));
+  // Without the cylinder it would be 22 % of the approach.
+  soft.layer.thickness        = 1.;
+  soft.cylinder.young_modulus = 20.;
+  row[Column::indentation]    = 0.0164;
+  row[Column::penetration]    = 0.22 / 0.78 * 0.0164;
+  EXPECT_FALSE(contains(names(row_warnings(soft, { first_row(), row })), "soft_penalty"));
+}
+
 TEST(RowWarnings, PressureOfSinglePoints)
 {
   const auto with_peak = [](const double over_mean, const bool specified, const double poisson_ratio)
