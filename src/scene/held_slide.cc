@@ -10,6 +10,7 @@
 
 #include <boost/algorithm/string/join.hpp>
 
+#include <algorithm>
 #include <sstream>
 
 namespace sprag
@@ -22,17 +23,26 @@ namespace sprag
       return !is_reduced(scene.analysis.model) ? 13 : looks_over_stroke(scene) ? 25 : 49;
     }
 
+    /// Returns a range that holds the scene's own value and what is near it.
+    ParameterRange range_with(const double own, const std::string &name, const double from, const double to,
+                              const unsigned int points)
+    {
+      constexpr double beyond = 1.5;
+      return { name, std::min(from, own / beyond), std::max(to, own * beyond), points };
+    }
+
     std::vector<ParameterRange> usual_searches(const Scene &scene)
     {
       const unsigned int tried           = tried_points(scene);
-      std::vector<ParameterRange> result = { { "Friction/Factor", 0., 3., tried } };
+      std::vector<ParameterRange> result = { range_with(scene.friction.factor, "Friction/Factor", 0., 3., tried) };
       if (!looks_over_stroke(scene))
         result.push_back(stroke_range(scene, tried));
       const bool has_speed = scene.drive.profile() != DriveProfile::table;
       if (has_speed && !std::holds_alternative<CoulombFriction>(scene.friction.law)) // else it has no effect
-        result.push_back({ "Drive/Speed", 1., 800., tried });
+        result.push_back(range_with(scene.drive.peak_speed(), "Drive/Speed", 1., 800., tried));
+      const double length = scene.geometry.pivot_distance;
       if (scene.analysis.model == ModelType::beam)
-        result.push_back({ "Lever/Depth", 2., 30., tried });
+        result.push_back(range_with(scene.lever.depth, "Lever/Depth", 0.01 * length, 0.15 * length, tried));
       return result;
     }
 
