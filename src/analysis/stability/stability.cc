@@ -18,7 +18,7 @@ namespace sprag
   {
     SlideKind classify(const HeldSlide &slide, const std::complex<double> worst)
     {
-      if (!(slide.uniqueness > 0.) || !(slide.forces.P > 0.))
+      if (!(slide.uniqueness > 0.) || !slide.is_pressed())
         return SlideKind::jammed;
       if (worst.real() <= smallest_growth * std::abs(worst))
         return SlideKind::stable;

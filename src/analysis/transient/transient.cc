@@ -271,7 +271,7 @@ namespace sprag
       try
       {
         const auto slide = model.hold(drive, ContactFriction::sliding);
-        if (!slide || !(slide->uniqueness > 0.) || !(slide->forces.P > 0.))
+        if (!slide || !(slide->uniqueness > 0.) || !slide->is_pressed())
           return {};
         std::optional<GrowingMode> fastest;
         for (const auto lambda : model.eigenvalues(*slide, 1))

@@ -159,7 +159,7 @@ namespace sprag
         return { { 0., 0. } };
       if (slides.solve(drive, 1.) == nullptr)
         return {};
-      return observed_forces();
+      return contact_forces(observed_contacts());
     }
 
     std::optional<HeldSlide> hold(const DrivePoint &drive, const ContactFriction friction) override
@@ -167,7 +167,7 @@ namespace sprag
       if (friction != ContactFriction::sliding)
         return slide_at(drive, friction, 1.);
       const auto frictionless = slides.solve(drive, 1., ContactFriction::none);
-      const auto free_forces  = frictionless == nullptr ? std::vector<SlidingForces>() : observed_forces();
+      const auto free_forces  = frictionless == nullptr ? std::vector<SlidingForces>() : contact_forces(observed_contacts());
       const double nearby     = 1e-3 * frame.geometries.front().cylinder_radius;
       auto slide              = slide_at(drive, friction, slides.speed_ratio(drive, nearby));
       if (!slide || !(slide->uniqueness > 0.))
@@ -388,16 +388,16 @@ namespace sprag
       return rows;
     }
 
-    std::vector<SlidingForces> observed_forces() const
+    static std::vector<SlidingForces> contact_forces(const std::vector<Row> &contacts)
     {
-      return mapped(observed_contacts(), [](const Row &row) { return SlidingForces{ row[Column::P], row[Column::Q] }; });
+      return mapped(contacts, [](const Row &row) { return SlidingForces{ row[Column::P], row[Column::Q] }; });
     }
 
     /// Indentation of the lever that is indented most [mm].
-    double largest_indentation() const
+    static double largest_indentation(const std::vector<Row> &contacts)
     {
       double result = unknown;
-      for (const Row &row : observed_contacts())
+      for (const Row &row : contacts)
         result = std::fmax(result, row[Column::indentation]);
       return result;
     }
@@ -493,12 +493,13 @@ namespace sprag
       slide.friction      = friction;
       slide.speed         = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
       slide.penetration   = found.penetration();
-      slide.indentation   = largest_indentation();
+      const auto contacts = observed_contacts();
+      slide.indentation   = largest_indentation(contacts);
       if (with_friction && slide.indentation > frame.largest_indentation)
         return {};
       slide.margin     = 1.;
-      slide.mu         = with_friction ? observed_contacts().front()[Column::mu] : 0.;
-      const auto loads = observed_forces();
+      slide.mu         = with_friction ? contacts.front()[Column::mu] : 0.;
+      const auto loads = contact_forces(contacts);
       slide.forces     = loads.front();
       if (loads.size() == 2)
         slide.second = loads.back();
@@ -535,7 +536,7 @@ namespace sprag
         const double next      = std::min(1., branch.back().share + step);
         const auto before      = slides.last;
         const bool is_followed = slides.solve_with_share(drive, next) != nullptr && is_unique(next);
-        is_pressed_too_far     = is_followed && largest_indentation() > frame.largest_indentation;
+        is_pressed_too_far     = is_followed && largest_indentation(observed_contacts()) > frame.largest_indentation;
         if (is_followed && !is_pressed_too_far)
         {
           branch.push_back({ next, found.penetration() });

@@ -70,6 +70,12 @@ namespace sprag
     double margin = 0.; ///< to jamming: P without friction over P, (s + mu e)/s of a rigid lever with mu signed as the motion;
                         ///< of a pair the smaller one
     double uniqueness = 0.; ///< det(1 - G df/dz) over that without friction's part; <= 0 beyond where equilibria are unique
+
+    /// Returns whether a lever presses on the cylinder.
+    bool is_pressed() const
+    {
+      return forces.P > 0. || (second && second->P > 0.);
+    }
   };
 
   /// Mechanics of a scene in time at one fidelity. Analyses know nothing of beams, meshes and dimensions.
