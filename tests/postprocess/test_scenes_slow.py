@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Scenes of params/ that run in a second or so: the layout of all their pictures, and that the pages name all that their results hold.
-Run with /usr/bin/python3."""
+contact_sheet.py looks at the pictures of every scene. Run with /usr/bin/python3."""
 
 import os
 import shutil
