@@ -210,23 +210,24 @@ namespace sprag
 
   void add_closed_form(const Scene &scene, Row &row)
   {
-    const double moved    = row[Column::support_displacement];
-    const double x        = row[Column::x] - (std::isnan(moved) ? 0. : moved);
-    const double v        = row[Column::v];
-    const auto has_forces = [](const ClosedFormState &state) { return !(state.P < 0.) && std::isfinite(state.P); };
-    if (count_levers(scene) == 2 && !row.second_lever().empty())
+    const double moved = row[Column::support_displacement];
+    const double x     = row[Column::x] - (std::isnan(moved) ? 0. : moved);
+    const double v     = row[Column::v];
+    const auto fill    = [](const ClosedFormState &state, const auto &set)
     {
-      const auto state = pair_closed_form(scene, x, v)[1].state;
-      row.set_second_value(Column::theta_closed_form, state.contact.theta);
-      row.set_second_value(Column::P_closed_form, has_forces(state) ? state.P : unknown);
-      row.set_second_value(Column::Q_closed_form, has_forces(state) ? state.Q : unknown);
-    }
-    const auto state               = count_levers(scene) == 2 ? pair_closed_form(scene, x, v)[0].state : closed_form(scene, x, v);
-    row[Column::theta_closed_form] = state.contact.theta;
-    if (!has_forces(state))
-      return;
-    row[Column::P_closed_form] = state.P;
-    row[Column::Q_closed_form] = state.Q;
+      set(Column::theta_closed_form, state.contact.theta);
+      if (state.P < 0. || !std::isfinite(state.P))
+        return;
+      set(Column::P_closed_form, state.P);
+      set(Column::Q_closed_form, state.Q);
+    };
+    const auto set_first = [&](const Column column, const double value) { row[column] = value; };
+    if (count_levers(scene) == 1)
+      return fill(closed_form(scene, x, v), set_first);
+    const auto levers = pair_closed_form(scene, x, v);
+    fill(levers[0].state, set_first);
+    if (!row.second_lever().empty())
+      fill(levers[1].state, [&](const Column column, const double value) { row.set_second_value(column, value); });
   }
 
   std::vector<Entry> make_summary(const Scene &scene, const std::vector<Row> &rows)

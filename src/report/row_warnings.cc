@@ -59,13 +59,6 @@ namespace sprag
       return "at x = " + mm(row[Column::x]) + (row[Column::v] < 0. ? " backward" : " forward");
     }
 
-    /// Height of the cylinder's arc over Hertz's contact width, as far as this body yields: 2 P (1 - nu^2)/(pi b E).
-    template <class Body>
-    double hertz_height(const Scene &scene, const Body &body, const double P)
-    {
-      return 2. * P * (1. - body.poisson_ratio * body.poisson_ratio) / (M_PI * scene.lever.width * body.young_modulus);
-    }
-
     /// The rows have penetration of a mesh and compression of the layer both.
     void add_penetration(const Scene &scene, const std::vector<Row> &rows, const Row &peak, Warnings &warnings)
     {
@@ -77,12 +70,9 @@ namespace sprag
       if (thickness > 0. && penetration > largest_layer_penetration * thickness)
         warnings.push_back(make_warning("overlap_of_layer", { mm(penetration), place(*deepest), per_cent(penetration / thickness),
                                                               per_cent(largest_layer_penetration) }));
-      // A bare lever has no layer to compress: it yields in its contact, as an elastic cylinder does.
-      const double P     = peak[Column::P];
-      double compression = thickness > 0. ? peak[Column::indentation] : hertz_height(scene, scene.lever, P);
-      compression += scene.cylinder.type == CylinderType::solid ? hertz_height(scene, scene.cylinder, P) : 0.;
-      const double at_peak  = peak[Column::penetration];
-      const double approach = at_peak + compression;
+      const double compression = (thickness > 0. ? peak[Column::indentation] : 0.) + hertz_height(scene, peak[Column::P]);
+      const double at_peak     = peak[Column::penetration];
+      const double approach    = at_peak + compression;
       if (at_peak > largest_approach_penetration * approach)
         warnings.push_back(make_warning(
             "soft_penalty", { mm(at_peak), place(peak), per_cent(at_peak / approach), per_cent(largest_approach_penetration) }));
@@ -199,8 +189,10 @@ namespace sprag
       const Row &last     = rows.back();
       const double stored = last[Column::spring_energy] + last[Column::elastic_energy] - rows.front()[Column::spring_energy] -
                             rows.front()[Column::elastic_energy];
-      const double springs =
-          last[Column::P] * finite(last[Column::penetration]) + std::abs(last[Column::F]) * finite(last[Column::elastic_slip]);
+      double springs = 0.;
+      for (unsigned int lever = 0; lever < count_levers(rows); ++lever)
+        springs += last.lever_value(Column::P, lever) * finite(last[Column::penetration]) +
+                   std::abs(last.lever_value(Column::F, lever)) * finite(last[Column::elastic_slip]);
       const double open     = std::abs(last[Column::drive_work] - last[Column::friction_work] - stored) - finite(springs);
       const auto drive_work = [](const Row &row) { return std::abs(row[Column::drive_work]); };
       const double work     = std::max(largest(rows, drive_work), std::abs(last[Column::friction_work]));
@@ -224,7 +216,8 @@ namespace sprag
       for (const auto &row : rows)
         if (lowest == nullptr || pull(row) > pull(*lowest))
           lowest = &row;
-      if (lowest == nullptr || !(pull(*lowest) > least * largest(rows, [](const Row &row) { return row[Column::P]; })))
+      const auto pressed = [](const Row &row) { return std::fmax(row[Column::P], row.lever_value(Column::P, 1)); };
+      if (lowest == nullptr || !(pull(*lowest) > least * largest(rows, pressed)))
         return;
       warnings.push_back(make_warning("sensor_in_tension", { rounded_text(pull(*lowest)), place(*lowest) }));
     }
@@ -296,24 +289,31 @@ namespace sprag
       add_friction_speed(scene, rows, warnings);
       return warnings;
     }
-  } // namespace
 
-  Warnings row_warnings(const Scene &scene, const std::vector<Row> &rows)
-  {
-    auto warnings = lever_warnings(scene, rows);
-    if (rows.empty())
-      return warnings;
-    if (count_levers(rows) == 2)
+    /// Returns what `judge` warns of, and of a pair's second lever what it does not warn of for the first.
+    template <class Judge>
+    Warnings each_lever(const Scene &scene, const std::vector<Row> &rows, const Judge &judge)
     {
+      Warnings warnings = judge(scene, rows);
+      if (count_levers(rows) == 1)
+        return warnings;
       Scene second                  = scene;
       static_cast<Device &>(second) = lever_device(scene, 1);
-      for (auto &warning : lever_warnings(second, lever_rows(rows, 1)))
+      for (auto &warning : judge(second, lever_rows(rows, 1)))
         if (find_by(warnings, &Warning::name, warning.name) == nullptr)
         {
           warning.found += " This is the second lever of the pair.";
           warnings.push_back(warning);
         }
+      return warnings;
     }
+  } // namespace
+
+  Warnings row_warnings(const Scene &scene, const std::vector<Row> &rows)
+  {
+    auto warnings = each_lever(scene, rows, lever_warnings);
+    if (rows.empty())
+      return warnings;
     add_energy(scene, rows, warnings);
     add_sensors_in_tension(rows, warnings);
     return warnings;
@@ -333,9 +333,13 @@ namespace sprag
       second[Column::P] = P.back();
       row.add_second_lever(second);
     }
-    auto warnings = row_warnings(scene, { row });
-    add_falling_friction(scene, row, warnings);
-    return warnings;
+    return each_lever(scene, { row },
+                      [](const Scene &own, const std::vector<Row> &rows)
+                      {
+                        auto warnings = lever_warnings(own, rows);
+                        add_falling_friction(own, rows.front(), warnings);
+                        return warnings;
+                      });
   }
 
   Warnings beam_warnings(const Scene &scene, const double frequency, const double growth_rate)

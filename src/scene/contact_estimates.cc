@@ -131,6 +131,15 @@ namespace sprag
     return FaceGrading{ kinematics(device.geometry, x).s, end, longest, shortest };
   }
 
+  double hertz_height(const Device &device, const double P)
+  {
+    auto bodies = compressed_bodies(device);
+    if (device.layer.thickness > 0.)
+      bodies.erase(bodies.begin());
+    return 2. * P / (M_PI * device.lever.width) *
+           sum_over(bodies, [](const FaceMaterial &body) { return (1. - body.nu * body.nu) / body.E; });
+  }
+
   double layer_pressure(const Device &device, const double P)
   {
     const double t       = device.layer.thickness;

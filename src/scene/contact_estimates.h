@@ -27,6 +27,10 @@ namespace sprag
   /// forces are wanted alone.
   std::optional<FaceGrading> face_grading(const Device &device);
 
+  /// Returns the height of the cylinder's arc over Hertz's contact width [mm] as far as lever and cylinder yield under P [N],
+  /// 2 P/(pi w) (1 - nu^2)/E of each: of a lever without a layer and of an elastic cylinder.
+  double hertz_height(const Device &device, double P);
+
   /// Returns the largest pressure [MPa] under P [N], the layer an elastic foundation between cylinder and rigid lever: P = 4/3 w
   /// a p with a^2 = 2 R t p/M, M Young's modulus of the layer held sideways. Within 3 % of finite elements for model A. It is 0
   /// without a layer.

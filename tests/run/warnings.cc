@@ -212,6 +212,25 @@ TEST(RowWarnings, PressureBeyondStrength)
   EXPECT_EQ(names(row_warnings(scene, { no_face })), Names{});
 }
 
+// The second lever of a pair presses its cork beyond 0.8 MPa, or slides where friction falls too fast, and the first does not.
+TEST(SlideWarnings, OfThePairsSecondLever)
+{
+  Scene scene             = model_a();
+  scene.pair.type         = PairType::full;
+  scene.analysis.model    = ModelType::beam;
+  const auto names_behind = [&](const std::vector<double> &P) {
+    return names(slide_warnings(scene, { 0., 30., 100., 0. }, P, 0.));
+  };
+  EXPECT_EQ(names_behind({ 5., 5. }), Names{});
+  EXPECT_EQ(names_behind({ 5., 500. }), Names{ "pressure_beyond_strength" });
+  EXPECT_NE(slide_warnings(scene, { 0., 30., 100., 0. }, { 5., 500. }, 0.).front().found.find("second lever"), std::string::npos);
+  scene.friction.law           = StribeckFriction{ 0.9, 0.3, 10. };
+  scene.friction.memory_length = 1e-3;
+  scene.friction.factor        = 1e-3;
+  scene.pair.friction_ratio    = 1e3;
+  EXPECT_EQ(slide_warnings(scene, { 0., 30., 10., 0. }, { 5., 5. }, 0.).size(), 1u);
+}
+
 TEST(RowWarnings, StrengthOfCorkAlone)
 {
   FrictionLayer layer;

@@ -287,22 +287,6 @@ namespace sprag
       return result;
     }
 
-    /// Returns the worst slide with the constants of the scene; none where one could not be checked.
-    std::optional<CheckedSlide> worst_own(const SweptSlides &swept)
-    {
-      std::optional<CheckedSlide> result;
-      for (const auto &[direction, constants, along] : swept.sweeps)
-      {
-        if (!constants.empty())
-          continue;
-        if (!along.not_checked.empty())
-          return std::nullopt;
-        if (!result || is_worse(*along.worst, *result))
-          result = along.worst;
-      }
-      return result;
-    }
-
     /// Returns the value to which checks stay stable on the unstable side of a limit of stability, at most up to the next change.
     /// `known`: slides at values of the search, between which no others are tried.
     double stable_limit(const CriticalSearch &search, const CriticalValue &limit, ValueChecks checks,
@@ -498,9 +482,9 @@ namespace sprag
     checks.at = [&](const double value)
     {
       const auto swept = sweep(at(value), maker);
-      if (const auto slide = worst_own(swept))
-        own[value] = *slide;
-      auto worst = swept.worst();
+      auto worst       = swept.worst();
+      own[value] =
+          SweptSlides{ filtered(swept.sweeps, [](const SweptDirection &part) { return part.constants.empty(); }) }.worst();
       add_places(swept, value, places);
       return worst;
     };
