@@ -218,8 +218,9 @@ def pressures(results, x=None):
     if not any(axes.lines for axes in panels.flat):
         plt.close(figure)
         return None
-    for axes, text in zip(panels[:, 0], ("pressure [MPa]", "traction [MPa]", f"pressure less that\nof {several.names[0]} [MPa]")):
+    for axes, text in zip(panels[:, 0], ("pressure [MPa]", "traction [MPa]", "difference [MPa]")):
         axes.set_ylabel(text)
+    panels[2, 0].set_title(f"pressure less that of {several.names[0]}", loc="left", fontsize=8)
     for axes in panels.flat:
         axes.set_visible(bool(axes.lines))
     several.explain(figure, panels.flat, panels[1, 1] if panels[1, 1].lines else panels[1, 0])

@@ -136,12 +136,12 @@ def draw_dimensions(axes, device, geometry, points):
     if geometry.x > 0:
         below = {"away": (0, -7)} if geometry.x < 0.3 * unit else None  # the arrow is too short for words on it
         dimension(axes, (0, 0), (geometry.x, 0), f"$x$ = {geometry.x:.4g} mm", (0, lower), words=below)
-    dimension(axes, (0, 0), (unit, 0), f"$l$ = {unit:g} mm", (0, lower - 0.11 * unit))
+    dimension(axes, (0, 0), (unit, 0), f"$l$ = {unit:.4g} mm", (0, lower - 0.11 * unit))
     if pivot[1] != 0 and not device.is_pair:
         dimension(axes, (unit, 0), pivot, f"$h$ = {pivot[1]:.4g} mm".replace("-", "\N{MINUS SIGN}"), (0.24 * unit, 0), words={"ha": "left"})
     if geometry.offset > 0:
         right = -0.14 * unit * geometry.along
-        dimension(axes, pivot, geometry.foot, f"  $e$ = {geometry.offset:g} mm", right, words={"ha": "left", "bbox": None})
+        dimension(axes, pivot, geometry.foot, f"  $e$ = {geometry.offset:.4g} mm", right, words={"ha": "left", "bbox": None})
     axes.plot(*np.transpose((geometry.foot, geometry.contact)), **HIDDEN, zorder=4, gid="face")
     above = ((points - pivot) @ geometry.across).max() - geometry.offset
     rise = (above + 0.04 * unit) * geometry.across
@@ -159,9 +159,9 @@ def draw_radius(axes, geometry):
     """Named within the cylinder where there is room, else beside it."""
     slant = np.array((np.cos(np.radians(212)), np.sin(np.radians(212))))
     centre, surface = np.array((geometry.x, 0.0)), np.array((geometry.x, 0.0)) + geometry.radius * slant
-    dimension(axes, centre, surface, f"$R$ = {geometry.radius:g} mm" if has_room(geometry) else "", arrowstyle="-|>")
+    dimension(axes, centre, surface, f"$R$ = {geometry.radius:.4g} mm" if has_room(geometry) else "", arrowstyle="-|>")
     if not has_room(geometry):
-        note(axes, f"$R$ = {geometry.radius:g} mm", surface, (-2, -2), ha="right", va="top")
+        note(axes, f"$R$ = {geometry.radius:.4g} mm", surface, (-2, -2), ha="right", va="top")
 
 
 def draw_angles(axes, geometry, length):
@@ -209,9 +209,12 @@ def name_parts(axes, device, geometry, points):
     left, top = points[:, 0].min(), points[:, 1].max()
     for index, (name, place) in enumerate(column):
         pointer(axes, name, place, (left - 0.07 * unit, top + (0.1 - 0.085 * index) * unit), ha="right")
-    beside = (geometry.x + 0.75 * geometry.radius + 0.13 * unit, -0.5 * geometry.radius - 0.04 * unit)
-    pointer(axes, "cylinder", (geometry.x + 0.6 * geometry.radius, -0.5 * geometry.radius), beside, ha="left")
-    pointer(axes, "pivot", pivot, (0.86 * unit, pivot[1] - 0.1 * unit), ha="right")
+    edge = geometry.x + 0.75 * geometry.radius + 0.13 * unit
+    if edge > 0.95 * unit:  # it hides where the pivot's name would stand
+        pointer(axes, "cylinder", (geometry.x + 0.5 * geometry.radius, -0.8 * geometry.radius), (edge, -1.05 * geometry.radius), ha="left")
+    else:
+        pointer(axes, "cylinder", (geometry.x + 0.6 * geometry.radius, -0.5 * geometry.radius), (edge, -0.5 * geometry.radius - 0.04 * unit), ha="left")
+        pointer(axes, "pivot", pivot, (0.86 * unit, pivot[1] - 0.1 * unit), ha="right")
     if device.leaf is None:
         words = f"rotational spring\n$k$ = {device.number('Rotational spring/Stiffness'):g} N mm/rad"
         pointer(axes, words, pivot + (0.06 * unit, -0.03 * unit), ((1.27 if device.text("Support/Type") == "rigid" else 1.36) * unit, pivot[1] - 0.12 * unit), ha="left")

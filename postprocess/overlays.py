@@ -67,9 +67,11 @@ def broken(x, y):
 
 
 def eigenvalues(results):
-    """Growth rate and frequency of the lowest modes; of undamped ones the frequency alone."""
+    """Growth rate and frequency of the lowest modes; of undamped ones the frequency alone. None where all jam."""
     several, modes = distinguish(results), [result.groups["modes"] for result in results]
     rates, frequencies = (np.concatenate([group[name] for group in modes]) for name in ("growth_rate", "frequency"))
+    if len(rates) == 0:
+        return None
     grow = is_signal(rates, frequencies)
     figure, axes = plt.subplots(figsize=(TWO_COLUMNS, 75 * MILLIMETRE))
     for index, (group, name, look) in enumerate(zip(modes, several.names, several.looks)):

@@ -14,7 +14,6 @@ from style import MILLIMETRE, TWO_COLUMNS, plt
 # Corners of a hexahedron's sides, seen from outside against the clock.
 SIDES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
 FROM_ABOVE, FROM_BELOW = (-0.45, 0.5, 0.75), (-0.5, -0.6, 0.65)
-ARROW = 20.0  # length of the axes drawn [mm]
 PRESSURE_MAP = "magma"
 
 
@@ -123,7 +122,7 @@ def draw_lever(axes, frame, view, magnify, norm):
 
 
 def draw_contact(axes, frame, lever, magnify, norm, pressure_norm, chosen):
-    """A piece of a lever as the cylinder sees it, the pressure on its face."""
+    """Draws a piece of a lever as the cylinder sees it, with the pressure on its face. Returns the length of the arrows [mm]."""
     view = View(FROM_BELOW if lever == 1 else FROM_ABOVE)
     points, face = frame.at(magnify), frame.face_at(magnify)
     sides = outer_sides(frame.nodes, frame.cells[chosen])
@@ -133,22 +132,24 @@ def draw_contact(axes, frame, lever, magnify, norm, pressure_norm, chosen):
     colours = plt.get_cmap(PRESSURE_MAP)(pressure_norm(frame.pressure[pressed].mean(axis=1)))
     style = {"linewidth": 0.3, "rasterized": True, "zorder": 2}
     axes.add_collection(PolyCollection(view(face[pressed]), facecolor=colours, edgecolor=colours, **style))
-    draw_axes(axes, view, 0.2 * ARROW)
+    return draw_axes(axes, view)
 
 
-def draw_axes(axes, view, length):
-    """Arrows along x, y and z beside what is drawn."""
+def draw_axes(axes, view):
+    """Arrows along x, y and z beside what is drawn. Returns their length [mm]."""
     low, high = axes.dataLim.min, axes.dataLim.max
-    start = np.array((low[0], low[1]))
+    length = rounded(0.25 * max(high - low))
+    start = low - (1.5 * length, 0)
     for name, direction in zip("xyz", np.eye(3)):
         end = start + view(length * direction)
         axes.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "linewidth": 0.8, "facecolor": "black", "mutation_scale": 6, "shrinkA": 0, "shrinkB": 0}, zorder=5)
         axes.annotate(f"${name}$", start + 1.25 * view(length * direction), ha="center", va="center", fontsize=7, zorder=5)
     room = 0.05 * max(high - low)
-    axes.set_xlim(low[0] - length - room, high[0] + room)
+    axes.set_xlim(start[0] - room, high[0] + room)
     axes.set_ylim(low[1] - length - room, high[1] + room)
     axes.set_aspect("equal")
     axes.set_axis_off()
+    return length
 
 
 def automatic_magnification(result, frame, row):
@@ -181,19 +182,20 @@ def solid_fields(result, x=None, way=None, magnify=None):
     figure = plt.figure(figsize=(TWO_COLUMNS, 92 * MILLIMETRE), constrained_layout=False)
     whole, above = figure.add_axes((0.01, 0.19, 0.56, 0.7)), View(FROM_ABOVE)
     draw_lever(whole, frame, above, magnify, norms[0])
-    draw_axes(whole, above, ARROW)
+    length = draw_axes(whole, above)
     titles = ("the contact from below",) if len(levers) == 1 else ("first lever from below", "second lever from above")
     tops = [0.91 - 0.37 * index for index in range(len(levers))]
     for lever, cells, top, letter, title in zip(levers, chosen, tops, "bc", titles):
         height = 0.7 if len(levers) == 1 else 0.31
-        draw_contact(figure.add_axes((0.6, top - 0.02 - height, 0.39, height)), frame, lever, magnify, norms[1], pressure_norm, cells)
-        figure.text(0.6, top, f"({letter}) {title}; arrows: {0.2 * ARROW:g} mm", fontsize=8)
+        axes = figure.add_axes((0.6, top - 0.02 - height, 0.39, height))
+        arrows = draw_contact(axes, frame, lever, magnify, norms[1], pressure_norm, cells)
+        figure.text(0.6, top, f"({letter}) {title}; arrows: {arrows:g} mm", fontsize=8)
     pressure = plt.cm.ScalarMappable(pressure_norm, PRESSURE_MAP)
     bars = ((0.09, "von Mises", make_mappable(norms[0]), "max"), (0.6, "von Mises", make_mappable(norms[1]), "max"), (0.82, "pressure", pressure, "neither"))
     for left, name, mappable, extend in bars:
         bar = figure.add_axes((left, 0.13, 0.4 if left < 0.5 else 0.16, 0.025))
         figure.colorbar(mappable, cax=bar, orientation="horizontal", label=f"{name} [MPa]", extend=extend)
-    figure.text(0.02, 0.91, f"(a) {'lever' if len(levers) == 1 else 'levers'} and cylinder from above; arrows: {ARROW:g} mm", fontsize=8)
+    figure.text(0.02, 0.91, f"(a) {'lever' if len(levers) == 1 else 'levers'} and cylinder from above; arrows: {length:g} mm", fontsize=8)
     figure.suptitle(caption(result, written, magnify), fontsize=8)
     return figure
 

@@ -22,7 +22,6 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
 from pictures import SOURCE, FolderTest  # noqa: E402
-from test_plot import make_run  # noqa: E402
 import sprag  # noqa: E402
 from sprag.dampers import RankedDamper, find_strength, tell_ranking  # noqa: E402
 from sprag.parameters import document  # noqa: E402
@@ -247,9 +246,9 @@ class PackageTest(FolderTest):
 
     @unittest.skipUnless(importlib.util.find_spec("pandas"), "pandas is not installed")
     def test_pandas(self):
-        make_run(self.folder / "a")
-        frame = sprag.read(self.folder / "a").to_pandas()
-        self.assertEqual((len(frame), frame.attrs["units"]["Q"], frame["x"].max()), (22, "N", 10))
+        result = sprag.run(SCENES / "closed-form-a.prm", output=self.folder / "a")
+        frame = result.to_pandas()
+        self.assertEqual((len(frame), frame.attrs["units"]["Q"], frame["x"].max()), (len(result.table["x"]), "N", 65))
 
 
 if __name__ == "__main__":

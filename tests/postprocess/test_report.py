@@ -3,6 +3,7 @@
 
 import base64
 import re
+import shutil
 import sys
 import unittest
 from html.parser import HTMLParser
@@ -18,8 +19,7 @@ import sketch  # noqa: E402
 from apparatus import Geometry  # noqa: E402
 from sprag import parameters  # noqa: E402
 from sprag.results import read_result  # noqa: E402
-from test_study import make_study  # noqa: E402
-from test_plot import fill_run, finish, make_run, new_file, put  # noqa: E402
+from real_results import run_once  # noqa: E402
 
 HOSTILE = "<script>alert(1)</script><img src=http://example.org/x onerror=alert(1)>"
 DEVICE = {
@@ -54,19 +54,16 @@ class Page(HTMLParser):
 
 class ReportTest(PictureTest):
     def result(self, name, listing=LISTING, warning=None):
-        file = new_file(self.folder / name)
-        del file["parameters"]
-        file["parameters"] = listing
-        fill_run(file, np.concatenate((np.arange(0.0, 11), np.arange(10.0, -1, -1))))
-        put(file.require_group("accuracy"), "P", 0.0123, "1")
-        if warning:
-            put(file.require_group("warnings"), "hostile", warning, "")
-            file["warnings/hostile"].attrs["remedy"] = f"remedy {warning}"
-        put(file.require_group("summary"), "status", "completed", "")
-        file["answer/line"], file["answer/text"] = ["largest P", "work"], ["forward 14.62 N, backward 25.42 N", "661.3 N mm"]
-        put(file.require_group("meta"), "version", "0.1.0 (abc)", "")
-        finish(file, peak_P_forward=14.624, peak_P_backward=25.417, loop_area=661.28)
-        return self.folder / name
+        """A copy of a run with another listing of its parameters, and a warning."""
+        folder = shutil.copytree(run_once("closed-form-a"), self.folder / name)
+        with h5py.File(folder / "result.h5", "r+") as file:
+            del file["parameters"]
+            file["parameters"] = listing
+            file["accuracy/P"] = 0.0123
+            if warning:
+                file["warnings/hostile"] = warning
+                file["warnings/hostile"].attrs["remedy"] = f"remedy {warning}"
+        return folder
 
     def report(self, *folders):
         done = self.plot("--report", *folders)
@@ -78,13 +75,13 @@ class ReportTest(PictureTest):
 
     def test_of_one_run(self):
         page, words = self.report(self.result("a"))
-        for said in ("largest P forward 14.62 N, backward", "peak_P_backward", "25.42", "\N{PLUS-MINUS SIGN} 1.2 %", "Completed, no warnings.", "0.1.0 (abc)", "Lever/Depth 12 mm 20"):
+        for said in ("largest P forward 14.68 N, backward", "peak_P_backward", "25.71", "\N{PLUS-MINUS SIGN} 1.2 %", "Completed, no warnings.", "Lever/Depth 12 mm 20"):
             self.assertIn(said, words)
         self.assertNotIn("Lever/Width", words)
         scene = next(data for data in page.words if "subsection" in data)
         self.assertEqual({name: value.text for name, value in parameters.parse(scene).items()}, {"Lever/Depth": "12"})
         pictures = [attributes["src"] for tag, attributes in page.tags if tag == "img"]
-        self.assertEqual(len(pictures), 2)  # forces and contact
+        self.assertEqual(len(pictures), 1)  # forces
         for source in pictures:
             self.assertTrue(base64.b64decode(source.removeprefix("data:image/png;base64,")).startswith(b"\x89PNG"))
 
@@ -94,8 +91,8 @@ class ReportTest(PictureTest):
         self.assertIn("Lever/Depth 12 mm 16 mm", words)
 
     def test_of_a_study(self):
-        _, words = self.report(make_study(self.folder / "study", many=11))
-        for said in ("Mesh/Degree Mesh/Face size [mm] Lever/Depth [mm] peak_P_forward [N] loop_area [N mm]", "1 0.5 10 10.02 601.5", "and 46 more"):
+        _, words = self.report(run_once("study of many"))
+        for said in ("Lever/Depth [mm] Geometry/Pivot height [mm] Friction/Factor peak_P_forward [N]", "10 0 1 14.68", "and 24 more"):
             self.assertIn(said, words)
 
     def test_a_lever_that_does_not_isolate_is_not_drawn(self):
@@ -149,7 +146,7 @@ class ReportTest(PictureTest):
             self.assertEqual(parameters.scene_text(parameters.parse(listing)), f"subsection Friction\n  set Table = {expected}\nend\n")
 
     def test_a_run_that_goes_on(self):
-        make_run(self.folder / "a")
+        self.result("a")
         with h5py.File(self.folder / "a/result.h5", "r+") as file:
             del file["summary"], file["meta"]
         _, words = self.report(self.folder / "a")
