@@ -266,8 +266,10 @@ TEST(EnergyLedger, ReportsTheLargestResidualAndWhereItOpenedMost)
   ledger.add(0.1, stored, work);
   EXPECT_EQ(ledger.report().residual, 0.);
   EXPECT_EQ(ledger.report().share(), 0.);
-  work          = {};
-  work.friction = 0.5;
+  work             = {};
+  work.friction    = 0.25;
+  work.damping     = 0.125;
+  work.algorithmic = 0.125;
   ledger.add(0.2, stored, work);
   EXPECT_DOUBLE_EQ(ledger.residual(), -0.5);
   EXPECT_DOUBLE_EQ(ledger.report().residual, 0.5);
