@@ -7,12 +7,12 @@ install(TARGETS sprag sprag-models DESTINATION libexec/sprag)
 install(DIRECTORY meshes params postprocess DESTINATION ${data}
   FILES_MATCHING PATTERN "*.geo" PATTERN "*.prm" PATTERN "__pycache__" EXCLUDE PATTERN "pictures" EXCLUDE)
 install(DIRECTORY postprocess DESTINATION ${data} USE_SOURCE_PERMISSIONS
-  FILES_MATCHING PATTERN "*.py" PATTERN "*.html" PATTERN "__pycache__" EXCLUDE)
+  FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "*.html" PATTERN "__pycache__" EXCLUDE)
 install(FILES .ci/completion.bash DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions RENAME sprag)
 install(FILES .ci/sprag.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES README.md CHANGELOG.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY meshes params postprocess DESTINATION ${CMAKE_INSTALL_DOCDIR}
-  FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg" PATTERN "__pycache__" EXCLUDE)
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.ipynb" PATTERN "*.png" PATTERN "*.svg" PATTERN "__pycache__" EXCLUDE)
 install(CODE "
   file(MAKE_DIRECTORY \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/bin\")
   file(CREATE_LINK ../libexec/sprag/sprag \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/bin/sprag\" SYMBOLIC)

@@ -3,7 +3,8 @@
 
 import math
 from functools import partial
-from typing import NamedTuple
+from os import PathLike
+from typing import Any, Mapping, NamedTuple, Optional, Union
 
 import numpy as np
 
@@ -37,7 +38,12 @@ class RankedDamper(NamedTuple):
         return f"{self.damper}{strength} lets through {self.transmissibility:.3g}, moves up to {self.displacement:.3g} mm{ending}"
 
 
-def rank_dampers(scene, changes=None, displacement=None, jobs=None):
+def rank_dampers(
+    scene: Union[Scene, str, PathLike],
+    changes: Optional[Mapping[str, Any]] = None,
+    displacement: Optional[float] = None,
+    jobs: Optional[int] = None,
+) -> tuple[list[RankedDamper], list[RankedDamper]]:
     """The RankedDampers of a scene's table on its moving base, that which lets the least through first and those that are not steady last, and for comparison those of no
     damper and of the lever as it is: two lists.
 

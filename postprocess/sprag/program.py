@@ -6,10 +6,12 @@ import shutil
 import subprocess
 import tempfile
 import weakref
+from os import PathLike
 from pathlib import Path
+from typing import Any, Mapping, Optional, Sequence, Union
 
-from .parameters import parse, scene_text, schema, set_apart, slug
-from .results import read_result
+from .parameters import Parameter, parse, scene_text, schema, set_apart, slug
+from .results import Result, read_result
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -69,6 +71,9 @@ def read_output(command, shows=False):
 class Section:
     """A section of a Scene: its attributes are the Parameters; what they are set to is a change of the scene."""
 
+    _scene: "Scene"
+    _names: dict[str, str]
+
     def __init__(self, scene, name):
         names = {slug(full.partition("/")[2]): full for full in scene.parameters if full.startswith(name + "/")}
         self.__dict__.update(_scene=scene, _names=names)
@@ -76,10 +81,10 @@ class Section:
     def __dir__(self):
         return self._names
 
-    def __getattr__(self, name):
+    def __getattr__(self, name: str) -> Parameter:
         return self._scene.parameters[self._full(name)]
 
-    def __setattr__(self, name, value):
+    def __setattr__(self, name: str, value: object) -> None:
         self._scene.changes[self._full(name)] = value
 
     def _full(self, name):
@@ -92,19 +97,28 @@ class Scene:
     """A parameter file and changes {"Section/Name": value}: scene.lever.depth is a Parameter with text, number, unit, range and meaning,
     scene.lever.depth = 12 sets it. What reads parameters, as run() does, throws Refused where they do not go together."""
 
-    def __init__(self, path, changes=None):
+    def __init__(self, path: Union[str, PathLike], changes: Optional[Mapping[str, Any]] = None) -> None:
         self.path, self.changes = path, dict(changes or {})
-        self._read = None
+        self._read: Optional[tuple] = None
         self.__dict__.update({slug(name): Section(self, name) for name in {full.partition("/")[0]: None for full in self.parameters}})
 
+    def __getattr__(self, name: str) -> Section:
+        sections = [key for key, value in vars(self).items() if isinstance(value, Section)]
+        raise AttributeError(f"no {name}; there are {', '.join(sections)}")
+
+    def __setattr__(self, name: str, value: object) -> None:
+        if name not in ("path", "changes", "_read"):
+            raise AttributeError(f"{name} cannot be set; parameters are set in their section, as scene.lever.depth = 12")
+        super().__setattr__(name, value)
+
     @property
-    def parameters(self):
+    def parameters(self) -> "dict[str, Parameter]":
         """{"Section/Name": Parameter} of all, as used."""
         if self._read is None or self._read[0] != self.changes:
             self._read = dict(self.changes), parse(read_output([program(), self.path, *settings(self.changes), "--print-parameters"]))
         return self._read[1]
 
-    def schema(self):
+    def schema(self) -> dict:
         """The JSON schema of all parameters, a dictionary."""
         return schema(self.parameters)
 
@@ -113,18 +127,23 @@ class Scene:
         return scene_text(set_apart(self.parameters))
 
 
-def run(scene, changes=None, output=None, jobs=None, progress=False):
+def run(
+    scene: Union[Scene, str, PathLike],
+    changes: Optional[Mapping[str, Any]] = None,
+    output: Union[str, PathLike, None] = None,
+    jobs: Optional[int] = None,
+    progress: bool = False,
+) -> Result:
     """The Result of a scene.
 
     scene: a Scene, or the path of a parameter file. changes: {"Section/Name": value}, in the units of the parameter file. output: folder of the
     result, replaced if it is there; without one it is temporary and goes with the Result. jobs: processes of a study or map.
     progress: prints what the program says while it runs. Throws Refused or Failed with the program's message.
     """
-    if isinstance(scene, Scene):
-        scene, changes = scene.path, {**scene.changes, **(changes or {})}
+    path, known = (scene.path, scene.changes) if isinstance(scene, Scene) else (scene, {})
     folder = Path(output or tempfile.mkdtemp(prefix="sprag-run-"))
     try:
-        run_scene(program(), scene, folder, changes or {}, jobs, progress)
+        run_scene(program(), path, folder, {**known, **(changes or {})}, jobs, progress)
         result = read_result(folder)
     except BaseException:
         if output is None:
@@ -135,7 +154,14 @@ def run(scene, changes=None, output=None, jobs=None, progress=False):
     return result
 
 
-def sweep(scene, values, changes=None, output=None, jobs=None, progress=False):
+def sweep(
+    scene: Union[Scene, str, PathLike],
+    values: Mapping[str, Sequence],
+    changes: Optional[Mapping[str, Any]] = None,
+    output: Union[str, PathLike, None] = None,
+    jobs: Optional[int] = None,
+    progress: bool = False,
+) -> Result:
     """The Result of a study of a scene over all combinations of values {"Section/Name": sequence}; else as run(). Each run is of the
     scene's Analysis/Type, or of that in changes, there Study/Type as well."""
     known = {**(scene.changes if isinstance(scene, Scene) else {}), **(changes or {})}

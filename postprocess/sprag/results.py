@@ -3,12 +3,13 @@
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from os import PathLike
 from pathlib import Path
 import re
 import time
-from typing import NamedTuple, Optional
+from typing import Any, NamedTuple, Optional, Union
 
-import h5py
+import h5py  # type: ignore[import]
 import numpy as np
 
 from .parameters import parse
@@ -110,18 +111,22 @@ class Face:
         return np.searchsorted(times, self.time - 1e-9 * np.abs(self.time)).clip(max=len(times) - 1)
 
 
-@dataclass
+@dataclass(repr=False)
 class Result:
     """One result folder. Columns and entries have the attributes unit and description."""
 
     folder: Path
-    table: dict  # column -> Column, all equally long
+    table: dict[str, Column]  # all equally long
     parameters: str
-    summary: dict = field(default_factory=dict)  # entry -> Number or text; empty while the run goes on
+    summary: dict[str, Any] = field(default_factory=dict)  # entry -> Number or Text; empty while the run goes on
     meta: dict = field(default_factory=dict)  # versions, cost, sizes
     friction_face: Optional[Face] = None
     groups: dict = field(default_factory=dict)  # other groups: name -> {dataset -> array or entry}
     finished: bool = False
+
+    def __repr__(self):
+        rows = max(map(len, self.table.values()), default=0)
+        return f"<{self.type} in {self.folder}: {self.summary.get('status', 'not finished')}, {rows} rows; {', '.join(self.headlines)}>"
 
     @property
     def name(self):
@@ -164,9 +169,11 @@ class Result:
         last = np.maximum(np.searchsorted(moving, np.arange(len(steps)), side="right") - 1, 0)
         return steps[moving[last]].astype(int)
 
-    def face(self, x, way=None):
+    def face(self, x: float, way: Optional[str] = None) -> FaceState:
         """The FaceState nearest to an x [mm] of the drive, of "forward" or "backward" motion if one is named. Throws NotAResult, also
-        where the drive does not come to x."""
+        where the drive does not come to x, and ValueError for other words."""
+        if way not in (None, *WAYS):
+            raise ValueError(f'no way {way}; there are {", ".join(WAYS)}')
         face = self.friction_face
         if face is None or len(face.time) == 0:
             raise NotAResult(f"{self.folder}: no friction face in it: its model has none")
@@ -185,7 +192,7 @@ class Result:
         """[(time [s], file)] of the fields that were written, in order."""
         return indexed(self.folder)
 
-    def fields(self, number):
+    def fields(self, number: int) -> dict[str, Column]:
         """{name: Column} of the frame of that number, from 0: nodes and cells of the mesh, displacement, stress. Throws NotAResult."""
         try:
             return read_fields(self.folder, self.frames[number][1])
@@ -200,7 +207,7 @@ class Result:
 
     def to_pandas(self):
         """The table as a pandas.DataFrame; its attrs["units"] has the units."""
-        import pandas
+        import pandas  # type: ignore[import]
 
         frame = pandas.DataFrame({name: np.asarray(values) for name, values in self.columns().items()})
         frame.attrs["units"] = self.units
@@ -228,7 +235,7 @@ def open_result(path, attempts=5):
     raise NotAResult(f"{path}: cannot be read as HDF5 ({reason})")
 
 
-def read_result(folder):
+def read_result(folder: Union[str, PathLike]) -> Result:
     """The Result in a folder. Throws NotAResult."""
     folder = Path(folder)
     path = folder / "result.h5"

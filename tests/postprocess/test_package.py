@@ -29,6 +29,13 @@ from sprag.program import program  # noqa: E402
 
 SCENES = Path(os.environ.get("SPRAG_SOURCE", SOURCE)) / "params"
 COARSE = {"Mesh/Face size": 2, "Analysis/Step": 4}
+USER = """import sprag
+scene = sprag.Scene("a.prm")
+scene.lever.depth = 12
+scene.lever.depth.number.real
+sprag.run(scene, {"Drive/Stroke": 40}).table["Q"].unit.title()
+sprag.run(7)
+"""  # the number may be None, and 7 is no scene
 
 
 def is_accepted(rule, value):
@@ -54,6 +61,7 @@ class PackageTest(FolderTest):
         self.assertAlmostEqual(Q[1] / x[1] / result.summary["slope_forward"], 1, delta=0.02)
         self.assertEqual(type(Q * x), np.ndarray)
         self.assertEqual(Q[3:5].unit, "N")
+        self.assertRegex(repr(result), r"^<quasi-static in .*: completed, \d+ rows; peak_P_forward, .*>$")
 
     def test_a_scene(self):
         scene = sprag.Scene(SCENES / "closed-form-a.prm")
@@ -67,6 +75,9 @@ class PackageTest(FolderTest):
         self.assertEqual(sprag.sweep(scene, {"Friction/Factor": [0.9, 1]}).parameter("Drive", "Stroke"), "40")
         with self.assertRaisesRegex(AttributeError, "no strok; there are .*stroke"):
             scene.drive.strok = 40
+        for mistake in ("scene.levr", "scene.stroke = 40", "scene.lever = 12"):
+            with self.assertRaises(AttributeError):
+                exec(mistake)
         sections = scene.schema()["properties"]
         self.assertEqual(sections["Lever"]["properties"]["Depth"]["exclusiveMinimum"], 0)
         self.assertEqual(sections["Analysis"]["properties"]["Type"]["enum"], law.range.removeprefix("one of ").split(" | "))
@@ -184,9 +195,13 @@ class PackageTest(FolderTest):
 
     @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
     def test_types(self):
-        cache = ("--cache-dir", self.folder / "cache")
-        done = subprocess.run(["mypy", "--check-untyped-defs", "--ignore-missing-imports", *cache, sprag.__path__[0]], capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 0, done.stdout)
+        user = self.folder / "user.py"
+        user.write_text(USER, encoding="utf-8")
+        command = ["mypy", "--check-untyped-defs", "--cache-dir", self.folder / "cache"]
+        package = {**os.environ, "MYPYPATH": str(Path(sprag.__path__[0]).parent)}
+        for checked, faults in ((sprag.__path__[0], 0), (user, 2)):
+            done = subprocess.run([*command, checked], capture_output=True, text=True, check=False, env=package)
+            self.assertEqual(done.stdout.count("error:"), faults, done.stdout)
 
     def test_a_temporary_folder_goes_with_its_result(self):
         result = sprag.run(SCENES / "closed-form-a.prm")
@@ -216,6 +231,8 @@ class PackageTest(FolderTest):
         self.assertGreater(result.face(result.table["x"].max(), "backward").x, 60)
         with self.assertRaisesRegex(sprag.NotAResult, "x from 0 to .* mm, not 300"):
             result.face(300)
+        with self.assertRaisesRegex(ValueError, "no way back; there are forward, backward"):
+            result.face(30, "back")
 
     def test_a_sweep(self):
         result = sprag.sweep(SCENES / "closed-form-a.prm", {"Geometry/Interface offset": [20, 30], "Friction/Factor": [0.9, 1]})

@@ -80,7 +80,7 @@ class Install(FolderTest):
             for path in (SOURCE / folder).glob(f"*{suffix}"):
                 self.assertTrue((to / folder / path.name).is_file(), path)
         pages = self.prefix / "share" / "doc" / "sprag"
-        for path in ("README.md", "params/README.md", "postprocess/README.md"):
+        for path in ("README.md", "params/README.md", "postprocess/README.md", "postprocess/notebooks/my-device.ipynb"):
             self.assertTrue((pages / path).is_file(), path)
 
 
