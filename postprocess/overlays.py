@@ -7,7 +7,7 @@ from matplotlib.ticker import MaxNLocator
 from map import boundary_lines, read_map
 from several import distinguish, headlines_in_common
 from sprag.results import NotAResult
-from style import MILLIMETRE, TWO_COLUMNS, WIDE, in_maths, is_signal, label, panel_letter, parameter_label, plt
+from style import MILLIMETRE, TWO_COLUMNS, WIDE, folded, in_maths, is_signal, label, panel_letter, parameter_label, plt
 from vibration import scale_eigenvalues
 from study import MOST_PANELS, choose_abscissa, find_quantities, panels_for, varied_parameters
 
@@ -106,8 +106,8 @@ def studies(results):
                 rows = rows[np.argsort(abscissa.numbers[rows], kind="stable")]
                 line = {"label": None if index else name, **look}
                 axes.plot(abscissa.numbers[rows], result.table[quantity][rows], marker=".", markersize=3, **line)
-        axes.set_xlabel(abscissae[0].label)
-        axes.set_ylabel(with_brackets(quantity.replace("_", " "), results[0].units[quantity]))
+        axes.set_xlabel(folded(abscissae[0].label))
+        axes.set_ylabel(folded(with_brackets(quantity.replace("_", " "), results[0].units[quantity])))
         panel_letter(axes, letter)
     several.explain(figure, panels, panels[-1])
     return figure
@@ -157,7 +157,7 @@ def numbers(results, names):
 def draw_number(axes, results, several, name):
     """Draws a number over the parameter, or beside the names of the results if the parameter is no number or repeats."""
     found, places = np.array([float(result.summary[name]) for result in results]), several.values
-    text, colours = with_brackets(name.replace("_", " "), results[0].summary[name].unit), [look["color"] for look in several.looks]
+    text, colours = folded(with_brackets(name.replace("_", " "), results[0].summary[name].unit)), [look["color"] for look in several.looks]
     if places is None or len(np.unique(places)) < len(places):
         axes.scatter(found, range(len(found)), color=colours, s=16)
         axes.set_yticks(range(len(found)), several.names if axes.get_subplotspec().is_first_col() else [""] * len(found))
@@ -169,7 +169,7 @@ def draw_number(axes, results, several, name):
     order = np.argsort(places, kind="stable")
     axes.plot(places[order], found[order], color="0.6", linewidth=0.8, zorder=1)
     axes.scatter(places, found, color=colours, s=16)
-    axes.set_xlabel(several.label + several.remark)
+    axes.set_xlabel(folded(several.label + several.remark))
     if places.min() > 0 and places.max() / places.min() > WIDE:
         axes.set_xscale("log")
     axes.set_ylabel(text)

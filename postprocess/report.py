@@ -33,7 +33,10 @@ def write_report(results, pictures, path):
     environment = Environment(autoescape=select_autoescape(default=True), trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
     parameters = [parse(result.parameters) for result in results]
-    names = distinguish(results).names if len(results) > 1 else [result.name for result in results]
+    names = [result.name for result in results]
+    if len(results) > 1:
+        several = distinguish(results)
+        names = several.names if several.values is None else [f"{several.parameter} {name}" for name in several.names]
     devices = [device_svg(result, each) for result, each in zip(results, parameters)]
     text = template.render(
         title=results[0].name if len(results) == 1 else f"Comparison of {len(results)} results",
@@ -73,8 +76,16 @@ def answer(result):
     demands = result.groups.get("demands", {"demand": [], "value": []})
     lever = [(name, rounded(result.summary[slug(name)])) for name, _, _ in free_parameters(result)]
     within = bool(result.parameter("Design", "Tolerances"))
-    texts = [f"{value:.4g}" + (f", at worst {worst:.4g}" if within else "") for value, worst in zip(demands["value"], demands.get("worst", demands["value"]))]
+    texts = [demand_text(result, demand, f"{value:.4g}") for demand, value in zip(demands["demand"], demands["value"])]
+    if within:
+        texts = [f"{text}, at worst {worst:.4g}" for text, worst in zip(texts, demands["worst"])]
     return [*lever, *zip(demands["demand"], texts), *lines]
+
+
+def demand_text(result, demand, text):
+    """A number as text with the unit of the quantity that is demanded."""
+    unit = getattr(result.summary.get(slug(re.split("[<>=]", demand)[0].strip())), "unit", "1")
+    return text if unit == "1" else f"{text} {unit}"
 
 
 def study_runs(result):
@@ -98,13 +109,21 @@ def numbers(results):
         first = results[0].summary[name]
         return name, first.description, first.unit, [entry_text(result, name) for result in results]
 
-    return [entry(name) for name in headlines_in_common(results)]
+    return [entry(name) for name in headlines_in_common(results) if not is_limit_error(name)]
 
 
 def entry_text(result, name):
     number, error = result.summary[name], entry_error(result, name)
     joules = f"{number / 1000:.4g} J" if number.unit == "N mm" else ""
-    return f"{number:.4g}", joules, "" if error is None else f"\N{PLUS-MINUS SIGN} {100 * error:.2g} %"
+    if not name.startswith("critical_"):
+        return f"{number:.4g}", joules, "" if error is None else f"\N{PLUS-MINUS SIGN} {100 * error:.2g} %"
+    # The answer rounds limits to the stable side: with more digits here, none contradicts it.
+    error = result.summary.get(f"{name}_error")
+    return f"{number:.6g}", joules, "" if error is None else f"\N{PLUS-MINUS SIGN} {error:.2g} {number.unit}"
+
+
+def is_limit_error(name):
+    return name.startswith("critical_") and name.endswith("_error")
 
 
 def entry_error(result, name):

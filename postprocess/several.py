@@ -141,7 +141,7 @@ def label_ends(axes, lines, height=0.085):
     ends = [(line, end) for line in lines if (end := last_point(axes, line)) is not None]
     heights = [axes.transAxes.inverted().transform(axes.transData.transform(end))[1] for _, end in ends]
     for (line, end), place in zip(ends, spread(heights, height)):
-        arrow = {"arrowstyle": "-", "color": line.get_color(), "linewidth": 0.5, "shrinkA": 0, "shrinkB": 1}
+        arrow = {"arrowstyle": "-", "color": line.get_color(), "linewidth": 0.5, "shrinkA": 0, "shrinkB": 1, "relpos": (0, 0.5)}
         style = {"color": line.get_color(), "fontsize": 7, "va": "center", "annotation_clip": False}
         axes.annotate(line.get_label(), end, xytext=(1.03, place), textcoords="axes fraction", arrowprops=arrow, **style)
 

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 from sprag.parameters import slug
-from style import COLOURS, LINES, MARKERS, MILLIMETRE, TWO_COLUMNS, WIDE, legend_on_top, make_scale, panel_letter, parameter_label, plt
+from style import COLOURS, LINES, MARKERS, MILLIMETRE, TWO_COLUMNS, WIDE, folded, legend_on_top, make_scale, panel_letter, parameter_label, plt
 
 MOST_PANELS = 6
 # Beyond them a bar tells colours apart.
@@ -131,8 +131,8 @@ def curves(result):
             order = np.argsort(x, kind="stable")
             axes.plot(x[order], y[order], color=code.colour, linestyle=code.line, marker=code.marker, markersize=2)
         unit = result.units[name].replace("^2", "$^2$")
-        axes.set_ylabel(name.replace("_", " ") + (f" [{unit}]" if unit not in ("", "1") else ""))
-        axes.set_xlabel(abscissa.label)
+        axes.set_ylabel(folded(name.replace("_", " ") + (f" [{unit}]" if unit not in ("", "1") else "")))
+        axes.set_xlabel(folded(abscissa.label))
         set_abscissa(axes, abscissa, abscissa.numbers[result.table["outcome"] == 0])
         panel_letter(axes, letter)
     if bar is not None:

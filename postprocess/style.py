@@ -2,6 +2,7 @@
 """Styles that all pictures share: sizes, colours and lines, symbols, axis labels."""
 
 import re
+import textwrap
 
 import matplotlib
 
@@ -52,7 +53,7 @@ PARAMETERS = {
     "Drive/Speed": "speed $v$",
 }
 # Sections whose names of parameters say enough.
-OWN_NAMES = ("Analysis", "Drive", "Mesh", "Time", "Condensed", "Stability", "Geometry")
+OWN_NAMES = ("Analysis", "Drive", "Mesh", "Time", "Condensed", "Stability", "Geometry", "Isolation")
 
 
 def use_print_style():
@@ -107,7 +108,13 @@ def parameter_label(name, unit="1"):
     """Returns the label of the parameter Section/Name for an axis."""
     section, _, own = name.partition("/")
     text = PARAMETERS.get(name, own.lower() if section in OWN_NAMES else f"{section} {own}".lower())
+    text = text.replace("young", "Young").replace("poisson", "Poisson")
     return text if unit in ("", "1") else f"{text} [{in_maths(unit)}]"
+
+
+def folded(text):
+    """Returns a label in lines that are not cut beside a panel of a third of the page."""
+    return "\n".join(textwrap.wrap(text, 28, break_long_words=False))
 
 
 def set_labels(axes, units, over, column):

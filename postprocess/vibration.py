@@ -9,7 +9,7 @@ from matplotlib.ticker import FuncFormatter, NullLocator
 
 from shades import rounded
 from sprag.results import NotAResult
-from style import COLOURS, MILLIMETRE, ONE_COLUMN, TWO_COLUMNS, panel_letter, plt
+from style import COLOURS, MILLIMETRE, ONE_COLUMN, TWO_COLUMNS, panel_letter, parameter_label, plt
 
 KINDS = ("stable", "flutter", "divergence")
 FEEDS = (
@@ -39,7 +39,8 @@ def vibration_pictures(result):
 
 def critical(result, searches):
     """Growth rate of the worst slide over each parameter, shaded where it vibrates, and where the verdict changes. Over a stroke also a map."""
-    has_map = [len(np.unique(tried.get("place_x", ()))) > 1 for tried in searches.values()]
+    # Over the position itself it would be a line.
+    has_map = [name != "critical_stability_position" and len(np.unique(tried.get("place_x", ()))) > 1 for name, tried in searches.items()]
     heights = [height for mapped in has_map for height in ((48, 48) if mapped else (48,))]
     figure, panels = plt.subplots(len(heights), 1, figsize=(TWO_COLUMNS, (12 + sum(heights)) * MILLIMETRE), squeeze=False)
     rest = iter(panels.flat)
@@ -63,16 +64,17 @@ def critical(result, searches):
             axes.legend(fontsize=7)
         parameter, _, verdicts = result.summary[f"{name}_verdicts"].partition(" from ")
         axes.set_title("\n".join(textwrap.wrap(verdicts.partition(": ")[2], 90)), fontsize=8, loc="left")
-        unit = tried["value"].unit
-        axes.set_xlabel(parameter + (f" [{unit}]" if unit != "1" else ""))
+        axes.set_xlabel(parameter_label(parameter, tried["value"].unit))
         axes.set_ylabel("growth rate [1/s]")
         if mapped:
             below = next(rest)
             draw_places(below, tried)
             for number, change in enumerate(changes, 1):
                 error = result.summary.get(f"{name}_{number}_error", 0.0)
-                below.axvspan(change - error, change + error, color="black", alpha=0.25, linewidth=0)
+                if error > 0:
+                    below.axvspan(change - error, change + error, color="black", alpha=0.25, linewidth=0, label="error" if number == 1 else None)
                 below.axvline(change, color="black", linewidth=0.8, linestyle="--")
+            below.legend(fontsize=7, loc="upper right", frameon=True, framealpha=1)
             below.set_xlabel(axes.get_xlabel())
             axes.sharex(below)
     return figure
@@ -94,7 +96,6 @@ def draw_places(axes, tried):
         axes.fill_between((), (), facecolor=colour, alpha=0.25, label=f"unstable {name}")
     axes.plot(tried["place_value"], tried["place_x"], ",", color="0.5")
     axes.set_ylabel("position $x$ [mm]")
-    axes.legend(fontsize=7, loc="upper right", frameon=True, framealpha=1)
 
 
 def mode_shapes(modes, most=6):

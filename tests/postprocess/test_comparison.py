@@ -14,6 +14,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from pictures import PictureTest, draw  # noqa: E402
 import comparison  # noqa: E402
 import forces  # noqa: E402
+import overlays  # noqa: E402
 from sprag import parameters  # noqa: E402
 import several  # noqa: E402
 from sprag.results import NotAResult, read_result  # noqa: E402
@@ -91,6 +92,18 @@ class TellingApart(SeveralTest):
         self.assertEqual(naming.label, "lever depth [mm]")
         self.assertEqual((naming.scale.norm.vmin, naming.scale.norm.vmax), (5, 43))
         self.assertEqual(naming.looks[3]["color"], naming.scale.to_rgba(11))
+
+    def test_long_names_are_not_cut(self):
+        result = self.write_run("a")
+        text = result.parameters.replace("subsection Lever\n", "subsection Friction layer\n").replace("set Depth", "set Young's modulus")
+        result.parameters, other = text, self.write_run("b", 2)
+        other.parameters = text.replace("modulus = 20", "modulus = 30")
+        names = "critical_rotational_spring_stiffness_1", "peak_P_forward", "loop_area"
+        for each in (result, other):
+            each.summary[names[0]] = each.summary["loop_area"]
+        figure = overlays.numbers([result, other], names)
+        self.assertEqual(figure.axes[0].get_xlabel().replace("\n", " "), "friction layer Young's modulus [mm]")
+        self.expect_layout(figure)
 
     def test_too_many(self):
         with self.assertRaisesRegex(NotAResult, "21 results"):

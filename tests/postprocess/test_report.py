@@ -71,7 +71,7 @@ class ReportTest(PictureTest):
         path = self.pictures / "report.html"
         self.assertEqual(done.stdout.splitlines()[-1], str(path))
         text = path.read_text(encoding="utf-8")
-        return Page(text), " ".join(re.sub(r"<[^>]*>", " ", text).split())
+        return Page(text), " ".join(re.sub(r"<[^>]*>", " ", text.replace("<wbr>", "")).split())
 
     def test_of_one_run(self):
         page, words = self.report(self.result("a"))
@@ -89,6 +89,18 @@ class ReportTest(PictureTest):
         page, words = self.report(self.result("a"), self.result("b", LISTING.replace("12", "16")))
         self.assertIn("Comparison of 2 results", words)
         self.assertIn("Lever/Depth 12 mm 16 mm", words)
+        self.assertIn("Comparison of 2 results Lever/Depth 12 mm quasi-static, folder a", words)
+
+    def test_limits_are_those_of_the_answer(self):
+        """The answer rounds a limit of 5.60535 mm to the stable side, 5.606 mm."""
+        folder = self.result("a")
+        with h5py.File(folder / "result.h5", "a") as file:
+            for name, value in (("critical_lever_depth_1", 5.60535432), ("critical_lever_depth_1_error", 0.18011955)):
+                put(file["summary"], name, value, "mm")
+                file["summary"][name].attrs["headline"] = 1
+        _, words = self.report(folder)
+        self.assertRegex(words, "critical_lever_depth_1 .*5.60535 \N{PLUS-MINUS SIGN} 0.18 mm mm")
+        self.assertNotIn("critical_lever_depth_1_error", words)
 
     def test_of_a_study(self):
         _, words = self.report(run_once("study of many"))
