@@ -5,11 +5,15 @@ import base64
 import re
 from pathlib import Path
 
+import numpy as np
+
+from arguments import DPI
 from design import free_parameters
 from several import distinguish, headlines_in_common, said
 from sketch import device_svg
 from sprag.parameters import differing, parse, scene_text, set_apart, slug
 from sprag.results import NotAResult
+from style import TWO_COLUMNS
 from study import find_quantities, varied_parameters
 
 # The sketch of the device leaves these out, where a parameter is not as usual.
@@ -20,6 +24,7 @@ NOT_SKETCHED = {
     ("Mirrored pair/Type", "half"): "the second lever",
 }
 MOST_RUNS = 20  # rows of a study's table
+BESIDE_HEADLINES = ("slope_forward", "slope_backward", "largest_lever_stress", "largest_layer_stress")  # of a drive
 TEMPLATE = Path(__file__).with_name("report.html")
 
 
@@ -36,17 +41,27 @@ def write_report(results, pictures, path):
     names = [result.name for result in results]
     if len(results) > 1:
         several = distinguish(results)
-        names = several.names if several.values is None else [f"{several.parameter} {name}" for name in several.names]
+        names = [plain(name if several.values is None else f"{several.parameter} {name}") for name in several.names]
     devices = [device_svg(result, each) for result, each in zip(results, parameters)]
     text = template.render(
         title=results[0].name if len(results) == 1 else f"Comparison of {len(results)} results",
         results=[about(*each) for each in zip(results, names, parameters, (Markup(device or "") for device in devices))],
         numbers=numbers(results),
-        differences=[(name, [said(each.get(name)) for each in parameters]) for name in differing(parameters)] if len(results) > 1 else [],
-        pictures={name: base64.b64encode(file.read_bytes()).decode() for name, file in pictures.items()},
+        differences=[(name, [plain(said(each.get(name))) for each in parameters]) for name in differing(parameters)] if len(results) > 1 else [],
+        pictures=[(name, *embedded(file.read_bytes())) for name, file in pictures.items()],
     )
     path.write_text(text, encoding="utf-8")
     print(path)
+
+
+def plain(text):
+    """A text with a unit whose powers are not raised as in pictures."""
+    return re.sub(r"\$\^\{(.*?)\}\$", r"^\1", text)
+
+
+def embedded(picture):
+    """The text of a PNG, and its share of a page's width [%]."""
+    return base64.b64encode(picture).decode(), min(100, round(100 * int.from_bytes(picture[16:20]) / (DPI * TWO_COLUMNS)))
 
 
 def about(result, name, parameters, device):
@@ -61,7 +76,7 @@ def about(result, name, parameters, device):
         "device": device,
         "left_out": [words for (name, usual), words in NOT_SKETCHED.items() if name in parameters and parameters[name].text != usual],
         "warnings": [(text, text.more.get("effect", ""), text.more.get("remedy", "")) for text in warnings(result)],
-        "apart": [(key, said(parameter), parameter.default) for key, parameter in apart.items()],
+        "apart": [(key, plain(said(parameter)), parameter.default) for key, parameter in apart.items()],
         "scene": scene_text(apart),
         "meta": {key: rounded(value) for key, value in result.meta.items() if not key.startswith(("cpu_time_", "wall_time_"))},
         "cost": f"{result.meta['cpu_time']:.3g} s of CPU time" if "cpu_time" in result.meta else "",
@@ -109,12 +124,15 @@ def numbers(results):
         first = results[0].summary[name]
         return name, first.description, first.unit, [entry_text(result, name) for result in results]
 
-    return [entry(name) for name in headlines_in_common(results) if not is_limit_error(name)]
+    beside = [name for name in BESIDE_HEADLINES if all(np.isfinite(result.summary.get(name, np.nan)) for result in results)]
+    return [entry(name) for name in [*headlines_in_common(results), *beside] if not is_limit_error(name)]
 
 
 def entry_text(result, name):
     number, error = result.summary[name], entry_error(result, name)
     joules = f"{number / 1000:.4g} J" if number.unit == "N mm" else ""
+    if all(f"{name}_{end}" in result.summary for end in ("low", "high")):
+        return f"{number:.4g}", joules, " to ".join(f"{result.summary[f'{name}_{end}']:.4g}" for end in ("low", "high"))
     if not name.startswith("critical_"):
         return f"{number:.4g}", joules, "" if error is None else f"\N{PLUS-MINUS SIGN} {100 * error:.2g} %"
     # The answer rounds limits to the stable side: with more digits here, none contradicts it.

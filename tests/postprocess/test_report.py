@@ -33,6 +33,8 @@ subsection Lever
   # Depth of the metal [mm]: a number > 0.
   set Depth = 12  # default: 20
   set Width = 40.0  # default: 40
+  # Stiffness of the contact [N/mm^n]: a number > 0.
+  set Contact = 9541  # default: 2000
 end
 """
 
@@ -75,11 +77,11 @@ class ReportTest(PictureTest):
 
     def test_of_one_run(self):
         page, words = self.report(self.result("a"))
-        for said in ("largest P forward 14.68 N, backward", "peak_P_backward", "25.71", "\N{PLUS-MINUS SIGN} 1.2 %", "Completed, no warnings.", "Lever/Depth 12 mm 20"):
+        for said in ("largest P forward 14.68 N, backward", "peak_P_backward", "25.71", "\N{PLUS-MINUS SIGN} 1.2 %", "0.07969 N/mm", "Completed, no warnings.", "Lever/Depth 12 mm 20", "Lever/Contact 9541 N/mm^n 2000"):
             self.assertIn(said, words)
         self.assertNotIn("Lever/Width", words)
         scene = next(data for data in page.words if "subsection" in data)
-        self.assertEqual({name: value.text for name, value in parameters.parse(scene).items()}, {"Lever/Depth": "12"})
+        self.assertEqual({name: value.text for name, value in parameters.parse(scene).items()}, {"Lever/Depth": "12", "Lever/Contact": "9541"})
         pictures = [attributes["src"] for tag, attributes in page.tags if tag == "img"]
         self.assertEqual(len(pictures), 1)  # forces
         for source in pictures:
@@ -96,8 +98,8 @@ class ReportTest(PictureTest):
         folder = self.result("a")
         with h5py.File(folder / "result.h5", "a") as file:
             for name, value in (("critical_lever_depth_1", 5.60535432), ("critical_lever_depth_1_error", 0.18011955)):
-                put(file["summary"], name, value, "mm")
-                file["summary"][name].attrs["headline"] = 1
+                file["summary"][name] = value
+                file["summary"][name].attrs.update(unit="mm", headline=1)
         _, words = self.report(folder)
         self.assertRegex(words, "critical_lever_depth_1 .*5.60535 \N{PLUS-MINUS SIGN} 0.18 mm mm")
         self.assertNotIn("critical_lever_depth_1_error", words)
