@@ -43,7 +43,7 @@ namespace sprag
       app.add_flag("--validate", arguments.validate, "Check the file and stop");
       app.add_flag("--print-parameters{prm}", arguments.print_parameters,
                    "Print every parameter with its meaning and stop; =xml for parameter_gui of deal.II")
-          ->check(CLI::IsMember({ "prm", "xml" }));
+          ->check(CLI::IsMember({ "prm", "xml" }).description(""));
       auto *const quiet = app.add_flag("--quiet", arguments.quiet, "Print errors only");
       app.add_flag("--verbose", arguments.verbose, "Print every result that is in /summary")->excludes(quiet);
       app.add_flag("--trust-scripts", arguments.trust_scripts,
@@ -169,7 +169,9 @@ namespace sprag
                                        (error == std::errc::file_exists ? "; no file is replaced, name another" : "")));
       if (asks)
         std::ofstream(arguments.new_file) << text;
-      std::cout << arguments.new_file << ": a copy of " << shipped.filename().string() << ", to be edited and run\n";
+      std::cout << arguments.new_file
+                << (asks ? ": your device, to be run" : ": a copy of " + shipped.filename().string() + ", to be edited and run")
+                << "\n";
       return asks ? report_mistakes([&] { read_scene(arguments.new_file); }) : success;
     }
 
@@ -213,25 +215,30 @@ namespace sprag
     }
 
     /// Explains a name. Of a section, or of a parameter "Section/Name", it writes the parameters with their defaults and
-    /// documentation; capitals do not matter. Of an entry or column of results, or of a warning, it writes the rows of the tables
-    /// that are built into the program. Throws InputError with the nearest name where there is none.
+    /// documentation; capitals do not matter, and "Name" stands for all parameters of that name that no result has. Of an entry
+    /// or column of results, or of a warning, it writes the rows of the tables that are built into the program. Throws InputError
+    /// with the nearest name where there is none.
     std::string help_text(const std::string &name)
     {
       SceneSettings defaults;
-      std::vector<Parameter> found;
+      std::vector<Parameter> found, namesakes;
       std::vector<std::string> names;
       for (const auto &parameter : scene_parameters(defaults))
       {
+        if (boost::algorithm::iequals(parameter.name, name))
+          namesakes.push_back(parameter);
         for (const auto &candidate : { parameter.section, full_name(parameter) })
           if (boost::algorithm::iequals(candidate, name))
             found.push_back(parameter);
         names.insert(names.end(), { parameter.section, full_name(parameter) });
       }
+      const auto entry = name.substr(name.rfind('/') + 1);
+      if (auto text = result_text(entry); found.empty() && !text.empty())
+        return text;
+      if (found.empty())
+        found = namesakes;
       if (!found.empty())
         return parameters_text(found, { { "Time/Tolerance", number_text(defaults.scene.time.tolerance) } });
-      const auto entry = name.substr(name.rfind('/') + 1);
-      if (auto text = result_text(entry); !text.empty())
-        return text;
       for (const auto &table : page_tables())
         if (kinds_in_words().count(table.kind) > 0)
           for (const auto &[row, cells] : table.rows)

@@ -294,6 +294,7 @@ class Options(ProgramTest):
         one = sprag("--help", "lever/depth").stdout
         self.assertRegex(one, r"subsection Lever\n(?:  # .*\n)+  set Depth = 20\nend\n")
         self.assertIn(one.partition("set Depth")[0].partition("subsection Lever\n")[2], sprag("Lever", "--help").stdout)
+        self.assertEqual(sprag("--help", "depth").stdout, one)
         self.complains(["--help", "Lever/Dept"], "--help Lever/Dept: there is no such section, parameter, result or warning; did you mean 'Lever/Depth'?")
         entry = sprag("--help", "peak_P_backward").stdout
         self.assertTrue(entry.startswith("/summary/peak_P_backward [N]\n"), entry)
