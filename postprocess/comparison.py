@@ -198,20 +198,22 @@ def draw_curve(axes, time, values, view, **look):
 
 
 def pressures(results, x=None):
-    """Pressure and friction traction of all at one x, each way, and how far the pressure is from the first one's; None without contact.
+    """Pressure and friction traction of all at one x, each way, and how far the pressure is from that of the first, of runs that differ
+    in method alone of the finest; None without contact.
 
     x [mm]: 0.9 of the largest one that all reach unless it is given. Runs that have no step there are shifted by what they miss.
     """
     several = distinguish(results)
     x = 0.9 * min(float(result.friction_face.x.max()) for result in results) if x is None else x
     x = results[0].face(x).x
+    reference = results.index(max(results, key=level)) if several.is_numerical else 0
     figure, panels = plt.subplots(3, 2, sharex="col", sharey="row", figsize=(TWO_COLUMNS, 130 * MILLIMETRE))
     for column, way in enumerate(WAYS):
         try:
             faces = [result.face(x, way) for result in results]
         except NotAResult:
             continue  # a drive may end before it turns back
-        draw_faces(panels[:, column], faces, several, x)
+        draw_faces(panels[:, column], faces, several, x, reference)
         panels[0, column].set_title(f"({'ab'[column]}) {way}, $x$ = {x:.4g} mm", loc="left", fontsize=8)
         panels[2, column].set_xlabel(r"lever coordinate $\xi$ [mm]")
         panels[2, column].xaxis.set_major_locator(MaxNLocator(5))
@@ -220,14 +222,14 @@ def pressures(results, x=None):
         return None
     for axes, text in zip(panels[:, 0], ("pressure [MPa]", "traction [MPa]", "difference [MPa]")):
         axes.set_ylabel(text)
-    panels[2, 0].set_title(f"pressure less that of {several.names[0]}", loc="left", fontsize=8)
+    panels[2, 0].set_title(f"pressure less that of {several.names[reference]}", loc="left", fontsize=8)
     for axes in panels.flat:
         axes.set_visible(bool(axes.lines))
     several.explain(figure, panels.flat, panels[1, 1] if panels[1, 1].lines else panels[1, 0])
     return figure
 
 
-def draw_faces(panels, faces, several, x):
+def draw_faces(panels, faces, several, x, reference):
     """Draws the pressure over xi, moved by the difference of each step's x from `x`, along which the contact moves."""
     places = [face.xi + (face.x - x) for face in faces]
     pressed = np.concatenate([place[face.pressure > 0] for place, face in zip(places, faces)])
@@ -237,8 +239,8 @@ def draw_faces(panels, faces, several, x):
     room = 0.05 * (high - low)
     for place, face, name, look in zip(places, faces, several.names, several.looks):
         near = (place > low - 4 * room) & (place < high + 4 * room)
-        first = np.interp(place[near], places[0], faces[0].pressure)
-        for axes, values in zip(panels, (face.pressure[near], face.traction[near], face.pressure[near] - first)):
+        compared = np.interp(place[near], places[reference], faces[reference].pressure)
+        for axes, values in zip(panels, (face.pressure[near], face.traction[near], face.pressure[near] - compared)):
             axes.plot(place[near], values, label=name, **look)
     panels[0].set_xlim(low - room, high + room)
     if not any(is_signal(line.get_ydata(), faces[0].pressure) for line in panels[2].lines):

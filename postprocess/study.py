@@ -12,6 +12,7 @@ from style import COLOURS, LINES, MARKERS, MILLIMETRE, TWO_COLUMNS, WIDE, folded
 MOST_PANELS = 6
 # Beyond them a bar tells colours apart.
 MOST_LINES = 7
+MOST_MARKED = 30  # points of a curve; marks of more hide how its line is broken
 
 
 @dataclass
@@ -60,6 +61,7 @@ class Code:
     colour: object
     line: object
     marker: str
+    width: float = 1.2
 
 
 def codes(result, others):
@@ -81,7 +83,11 @@ def codes(result, others):
                 found.append(Code(mask, shades[text], **shape))
     handles, names = [], []
     if scale is None:
-        handles += [plt.Line2D([], [], color=colour) for colour in shades.values()]
+        lines = [LINES[0 if rest else index % len(LINES)] for index in range(len(shades))]
+        if not rest:  # lines are free to tell apart curves that hide each other
+            for index, code in enumerate(found):
+                code.line, code.width = lines[index], 1.0 + 1.4 * (len(found) - 1 - index) / len(found)
+        handles += [plt.Line2D([], [], color=colour, linestyle=line) for colour, line in zip(shades.values(), lines)]
         names += [coloured.said(text) for text in shades]
     if rest:
         looks = zip(LINES * (1 + len(styles) // len(LINES)), MARKERS * (1 + len(styles) // len(MARKERS)), styles)
@@ -129,7 +135,8 @@ def curves(result):
         for code in found:
             x, y = abscissa.numbers[code.mask], result.table[name][code.mask]
             order = np.argsort(x, kind="stable")
-            axes.plot(x[order], y[order], color=code.colour, linestyle=code.line, marker=code.marker, markersize=2)
+            marks = {"marker": code.marker, "markersize": 2} if len(x) <= MOST_MARKED else {}
+            axes.plot(x[order], y[order], color=code.colour, linestyle=code.line, linewidth=code.width, **marks)
         unit = result.units[name].replace("^2", "$^2$")
         axes.set_ylabel(folded(name.replace("_", " ") + (f" [{unit}]" if unit not in ("", "1") else "")))
         axes.set_xlabel(folded(abscissa.label))

@@ -114,7 +114,8 @@ def parameter_label(name, unit="1"):
 
 def folded(text):
     """Returns a label in lines that are not cut beside a panel of a third of the page."""
-    return "\n".join(textwrap.wrap(text, 28, break_long_words=False))
+    width = 28 + len(re.findall(r"[$^{}]", text))
+    return "\n".join(textwrap.wrap(text, width, break_long_words=False))
 
 
 def set_labels(axes, units, over, column):

@@ -191,6 +191,10 @@ class Pictures(SeveralTest):
         difference = pictures["pressure"].axes[4].lines[1].get_ydata()
         np.testing.assert_allclose(difference, 0.5 * first[:, 1], atol=1e-12)
         self.expect_layout(pictures["pressure"])
+        # The finest of models is the reference.
+        levels = (("coarse", "rigid"), ("fine", "beam"))
+        models = comparison.pressures([self.write_run(name, scene="model-b", model=model) for name, model in levels])
+        self.assertEqual(models.axes[4].get_title(loc="left"), "pressure less that of beam")
 
     def test_what_differs_names_the_runs(self):
         two = [self.write_run(name, mu=mu, depth=depth) for name, mu, depth in (("a", "0.5", "6"), ("b", "0.7", "6"), ("c", "0.7", "8"))]

@@ -141,7 +141,9 @@ class ScenesTest(PictureTest):
         if result.folder.name == "study-a":
             self.assertEqual({len(axes.lines) for axes in panels}, {2})
             self.assertEqual([text.get_text() for text in panels[0].figure.legends[0].get_texts()], ["degree 1", "degree 2"])
-            line, table = panels[0].lines[0], result.table
+            (line, above), table = panels[0].lines, result.table
+            self.assertGreater(line.get_linewidth(), above.get_linewidth())  # which would hide it where they are equal
+            self.assertNotEqual(line.get_linestyle(), above.get_linestyle())
             rows = (table["mesh_degree"] == 1) & (table["outcome"] == 0)
             np.testing.assert_array_equal(line.get_xdata(), np.sort(table["mesh_face_size"][rows]))
 
