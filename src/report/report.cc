@@ -167,6 +167,8 @@ namespace sprag
     {
       for (const auto &[direction, name] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
       {
+        if (stroke(rows, direction, 0.).empty())
+          continue;
         const auto counts = moves_with_friction(rows, direction);
         for (const Column column : { Column::P, Column::Q, Column::Q_support })
           entries.push_back({ "peak_" + column_info(column).name + "_" + name, peak_between_rows(rows, column, counts) });

@@ -132,10 +132,12 @@ namespace sprag
           std::max(compute_nonlinearity(places, ideal.first.Q), compute_nonlinearity(places, ideal.second.Q));
     }
 
+    /// Takes the largest of those entries that there are: a drive may go one way alone.
     void take_larger(double &value, const std::vector<Entry> &summary, const std::vector<std::string> &names)
     {
-      for (const auto &name : names)
-        value = std::max(value, std::abs(find_value(summary, name)));
+      for (const auto &entry : summary)
+        if (contains(names, entry.name))
+          value = std::max(value, std::abs(std::get<double>(entry.value)));
     }
   } // namespace
 

@@ -177,6 +177,8 @@ TEST(Report, PeaksInTimeLieBetweenRows)
   const auto summary = transient_summary(model_a(), rows);
   EXPECT_NEAR(find_value(summary, "peak_P_forward"), 25., 2e-3);
   EXPECT_GT(find_value(summary, "peak_P_forward"), (*largest_row)[Column::P]);
+  const auto is_backward = [](const Entry &entry) { return entry.name == "peak_P_backward"; };
+  EXPECT_EQ(std::count_if(summary.begin(), summary.end(), is_backward), 0); // it moves forward alone
 }
 
 // A force that rises slowly and falls at once, as before a sudden reversal: a parabola would rise to 250 kN.
