@@ -15,7 +15,9 @@ namespace sprag
 {
   namespace
   {
-    constexpr double window_length     = 0.1;     ///< [s]
+    constexpr double window_length     = 0.1;     ///< [s], at least
+    constexpr unsigned window_periods  = 15;      ///< of a vibration that is slower
+    constexpr double last_share        = 0.1;     ///< of the window, in which what is left counts
     constexpr double noise             = 1e-3;    ///< relative to the largest force
     constexpr double vibration_rms     = 0.08;    ///< over the largest P without inertia
     constexpr double vibration_open    = 0.01;    ///< of the time
@@ -177,13 +179,29 @@ namespace sprag
       return window.size() < 2 ? Ringing{} : ringing(resampled(window), noise_in(window));
     }
 
+    /// The last sample farther off its value without inertia than `little`.
+    Samples::const_reverse_iterator last_beyond(const Samples &samples, const double little)
+    {
+      return std::find_if(samples.rbegin(), samples.rend(),
+                          [little](const Sample &sample) { return std::abs(sample.difference) > little; });
+    }
+
     double extent(const Samples &from_reversal, const double x)
     {
-      const double peak   = largest(from_reversal, [](const Sample &sample) { return sample.difference; });
-      const double little = std::max(envelope_end * peak, noise_in(from_reversal));
-      const auto last     = std::find_if(from_reversal.rbegin(), from_reversal.rend(),
-                                         [little](const Sample &sample) { return std::abs(sample.difference) > little; });
+      const double peak = largest(from_reversal, [](const Sample &sample) { return sample.difference; });
+      const auto last   = last_beyond(from_reversal, std::max(envelope_end * peak, noise_in(from_reversal)));
       return last == from_reversal.rend() ? 0. : std::abs(last->x - x);
+    }
+
+    /// Returns how long P takes to meet its value without inertia twice in each of the periods, or to decay by the last tenth.
+    double vibration_length(const Samples &from_reversal)
+    {
+      unsigned crossings = 0;
+      for (std::size_t i = 1; i < from_reversal.size(); ++i)
+        if (from_reversal[i].difference * from_reversal[i - 1].difference < 0. && ++crossings == 2 * window_periods)
+          return from_reversal[i].time - from_reversal.front().time;
+      const auto last = last_beyond(from_reversal, decayed_rms * largest_reference(from_reversal));
+      return crossings == 0 || last == from_reversal.rend() ? 0. : (last->time - from_reversal.front().time) / (1. - last_share);
     }
 
     /// `least`: P that never counts [N].
@@ -245,7 +263,7 @@ namespace sprag
       oscillation.overshoot_P = overshoot(up_to(after_turn, oscillation.window_end), oscillation.window_begin);
       oscillation.open_share  = open_share(window);
       oscillation.rms         = rms(window);
-      const double last_tenth = oscillation.window_end - 0.1 * (oscillation.window_end - oscillation.window_begin);
+      const double last_tenth = oscillation.window_end - last_share * (oscillation.window_end - oscillation.window_begin);
       oscillation.rms_end     = rms(later_than(window, last_tenth));
       oscillation.extent      = extent(after_reversal, oscillation.x);
       oscillation.scale       = largest_reference(window);
@@ -287,8 +305,10 @@ namespace sprag
       result.x            = turn.x;
       result.window_begin = turn.time + reversal_duration / 2.;
       const double end    = std::min(next_reversal, rows.empty() ? turn.time : rows.back()[Column::time]);
-      result.window_end   = std::max(std::min(result.window_begin + window_length, end), result.window_begin);
-      add_normal_force(result, collect_samples(rows, Column::P, Column::P_quasi_static, turn.time, end), rows, face_size);
+      const auto after    = collect_samples(rows, Column::P, Column::P_quasi_static, turn.time, end);
+      const double length = std::max(window_length, vibration_length(later_than(after, result.window_begin)));
+      result.window_end   = std::max(std::min(result.window_begin + length, end), result.window_begin);
+      add_normal_force(result, after, rows, face_size);
       add_force_along_x(collect_samples(rows, Column::Q, Column::Q_quasi_static, turn.time, end), result.window_begin,
                         result.window_end, result.overshoot_Q, result.frequency_Q, result.rms_Q);
       add_force_along_x(collect_samples(rows, Column::Q_support, Column::Q_quasi_static, turn.time, end), result.window_begin,

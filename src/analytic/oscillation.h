@@ -23,9 +23,10 @@ namespace sprag
 
   /// The vibration after a reversal of the drive, measured by how far P, Q and Q_support are off the values without inertia.
   ///
-  /// The window is 0.1 s long from the end of the reversal, half its duration after the turning point, and ends earlier where the
-  /// next reversal begins or the rows end. All times of rows are taken as they come, unequally spaced. A value that does not
-  /// follow from the rows is NaN.
+  /// The window begins at the end of the reversal, half its duration after the turning point. It is 0.1 s long, and longer for a
+  /// slow vibration: until P has met its value without inertia thirty times, as in 15 periods, or has decayed. It ends earlier
+  /// where the next reversal begins or the rows end. All times of rows are taken as they come, unequally spaced. A value that
+  /// does not follow from the rows is NaN.
   ///
   /// Overshoot: largest excess of a force over its quasi-static value in the direction of that value, relative to the largest
   /// quasi-static value of the window; 0 if there is none. It counts up to the end of the window and from where the force first

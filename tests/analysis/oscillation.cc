@@ -177,6 +177,24 @@ TEST(Oscillation, WhatGrowsIsSaidToGrow)
   EXPECT_GT(found.growth_rate, 0.);
 }
 
+// The same lever ten times larger, of the same materials: all takes ten times as long.
+TEST(Oscillation, SlowOnesHaveTheVerdictOfFastOnes)
+{
+  const Drive slow(DriveProfile::triangle, 0., 65., 11.2, 1., 10. * duration);
+  const auto found = [&](const double amplitude, const double growth)
+  { return oscillations(rows_with(sinusoid(amplitude, 18., growth), slow, 5e-4), slow).at(0); };
+  const auto grown = found(8., 3.); // opens where 8 exp(3 t) = 25, after 0.38 s
+  EXPECT_EQ(grown.verdict, Verdict::vibrates);
+  EXPECT_NEAR(grown.window_end - grown.window_begin, 15. / 18., 0.5 / 18.);
+  const auto ringing = found(8., -1.);
+  EXPECT_EQ(ringing.verdict, Verdict::rings);
+  EXPECT_NEAR(ringing.frequency, 18., 0.018);
+  EXPECT_NEAR(ringing.growth_rate, -1., 0.05);
+  const auto decayed = found(8., -12.); // is 1.2 % of 25 after log(8/0.3)/12 s
+  EXPECT_EQ(decayed.verdict, Verdict::decays);
+  EXPECT_NEAR(decayed.window_end - decayed.window_begin, std::log(8. / 0.3) / 12. / 0.9, 0.5 / 18.);
+}
+
 // A growing or decaying remainder below what counts is none.
 TEST(Oscillation, VerdictsDoNotDependOnTheUnitOfForce)
 {
