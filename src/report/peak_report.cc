@@ -5,6 +5,9 @@
 #include "base/ranges.h"
 #include "base/text.h"
 #include "results/row_statistics.h"
+#include "scene/closed_form.h"
+#include "scene/contact_estimates.h"
+#include "scene/held_slide.h"
 #include "scene/scene.h"
 
 #include <algorithm>
@@ -32,6 +35,7 @@ namespace sprag
     constexpr double admitted_error  = 0.05;
     constexpr double admitted_share  = 0.25;        ///< of the travel in contact, on which the contact may be narrower
     constexpr double element_error[] = { 5., 0.8 }; ///< of degree 1 and 2
+    constexpr double least_faces[]   = { 2., 1. };  ///< of degree 1 and 2 in contact, for its stiffness
 
     /// Looks at rows in which friction has turned. While it turns, the pressure stands out where the slip begins: narrow in place
     /// and travel, and the higher the finer the mesh.
@@ -207,6 +211,27 @@ namespace sprag
     warning.effect = is_at_peak ? "The largest pressure may be wrong by " + error + "; P, Q and theta are not."
                                 : "Where it is as narrow as that the pressure may be wrong by " + error +
                                       " or more; the largest of the run, P, Q and theta are not.";
+    warning.remedy = remedy(scene, width);
+    return { warning };
+  }
+
+  Warnings narrow_contact_warnings(const Scene &scene)
+  {
+    const auto type = scene.analysis.type;
+    const bool has_modes =
+        type == AnalysisType::modal && is_meshed(scene.analysis.model) && scene.stability.contact != HeldContact::open;
+    const bool is_fitted = type == AnalysisType::contact_law || type == AnalysisType::calibration;
+    if ((!has_modes && !is_fitted) || !scene.mesh.file.empty())
+      return {};
+    const double x     = has_modes ? held_drive(scene).x : scene.drive.maximum();
+    const double width = estimated_contact_width(scene, std::max(0., closed_form(scene, x, -scene.drive.peak_speed()).P));
+    const double faces = width / scene.mesh.face_size;
+    if (!(faces > 0. && faces < least_faces[scene.mesh.degree - 1]))
+      return {};
+    auto warning = make_warning("coarse_contact", { "At x = " + mm(x), "about " + mm(width), times_the_size(scene, faces) });
+    warning.effect =
+        "The stiffness of the contact, and frequencies that follow from it, may be wrong by a tenth and more; nothing tells by "
+        "how much.";
     warning.remedy = remedy(scene, width);
     return { warning };
   }

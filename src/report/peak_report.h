@@ -35,4 +35,8 @@ namespace sprag
   /// Warns where the mesh is too coarse, by more than 5 % expected, for the largest pressure of a run or for the
   /// pressures over more than a quarter of the way that the cylinder makes in contact.
   Warnings coarse_contact_warnings(const Scene &scene, const std::vector<Row> &rows);
+
+  /// Warns of modes in contact, a contact law and a calibration on a contact narrower than one face of degree 2, two of degree 1,
+  /// by its width under P of the closed form. These analyses estimate no errors.
+  Warnings narrow_contact_warnings(const Scene &scene);
 } // namespace sprag

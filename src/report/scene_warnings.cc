@@ -2,10 +2,12 @@
 #include "report/warnings.h"
 
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "input/sections.h"
 #include "laws/friction_law.h"
+#include "report/peak_report.h"
 #include "results/columns.h"
 #include "scene/base_motion.h"
 #include "scene/closed_form.h"
@@ -549,6 +551,7 @@ namespace sprag
          { add_defaults, add_foreign_contact_law, add_sensitivity, add_leaf, add_plane_stress, add_opening, add_locking,
            add_shaking, add_drift, add_largest_speed, add_implausible_values, add_absent_parts, add_unused_columns })
       add(scene, warnings);
+    append(warnings, narrow_contact_warnings(scene));
     return warnings;
   }
 

@@ -69,6 +69,29 @@ TEST(PeakReport, WarnsOfAContactOfFewElements)
   EXPECT_EQ(coarse_contact_warnings(scene, rows).size(), 1u);
 }
 
+// Model A's contact at x = 65 mm is 2.4 mm wide, and none at x = 0. Modes out of contact do not need it.
+TEST(PeakReport, WarnsOfModesAndContactLawsOnAContactNarrowerThanAFace)
+{
+  Scene scene          = model_a();
+  scene.analysis.model = ModelType::condensed;
+  scene.mesh.degree    = 2;
+  for (const auto type : { AnalysisType::modal, AnalysisType::contact_law, AnalysisType::calibration })
+  {
+    scene.analysis.type  = type;
+    scene.mesh.face_size = 2.;
+    EXPECT_TRUE(narrow_contact_warnings(scene).empty());
+    scene.mesh.face_size = 3.;
+    const auto warnings  = narrow_contact_warnings(scene);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].found.find("At x = 65 mm the contact is about 2."), std::string::npos) << warnings[0].found;
+  }
+  scene.analysis.type     = AnalysisType::modal;
+  scene.stability.contact = HeldContact::open;
+  EXPECT_TRUE(narrow_contact_warnings(scene).empty());
+  scene.analysis.type = AnalysisType::stability; // estimates its errors
+  EXPECT_TRUE(narrow_contact_warnings(scene).empty());
+}
+
 // Widths about those of model A.
 TEST(PeakReport, WarnsOfAContactThatIsNarrowOverMoreThanAQuarterOfItsWay)
 {
