@@ -77,10 +77,14 @@ namespace sprag
 
   std::vector<bool> moves_with_friction(const std::vector<Row> &rows, const int direction)
   {
-    auto result = friction_has_turned(rows);
+    const auto turned = friction_has_turned(rows);
+    std::vector<bool> result(rows.size()), moves(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
-      result[i] = result[i] && drive_direction(rows[i][Column::v]) == direction;
-    return result;
+    {
+      moves[i]  = drive_direction(rows[i][Column::v]) == direction;
+      result[i] = moves[i] && turned[i];
+    }
+    return std::find(result.begin(), result.end(), true) == result.end() ? moves : result;
   }
 
   bool sticks(const Row &row)

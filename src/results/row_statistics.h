@@ -71,7 +71,8 @@ namespace sprag
   /// of what it is in full sliding. In a stroke that ends before, true from where it acts against the motion.
   std::vector<bool> friction_has_turned(const std::vector<Row> &rows);
 
-  /// Returns of every row whether it moves in a direction, +1 or -1, with friction that has turned.
+  /// Returns of every row whether it moves in a direction, +1 or -1, with friction that has turned. Where that
+  /// turns in no row of this direction all of them count: the motion is shorter than stick.
   std::vector<bool> moves_with_friction(const std::vector<Row> &rows, int direction);
 
   /// Returns whether a part of the contact sticks: friction is less than 0.999 of what it is in full sliding.

@@ -65,6 +65,16 @@ TEST(FrictionHasTurned, OnceItIsNearlyWhatItIsInFullSliding)
   EXPECT_EQ(friction_has_turned(rows), std::vector<bool>({ true, false, false, true, true, false, true }));
 }
 
+// A motion back that is shorter than stick has a largest P, too.
+TEST(MovesWithFriction, CountsAllRowsWhereFrictionNeverTurns)
+{
+  std::vector<Row> rows = { sliding(1., 5.), sliding(-1., 4.), sliding(-1., 3.) };
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rows[i][Column::P] = 6. + 0.1 * static_cast<double>(i);
+  EXPECT_EQ(moves_with_friction(rows, -1), std::vector<bool>({ false, true, true }));
+  EXPECT_EQ(peak_between_rows(rows, Column::P, moves_with_friction(rows, -1)), 6.2);
+}
+
 // Friction turns over rows 0.1 mm apart, P rises by 4 from row to row and then falls by 1; the corner lies a quarter behind
 // row 3.
 TEST(PeakBetweenRows, IsTheCornerAtWhichTheLastPointSlips)
