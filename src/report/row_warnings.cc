@@ -94,11 +94,19 @@ namespace sprag
       return row[Column::largest_pressure] * row[Column::contact_width] * scene.lever.width / row[Column::P];
     }
 
+    /// Returns whether cylinder or lever themselves press one part of the width more than another.
+    bool loads_unevenly(const Scene &scene)
+    {
+      const auto &cylinder = scene.cylinder;
+      return scene.analysis.dimension == 3 && (cylinder.tilt != 0. || cylinder.skew != 0. || cylinder.crown_radius > 0. ||
+                                               cylinder.length > 0. || !scene.mesh.file.empty());
+    }
+
     /// Warns of peaks of the pressure if the scene gives the penalty. With an automatic one the mesh is to blame, see
-    /// coarse_contact_warnings().
+    /// coarse_contact_warnings(). The mean over the width says nothing of peaks where the load over it is uneven.
     void add_peaks(const Scene &scene, const std::vector<Row> &rows, const double largest_P, Warnings &warnings)
     {
-      if (!scene.contact.penalty)
+      if (!scene.contact.penalty || loads_unevenly(scene))
         return;
       const double admitted =
           scene.layer.poisson_ratio > incompressible ? largest_peak_over_mean_incompressible : largest_peak_over_mean;

@@ -180,10 +180,12 @@ TEST(RowWarnings, OverlapBesideAnElasticCylinder)
 
 TEST(RowWarnings, PressureOfSinglePoints)
 {
-  const auto with_peak = [](const double over_mean, const bool specified, const double poisson_ratio)
+  const auto with_peak = [](const double over_mean, const bool specified, const double poisson_ratio, const double tilt = 0.)
   {
     Scene scene               = model_a();
     scene.layer.poisson_ratio = poisson_ratio;
+    scene.analysis.dimension  = 3;
+    scene.cylinder.tilt       = tilt;
     if (specified)
       scene.contact.penalty = 1e4;
     const Row row = usual_row();
@@ -195,6 +197,7 @@ TEST(RowWarnings, PressureOfSinglePoints)
   EXPECT_EQ(with_peak(1.65, false, 0.), Names{});
   EXPECT_EQ(with_peak(1.9, true, 0.45), Names{});
   EXPECT_EQ(with_peak(2.1, true, 0.45), Names{ "stiff_penalty" });
+  EXPECT_EQ(with_peak(3., true, 0., 1e-3), Names{}); // pressed by one side of the width, twice the mean there
 }
 
 TEST(RowWarnings, PressureBeyondStrength)
