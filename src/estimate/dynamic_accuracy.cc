@@ -10,6 +10,7 @@
 #include "fe/contact/face_contact_point.h"
 #include "results/row_statistics.h"
 #include "scene/analysis_use.h"
+#include "scene/contact_estimates.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 
@@ -183,6 +184,15 @@ namespace sprag
         throw NoEstimate{ "the contact opens, and when it does depends on every small error." };
     }
 
+    /// Throws where the contact is too narrow for its mesh, however large P is behind the reversal.
+    void require_wide_contact(const Scene &scene, const std::vector<Row> &rows)
+    {
+      const auto behind =
+          filtered(rows, [turn = scene.drive.reversals().front()](const Row &row) { return row[Column::time] > turn; });
+      if (is_narrower_than_faces(scene, largest(behind, Column::contact_width)))
+        throw NoEstimate{ "the contact is narrower than the faces, so that its stiffness follows no power of their size." };
+    }
+
     std::vector<ErrorEstimate> estimates(const Scene &scene, const MeshedDynamics &dynamics, const std::vector<Row> &all_rows,
                                          DynamicsMaker &maker)
     {
@@ -222,6 +232,7 @@ namespace sprag
       std::vector<ErrorPart> frequency_parts, decay_parts, overshoot_parts;
       if (is_meshed(scene.analysis.model))
       {
+        require_wide_contact(scene, rows);
         const auto trial_runs = run_slide_trials(held, found, dynamics.penalties, maker);
         frequency_parts       = slide_error_parts(held, found, trial_runs, slide_frequency);
         decay_parts           = slide_error_parts(held, found, trial_runs, decay_rate);

@@ -35,7 +35,6 @@ namespace sprag
     constexpr double admitted_error  = 0.05;
     constexpr double admitted_share  = 0.25;        ///< of the travel in contact, on which the contact may be narrower
     constexpr double element_error[] = { 5., 0.8 }; ///< of degree 1 and 2
-    constexpr double least_faces[]   = { 2., 1. };  ///< of degree 1 and 2 in contact, for its stiffness
 
     /// Looks at rows in which friction has turned. While it turns, the pressure stands out where the slip begins: narrow in place
     /// and travel, and the higher the finer the mesh.
@@ -208,10 +207,13 @@ namespace sprag
         make_warning("coarse_contact", { is_at_peak ? "Where its pressure is largest, at x = " + mm((*peak.row)[Column::x]) + ","
                                                     : "Over more than " + rounded_text(100. * admitted_share) + " % of its way",
                                          (is_at_peak ? "" : "at most ") + mm(width), times_the_size(scene, elements) });
-    warning.effect = is_at_peak ? "The largest pressure may be wrong by " + error + "; P, Q and theta are not."
-                                : "Where it is as narrow as that the pressure may be wrong by " + error +
-                                      " or more; the largest of the run, P, Q and theta are not.";
-    warning.remedy = remedy(scene, width);
+    const std::string forces = scene.analysis.type == AnalysisType::transient
+                                   ? ", and so may P behind a reversal and its overshoot."
+                                   : "; P, Q and theta are not.";
+    warning.effect           = is_at_peak ? "The largest pressure may be wrong by " + error + forces
+                                          : "Where it is as narrow as that the pressure may be wrong by " + error +
+                                      " or more; the largest of the run is not" + forces;
+    warning.remedy           = remedy(scene, width);
     return { warning };
   }
 
@@ -221,14 +223,14 @@ namespace sprag
     const bool has_modes =
         type == AnalysisType::modal && is_meshed(scene.analysis.model) && scene.stability.contact != HeldContact::open;
     const bool is_fitted = type == AnalysisType::contact_law || type == AnalysisType::calibration;
-    if ((!has_modes && !is_fitted) || !scene.mesh.file.empty())
+    if (!has_modes && !is_fitted)
       return {};
     const double x     = has_modes ? held_drive(scene).x : scene.drive.maximum();
     const double width = estimated_contact_width(scene, std::max(0., closed_form(scene, x, -scene.drive.peak_speed()).P));
-    const double faces = width / scene.mesh.face_size;
-    if (!(faces > 0. && faces < least_faces[scene.mesh.degree - 1]))
+    if (!is_narrower_than_faces(scene, width))
       return {};
-    auto warning = make_warning("coarse_contact", { "At x = " + mm(x), "about " + mm(width), times_the_size(scene, faces) });
+    auto warning = make_warning("coarse_contact",
+                                { "At x = " + mm(x), "about " + mm(width), times_the_size(scene, width / scene.mesh.face_size) });
     warning.effect =
         "The stiffness of the contact, and frequencies that follow from it, may be wrong by a tenth and more; nothing tells by "
         "how much.";

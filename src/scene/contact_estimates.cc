@@ -131,6 +131,12 @@ namespace sprag
     return FaceGrading{ kinematics(device.geometry, x).s, end, longest, shortest };
   }
 
+  bool is_narrower_than_faces(const Device &device, const double width)
+  {
+    const double least = device.mesh.degree == 1 ? 2. : 1.;
+    return device.mesh.file.empty() && width > 0. && width < least * device.mesh.face_size && !face_grading(device);
+  }
+
   double hertz_height(const Device &device, const double P)
   {
     auto bodies = compressed_bodies(device);

@@ -27,6 +27,10 @@ namespace sprag
   /// forces are wanted alone.
   std::optional<FaceGrading> face_grading(const Device &device);
 
+  /// Returns whether a contact that is `width` wide [mm] spreads over so few faces of a built-in bar, less than one of degree 2
+  /// or two of degree 1, that its stiffness follows no power of their size. Faces that are graded are short enough.
+  bool is_narrower_than_faces(const Device &device, double width);
+
   /// Returns the height of the cylinder's arc over Hertz's contact width [mm] as far as lever and cylinder yield under P [N],
   /// 2 P/(pi w) (1 - nu^2)/E of each: of a lever without a layer and of an elastic cylinder.
   double hertz_height(const Device &device, double P);
