@@ -78,7 +78,7 @@ class PlotTest(PictureTest):
             result.summary["slope_forward"] = np.nan
 
     def test_runs_that_go_on(self):
-        for name in ("model-b", "reversal-a of 6", "isolation-a", "onset-a", "plate-reversal-a", "pair in time"):
+        for name in ("model-b", "reversal-a of 6", "isolation-a", "plate-reversal-a", "pair in time"):
             for rows in (3, 150):
                 with self.subTest(name, rows=rows):
                     self.pictures = self.folder / f"pictures of {name} {rows}"
