@@ -197,8 +197,10 @@ namespace sprag
                                          DynamicsMaker &maker)
     {
       require_closed_contact(scene, all_rows);
-      const auto turned     = oscillations(all_rows, scene.drive).front();
-      const auto rows       = lever_rows(all_rows, turned.lever == 2. ? 1 : 0);
+      const auto turned = oscillations(all_rows, scene.drive).front();
+      const auto rows   = lever_rows(all_rows, turned.lever == 2. ? 1 : 0);
+      if (is_meshed(scene.analysis.model))
+        require_wide_contact(scene, rows);
       const double measured = turned.frequency;
       if (!(measured > 0.))
         throw NoEstimate{ "P does not ring behind the first reversal." };
@@ -232,7 +234,6 @@ namespace sprag
       std::vector<ErrorPart> frequency_parts, decay_parts, overshoot_parts;
       if (is_meshed(scene.analysis.model))
       {
-        require_wide_contact(scene, rows);
         const auto trial_runs = run_slide_trials(held, found, dynamics.penalties, maker);
         frequency_parts       = slide_error_parts(held, found, trial_runs, slide_frequency);
         decay_parts           = slide_error_parts(held, found, trial_runs, decay_rate);

@@ -242,6 +242,18 @@ TEST(TransientAccuracy, SaysInWordsWhereNothingTurns)
 }
 
 // With this penalty Newton's method goes round in a circle from the last equilibrium, and the slide was told to be jammed.
+TEST(TransientAccuracy, SaysInWordsWhereTheContactIsNarrowerThanFaces)
+{
+  auto rows = beam_run(shipped("reversal-a", {}));
+  for (auto &row : rows)
+    row[Column::contact_width] = 2.4;
+  for (const auto &estimate : estimated(shipped("reversal-a", { "Analysis/Model=condensed", "Mesh/Face size=3" }), rows))
+  {
+    EXPECT_TRUE(estimate.parts.empty());
+    EXPECT_NE(estimate.unknown.find("narrower than the faces"), std::string::npos) << estimate.unknown;
+  }
+}
+
 TEST(SteadySlides, AreSoughtFromTheirNeighboursToo)
 {
   const Scene scene = shipped("reversal-b", { "Analysis/Type=stability", "Analysis/Model=condensed", "Mesh/Face size=0.25",

@@ -98,3 +98,15 @@ TEST(FaceGrading, NoneWhereFacesAreShortEnoughOrFarTooLong)
   EXPECT_FALSE(face_grading(read_scene(model_a_file(), { "Drive/Start=50", "Mesh/Face size=0.1" })));
   EXPECT_FALSE(face_grading(read_scene(model_a_file(), { "Mesh/Face size=4" })));
 }
+
+TEST(FaceGrading, ContactsNarrowerThanFacesAreNoneOfGradedFaces)
+{
+  const auto is_narrow = [](const double width, const std::vector<std::string> &changes)
+  { return is_narrower_than_faces(read_scene(model_a_file(), changes), width); };
+  const std::string even = "Mesh/Faces in contact=0", wide = "Mesh/Face size=2";
+  EXPECT_TRUE(is_narrow(1.9, { even, wide }));
+  EXPECT_FALSE(is_narrow(2.1, { even, wide }));
+  EXPECT_TRUE(is_narrow(3.9, { even, wide, "Mesh/Degree=1" }));
+  EXPECT_TRUE(is_narrow(0.2, { even }));
+  EXPECT_FALSE(is_narrow(0.2, {}));
+}
