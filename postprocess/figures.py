@@ -185,6 +185,7 @@ FIGURES = {
     **{name: drawn(name, "map") for name in MAPS},
     # These pictures show the cost of accuracy.
     **{name: drawn(name, "trade") for name in STUDIES},
+    "convergence-a": drawn("study-pressure-a", "convergence"),
     "study-transmissibility-a": drawn("study-transmissibility-a", "transmissibility"),
     "study-offset-a": drawn("study-offset-a", "study"),
     "isolation-sprag-slip-a": drawn("isolation-sprag-slip-a", "motion"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Pictures of studies: what the runs found over the parameters that were varied, and what their accuracy costs."""
+"""Pictures of studies: what the runs found over the parameters that were varied, how errors fall, and what their accuracy costs."""
 
 from dataclasses import dataclass
 
@@ -142,10 +142,14 @@ def curves(result):
         axes.set_xlabel(folded(abscissa.label))
         set_abscissa(axes, abscissa, abscissa.numbers[result.table["outcome"] == 0])
         panel_letter(axes, letter)
+    explain(figure, panels, bar, *legend)
+    return figure
+
+
+def explain(figure, panels, bar, handles, labels):
     if bar is not None:
         figure.colorbar(bar[0], ax=panels, aspect=30, pad=0.01).set_label(bar[1])
-    legend_on_top(figure, *legend)
-    return figure
+    legend_on_top(figure, handles, labels)
 
 
 def set_abscissa(axes, abscissa, shown):
@@ -162,7 +166,7 @@ def plain_logarithms(axis):
     """Numbers in place of powers: 1, 2, 5, 10 ... over less than two decades, round ones where not even two of these are in view."""
     low, high = axis.get_view_interval()
     few = MaxNLocator(3)
-    axis.set_major_locator(few if high / low < 5 else LogLocator(subs=(1, 2, 5) if high / low < 25 else (1,)))
+    axis.set_major_locator(few if high / low < 5 else LogLocator(subs=(1, 2, 5) if high / low < 60 else (1,)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.3g}"))
     axis.set_minor_formatter(NullFormatter())
 
@@ -180,49 +184,90 @@ def has_trade(result):
 
 def trade(result):
     """Error against the work that ranks runs, or CPU time, with the front on which nobody cheaper is as exact; its runs are labelled."""
-    varied = varied_parameters(result)
-    sizes = choose_abscissa(varied)
-    found, (handles, labels), bar = codes(result, [parameter for parameter in varied if parameter is not sizes])
-    names = sorted(error_measures(result), key=lambda name: name == "all")
-    figure, panels = panels_for(len(names))
     work = result.table.get("work", np.array([np.nan]))
     is_counted = np.isfinite(work).any()
     cost = work if is_counted else result.table["cpu_time"]
+    varied = varied_parameters(result)
+    sizes = choose_abscissa(varied)
+    front = plt.Line2D([], [], color="black", linewidth=0.8)
+    others = [parameter for parameter in varied if parameter is not sizes]
+    names = sorted(error_measures(result), key=lambda name: name == "all")
+    drawn = draw_errors(result, names, cost, "", others, [(front, f"front, labels: {sizes.label}")])
+    for axes, name, error, shown in drawn:
+        axes.margins(x=0.25, y=0.12)  # room for labels
+        draw_front(axes, cost, error, shown & (result.table[f"pareto_{name}"] == 1), sizes)
+        axes.set_xlabel("work, as CPU time [s]" if is_counted else "CPU time [s]")
+    return drawn[0][0].figure
+
+
+def observed_orders(result):
+    """{measure: orders} of the size in which most of them are observed, of a mesh if there is one, and its name; {} and None without."""
+    trade, by_size = result.groups.get("trade", {}), {}
+    for text, order in zip(trade.get("order_of", ()), trade.get("order", ())):
+        measure, _, size = str(text).split(";")[0].partition(" over ")
+        by_size.setdefault(size, {}).setdefault(measure, []).append(order)
+    size = max(by_size, key=lambda name: (name.startswith("Mesh/"), sum(map(len, by_size[name].values()))), default=None)
+    return by_size.get(size, {}), size
+
+
+def convergence(result):
+    """Error against a size of elements or steps, with the order at which it falls."""
+    orders, size = observed_orders(result)
+    varied = varied_parameters(result)
+    sizes = next(parameter for parameter in varied if parameter.name == size)
+    others = [parameter for parameter in varied if parameter is not sizes]
+    drawn = draw_errors(result, list(orders), sizes.numbers, "-", others)
+    for axes, name, _, _ in drawn:
+        least, most = (f"{order:.2g}" for order in (min(orders[name]), max(orders[name])))
+        text = f"order {least}" if least == most else f"order {least} to {most}"
+        axes.annotate(text, (0.97, 0.04), xycoords="axes fraction", ha="right", fontsize=7)
+        axes.set_xlabel(folded(sizes.label))
+    return drawn[0][0].figure
+
+
+def draw_errors(result, names, over, line, others, further=()):
+    """[(panel, measure, its errors [%], mask of those drawn)], a panel for each measure: errors against `over`, the runs of one setting
+    of the others joined by `line`. `further`: handles and names more."""
+    found, (handles, labels), bar = codes(result, others)
+    figure, panels = panels_for(len(names))
+    drawn = []
     for axes, name, letter in zip(panels, names, "abcdef"):
         error = 100 * result.table[f"error_{name}"]
         shown = np.isfinite(error) & (error > 0)
         for code in found:
-            rows = code.mask & shown
-            axes.plot(cost[rows], error[rows], linestyle="", marker=code.marker, color=code.colour, markersize=3.5)
+            rows = np.flatnonzero(code.mask & shown)
+            rows = rows[np.argsort(over[rows], kind="stable")]
+            axes.plot(over[rows], error[rows], linestyle=line and code.line, marker=code.marker, color=code.colour, linewidth=0.8, markersize=3.5)
         axes.set_xscale("log")
         axes.set_yscale("log")
-        axes.margins(x=0.2, y=0.12)  # room for labels
         plain_logarithms(axes.xaxis)
         plain_logarithms(axes.yaxis)
-        draw_front(axes, cost, error, shown & (result.table[f"pareto_{name}"] == 1), sizes)
         axes.set_title(f"({letter}) {name.replace('_', ' ')}", loc="left", fontsize=8)
-        axes.set_xlabel("work, as CPU time [s]" if is_counted else "CPU time [s]")
         axes.set_ylabel("error [%]")
-    if bar is not None:
-        figure.colorbar(bar[0], ax=panels, aspect=30, pad=0.01).set_label(bar[1])
+        drawn.append((axes, name, error, shown))
     for handle in handles:
-        handle.set(linestyle="", marker="s" if handle.get_marker() == "None" else handle.get_marker(), markersize=3.5)
-    front = plt.Line2D([], [], color="black", linewidth=0.8)
-    legend_on_top(figure, [*handles, front], [*labels, f"front, labels: {sizes.label}"])
-    return figure
+        marker = "s" if handle.get_marker() == "None" else handle.get_marker()
+        handle.set(linestyle=line and handle.get_linestyle(), marker=marker, markersize=3.5)
+    explain(figure, panels, bar, [*handles, *(handle for handle, _ in further)], [*labels, *(label for _, label in further)])
+    return drawn
 
 
 def draw_front(axes, cost, error, front, sizes):
-    """Labels where there is room for them."""
+    """Draws labels where there is room for them: no run lies left of the front and below it."""
     order = np.flatnonzero(front)[np.argsort(cost[front])]
     axes.plot(cost[order], error[order], color="black", linewidth=0.8, zorder=1)
     taken = []
     for row in order:
         place = axes.transAxes.inverted().transform(axes.transData.transform((cost[row], error[row])))
         if all(abs(place[0] - x) > 0.2 or abs(place[1] - y) > 0.09 for x, y in taken):
-            axes.annotate(sizes.texts[row], (cost[row], error[row]), xytext=(3, 3), textcoords="offset points", fontsize=6)
+            axes.annotate(sizes.texts[row], (cost[row], error[row]), xytext=(-3, -2), textcoords="offset points", fontsize=6, ha="right", va="top")
             taken.append(place)
 
 
 def study_pictures(result):
-    return {"study": curves(result), **({"trade": trade(result)} if has_trade(result) else {})}
+    pictures = {"study": curves(result)}
+    if has_trade(result):
+        pictures["trade"] = trade(result)
+        if observed_orders(result)[1]:
+            pictures["convergence"] = convergence(result)
+    return pictures

@@ -9,7 +9,9 @@
 #include "fe/fields/stress_peaks.h"
 #include "fe/mesh/lever_mesh.h"
 #include "report/peak_report.h"
+#include "results/entries.h"
 #include "results/row_statistics.h"
+#include "scene/analysis_use.h"
 #include "scene/closed_form.h"
 #include "scene/lever_inertia.h"
 #include "scene/scene.h"
@@ -238,25 +240,30 @@ namespace sprag
       return result;
     }
 
-    ErrorEstimate largest_stress(const Scene &scene, const TrialRuns &trial_runs)
+    /// Returns those of the lever's and of the layer's largest stress.
+    std::vector<ErrorEstimate> largest_stresses(const Scene &scene, const TrialRuns &trial_runs)
     {
-      if (!trial_runs.stress)
-        return { "largest_stress", "", {}, "No estimate: no stress was found in a state in which the whole contact slides." };
-      if (trial_runs.stress->is_at_edge)
-        return { "largest_stress",
-                 "",
-                 {},
-                 "No estimate: in the layer the stress rises to a cusp where the contact ends; a finer mesh finds more of it." };
-      auto lever  = mesh_part(scene, trial_runs.stress->lever, force_order(scene));
-      auto layer  = mesh_part(scene, trial_runs.stress->layer, scene.mesh.degree);
-      layer.value = std::max(layer.value, mesh_part(scene, trial_runs.pressure_with_stress, pressure_order(scene)).value);
-      lever.name  = "mesh_of_lever";
-      layer.name  = "mesh_of_layer";
-      ErrorEstimate result{ "largest_stress", "that of the lever or of the layer", { lever, layer }, {} };
+      ErrorEstimate lever{ stress_names[0], "it", {}, {} }, layer{ stress_names[1], "it", {}, {} };
+      const auto &changes = trial_runs.stress;
+      if (!changes)
+      {
+        lever.unknown = layer.unknown = "No estimate: no stress was found in a state in which the whole contact slides.";
+        return { lever, layer };
+      }
+      lever.parts = { mesh_part(scene, changes->lever, force_order(scene)) };
+      layer.parts = { mesh_part(scene, changes->layer, scene.mesh.degree) };
+      auto &mesh  = layer.parts.front().value;
+      mesh        = std::max(mesh, mesh_part(scene, trial_runs.pressure_with_stress, pressure_order(scene)).value);
       if (!trial_runs.soft.slides.empty())
-        result.parts.push_back(
-            penalty_part(scene, relative_change("largest_pressure", trial_runs.run.slides, trial_runs.soft.slides)));
-      return result;
+        for (auto *stress : { &lever, &layer })
+          stress->parts.push_back(
+              penalty_part(scene, relative_change("largest_pressure", trial_runs.run.slides, trial_runs.soft.slides)));
+      if (changes->is_at_edge)
+        layer = { stress_names[1],
+                  "",
+                  {},
+                  "No estimate: the stress rises to a cusp where the contact ends; a finer mesh finds more of it." };
+      return { lever, layer };
     }
 
     constexpr double follows_pressure = 0.05; ///< error of the largest pressure to which a mesh follows it, see peak_report.h
@@ -342,7 +349,8 @@ namespace sprag
                                                    const std::function<TrialRuns()> &run_trials)
   {
     const std::vector<std::string> across = { "centre_across", "twisting_moment" };
-    const auto estimate_all               = [&]
+    const auto is_there = [&](const std::string &quantity) { return quantity != stress_names[1] || scene.layer.thickness > 0.; };
+    const auto estimate_all = [&]
     {
       const TrialRuns trial_runs = run_trials();
       if (trial_runs.run.slides.size() < 2)
@@ -362,8 +370,10 @@ namespace sprag
                                             make_estimate("Q", "its peak", forces_follow),
                                             unless_narrow(loop_area(scene, trial_runs, rows), faces, forces_follow),
                                             make_estimate("largest_pressure", "it", all_follows),
-                                            make_estimate("contact_width", "the largest one", all_follows),
-                                            unless_narrow(largest_stress(scene, trial_runs), faces, all_follows) };
+                                            make_estimate("contact_width", "the largest one", all_follows) };
+      for (auto &stress : largest_stresses(scene, trial_runs))
+        if (is_there(stress.quantity))
+          result.push_back(unless_narrow(std::move(stress), faces, all_follows));
       if (scene.analysis.dimension == 3)
         for (const auto &quantity : across)
           result.push_back(unless_narrow(estimate_across(scene, trial_runs, quantity), faces, forces_follow));
@@ -373,7 +383,7 @@ namespace sprag
           estimate.left_out = { { "inertia", inertia, "Analysis/Type = transient has it." } };
       return result;
     };
-    std::vector<std::string> quantities = { "P", "Q", "loop_area", "largest_pressure", "contact_width", "largest_stress" };
+    std::vector<std::string> quantities = filtered(accuracy_quantities(AnalysisType::quasi_static), is_there);
     if (scene.analysis.dimension == 3)
       append(quantities, across);
     return estimates_or_reason(scene, quantities, estimate_all);

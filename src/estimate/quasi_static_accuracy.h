@@ -72,7 +72,7 @@ namespace sprag
                              const QuasiStaticSettings &settings);
 
   /// Estimates the errors of a finished run without inertia, of P, Q, loop_area, largest_pressure, contact_width and
-  /// largest_stress.
+  /// both largest stresses.
   ///
   /// A few states of the run in full sliding are solved again by other models, which `run_trials` makes. What changes tells the
   /// run's own error by Richardson: forces converge with the second power of the size, degree 1 with the power 1.6, pressures

@@ -76,7 +76,7 @@ namespace sprag
   std::vector<std::string> accuracy_quantities(const AnalysisType type)
   {
     if (type == AnalysisType::quasi_static)
-      return { "P", "Q", "loop_area", "largest_pressure", "contact_width", "largest_stress" };
+      return { "P", "Q", "loop_area", "largest_pressure", "contact_width", "largest_lever_stress", "largest_layer_stress" };
     if (type == AnalysisType::transient)
       return { "P", "overshoot", "frequency" };
     if (type == AnalysisType::stability || type == AnalysisType::sprag_slip)

@@ -54,7 +54,7 @@ IN_TIME = [
     ("pair-reversal-a", {"Analysis/Model": "beam"}),
 ]
 OF_RINGING = {"overshoot": "reversal_1_overshoot_P", "frequency": "reversal_1_frequency"}
-QUANTITIES = ("P", "Q", "loop_area", "largest_pressure", "contact_width", "largest_stress")
+QUANTITIES = ("P", "Q", "loop_area", "largest_pressure", "contact_width", "largest_lever_stress", "largest_layer_stress")
 STRESSES = ("largest_lever_stress", "largest_layer_stress")
 COLUMNS = ("P", "Q", "largest_pressure", "contact_width", "x", "v", "drive_work")
 OF_SLIDES = ("growth_rate", "frequency")
@@ -91,7 +91,7 @@ class AlongDrive:
                 if f"summary/peak_{name}_{way}" in file
             }
             self.pressure = float(file["summary/largest_pressure"][()])
-            self.stresses = [float(file["summary/" + name][()]) for name in STRESSES]
+            self.stresses = {name: float(file["summary/" + name][()]) for name in STRESSES}
         turn = int(np.argmax(self.table["x"]))
         self.turning_point = self.table["x"][turn]
         self.strokes = [slice(0, turn + 1), slice(turn + 1, None)][: 1 + (turn + 1 < len(self.table["x"]))]
@@ -139,7 +139,8 @@ class AlongDrive:
         for (name, way), value in self.peaks.items():
             change = abs(value - reference.peaks[name, way]) / np.abs(reference.table[name]).max()
             errors[name] = max(errors[name], change)
-        errors["largest_stress"] = max(abs(a / b - 1) for a, b in zip(self.stresses, reference.stresses))
+        for name, found in self.stresses.items():
+            errors[name] = abs(found / reference.stresses[name] - 1)
         return errors
 
 

@@ -47,7 +47,7 @@ PICTURES = {
     "isolation-free-a": {"motion", "loop"},
     "isolation-ground-a": {"motion", "loop", "spectra"},
     "study-transmissibility-a": {"study", "transmissibility"},
-    "study-a": {"study", "trade"},
+    "study-a": {"study", "trade", "convergence"},
     "study of many": {"study", "trade"},
     "judged": {"device", "judgements"},
     "front": {"device", "front"},
@@ -151,6 +151,17 @@ class ScenesTest(PictureTest):
     def check_trade(self, result, panels):
         front = next(line for line in panels[0].lines if line.get_linestyle() == "-").get_xdata()
         self.assertTrue((np.diff(front) >= 0).all())
+
+    def check_convergence(self, result, panels):
+        """Lines of the runs' errors that fall at the orders beside them."""
+        coarse, fine = (line for line in panels[0].lines)
+        table, trade = result.table, result.groups["trade"]
+        for line, degree in ((coarse, 1), (fine, 2)):
+            rows = (table["mesh_degree"] == degree) & (table["outcome"] == 0)
+            np.testing.assert_allclose(sorted(line.get_ydata()), sorted(100 * table["error_P"][rows]))
+        orders = [order for text, order in zip(trade["order_of"].astype(str), trade["order"]) if text.startswith("P over")]
+        said = " ".join(text.get_text() for text in panels[0].texts)
+        self.assertEqual(said, f"order {min(orders):.2g} to {max(orders):.2g}")
 
     def check_modes(self, result, panels):
         """Growing modes are always shown."""

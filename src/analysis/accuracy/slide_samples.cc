@@ -292,7 +292,7 @@ namespace sprag
   {
     if (quantity == "loop_area")
       return change(compute_drive_work(samples), compute_drive_work(other));
-    if (quantity == "largest_pressure" || quantity == "largest_stress")
+    if (quantity == "largest_pressure" || quantity.find("stress") != std::string::npos) // which goes with the pressure
       return pressure_change(samples, other);
     static const std::map<std::string, Column> columns = { { "P", Column::P },
                                                            { "Q", Column::Q },

@@ -46,8 +46,8 @@ namespace sprag
 
   /// Returns the relative difference of a quantity between two models' rows at the same samples: max |b_i - a_i| / max |a_i| for
   /// P, Q and contact_width; for largest_pressure the root mean square of (b_i - a_i)/a_i times the cube of the contact's width
-  /// over that at the peak, over samples with at least half of the largest; largest_stress as the pressure; loop_area by
-  /// compute_drive_work(). Throws std::out_of_range for other names.
+  /// over that at the peak, over samples with at least half of the largest; stresses as the pressure;
+  /// loop_area by compute_drive_work(). Throws std::out_of_range for other names.
   double relative_change(const std::string &quantity, const std::vector<Row> &samples, const std::vector<Row> &other);
 
   /// Returns the difference of two models' peaks of P, Q or pressure behind a reversal, once friction has changed its direction,
