@@ -55,14 +55,14 @@ namespace sprag
       return (1. - share) * ((*low).*force) + share * ((*high).*force);
     }
 
-    /// Returns the largest difference over the reference's peak.
-    double compute_error(const Stroke &stroke, const Stroke &reference, double StrokePoint::*force)
+    /// Returns the largest difference over the reference's peak, without the first `left_out` behind a reversal.
+    double compute_error(const Stroke &stroke, const Stroke &reference, double StrokePoint::*force, const double left_out)
     {
       const double peak = largest(reference.points, [force](const auto &point) { return point.*force; });
       double largest    = unknown;
       for (const auto &point : stroke.points)
       {
-        if (stroke.turned_at && std::abs(point.x - *stroke.turned_at) < left_out_behind_reversal)
+        if (stroke.turned_at && std::abs(point.x - *stroke.turned_at) < left_out)
           continue;
         if (const auto expected = value_at(reference.points, force, point.x))
         {
@@ -80,11 +80,12 @@ namespace sprag
     if (found.empty() || found.size() != expected.size() || found.front().forward != expected.front().forward)
       return { unknown, unknown };
     StrokeErrors errors{ 0., 0. };
+    const double left_out = left_out_behind_reversal * largest(reference, [](const auto &point) { return point.x; });
     for (std::size_t i = 0; i < found.size(); ++i)
     {
       const auto join = [&](double &error, double StrokePoint::*force)
       {
-        const double more = compute_error(found[i], expected[i], force);
+        const double more = compute_error(found[i], expected[i], force, left_out);
         error             = std::isnan(more) || std::isnan(error) ? unknown : std::max(error, more);
       };
       join(errors.P, &StrokePoint::P);

@@ -22,8 +22,8 @@ namespace sprag
   /// stroke that ends there.
   using StrokeCurve = std::vector<StrokePoint>;
 
-  /// Travel behind a reversal that is left out [mm]: friction turns there.
-  constexpr double left_out_behind_reversal = 0.5;
+  /// Travel behind a reversal that is left out, over the largest |x| of the reference: friction turns there.
+  constexpr double left_out_behind_reversal = 1. / 130.;
 
   /// Holds the largest relative differences of a curve from the reference [-].
   struct StrokeErrors
@@ -33,7 +33,7 @@ namespace sprag
   };
 
   /// Compares each point of the curve with the reference on the same stroke, of which there must be as many, linearly between
-  /// its points. Points beyond the ends of the reference's stroke or less than left_out_behind_reversal behind a turn are left
+  /// its points. Points beyond the ends of the reference's stroke or closer than left_out_behind_reversal behind a turn are left
   /// out. NaN where nothing is left or the strokes are not those of the reference.
   StrokeErrors stroke_errors(const StrokeCurve &curve, const StrokeCurve &reference);
 

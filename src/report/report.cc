@@ -28,7 +28,10 @@ namespace sprag
 {
   namespace
   {
-    constexpr double settling = 2.; ///< travel after a reversal in which stick hides the closed form [mm]
+    // Both over the cylinder's radius: 2 mm and 10 mm of model A.
+    constexpr double settling     = 1. / 28.; ///< travel after a reversal in which stick hides the closed form
+    constexpr double slope_window = 5. / 28.; ///< x over which C_Q is fitted, or over the first three rows
+    constexpr double longest      = 1. / 3.;  ///< such x of long steps
 
     using Rows = std::vector<std::reference_wrapper<const Row>>;
 
@@ -75,11 +78,20 @@ namespace sprag
 
     constexpr double largest_mu_change = 0.05; ///< over which C_Q has a meaning, over the largest mu
 
-    /// C of the least-squares fit Q = C x + D x^2 over 0 < x <= 10 mm, or R / 2 if that is shorter; NaN with fewer than three
-    /// rows there, or where mu changes on the way.
+    /// C of the least-squares fit Q = C x + D x^2 over slope_window; NaN with fewer than three rows, or where mu changes on the
+    /// way.
     double slope_at_zero(const Rows &rows, const double cylinder_radius)
     {
-      const double window = std::min(10., 0.5 * cylinder_radius);
+      std::vector<double> places;
+      for (const Row &row : rows)
+        if (row[Column::x] > 0. && row[Column::x] <= longest * cylinder_radius)
+          places.push_back(row[Column::x]);
+      if (places.size() < 3)
+        return unknown;
+      std::partial_sort(places.begin(), places.begin() + 3, places.end());
+      if (places[0] > slope_window * cylinder_radius)
+        return unknown;
+      const double window = std::max(slope_window * cylinder_radius, places[2]);
       std::vector<double> x, Q;
       double least_mu = std::numeric_limits<double>::infinity(), largest_mu = 0.;
       for (const Row &row : rows)
@@ -91,7 +103,7 @@ namespace sprag
           Q.push_back(row[Column::Q]);
         }
       const bool changes = largest_mu - least_mu > largest_mu_change * largest_mu;
-      return x.size() < 3 || changes ? unknown : slope_at_origin(x, Q);
+      return changes ? unknown : slope_at_origin(x, Q);
     }
 
     /// Without inertia; a model without a support has none in it.
@@ -110,14 +122,15 @@ namespace sprag
     void add_stroke(const Scene &scene, const std::vector<Row> &rows, const int direction, const std::string &name,
                     std::vector<Entry> &entries)
     {
-      const Rows settled = stroke(rows, direction, settling);
+      const double R     = scene.geometry.cylinder_radius;
+      const Rows settled = stroke(rows, direction, settling * R);
       auto counts        = moves_with_friction(rows, direction);
       for (std::size_t i = 0; i < rows.size(); ++i)
         counts[i] = counts[i] && !rests(rows, i);
       for (const Column column : { Column::P, Column::Q })
         entries.push_back({ "peak_" + column_info(column).name + "_" + name, peak_between_rows(rows, column, counts) });
       if (begins_closed(scene))
-        entries.push_back({ "slope_" + name, slope_at_zero(settled, scene.geometry.cylinder_radius) });
+        entries.push_back({ "slope_" + name, slope_at_zero(settled, R) });
       const auto second = count_levers(rows) == 2 ? lever_rows({ settled.begin(), settled.end() }, 1) : std::vector<Row>();
       for (const auto &[column, reference] :
            { std::pair{ Column::P, Column::P_closed_form }, std::pair{ Column::Q, Column::Q_closed_form },
@@ -332,7 +345,8 @@ namespace sprag
     if (limit > 0. && std::isnan(found))
       throw AnalysisError("Analysis/Maximum deviation = " + rounded_text(limit) +
                           ": the deviation from the closed form cannot be told: each stroke needs steps more than " +
-                          mm(settling) + " beyond its reversal. Try a longer Drive/Stroke or a shorter Analysis/Step.");
+                          mm(settling * scene.geometry.cylinder_radius) +
+                          " beyond its reversal. Try a longer Drive/Stroke or a shorter Analysis/Step.");
     if (limit > 0. && !(found <= limit))
       throw AnalysisError("the deviation from the closed form, " + rounded_text(found) +
                           ", is larger than Analysis/Maximum deviation = " + rounded_text(limit) +

@@ -23,8 +23,8 @@ namespace sprag
     constexpr double travel_share          = 0.1;  ///< accuracy of the table's travel, of the error that a step may have
     constexpr double balanced              = 1e-8; ///< what may be left of the forces where there is no such error
 
-    /// Behind its rest no lever follows the cylinder so far: there the place of the cylinder does not matter [mm].
-    constexpr double separated = -10.;
+    /// Behind its rest no lever follows the cylinder so far, over the cylinder's radius: there its place does not matter.
+    constexpr double separated = -5. / 28.;
 
     constexpr double same_place = 1e-7; ///< of the cylinder for a lever that touches nothing [mm]
 
@@ -114,8 +114,8 @@ namespace sprag
 
   DrivePoint LeverTable::drive_point(const Side &side, const double time, const double z, const double rate) const
   {
-    const double x = side.sign * z;
-    return x < separated ? DrivePoint{ time, separated, 0., 0. } : DrivePoint{ time, x, side.sign * rate, 0. };
+    const double x = side.sign * z, last = separated * scene.geometry.cylinder_radius;
+    return x < last ? DrivePoint{ time, last, 0., 0. } : DrivePoint{ time, x, side.sign * rate, 0. };
   }
 
   /// Steps both levers to the table's place z + table_travel. A lever out of contact keeps its result of the trial before if
