@@ -272,6 +272,8 @@ namespace sprag
         if (accuracy.chooses_settings() && possible.empty())
           report(accuracy.target > 0. ? "Accuracy/Target" : "Accuracy/Budget",
                  "counts only along the drive and for held slides, where errors are told");
+        if (accuracy.chooses_settings() && !input.scene.output.errors)
+          report("Output/Errors", "off needs Accuracy/Target = 0 and Accuracy/Budget = 0, which count by these errors");
         accuracy.quantities = quantities_meant(accuracy.quantity, run_type());
         const bool is_read  = accuracy.chooses_settings() || !input.dimension; // which is chosen by them
         for (const auto &name : accuracy.quantities)

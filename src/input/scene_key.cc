@@ -137,7 +137,8 @@ namespace sprag
       "Support/Type", "Support/Mass", "Support/Stiffness", "Support/Damping", "Mirrored pair/Cylinder offset",
       "Mirrored pair/Friction ratio", "Mirrored pair/Spring ratio", "Mirrored pair/Contact ratio",
       // Steps in time, where bases are kept, what is written.
-      "Time/Step", "Time/Tolerance", "Time/Spectral radius", "Condensed/Cache", "Output/Fields", "Output/Field interval"
+      "Time/Step", "Time/Tolerance", "Time/Spectral radius", "Condensed/Cache", "Output/Fields", "Output/Field interval",
+      "Output/Errors"
     };
     return all;
   }

@@ -158,6 +158,7 @@ namespace sprag
     {
       section.choice("Fields", settings.fields);
       section.number_or_auto("Field interval", settings.field_interval, above(0.), "mm");
+      section.choice("Errors", settings.errors, { { "on", true }, { "off", false } });
     }
 
     void slope(Section section, SlopeSettings &settings, double &maximum_inclination)

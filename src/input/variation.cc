@@ -166,7 +166,7 @@ namespace sprag
         if (parameter.section == "Map" || parameter.section == "Study")
           return "belongs to no run of a study";
         if (parameter.section == "Output")
-          return "does not count: the runs of a study write no fields";
+          return "does not count: the runs of a study write no fields and estimate no errors";
         if (lists && parameter.rule.kind == Rule::Kind::numbers)
           return "holds a list itself and cannot be varied";
         return {};

@@ -40,6 +40,11 @@ namespace sprag
     return options;
   }
 
+  bool estimates_errors(const Scene &scene, const RunOptions &options)
+  {
+    return options.in_memory == nullptr && scene.output.errors;
+  }
+
   std::shared_ptr<DynamicsMaker> dynamics_maker(const RunOptions &options)
   {
     return options.in_memory != nullptr ? options.in_memory->dynamics : std::make_shared<DynamicsMaker>();

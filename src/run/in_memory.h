@@ -38,6 +38,9 @@ namespace sprag
   /// Returns the options of a run in memory, which prints nothing.
   RunOptions make_options(InMemory &in_memory);
 
+  /// Returns whether a run along a drive or of a limit cycle estimates its errors.
+  bool estimates_errors(const Scene &scene, const RunOptions &options);
+
   /// Returns the maker of models in time; all runs in memory share one.
   std::shared_ptr<DynamicsMaker> dynamics_maker(const RunOptions &options);
 } // namespace sprag

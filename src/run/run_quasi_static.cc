@@ -143,7 +143,7 @@ namespace sprag
             recorder.stress = fields->finish();
             if constexpr (in_space<Lever>)
               timed(timer, "exactness", [&] { meta = joined(meta, samples.entries(levers)); });
-            if (status == "completed" && options.in_memory == nullptr)
+            if (status == "completed" && estimates_errors(scene, options))
             {
               const PhaseTimer::Scope scope(timer, "accuracy");
               const auto trial_runs = [&] { return make_trial_runs(recorder.recorded(), settings, fields->stress_samples()); };

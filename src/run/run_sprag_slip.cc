@@ -208,7 +208,7 @@ namespace sprag
       Progress &progress;
       SpragSlip &found;
       Warnings &warnings;
-      const bool estimates_errors;
+      const bool has_errors;
       const SpragSlipSettings &settings = scene.sprag_slip;
       Rows rows                         = { writer, *found.slide.slide };
       const double dt                   = choose_step(watched_mode(found.slide), settings);
@@ -224,7 +224,7 @@ namespace sprag
             {
               measure();
               follow();
-              if (estimates_errors)
+              if (has_errors)
                 found.errors = estimate_cycle_errors(model, run, *found.slide.slide, *found.settled, times.period);
               if (settings.continuation > 0)
                 continue_along();
@@ -307,8 +307,7 @@ namespace sprag
           const auto drive = held_drive(scene);
           found.slide      = check_slide(dynamics.model(), drive, checked_modes(scene));
           require_slide(found, drive.x);
-          const bool estimates_errors = options.in_memory == nullptr;
-          Study{ scene, dynamics.model(), writer, progress, found, warnings, estimates_errors }.carry_out();
+          Study{ scene, dynamics.model(), writer, progress, found, warnings, estimates_errors(scene, options) }.carry_out();
           check_ledger(scene, found.ledger);
         },
         [&](const std::string &status)

@@ -145,7 +145,7 @@ namespace sprag
         },
         [&]
         {
-          if (is_complete && options.in_memory == nullptr)
+          if (is_complete && estimates_errors(scene, options))
           {
             const PhaseTimer::Scope scope(timer, "accuracy");
             recorder.accuracy = transient_accuracy(scene, dynamics.meshed, recorder.recorded(), maker);

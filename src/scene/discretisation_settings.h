@@ -71,10 +71,11 @@ namespace sprag
   /// Selects when fields are written: never, at reversals and at the end, or also in between.
   SPRAG_ENUMERATION(FieldOutput, none, turning_points, interval)
 
-  /// Says at which instants fields are written for ParaView.
+  /// Says at which instants fields are written for ParaView, and whether errors are estimated.
   struct OutputSettings
   {
     FieldOutput fields = FieldOutput::interval;
     std::optional<double> field_interval; ///< travel between two [mm], > 0; none: a twentieth of all travel
+    bool errors = true;                   ///< of runs along a drive and of limit cycles; those of a verdict belong to it
   };
 } // namespace sprag

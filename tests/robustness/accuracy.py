@@ -38,6 +38,19 @@ class Accuracy(RunTest):
                 listing = (output / "run.log").read_text().partition("with\n")[2].partition("\n\n")[0]
                 self.assertLess(len(listing.splitlines()), 30, listing)
 
+    def test_errors_are_off_where_a_scene_says_so(self):
+        path, coarse = SOURCE / "params/model-a.prm", ("Mesh/Face size=2", "Analysis/Step=8")
+        for errors in ("on", "off"):
+            done = sprag(path, *sets((*coarse, f"Output/Errors={errors}")), "--output", self.folder / errors)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        with self.read("on") as on, self.read("off") as off:
+            self.assertEqual(list(on["table/P"]), list(off["table/P"]))
+            self.assertTrue(on["accuracy"])
+            self.assertFalse(off.get("accuracy"))
+        done = sprag(path, *sets(("Output/Errors=off", "Accuracy/Target=0.01")), "--output", self.output)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("Output/Errors", done.stderr)
+
     def expect_rows_alone(self, scene, changes, name, values, count):
         study = ("Analysis/Type=study", f"Study/Vary={name} = {', '.join(values)}")
         path = SOURCE / "params" / f"{scene}.prm"

@@ -54,7 +54,7 @@ TEST(Variation, EveryMistakeIsTold)
   expect_wrong("Study/Vary=", { "must name a parameter and its values: Section/Name = VALUES" });
   expect_wrong("Study/Vary=Analysis/Type = transient; Map/Coarsest = 1; Output/Field interval = 2; Friction plate/Sensors = 1",
                { "Analysis/Type is Study/Type in a study", "Map/Coarsest belongs to no run of a study",
-                 "Output/Field interval does not count: the runs of a study write no fields",
+                 "Output/Field interval does not count: the runs of a study write no fields and estimate no errors",
                  "Friction plate/Sensors holds a list itself and cannot be varied" });
 }
 
