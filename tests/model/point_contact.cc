@@ -64,14 +64,14 @@ namespace
 
     /// Returns displacements at which the contact has the penetration; the lever is bent as by some tenths of a newton and more
     /// at the time 1.
-    Vector position(const double time, const double penetration) const
+    Vector position(const double time, const double penetration, const double bend = 1.) const
     {
       Vector z(layout().size());
       for (unsigned int i = 0; i < layout().surface; i += 2)
       {
         const double xi = (i / 2 + 1) / 8.;
-        z[i]            = (1. + 20. * time) * (4e-3 * xi * xi - 3e-3 * std::sin(3. * xi));
-        z[i + 1]        = (1. + 20. * time) * (8e-3 * xi - 9e-3 * std::cos(3. * xi)) / length;
+        z[i]            = bend * (1. + 20. * time) * (4e-3 * xi * xi - 3e-3 * std::sin(3. * xi));
+        z[i + 1]        = bend * (1. + 20. * time) * (8e-3 * xi - 9e-3 * std::cos(3. * xi)) / length;
       }
       if (sprung)
       {
@@ -83,7 +83,7 @@ namespace
       PointContact::Evaluation found;
       Vector turn(z.size());
       turn[layout().rotation()] = 1.;
-      z[layout().rotation()] += kinematics(geometry, x).theta - properties().rest_inclination - 1e-3;
+      z[layout().rotation()] += kinematics(geometry, x).theta - properties().rest_inclination - 1e-3 * std::max(1., 0.05 * bend);
       const double closed = std::max(penetration, 1e-3);
       for (unsigned int i = 0; i < 8; ++i)
       {
@@ -389,5 +389,55 @@ TEST(PointContact, ForcesAreContinuousWhereTheContactCrossesNodesAndMiddlesOfEle
     change -= before;
     for (unsigned int i = 0; i < change.size(); ++i)
       EXPECT_NEAR(change[i], 0., 1e-5 * arm(lever, i)) << "at " << place << ", dof " << i;
+  }
+}
+
+/// There the curvature jumps, so that the closest point stays at the node for a while: over micrometres of x and less.
+TEST(PointContact, ForcesAreContinuousWhereTheClosestPointStaysAtANode)
+{
+  for (const auto &[node, axis] : { std::pair{ 4u, 0. }, { 4u, 56.6 }, { 5u, 0. }, { 5u, 56.6 } })
+  {
+    Case lever         = full_case();
+    lever.sprung       = false;
+    lever.neutral_axis = axis;
+    Vector at;
+    PointContact contact(lever.properties());
+    PointContact::Evaluation found;
+    Row row;
+    const auto evaluate = [&](const double drive_x)
+    {
+      contact.evaluate_sliding({ at, { 0., drive_x, v, 0. }, 108. }, found);
+      contact.observe(found, row);
+      return on_all_dofs(lever, found.forces);
+    };
+    double x = geometry.pivot_distance - node * length / 8., low = 0.;
+    for (unsigned int pass = 0; pass < 10; ++pass)
+    {
+      lever.x             = x;
+      at                  = lever.position(0., 0.05, 100.);
+      const double offset = geometry.interface_offset - lever.neutral_axis;
+      const double place  = node * length / 8. - offset * at[2 * node - 1];
+      double high         = 0.3;
+      low                 = -0.3;
+      for (unsigned int i = 0; i < 60; ++i)
+      {
+        const double middle = 0.5 * (low + high);
+        evaluate(x + middle);
+        (row[Column::s] > place ? low : high) = middle;
+      }
+      x += low;
+    }
+    constexpr double step = 1e-7;
+    Vector before         = evaluate(x - 300. * step);
+    for (int i = -299; i <= 300; ++i)
+    {
+      const Vector after = evaluate(x + i * step);
+      ASSERT_GT(row[Column::P], 0.);
+      before -= after;
+      for (unsigned int dof = 0; dof < before.size(); ++dof)
+        ASSERT_NEAR(before[dof], 0., 1e-2 * arm(lever, dof))
+            << "node " << node << ", e_a " << axis << ", dof " << dof << ", step " << i;
+      before = after;
+    }
   }
 }

@@ -78,7 +78,8 @@ namespace sprag
   }
 
   template <class N, class Nodal>
-  PointContact::Surface<N> PointContact::surface(const unsigned int node, const Nodal &nodal, const N &xi) const
+  PointContact::Surface<N> PointContact::surface(const unsigned int node, const unsigned int first, const Nodal &nodal,
+                                                 const N &xi) const
   {
     Surface<N> at{};
     const auto &mesh = properties.mesh;
@@ -88,7 +89,7 @@ namespace sprag
     if (mesh.elements > 0)
     {
       const double h = mesh.element_length();
-      const HermiteShapes<N> shapes(h, 1. / h * xi - (node + first_element_dof(node, value(xi)) / 2));
+      const HermiteShapes<N> shapes(h, 1. / h * xi - (node + first / 2));
       for (unsigned int a = 0; a < n_element_dofs; ++a)
       {
         at.shape[a] = shapes.shape[a];
@@ -105,30 +106,39 @@ namespace sprag
     return at;
   }
 
-  /// Newton's method for (p - c) . p' = 0 from the point across from the circle's centre.
+  /// Newton's method for (p - c) . p' = 0 from the point across from the circle's centre, in one element, and in the other if
+  /// it leads there. Where each leads to the other the curvature jumps at their node: the second goes on a little beyond it.
   PointContact::Closest PointContact::closest(const unsigned int node, const Local &q) const
   {
     using N      = Dual<double, 1>;
     const auto c = cylinder_centre(properties.geometry, q[x_index], q[theta_index]);
-    Closest result{ c.xi, 1. };
-    for (unsigned int i = 0; i < 20 && properties.mesh.elements > 0; ++i)
+    Closest result{ c.xi, 1., first_element_dof(node, c.xi) };
+    const auto iterate = [&]
     {
-      const auto *const nodal = &q[first_element_dof(node, result.xi)];
-      const auto at           = surface(node, nodal, variable<N>(result.xi, 0));
-      const N slope           = (at.xi - c.xi) * at.tangent[0] + (at.eta - c.eta) * at.tangent[1];
-      const double change     = slope.v / slope.d[0];
-      result.d_slope          = slope.d[0];
-      result.xi -= change;
-      if (std::abs(change) < 1e-12 * properties.geometry.pivot_distance)
-        break;
+      for (unsigned int i = 0; i < 20 && properties.mesh.elements > 0; ++i)
+      {
+        const auto at       = surface(node, result.first, &q[result.first], variable<N>(result.xi, 0));
+        const N slope       = (at.xi - c.xi) * at.tangent[0] + (at.eta - c.eta) * at.tangent[1];
+        const double change = slope.v / slope.d[0];
+        result.d_slope      = slope.d[0];
+        result.xi -= change;
+        if (std::abs(change) < 1e-12 * properties.geometry.pivot_distance)
+          break;
+      }
+    };
+    iterate();
+    if (const unsigned int other = first_element_dof(node, result.xi); other != result.first)
+    {
+      result.first = other;
+      iterate();
     }
     return result;
   }
 
   double PointContact::gap(const unsigned int node, const Local &q) const
   {
-    const double xi = closest(node, q).xi;
-    const auto at   = surface(node, &q[first_element_dof(node, xi)], xi);
+    const auto foot = closest(node, q);
+    const auto at   = surface(node, foot.first, &q[foot.first], foot.xi);
     const auto c    = cylinder_centre(properties.geometry, q[x_index], q[theta_index]);
     return std::hypot(at.xi - c.xi, at.eta - c.eta) - properties.geometry.cylinder_radius;
   }
@@ -138,16 +148,16 @@ namespace sprag
     constexpr int n_used = n_element_dofs + 2; // coordinates of the element, theta, x
     using N              = Dual<double, n_used>;
     const auto foot      = closest(node, q);
-    const auto first     = first_element_dof(node, foot.xi);
+    const auto first     = foot.first;
     const auto circle    = placed_circle(properties.geometry, variable<N>(q[x_index], 5), variable<N>(q[theta_index], 4));
     Several<N, n_element_dofs> nodal;
     for (unsigned int a = 0; a < n_element_dofs; ++a)
       nodal[a] = variable<N>(q[first + a], a);
 
     // Another step of Newton's method gives the motion of the closest point with the coordinates.
-    const auto fixed = surface(node, nodal, N{} + foot.xi);
+    const auto fixed = surface(node, first, nodal, N{} + foot.xi);
     const N slope    = (fixed.xi - circle.xi) * fixed.tangent[0] + (fixed.eta - circle.eta) * fixed.tangent[1];
-    const auto at    = surface(node, nodal, N(foot.xi - 1. / foot.d_slope * slope));
+    const auto at    = surface(node, first, nodal, N(foot.xi - 1. / foot.d_slope * slope));
     const auto point = on_circle(circle, at.xi, at.eta);
     const double arm = properties.geometry.interface_offset - properties.neutral_axis_offset;
 

@@ -53,6 +53,7 @@ namespace sprag
     static constexpr bool uses_rates       = true;
     static constexpr bool keeps_tangent    = false;
     static constexpr bool stands_for_layer = true; ///< its springs are physical, not penalties
+    static constexpr bool looks_beside     = false;
     static constexpr unsigned int levers   = 1;
 
     /// The result of an evaluation. The caller keeps it and may use it for the next one.
@@ -145,10 +146,12 @@ namespace sprag
     template <class N>
     struct Surface;
 
-    /// The place along the lever that is closest to the circle's centre, and the derivative of (p - c) . p' there.
+    /// The place along the lever that is closest to the circle's centre, the derivative of (p - c) . p' there, and the first
+    /// coordinate of the element that it is found in, a little beyond whose end it may lie.
     struct Closest
     {
       double xi, d_slope;
+      unsigned int first;
     };
 
     unsigned int find_node(const dealii::Vector<double> &z, double x) const;
@@ -156,7 +159,7 @@ namespace sprag
     Local rates(unsigned int node, const dealii::Vector<double> &interface_rates, double v) const;
     unsigned int first_element_dof(unsigned int node, double xi) const;
     template <class N, class Nodal>
-    Surface<N> surface(unsigned int node, const Nodal &nodal, const N &xi) const;
+    Surface<N> surface(unsigned int node, unsigned int first, const Nodal &nodal, const N &xi) const;
     Closest closest(unsigned int node, const Local &q) const;
     double gap(unsigned int node, const Local &q) const;
     Configuration configure(unsigned int node, const Local &q) const;
