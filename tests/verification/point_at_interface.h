@@ -13,6 +13,7 @@ namespace sprag
     static constexpr bool uses_rates       = false;
     static constexpr bool keeps_tangent    = false;
     static constexpr bool stands_for_layer = false;
+    static constexpr bool looks_beside     = false;
     static constexpr unsigned int levers   = 1;
 
     /// The contact at the end of the step.

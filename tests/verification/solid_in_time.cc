@@ -8,6 +8,7 @@
 #include "verification/held_slides.h"
 
 #include <algorithm>
+#include <array>
 #include <gtest/gtest.h>
 
 using namespace sprag;
@@ -65,6 +66,25 @@ TEST(SolidInTime, ModesOfThePlaneAreAmongThem)
     }
     EXPECT_GE(compared, 3u);
   }
+}
+
+// It is looked at beside the contact, where a thin lever bends by many times as much. Faces of both meshes are as wide as the
+// contact, over which one takes parabolas and the other straight lines.
+TEST(SolidInTime, IndentationOfAThinLeverIsThatOfThePlane)
+{
+  std::array<double, 2> found{};
+  for (const unsigned int dimension : { 2u, 3u })
+  {
+    Scene scene       = with_face_size(held_model_a(dimension), 2.);
+    scene.lever.depth = 5.;
+    DynamicsMaker maker(false);
+    const auto dynamics = maker.make(scene);
+    const auto slide    = dynamics.model().hold(held_drive(scene), ContactFriction::sliding);
+    ASSERT_TRUE(slide);
+    found[dimension - 2] = slide->indentation;
+  }
+  EXPECT_GT(found[0], 0.);
+  EXPECT_NEAR(found[1] / found[0], 1., 0.2);
 }
 
 // A perturbation grows at the rate of its eigenvalue, up to the error of steps and of a nonlinear contact, see Growth.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace sprag
 {
@@ -66,17 +67,8 @@ namespace sprag
       return result;
     }
 
-    /// Returns the displacement along eta of the node closest to xi, at the zeta where the pressure is largest [mm].
-    double deflection(const FrictionFace<3> &face, const dealii::Vector<double> &displacement, const Row &row, const double xi)
-    {
-      const auto line      = nodes_at(face, row.across[4]);
-      const auto is_closer = [&](const unsigned int a, const unsigned int b)
-      { return std::abs(face.nodes[a].position[0] - xi) < std::abs(face.nodes[b].position[0] - xi); };
-      return displacement[3 * *std::min_element(line.begin(), line.end(), is_closer) + 1];
-    }
-
     /// Displacement along eta at xi, linear between the points [mm].
-    double deflection(const FrictionFace<2> &face, const dealii::Vector<double> &displacement, const Row &, const double xi)
+    double deflection(const FrictionFace<2> &face, const dealii::Vector<double> &displacement, const double xi)
     {
       const auto &points     = face.points;
       const auto is_before   = [](const auto &point, const double value) { return point.position[0] < value; };
@@ -91,6 +83,24 @@ namespace sprag
         return result;
       };
       return (1. - share) * point_value(*before) + share * point_value(*after);
+    }
+
+    /// Distance of the places beside the contact at which the face is looked at from its middle [mm].
+    double distance_beside(const double thickness, const Row &row)
+    {
+      return 0.5 * row[Column::contact_width] + 4. * thickness;
+    }
+
+    /// Returns the deflection of a layer's face at the centre of pressure over that aside of the contact, from the columns that
+    /// are filled [mm]; 0 without a layer.
+    double indentation(const FrictionFace<2> &face, const double thickness, const FaceEvaluation<2> &found, const Row &row)
+    {
+      if (thickness == 0. || !(row[Column::normal_resultant] > 0.))
+        return 0.;
+      const double centre = row[Column::s];
+      const double aside  = distance_beside(thickness, row);
+      const auto at       = [&](const double xi) { return deflection(face, found.displacement, xi); };
+      return at(centre) - 0.5 * (at(centre - aside) + at(centre + aside));
     }
 
     /// Friction over pressure at a point.
@@ -144,6 +154,44 @@ namespace sprag
     }
   } // namespace
 
+  DofLoads indentation_shares(const FrictionFace<3> &face, const std::vector<std::vector<unsigned int>> &lines,
+                              const double thickness, const Row &row)
+  {
+    if (thickness == 0. || !(row[Column::normal_resultant] > 0.) || lines.empty())
+      return {};
+    const auto distance  = [&](const auto &some) { return std::abs(face.nodes[some.front()].position[2] - row.across[4]); };
+    const auto is_closer = [&](const auto &a, const auto &b) { return distance(a) < distance(b); };
+    const auto &line     = *std::min_element(lines.begin(), lines.end(), is_closer);
+    const auto xi_at     = [&](const std::size_t i) { return face.nodes[line[i]].position[0]; };
+    const auto is_before = [&](const unsigned int node, const double xi) { return face.nodes[node].position[0] < xi; };
+    std::map<unsigned int, double> shares;
+    // Between nodes the displacement follows a parabola through three of them.
+    const auto add = [&](const double xi, const double factor)
+    {
+      const auto after = std::lower_bound(line.begin(), line.end(), xi, is_before) - line.begin();
+      const auto first = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - 1, 0, line.size() - 3));
+      for (std::size_t i = first; i < first + 3; ++i)
+      {
+        double share = factor;
+        for (std::size_t j = first; j < first + 3; ++j)
+          if (j != i)
+            share *= (xi - xi_at(j)) / (xi_at(i) - xi_at(j));
+        shares[3 * line[i] + 1] += share;
+      }
+    };
+    const double aside = distance_beside(thickness, row);
+    add(row[Column::s], 1.);
+    add(row[Column::s] - aside, -0.5);
+    add(row[Column::s] + aside, -0.5);
+    DofLoads result{ {}, dealii::Vector<double>(static_cast<unsigned int>(shares.size())) };
+    for (const auto &[dof, share] : shares)
+    {
+      result.values[static_cast<unsigned int>(result.dofs.size())] = share;
+      result.dofs.push_back(dof);
+    }
+    return result;
+  }
+
   template <int dim>
   ContactFace<dim>::ContactFace(const FrictionFace<dim> &face_, FaceProperties<dim> properties_)
       : face(face_)
@@ -151,6 +199,17 @@ namespace sprag
       , properties(std::move(properties_))
       , parts(face_parts(face))
   {
+    if constexpr (looks_beside)
+      lines = lines_along(face);
+  }
+
+  template <int dim>
+  DofLoads ContactFace<dim>::indentation_shares([[maybe_unused]] const Row &row, unsigned int) const
+  {
+    if constexpr (looks_beside)
+      return sprag::indentation_shares(face, lines, properties.layer_thickness, row);
+    else
+      return {};
   }
 
   template <int dim>
@@ -247,7 +306,8 @@ namespace sprag
   void ContactFace<dim>::observe(const FaceEvaluation<dim> &found, Row &row, unsigned int) const
   {
     observe_contact(found, row);
-    row[Column::indentation] = indentation(found, row);
+    if constexpr (dim == 2)
+      row[Column::indentation] = indentation(face, properties.layer_thickness, found, row);
   }
 
   template <int dim>
@@ -262,19 +322,6 @@ namespace sprag
         const auto slopes = slopes_in(found);
         row.across.insert(row.across.end(), slopes.begin(), slopes.end());
       }
-  }
-
-  /// Returns the deflection of a layer's face at the centre of pressure over that aside of the contact, from the columns that
-  /// are filled [mm]; 0 without a layer.
-  template <int dim>
-  double ContactFace<dim>::indentation(const FaceEvaluation<dim> &found, const Row &row) const
-  {
-    if (properties.layer_thickness == 0. || !(row[Column::normal_resultant] > 0.))
-      return 0.;
-    const double centre = row[Column::s];
-    const double aside  = 0.5 * row[Column::contact_width] + 4. * properties.layer_thickness;
-    const auto at       = [&](const double xi) { return deflection(face, found.displacement, row, xi); };
-    return at(centre) - 0.5 * (at(centre - aside) + at(centre + aside));
   }
 
   template <int dim>

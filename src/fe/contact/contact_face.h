@@ -51,6 +51,12 @@ namespace sprag
     }
   };
 
+  /// Returns the shares of the displacements of a face's dofs, by increasing dof, whose sum is the indentation of its layer, from
+  /// columns of a row that are filled: the deflection at the centre of pressure over that aside of the contact, along one of
+  /// `lines`, see lines_along(), that lies closest to the largest pressure. None without a layer, lines or contact.
+  DofLoads indentation_shares(const FrictionFace<3> &face, const std::vector<std::vector<unsigned int>> &lines, double thickness,
+                              const Row &row);
+
   /// A friction face in contact, of a plane or in space: its elements, how far contact is sought on it, and its FaceParts, which
   /// results show.
   template <int dim>
@@ -60,6 +66,7 @@ namespace sprag
     static constexpr bool uses_rates       = false;
     static constexpr bool stands_for_layer = false; ///< its springs are penalties
     static constexpr unsigned int levers   = 1;
+    static constexpr bool looks_beside     = dim == 3; ///< the indentation follows from dofs beside the contact
     using Evaluation                       = FaceEvaluation<dim>;
 
     /// The face must outlive this.
@@ -82,7 +89,7 @@ namespace sprag
       candidates.factor *= 2.;
     }
 
-    /// Fills the columns of a row that follow from the contact.
+    /// Fills the columns of a row that follow from the contact, in space without the indentation.
     void observe(const Evaluation &found, Row &row, unsigned int lever = 0) const;
 
     /// Fills all of them but the indentation.
@@ -90,6 +97,9 @@ namespace sprag
 
     /// Fills those of them that are sums over the points under pressure.
     void observe_resultants(const Evaluation &found, Row &row) const;
+
+    /// Returns the function of that name of this face.
+    DofLoads indentation_shares(const Row &row, unsigned int lever = 0) const;
 
     /// Returns the slopes of the cylinder's axis in space.
     AxisSlopes slopes_in(const Evaluation &found) const;
@@ -151,9 +161,9 @@ namespace sprag
 
   private:
     void observe_pressure(const Evaluation &found, Row &row) const;
-    double indentation(const Evaluation &found, const Row &row) const;
     PressureSamples pressure_samples(const Evaluation &found, unsigned int line) const;
 
     const FaceParts parts;
+    std::vector<std::vector<unsigned int>> lines; ///< of nodes along xi, in space
   };
 } // namespace sprag

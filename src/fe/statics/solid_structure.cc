@@ -2,6 +2,7 @@
 #include "fe/statics/solid_structure.h"
 
 #include "base/ranges.h"
+#include "fe/contact/contact_face.h"
 
 #include <algorithm>
 #include <cmath>
@@ -141,32 +142,11 @@ namespace sprag
     return finite ? body.sensor_forces(lever_displacement(coordinates, lever)) : sensors(on_surface(forces, lever));
   }
 
-  /// Returns the dofs and shares of three nodes of a line by which the displacement along eta between nodes follows.
-  DofLoads SolidStructure::interpolation(const std::vector<unsigned int> &line, const double xi) const
-  {
-    const auto &nodes    = body.friction_face().nodes;
-    const auto xi_at     = [&](const std::size_t i) { return nodes[line[i]].position[0]; };
-    const auto is_before = [&](const unsigned int node, const double value) { return nodes[node].position[0] < value; };
-    const auto after     = std::lower_bound(line.begin(), line.end(), xi, is_before) - line.begin();
-    const auto first     = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - 1, 0, line.size() - 3));
-    DofLoads result{ {}, Vector<double>(3) };
-    for (std::size_t i = first; i < first + 3; ++i)
-    {
-      double share = 1.;
-      for (std::size_t j = first; j < first + 3; ++j)
-        if (j != i)
-          share *= (xi - xi_at(j)) / (xi_at(i) - xi_at(j));
-      result.dofs.push_back(3 * line[i] + 1);
-      result.values[static_cast<unsigned int>(i - first)] = share;
-    }
-    return result;
-  }
-
   double SolidStructure::indentation(const unsigned int lever, const double thickness, const Vector<double> &coordinates,
                                      const DofLoads &forces, const Row &row) const
   {
     const auto acting = on_surface(forces, lever);
-    if (thickness == 0. || acting.dofs.empty() || node_lines.empty())
+    if (acting.dofs.empty())
       return 0.;
     const auto displacements = [&](const DofSelection &some)
     {
@@ -177,19 +157,8 @@ namespace sprag
         result[i] = coordinates[first_body_coordinate(lever) + surface[some[i]]];
       return result;
     };
-    // The indentation is that where the pressure is largest.
-    const auto distance = [&](const auto &some)
-    { return std::abs(body.friction_face().nodes[some.front()].position[2] - row.across[4]); };
-    const auto is_closer = [&](const auto &a, const auto &b) { return distance(a) < distance(b); };
-    const auto &line     = *std::min_element(node_lines.begin(), node_lines.end(), is_closer);
-    const double s       = row[Column::s];
-    const double aside   = 0.5 * row[Column::contact_width] + 4. * thickness;
-    const auto at        = [&](const double xi)
-    {
-      const auto shares = interpolation(line, xi);
-      return shares.values * displacements(shares.dofs);
-    };
-    return at(s) - 0.5 * (at(s - aside) + at(s + aside));
+    const auto shares = indentation_shares(body.friction_face(), node_lines, thickness, row);
+    return shares.dofs.empty() ? 0. : shares.values * displacements(shares.dofs);
   }
 
   std::vector<Vector<double>> SolidStructure::body_displacements(const Vector<double> &coordinates, const DofLoads &forces) const

@@ -116,7 +116,6 @@ namespace sprag
 
     dealii::Vector<double> lever_displacement(const dealii::Vector<double> &coordinates, unsigned int lever) const;
     std::vector<double> responses(const std::vector<DofLoads> &on_faces) const;
-    DofLoads interpolation(const std::vector<unsigned int> &line, double xi) const;
 
     const SolidBody &body;
     const std::vector<unsigned int> surface;           ///< the body's degrees of freedom on a lever's faces

@@ -22,6 +22,7 @@ namespace sprag
     static constexpr bool uses_rates       = Contact::uses_rates;
     static constexpr bool keeps_tangent    = Contact::keeps_tangent;
     static constexpr bool stands_for_layer = Contact::stands_for_layer;
+    static constexpr bool looks_beside     = Contact::looks_beside;
     static constexpr unsigned int levers   = 2;
 
     /// Result of an evaluation.
@@ -138,6 +139,14 @@ namespace sprag
     void observe(const Evaluation &found, Row &row, const unsigned int lever) const
     {
       contact[lever]->observe(found.per_lever[lever], row);
+    }
+
+    DofLoads indentation_shares(const Row &row, const unsigned int lever) const
+    {
+      auto shares = contact[lever]->indentation_shares(row);
+      for (unsigned int &dof : shares.dofs)
+        dof += layout.first(lever);
+      return shares;
     }
 
     double drive_force(const Evaluation &found) const

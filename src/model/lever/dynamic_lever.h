@@ -331,7 +331,7 @@ namespace sprag
       const auto hub          = structure->dof_state(motion, frame.layout.rotation(lever));
       row[Column::theta]      = frame.rest_inclination + hub.position;
       row[Column::theta_rate] = hub.velocity;
-      contact->observe(found, row, lever);
+      observe_contact([&](const DofSelection &dofs) { return structure->positions(motion, dofs); }, lever, row);
       row[Column::centre_offset] = row[Column::s] - cylinder_centre(frame.geometries[lever], x, row[Column::theta]).xi;
       if (frame.layout.sensors == 0)
         return;
@@ -379,12 +379,31 @@ namespace sprag
       return completed(structure->deform(*forces), drive, *forces);
     }
 
-    /// Columns of the contact of each lever at its last evaluation.
+    /// Fills the columns of a contact at its last evaluation. `positions`(dofs) returns displacements there.
+    template <class Positions>
+    void observe_contact([[maybe_unused]] const Positions &positions, const unsigned int lever, Row &row) const
+    {
+      contact->observe(found, row, lever);
+      if constexpr (Contact::looks_beside)
+      {
+        const auto shares        = contact->indentation_shares(row, lever);
+        row[Column::indentation] = 0.;
+        if (shares.dofs.empty())
+          return;
+        const auto displacements = positions(shares.dofs);
+        for (unsigned int i = 0; i < shares.dofs.size(); ++i)
+          row[Column::indentation] += shares.values[i] * displacements[shares.dofs[i]];
+      }
+    }
+
+    /// Columns of the contact of each lever in the last slide.
     std::vector<Row> observed_contacts() const
     {
       std::vector<Row> rows(frame.layout.levers);
+      const auto positions = [&](const DofSelection &dofs)
+      { return structure->positions(structure->deform(found.forces), dofs); };
       for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
-        contact->observe(found, rows[lever], lever);
+        observe_contact(positions, lever, rows[lever]);
       return rows;
     }
 
