@@ -2,6 +2,7 @@
 #include "analysis/accuracy/slide_samples.h"
 
 #include "analytic/closed_form.h"
+#include "analytic/measures.h"
 #include "base/errors.h"
 #include "base/ranges.h"
 #include "base/text.h"
@@ -135,13 +136,32 @@ namespace sprag
       return rows;
     }
 
-    /// Returns the largest error of interpolating a row between its neighbours, over the column's peak.
+    /// Returns x of the ends of all strokes [mm].
+    std::vector<double> stroke_ends(const std::vector<Row> &rows)
+    {
+      std::vector<double> result = { rows.front()[Column::x], rows.back()[Column::x] };
+      for (std::size_t i = 1; i + 1 < rows.size(); ++i)
+        if (!(rows[i - 1][Column::v] * rows[i + 1][Column::v] > 0.))
+          result.push_back(rows[i][Column::x]);
+      return result;
+    }
+
+    /// Returns the largest error of interpolating a row between its neighbours, over the column's peak. Rows beside the end of a
+    /// stroke at which the drive slows down are left out: a mu that follows the speed changes with the root of the distance
+    /// there.
     double interpolation_error(const std::vector<Row> &rows, const Column column)
     {
-      double result = 0.;
+      const auto ends       = stroke_ends(rows);
+      const double left_out = left_out_behind_reversal * largest(rows, Column::x);
+      const double fastest  = largest(rows, Column::v);
+      double result         = 0.;
       for (std::size_t i = 1; i + 1 < rows.size(); ++i)
-        if (rows[i - 1][Column::v] * rows[i + 1][Column::v] > 0.) // in one stroke
+      {
+        const auto is_near = [&](const double end) { return std::abs(rows[i][Column::x] - end) < left_out; };
+        const bool is_slow = std::abs(rows[i][Column::v]) < 0.5 * fastest && std::any_of(ends.begin(), ends.end(), is_near);
+        if (rows[i - 1][Column::v] * rows[i + 1][Column::v] > 0. && !is_slow)
           result = std::max(result, std::abs(distance_from_line(rows[i - 1], rows[i], rows[i + 1], column)));
+      }
       return result / largest(rows, column);
     }
 
