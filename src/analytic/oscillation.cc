@@ -21,6 +21,8 @@ namespace sprag
     constexpr double noise             = 1e-3;    ///< relative to the largest force
     constexpr double vibration_rms     = 0.08;    ///< over the largest P without inertia
     constexpr double vibration_open    = 0.01;    ///< of the time
+    constexpr double vibration_stick   = 0.01;    ///< of the time in the last half of the window
+    constexpr double moving_share      = 0.1;     ///< of the drive's largest speed, below which sticking is that of a rest
     constexpr double decayed_rms       = 0.012;   ///< over the largest P without inertia
     constexpr double passing_share     = 0.04;    ///< of the frequency
     constexpr double lasting_share     = 0.1;     ///< of the rms, left at the end
@@ -211,6 +213,8 @@ namespace sprag
         return Verdict::unknown;
       if (oscillation.rms > vibration_rms * oscillation.scale && oscillation.open_share > vibration_open)
         return Verdict::vibrates;
+      if (oscillation.stick_share > vibration_stick)
+        return Verdict::sticks_and_slips;
       if (std::isfinite(oscillation.passing_frequency))
         return Verdict::elements_pass;
       const bool little = oscillation.rms_end <= std::max(decayed_rms * oscillation.scale, least);
@@ -242,6 +246,28 @@ namespace sprag
       return unknown;
     }
 
+    /// Share of the time between two times in which friction sticks in contact while the drive moves; 0 unless it comes to stick
+    /// twice, as friction that is regularised is less than in sliding for good; NaN without steps.
+    double stick_share(const std::vector<Row> &rows, const double begin, const double end)
+    {
+      const double least_speed = moving_share * largest(rows, Column::v);
+      double sum = 0., stuck = 0.;
+      unsigned int phases = 0;
+      bool was_stuck      = true;
+      for (std::size_t i = 1; i < rows.size(); ++i)
+        if (rows[i - 1][Column::time] >= begin && rows[i][Column::time] <= end)
+        {
+          const double step   = rows[i][Column::time] - rows[i - 1][Column::time];
+          const bool moves    = std::abs(rows[i][Column::v]) > least_speed;
+          const bool is_stuck = moves && rows[i][Column::P] > 0. && sticks(rows[i]);
+          phases += is_stuck && !was_stuck ? 1 : 0;
+          was_stuck = is_stuck;
+          sum += step;
+          stuck += is_stuck ? step : 0.;
+        }
+      return !(sum > 0.) ? unknown : phases > 1 ? stuck / sum : 0.;
+    }
+
     /// P that never counts [N].
     double negligible(const std::vector<Row> &rows)
     {
@@ -265,8 +291,10 @@ namespace sprag
       oscillation.rms         = rms(window);
       const double last_tenth = oscillation.window_end - last_share * (oscillation.window_end - oscillation.window_begin);
       oscillation.rms_end     = rms(later_than(window, last_tenth));
-      oscillation.extent      = extent(after_reversal, oscillation.x);
-      oscillation.scale       = largest_reference(window);
+      oscillation.stick_share =
+          stick_share(rows, 0.5 * (oscillation.window_begin + oscillation.window_end), oscillation.window_end);
+      oscillation.extent = extent(after_reversal, oscillation.x);
+      oscillation.scale  = largest_reference(window);
       if (face_size > 0.)
         oscillation.passing_frequency =
             passing_frequency(oscillation, speed_along(rows, oscillation.window_begin, oscillation.window_end), face_size);
@@ -286,8 +314,8 @@ namespace sprag
 
     unsigned int rank(const Verdict verdict)
     {
-      constexpr std::array<Verdict, 6> by_rank = { { Verdict::unknown, Verdict::decays, Verdict::rings, Verdict::elements_pass,
-                                                     Verdict::grows, Verdict::vibrates } };
+      constexpr std::array<Verdict, 7> by_rank = { { Verdict::unknown, Verdict::decays, Verdict::rings, Verdict::elements_pass,
+                                                     Verdict::sticks_and_slips, Verdict::grows, Verdict::vibrates } };
       return static_cast<unsigned int>(std::find(by_rank.begin(), by_rank.end(), verdict) - by_rank.begin());
     }
 
@@ -417,6 +445,7 @@ namespace sprag
                                { prefix + "frequency_Q_support", found.frequency_Q_support },
                                { prefix + "growth_rate", found.growth_rate },
                                { prefix + "open_share", found.open_share },
+                               { prefix + "stick_share", found.stick_share },
                                { prefix + "overshoot_P", found.overshoot_P },
                                { prefix + "overshoot_Q", found.overshoot_Q },
                                { prefix + "overshoot_Q_support", found.overshoot_Q_support },

@@ -15,11 +15,13 @@ namespace sprag
   /// Classifies the vibration after a reversal:
   /// - unknown: fewer than two rows in the window;
   /// - vibrates: rms over 8 % of P without inertia, and the contact is open for more than 1 % of the time;
+  /// - sticks_and_slips: none of these, and friction sticks twice or more and for more than 1 % of the last half
+  ///   of the window, at more than a tenth of the drive's largest speed;
   /// - elements_pass: the ripple of elements under the contact remains, see Oscillation::passing_frequency;
   /// - grows: none of these, the envelope grows and the remainder at the end is over 1.2 % of P without inertia;
   /// - decays: none of these, the remainder is at most 1.2 % of P without inertia, or 0.1 % of the run's; never open;
   /// - rings: none of these, it decays, but not within the window.
-  SPRAG_ENUMERATION(Verdict, unknown, vibrates, elements_pass, grows, decays, rings)
+  SPRAG_ENUMERATION(Verdict, unknown, vibrates, sticks_and_slips, elements_pass, grows, decays, rings)
 
   /// The vibration after a reversal of the drive, measured by how far P, Q and Q_support are off the values without inertia.
   ///
@@ -48,6 +50,7 @@ namespace sprag
     double frequency_Q_support = unknown; ///< [Hz]
     double growth_rate         = unknown; ///< of the envelope of P in the window [1/s], negative: decays
     double open_share          = unknown; ///< of the window with P = 0
+    double stick_share         = unknown; ///< of the last half of the window, in which friction is less than in sliding
     double rms                 = unknown; ///< of P less its quasi-static value over the window [N]
     double rms_end             = unknown; ///< the same over the last tenth of the window [N]
     double scale               = unknown; ///< largest |P| without inertia in the window, to which verdicts refer [N]
