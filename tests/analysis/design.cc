@@ -46,7 +46,7 @@ namespace
 } // namespace
 
 // Model A at 112 mm/s, where its cork has mu = 0.73, and at a tenth of that.
-TEST(Design, AtATenthOfTheSpeedTheLeverDoesWhatItDoesOnASlowerDrive)
+TEST(Design, AtATenthOfTheSpeedTheLeverDoesWhatItDoesOnSuchADrive)
 {
   const TemporaryFolder folder;
   const auto scene_at = [&](const std::string &speed)

@@ -67,7 +67,7 @@ namespace
 // Problem 15. The contact yields by delta = P/k, as if e were less by it: that takes the share k_theta/(s (s + sigma mu e))/k, at
 // most 7.1e-6, off theta - theta_0 and off P. J theta'' is 1e-6 of the spring's moment. Fast steps beside the contact's period,
 // 160 of its radians, magnify round-off of the gap to some 1e-5 N.
-TEST(RigidLever, FollowsTheClosedFormOnAStiffContactUnderASlowDrive)
+TEST(RigidLever, FollowsTheClosedFormOnAStiffContactAtLowSpeed)
 {
   for (const auto &paper : { model_a(), model_b(), with_coulomb(model_a(), 0.73) })
   {
