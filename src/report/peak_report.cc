@@ -5,6 +5,7 @@
 #include "base/ranges.h"
 #include "base/text.h"
 #include "results/row_statistics.h"
+#include "scene/analysis_use.h"
 #include "scene/closed_form.h"
 #include "scene/contact_estimates.h"
 #include "scene/held_slide.h"
@@ -200,6 +201,10 @@ namespace sprag
     const bool is_at_peak  = peak.width / face_size < enough;
     const double width     = is_at_peak ? peak.width : width_over_share(rows, admitted_share);
     if (!is_at_peak && (!(width > 0.) || width >= enough * face_size))
+      return {};
+    // Faces chosen for a target serve what was asked for: forces, where the pressure has no estimate, or its largest value.
+    const bool has_inertia = scene.analysis.type == AnalysisType::transient;
+    if (!has_inertia && is_chosen(scene, is_at_peak ? "Mesh/Faces in contact" : "Mesh/Face size"))
       return {};
     const double elements   = width / face_size;
     const std::string error = rounded_text(std::ceil(100. * expected_pressure_error(elements, scene.mesh.degree))) + " %";

@@ -5,6 +5,7 @@
 #include "laws/friction_law.h"
 #include "report/peak_report.h"
 #include "results/row_statistics.h"
+#include "scene/analysis_use.h"
 #include "scene/closed_form.h"
 #include "scene/contact_estimates.h"
 #include "scene/lever_inertia.h"
@@ -56,7 +57,8 @@ namespace sprag
     /// "at x = 65 mm backward".
     std::string place(const Row &row)
     {
-      return "at x = " + mm(row[Column::x]) + (row[Column::v] < 0. ? " backward" : " forward");
+      const double v = row[Column::v]; // 0 of a held slide
+      return "at x = " + mm(row[Column::x]) + (v < 0. ? " backward" : v > 0. ? " forward" : "");
     }
 
     /// The rows have penetration of a mesh and compression of the layer both.
@@ -106,7 +108,7 @@ namespace sprag
     /// coarse_contact_warnings(). The mean over the width says nothing of peaks where the load over it is uneven.
     void add_peaks(const Scene &scene, const std::vector<Row> &rows, const double largest_P, Warnings &warnings)
     {
-      if (!scene.contact.penalty || loads_unevenly(scene))
+      if (!scene.contact.penalty || is_chosen(scene, "Contact/Penalty") || loads_unevenly(scene))
         return;
       const double admitted =
           scene.layer.poisson_ratio > incompressible ? largest_peak_over_mean_incompressible : largest_peak_over_mean;
@@ -189,9 +191,12 @@ namespace sprag
     }
 
     /// Quasi-static alone: in time Analysis/Maximum energy residual looks at the whole ledger. The springs of the penalties,
-    /// which no column counts there, hold no more than force times penetration and slip.
+    /// which no column counts there, hold no more than force times penetration and slip. Steps chosen for a target have told
+    /// errors.
     void add_energy(const Scene &scene, const std::vector<Row> &rows, Warnings &warnings)
     {
+      if (is_chosen(scene, "Analysis/Step"))
+        return;
       if (scene.analysis.type != AnalysisType::quasi_static || scene.analysis.model != ModelType::finite_element)
         return;
       const Row &last     = rows.back();

@@ -95,6 +95,11 @@ namespace sprag
     return accuracy_quantities(type);
   }
 
+  bool is_chosen(const Scene &scene, const std::string &parameter)
+  {
+    return scene.chosen.count(parameter) > 0;
+  }
+
   bool is_open(const Scene &scene, const std::string &parameter)
   {
     if (scene.specified.count(parameter) == 0)

@@ -52,4 +52,7 @@ namespace sprag
 
   /// Returns whether a parameter such as "Mesh/Face size" is not given, or given as auto.
   bool is_open(const Scene &scene, const std::string &parameter);
+
+  /// Returns whether the program has chosen a parameter so that an accuracy is met.
+  bool is_chosen(const Scene &scene, const std::string &parameter);
 } // namespace sprag
