@@ -102,18 +102,17 @@ namespace sprag
       if (found.settled)
       {
         const auto &window = found.settled->window;
-        append<Entry>(entries,
-                      { { "cycle", enumerator_name(found.settled->kind) },
-                        { "cycle_begin", found.settled_begin },
-                        { "cycle_amplitude_P", window.amplitude_P },
-                        { "cycle_amplitude_indentation", window.amplitude_indentation },
-                        { "cycle_relative_amplitude", window.amplitude_P / window.slide_P },
-                        { "cycle_open_share", window.open_share },
-                        { "cycle_stick_share", window.stick_share },
-                        { "cycle_frequency", window.frequency },
-                        { "cycle_period", window.period },
-                        { "cycle_vibrations", window.period > 0. ? std::round(window.period * window.frequency) : unknown },
-                        { "cycle_agreement", found.settled->agreement } });
+        append<Entry>(entries, { { "cycle", enumerator_name(found.settled->kind) },
+                                 { "cycle_begin", found.settled_begin },
+                                 { "cycle_amplitude_P", window.amplitude_P },
+                                 { "cycle_amplitude_indentation", window.amplitude_indentation },
+                                 { "cycle_relative_amplitude", window.amplitude_P / window.slide_P },
+                                 { "cycle_open_share", window.open_share },
+                                 { "cycle_stick_share", window.stick_share },
+                                 { "cycle_frequency", window.frequency },
+                                 { "cycle_period", window.period },
+                                 { "cycle_vibrations", window.vibrations() },
+                                 { "cycle_agreement", found.settled->agreement } });
       }
       const auto range = found.coexistence.value_or(Coexistence{ unknown, unknown });
       if (!found.points.empty())

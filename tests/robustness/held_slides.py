@@ -141,9 +141,9 @@ class LimitCycle(RunTest):
         return done.stdout
 
     def test_tells_its_error(self):
-        self.assertRegex(self.run_lever(7.5), r"errors, estimated +cycle_amplitude_P [\d.]+ %, cycle_frequency [\d.]+ %\n")
+        self.assertRegex(self.run_lever(7.5), r"errors, estimated +cycle_amplitude_P [\d.]+ %, cycle_frequency [\d.]+ %, cycle_vibrations [\d.]+ %\n")
         self.assertTrue(1e-3 < self.read("accuracy", "cycle_amplitude_P")["cycle_amplitude_P"] < 2e-2)
-        self.assertRegex(self.run_lever(6), r"not estimated +cycle_amplitude_P, cycle_frequency: .*P does not repeat itself")
+        self.assertRegex(self.run_lever(6), r"not estimated +cycle_amplitude_P, cycle_frequency, cycle_vibrations: .*P does not repeat itself")
 
 
 class Damping(RunTest):

@@ -5,8 +5,10 @@
 #include "analysis/transient/held_run.h"
 #include "analytic/error_estimate.h"
 #include "base/choices.h"
+#include "base/unknown.h"
 #include "scene/vibration_settings.h"
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -100,6 +102,12 @@ namespace sprag
     double stick_share           = 0.; ///< of the time, with a point in contact that does not slide on with the cylinder
     double frequency             = 0.; ///< strongest line of P's spectrum [Hz]; NaN without one
     double period                = 0.; ///< after which P is the same again [s]; NaN if it never is
+
+    /// Returns the number of vibrations in a period, NaN without one.
+    double vibrations() const
+    {
+      return period > 0. ? std::round(period * frequency) : unknown;
+    }
   };
 
   /// Classifies the long-term motion about a held slide: it returns to the slide, repeats itself in every window (cycle), neither
@@ -134,10 +142,10 @@ namespace sprag
   /// in the share of open time within 0.01, or the vibration is small and shrinks. Throws as HeldRun::step().
   Settled settle(HeldRun &run, const HeldSlide &slide, const SettlingTimes &times, const RowSink &sink);
 
-  /// Estimates the errors of cycle_amplitude_P and cycle_frequency by finite steps: the cycle is followed on in half the steps
-  /// from where the run ended, and twice the change counts. Contact that opens or sticks within a step errs in first order. None
-  /// of a motion that comes to rest; the reason in words of one that does not repeat itself. `period`: see SettlingTimes. Throws
-  /// as HeldRun::step().
+  /// Estimates the errors of cycle_amplitude_P, cycle_frequency and cycle_vibrations by finite steps: the cycle is followed on in
+  /// half the steps from where the run ended, and twice the change counts, of the number of vibrations once. Contact that opens
+  /// or sticks within a step errs in first order. None of a motion that comes to rest; the reason in words of one that does not
+  /// repeat itself. `period`: see SettlingTimes. Throws as HeldRun::step().
   std::vector<ErrorEstimate> estimate_cycle_errors(DynamicModel &model, const HeldRun &run, const HeldSlide &slide,
                                                    const Settled &settled, double period);
 
