@@ -89,32 +89,32 @@ namespace sprag
     constexpr unsigned int random_sections = 13; ///< the first, in which the start dies out, does not count
 
     /// Returns the half-width of the 95 % interval of the ratio of root mean squares by the jackknife,
-    /// t sqrt((n - 1)/m sum_i (r_i - mean)^2), with r_i the ratio without section i of n, the first aside. Successive sections of
-    /// correlation c count as m = n (1 - c)/(1 + c) independent ones, which give t its degrees of freedom.
-    double half_interval(const std::vector<Section> &ends)
+    /// t sqrt((n - 1)/n sum_i (r_i - mean)^2), with r_i the ratio without part i of n, each of so many sections, the first aside.
+    double half_interval(const std::vector<Section> &ends, const std::size_t sections)
     {
-      constexpr double least_independent = 3.;
-      const auto n                       = static_cast<double>(ends.size() - 1);
+      const std::size_t parts = (ends.size() - 1) / sections;
+      const auto &first = ends.front(), &last = ends[parts * sections];
       std::vector<double> without;
-      for (std::size_t i = 1; i < ends.size(); ++i)
+      double mean = 0., squares = 0.;
+      for (std::size_t i = 0; i < parts; ++i)
       {
-        const auto &first = ends.front(), &before = ends[i - 1], &end = ends[i], &last = ends.back();
+        const auto &before = ends[i * sections], &end = ends[(i + 1) * sections];
         const double square      = last.square - first.square - (end.square - before.square);
         const double base_square = last.base_square - first.base_square - (end.base_square - before.base_square);
         without.push_back(std::sqrt(square / base_square));
+        mean += without.back() / static_cast<double>(parts);
       }
-      double mean = 0., squares = 0., products = 0.;
       for (const double ratio : without)
-        mean += ratio / n;
-      for (std::size_t i = 0; i < without.size(); ++i)
-      {
-        squares += std::pow(without[i] - mean, 2);
-        products += i > 0 ? (without[i] - mean) * (without[i - 1] - mean) : 0.;
-      }
-      const double correlation = squares > 0. ? std::max(0., products / squares) : 0.;
-      const double independent = std::max(least_independent, n * (1. - correlation) / (1. + correlation));
-      const double quantile    = boost::math::quantile(boost::math::students_t(independent - 1.), 0.975);
-      return quantile * std::sqrt((n - 1.) / independent * squares);
+        squares += std::pow(ratio - mean, 2);
+      const auto n          = static_cast<double>(parts);
+      const double quantile = boost::math::quantile(boost::math::students_t(n - 1.), 0.975);
+      return quantile * std::sqrt((n - 1.) / n * squares);
+    }
+
+    /// Returns the largest of those by single sections, which are many, and by pairs and triples, which hang together less.
+    double half_interval(const std::vector<Section> &ends)
+    {
+      return std::max({ half_interval(ends, 1), half_interval(ends, 2), half_interval(ends, 3) });
     }
 
     /// State from which an interrupted run resumes, beside its findings and the table.
