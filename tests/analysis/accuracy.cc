@@ -109,6 +109,15 @@ TEST(RowSpacing, GoesWithTheRootOfTheErrorAndHoldsIt)
   EXPECT_LE(std::abs(P(60.) - line) / P(65.), 1e-4);
 }
 
+// Mu of cork changes with the root of the distance from the turning point, before which the drive slows down.
+TEST(RowSpacing, IsThatOfTheMiddleOfAHarmonicDrive)
+{
+  Scene scene           = model_a();
+  const double constant = largest_row_spacing(scene, 3e-4, true);
+  scene.drive           = Drive(DriveProfile::harmonic, 0., 65., 112., 1., 0.);
+  EXPECT_GT(largest_row_spacing(scene, 3e-4, true), 0.05 * constant);
+}
+
 TEST(ChangeByFrequency, IsTheLagOfADecayingVibration)
 {
   // P = 10 + exp(-20 t) sin(w t) behind a reversal at t = 1 s: slower by a share d it changes by d w t exp(-20 t) at most.

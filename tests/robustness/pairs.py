@@ -35,7 +35,7 @@ CASES = {
         (*BEAM, "Analysis/Type=sprag slip", "Stability/Position=30", "Stability/Direction=forward", "Sprag slip/Continuation=0", "Sprag slip/Longest growth=0.1", "Sprag slip/Settling time=0.1", "Sprag slip/Steps per period=32"),
         (mu(0.8, 4.5), mu(3.6, 1 / 4.5)), {"cycle": b"irregular", "cycle_amplitude_P": None, "cycle_relative_amplitude": None, "measured_growth_rate": None}, (),
     ),
-    "reversal": ((*BEAM, "Analysis/Type=transient"), (mu(0.8, 4.5), mu(3.6, 1 / 4.5)), {"reversal_1_verdict": b"vibrates", "reversal_1_frequency": None, "reversal_1_P_scale": None, "swing_P": None}, ("pressure_beyond_strength",)),
+    "reversal": ((*BEAM, "Analysis/Type=transient"), (mu(0.8, 4.5), mu(3.6, 1 / 4.5)), {"reversal_1_verdict": b"vibrates", "reversal_1_P_scale": None, "swing_P": None}, ("pressure_beyond_strength",)),
     "margin": ((*DEVICE, *SLIDE, "Analysis/Model=rigid", "Contact/Stiffness=3000", "Stability/Position=30", "Stability/Direction=backward"), (mu(0.8, 4.), mu(3.2, 0.25)), {"margin": MARGIN, "growth_rate": None}, ()),
     "half a layer": (
         (*DEVICE, *SLIDE, "Analysis/Model=rigid", "Stability/Position=30", "Stability/Direction=forward"),
