@@ -269,10 +269,11 @@ namespace sprag
       if (excess > 0.)
         overshoot = { "overshoot", "it", add_both(overshoot_parts, at_overshoot, M_SQRT1_2 * swing / excess), {} };
       const double largest_before = swing_before_reversal(rows, scene.drive, window);
-      return { { "P", "its peak", add_both(times(frequency_parts, lag), errors.P / peak, largest_before / peak), {} },
-               overshoot,
-               { "frequency", "it", add_both(frequency_parts, errors.frequency, weight * apart), {} },
-               decay };
+      const bool goes_on          = turned.verdict == Verdict::grows || turned.verdict == Verdict::sticks_and_slips;
+      ErrorEstimate P{ "P", "", {}, "No estimate: P vibrates on behind the first reversal, and errors grow with it." };
+      if (!goes_on)
+        P = { "P", "its peak", add_both(times(frequency_parts, lag), errors.P / peak, largest_before / peak), {} };
+      return { P, overshoot, { "frequency", "it", add_both(frequency_parts, errors.frequency, weight * apart), {} }, decay };
     }
   } // namespace
 

@@ -241,6 +241,22 @@ TEST(TransientAccuracy, SaysInWordsWhereNothingTurns)
   }
 }
 
+// The held slide decays; what the run finds behind the reversal does not.
+TEST(TransientAccuracy, TellsNoErrorOfPWhereItVibratesOn)
+{
+  const Scene scene = shipped("reversal-a", { "Analysis/Model=rigid" });
+  auto rows         = beam_run(scene);
+  const double turn = scene.drive.reversals().front();
+  for (auto &row : rows)
+    if (row[Column::time] > turn)
+      row[Column::P] = row[Column::P_quasi_static] +
+                       std::exp(100. * (row[Column::time] - turn)) * (row[Column::P] - row[Column::P_quasi_static]);
+  ASSERT_EQ(oscillations(rows, scene.drive).front().verdict, Verdict::grows);
+  const auto estimates = estimated(scene, rows);
+  EXPECT_NE(estimates[0].unknown.find("vibrates on"), std::string::npos) << estimates[0].unknown;
+  EXPECT_FALSE(estimates[1].parts.empty());
+}
+
 // With this penalty Newton's method goes round in a circle from the last equilibrium, and the slide was told to be jammed.
 TEST(TransientAccuracy, SaysInWordsWhereTheContactIsNarrowerThanFaces)
 {
