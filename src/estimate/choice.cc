@@ -32,16 +32,35 @@ namespace sprag
     constexpr double worst            = 0.5;
     constexpr double relaxation       = 1.4; ///< of the target from try to try
 
-    Choice cheap_enough(const Scene &scene, const ChooseToMeet &meeting)
+    /// Relaxes the target in steps, by bisection, until what is left of the budget since a CPU time pays the choice.
+    Choice cheap_enough(const Scene &scene, const double since, const ChooseToMeet &meeting)
     {
-      double target = scene.accuracy.target > 0. ? scene.accuracy.target : best_with_budget;
-      Choice choice = meeting(target);
-      if (is_paid(scene, choice))
+      const double first     = scene.accuracy.target > 0. ? scene.accuracy.target : best_with_budget;
+      const auto is_afforded = [&](const Choice &choice) { return is_paid(with_budget_left(scene, since), choice); };
+      const auto relaxed     = [&](const int steps) { return meeting(first * std::pow(relaxation, steps)); };
+      Choice choice          = relaxed(0);
+      if (is_afforded(choice))
         return choice;
-      while (target < worst && !is_paid(scene, choice))
-        choice = meeting(target *= relaxation);
-      choice.limit =
-          is_paid(scene, choice) ? "Accuracy/Budget pays no more." : "Even the coarsest costs more than Accuracy/Budget.";
+      int too_dear = 0, steps = std::max(1, static_cast<int>(std::ceil(std::log(worst / first) / std::log(relaxation))));
+      choice = relaxed(steps);
+      if (!is_afforded(choice))
+      {
+        choice.limit = "Even the coarsest costs more than Accuracy/Budget.";
+        return choice;
+      }
+      while (steps - too_dear > 1)
+      {
+        const int middle = (too_dear + steps) / 2;
+        Choice finer     = relaxed(middle);
+        if (is_afforded(finer))
+        {
+          choice = std::move(finer);
+          steps  = middle;
+        }
+        else
+          too_dear = middle;
+      }
+      choice.limit = "Accuracy/Budget pays no more.";
       return choice;
     }
 
@@ -50,7 +69,7 @@ namespace sprag
       const double since     = PhaseTimer::cpu_seconds();
       const bool has_inertia = scene.analysis.type != AnalysisType::quasi_static;
       const auto meeting     = has_inertia ? choose_for_vibration(scene) : choose_without_inertia(scene, announce);
-      return cheap_enough(with_budget_left(scene, since), meeting);
+      return cheap_enough(scene, since, meeting);
     }
 
     void print_accuracy(std::ostream &stream, const Scene &scene, const Choice &choice)
