@@ -159,7 +159,7 @@ namespace sprag
         return { { 0., 0. } };
       if (slides.solve(drive, 1.) == nullptr)
         return {};
-      return contact_forces(observed_contacts());
+      return last_forces();
     }
 
     std::optional<HeldSlide> hold(const DrivePoint &drive, const ContactFriction friction) override
@@ -167,7 +167,7 @@ namespace sprag
       if (friction != ContactFriction::sliding)
         return slide_at(drive, friction, 1.);
       const auto frictionless = slides.solve(drive, 1., ContactFriction::none);
-      const auto free_forces  = frictionless == nullptr ? std::vector<SlidingForces>() : contact_forces(observed_contacts());
+      const auto free_forces  = frictionless == nullptr ? std::vector<SlidingForces>() : last_forces();
       const double nearby     = 1e-3 * frame.geometries.front().cylinder_radius;
       auto slide              = slide_at(drive, friction, slides.speed_ratio(drive, nearby));
       if (!slide || !(slide->uniqueness > 0.))
@@ -396,15 +396,23 @@ namespace sprag
       }
     }
 
-    /// Columns of the contact of each lever in the last slide.
-    std::vector<Row> observed_contacts() const
+    /// Columns of the contact of each lever at its last evaluation. `positions`: see observe_contact().
+    template <class Positions>
+    std::vector<Row> observed_contacts(const Positions &positions) const
     {
       std::vector<Row> rows(frame.layout.levers);
-      const auto positions = [&](const DofSelection &dofs)
-      { return structure->positions(structure->deform(found.forces), dofs); };
       for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
         observe_contact(positions, lever, rows[lever]);
       return rows;
+    }
+
+    /// P and Q of each lever at the last evaluation.
+    std::vector<SlidingForces> last_forces() const
+    {
+      std::vector<Row> rows(frame.layout.levers);
+      for (unsigned int lever = 0; lever < frame.layout.levers; ++lever)
+        contact->observe(found, rows[lever], lever);
+      return contact_forces(rows);
     }
 
     static std::vector<SlidingForces> contact_forces(const std::vector<Row> &contacts)
@@ -512,7 +520,7 @@ namespace sprag
       slide.friction      = friction;
       slide.speed         = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
       slide.penetration   = found.penetration();
-      const auto contacts = observed_contacts();
+      const auto contacts = observed_contacts([&](const DofSelection &dofs) { return structure->positions(slide.motion, dofs); });
       slide.indentation   = largest_indentation(contacts);
       if (with_friction && slide.indentation > frame.largest_indentation)
         return {};
@@ -555,7 +563,9 @@ namespace sprag
         const double next      = std::min(1., branch.back().share + step);
         const auto before      = slides.last;
         const bool is_followed = slides.solve_with_share(drive, next) != nullptr && is_unique(next);
-        is_pressed_too_far     = is_followed && largest_indentation(observed_contacts()) > frame.largest_indentation;
+        const auto positions   = [&](const DofSelection &dofs)
+        { return structure->positions(structure->deform(found.forces), dofs); };
+        is_pressed_too_far = is_followed && largest_indentation(observed_contacts(positions)) > frame.largest_indentation;
         if (is_followed && !is_pressed_too_far)
         {
           branch.push_back({ next, found.penetration() });
