@@ -82,20 +82,18 @@ namespace sprag
     /// way.
     double slope_at_zero(const Rows &rows, const double cylinder_radius)
     {
-      std::vector<double> places;
+      const double window = slope_window * cylinder_radius;
+      Rows near;
       for (const Row &row : rows)
         if (row[Column::x] > 0. && row[Column::x] <= longest * cylinder_radius)
-          places.push_back(row[Column::x]);
-      if (places.size() < 3)
+          near.emplace_back(row);
+      std::sort(near.begin(), near.end(), [](const Row &a, const Row &b) { return a[Column::x] < b[Column::x]; });
+      if (near.size() < 3 || near.front().get()[Column::x] > window)
         return unknown;
-      std::partial_sort(places.begin(), places.begin() + 3, places.end());
-      if (places[0] > slope_window * cylinder_radius)
-        return unknown;
-      const double window = std::max(slope_window * cylinder_radius, places[2]);
       std::vector<double> x, Q;
       double least_mu = std::numeric_limits<double>::infinity(), largest_mu = 0.;
-      for (const Row &row : rows)
-        if (row[Column::x] > 0. && row[Column::x] <= window)
+      for (const Row &row : near)
+        if (row[Column::x] <= window || x.size() < 3)
         {
           least_mu   = std::min(least_mu, row[Column::mu]);
           largest_mu = std::max(largest_mu, row[Column::mu]);

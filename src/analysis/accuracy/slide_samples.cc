@@ -6,6 +6,7 @@
 #include "base/errors.h"
 #include "base/ranges.h"
 #include "base/text.h"
+#include "results/entries.h"
 #include "results/row_statistics.h"
 #include "scene/drive.h"
 #include "scene/scene.h"
@@ -312,7 +313,7 @@ namespace sprag
   {
     if (quantity == "loop_area")
       return change(compute_drive_work(samples), compute_drive_work(other));
-    if (quantity == "largest_pressure" || quantity.find("stress") != std::string::npos) // which goes with the pressure
+    if (quantity == "largest_pressure" || contains(stress_names, quantity)) // which go with it
       return pressure_change(samples, other);
     static const std::map<std::string, Column> columns = { { "P", Column::P },
                                                            { "Q", Column::Q },

@@ -7,6 +7,7 @@
 #include "base/unknown.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -276,22 +277,21 @@ namespace sprag
   std::vector<ErrorEstimate> estimate_cycle_errors(DynamicModel &model, const HeldRun &run, const HeldSlide &slide,
                                                    const Settled &settled, const double period)
   {
-    const auto errors = [](const std::string &unknown, const double amplitude, const double frequency, const double vibrations)
+    const auto errors = [](const std::string &unknown, const std::array<double, 3> &found = {})
     {
       const auto error = [&](const std::string &quantity, const double value)
       {
         const ErrorPart part{ "step", value, "Try twice the Sprag slip/Steps per period." };
         return ErrorEstimate{ quantity, "it", unknown.empty() ? std::vector{ part } : std::vector<ErrorPart>(), unknown };
       };
-      return std::vector{ error("cycle_amplitude_P", amplitude), error("cycle_frequency", frequency),
-                          error("cycle_vibrations", vibrations) };
+      return std::vector{ error("cycle_amplitude_P", found[0]), error("cycle_frequency", found[1]),
+                          error("cycle_vibrations", found[2]) };
     };
     if (settled.kind == Settling::slide)
       return {};
     if (settled.kind != Settling::cycle)
       return errors(
-          "No estimate: P does not repeat itself. Twice the Sprag slip/Steps per period show whether the steps cause that.", 0.,
-          0., 0.);
+          "No estimate: P does not repeat itself. Twice the Sprag slip/Steps per period show whether the steps cause that.");
     constexpr double steps_in_one = 2.;
     constexpr double approach     = 0.5; ///< windows in which the motion comes to the cycle of the shorter steps
     const double change_to_error  = 1. + finer_share(steps_in_one, 1.);
@@ -305,12 +305,11 @@ namespace sprag
     const auto found = window(1.);
     if (!(found.period > 0.))
       return errors(
-          "No estimate: P does not repeat itself in steps of half the length. Try twice the Sprag slip/Steps per period.", 0., 0.,
-          0.);
+          "No estimate: P does not repeat itself in steps of half the length. Try twice the Sprag slip/Steps per period.");
     const auto relative = [&](double CycleWindow::*member)
     { return change_to_error * std::abs(found.*member / settled.window.*member - 1.); };
-    return errors("", relative(&CycleWindow::amplitude_P), relative(&CycleWindow::frequency),
-                  std::abs(found.vibrations() / settled.window.vibrations() - 1.));
+    return errors("", { { relative(&CycleWindow::amplitude_P), relative(&CycleWindow::frequency),
+                          std::abs(found.vibrations() / settled.window.vibrations() - 1.) } });
   }
 
   Continuation::Continuation(DynamicModel &dynamic_model, HeldRun &held_run, const DrivePoint &start,
