@@ -109,25 +109,35 @@ TEST(Ringing, FindsNoneWhereThereIsNone)
   EXPECT_TRUE(std::isnan(ringing(sampled(sinusoid(0.01, 290., 0.), 0.1, 1e-5), 0.02).frequency));
 }
 
-// Friction that sticks only while it turns behind the reversal is no stick-slip.
+// Friction that sticks only while it turns behind the reversal is no stick-slip, nor is one that is regularised, or that of a
+// rest.
 TEST(Oscillation, SticksAndSlipsWhereFrictionSticksAtTheEndOfTheWindow)
 {
   const double turn = there_and_back().reversals().front();
-  for (const bool lasts : { false, true })
+  enum class Stick
+  {
+    again,
+    at_the_turn,
+    always,
+    at_rest
+  };
+  for (const auto stick : { Stick::again, Stick::at_the_turn, Stick::always, Stick::at_rest })
   {
     auto rows = rows_with(sinusoid(3., 40., -2.));
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       auto &row                       = rows[i];
-      const bool is_stuck             = lasts ? i % 5 == 0 : std::abs(row[Column::time] - turn) < 0.02;
-      row[Column::v]                  = row[Column::time] < turn ? 112. : -112.;
+      const bool is_at_turn           = std::abs(row[Column::time] - turn) < 0.02;
+      const bool is_stuck             = stick == Stick::always || (stick == Stick::at_the_turn ? is_at_turn : i % 5 == 0);
+      const bool rests                = stick == Stick::at_rest && row[Column::time] > turn + 0.05;
+      row[Column::v]                  = row[Column::time] < turn ? 112. : rests ? -5. : -112.;
       row[Column::mu]                 = 0.5;
       row[Column::normal_resultant]   = row[Column::P];
       row[Column::friction_resultant] = (is_stuck ? 0.3 : 0.5) * row[Column::P];
     }
     const auto found = find_oscillation(rows);
-    EXPECT_EQ(found.verdict, lasts ? Verdict::sticks_and_slips : Verdict::rings);
-    EXPECT_NEAR(found.stick_share, lasts ? 0.2 : 0., 0.02);
+    EXPECT_EQ(found.verdict, stick == Stick::again ? Verdict::sticks_and_slips : Verdict::rings);
+    EXPECT_NEAR(found.stick_share, stick == Stick::again ? 0.2 : 0., 0.02);
   }
 }
 

@@ -257,7 +257,6 @@ TEST(TransientAccuracy, TellsNoErrorOfPWhereItVibratesOn)
   EXPECT_FALSE(estimates[1].parts.empty());
 }
 
-// With this penalty Newton's method goes round in a circle from the last equilibrium, and the slide was told to be jammed.
 TEST(TransientAccuracy, SaysInWordsWhereTheContactIsNarrowerThanFaces)
 {
   auto rows = beam_run(shipped("reversal-a", {}));
@@ -270,6 +269,7 @@ TEST(TransientAccuracy, SaysInWordsWhereTheContactIsNarrowerThanFaces)
   }
 }
 
+// With this penalty Newton's method goes round in a circle from the last equilibrium, and the slide was told to be jammed.
 TEST(SteadySlides, AreSoughtFromTheirNeighboursToo)
 {
   const Scene scene = shipped("reversal-b", { "Analysis/Type=stability", "Analysis/Model=condensed", "Mesh/Face size=0.25",
