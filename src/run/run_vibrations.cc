@@ -64,7 +64,12 @@ namespace sprag
       const double distance  = share * std::abs(limit.value);
       DynamicsMaker maker;
       const auto slide_at = [&](const double value)
-      { return held_scene(slide_scene(prepared(variant(scene, { override_text(name, value) })), limit.worse)); };
+      {
+        Scene slide = slide_scene(prepared(variant(scene, { override_text(name, value) })), limit.worse);
+        if (name == "Stability/Position")
+          slide.stability.position = value;
+        return held_scene(slide);
+      };
       const auto growth_at = [&](const double value) { return check_slide(slide_at(value), maker).growth_rate(); };
       try
       {

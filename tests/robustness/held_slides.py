@@ -286,6 +286,30 @@ class Stroke(RunTest):
         self.assertGreater(thin.max(), 0)
         self.assertLess(thick.max(), 0)
 
+    def test_limit_along_the_stroke_lies_within_its_error(self):
+        changes = "Analysis/Model=condensed", "Stability/Roles=off", "Stability/Critical=Stability/Position 55 58"
+        found = []
+        for size in (0.5, 0.25):
+            self.run_with(*changes, f"Mesh/Face size={size}")
+            summary = self.read("summary")
+            found.append((summary["critical_stability_position_1"], summary["critical_stability_position_1_error"]))
+        (limit, error), (finer, finer_error) = found
+        self.assertLess(abs(limit - finer), error + finer_error)
+        self.assertLess(error, 1)
+
+    def test_error_of_a_limit_is_that_of_growth_over_its_slope(self):
+        changes = ("Lever/Depth=12", "Analysis/Model=condensed", "Mesh/Face size=1", "Contact/Damping=0.1", "Stability/Direction=forward", "Stability/Roles=off")
+        printed = self.run_with(*changes, "Stability/Position=auto", "Stability/Critical=Friction/Factor 0.3 0.9")
+        limit, half_width = (self.read("summary")["critical_friction_factor_1" + part] for part in ("", "_error"))
+        x = re.search(r"forward at x = ([\d.]+) mm", printed).group(1)
+        growth = []
+        for share in (0.96, 1.04, 1):
+            self.run_with(*changes, f"Stability/Position={x}", "Stability/Critical=none", f"Friction/Factor={share * limit}")
+            growth.append(self.read("summary")["growth_rate"])
+        error = self.read("accuracy")["growth_rate"] * abs(growth[2])
+        slope = (growth[1] - growth[0]) / (0.08 * limit)
+        self.assertAlmostEqual(half_width, error / slope + 1e-3 * 0.6, delta=0.02 * half_width)
+
     def test_ranges_give_the_worst_of_their_ends(self):
         damping, friction = (0.005, 0.1), (0.8, 1.2)
         place = (*self.STROKE, "Lever/Depth=13", "Stability/Position=40")
