@@ -8,6 +8,7 @@
 #include <complex>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sprag
@@ -38,25 +39,30 @@ namespace sprag
       return static_cast<std::size_t>(end - found.begin());
     };
     std::size_t vibrations = sort_vibrations();
+    const auto undamped    = found;
     std::vector<OwnDamped> result;
     for (std::size_t k = vibrations; k < found.size(); ++k)
       result.push_back({ found[k], 0. });
     const std::size_t n_results = std::min<std::size_t>(number, vibrations);
     for (std::size_t k = 0; k < n_results; ++k)
+    {
+      // The dashpot of a lower vibration may suppress this one: each search begins where nothing is damped.
+      double frequency = undamped[k].imag();
       for (unsigned int step = 0;; ++step)
       {
+        const double relaxation = loss_factor / frequency;
+        found                   = find(relaxation);
+        vibrations              = sort_vibrations();
         if (k >= vibrations || step == most_steps)
           throw AnalysisError("no vibration number " + std::to_string(k + 1) +
                               " has the loss factor of the contact. Try Contact/Damping law = dashpot.");
-        const double before     = found[k].imag();
-        const double relaxation = loss_factor / before;
-        found                   = find(relaxation);
-        vibrations              = sort_vibrations();
-        if (k >= vibrations || std::abs(found[k].imag() - before) > accuracy * before)
+        const double before = std::exchange(frequency, found[k].imag());
+        if (std::abs(frequency - before) > accuracy * before)
           continue;
         result.push_back({ found[k], relaxation });
         break;
       }
+    }
     std::sort(result.begin(), result.end(),
               [](const auto &a, const auto &b) { return std::abs(a.eigenvalue) < std::abs(b.eigenvalue); });
     return result;
