@@ -5,7 +5,7 @@
 #include "base/unknown.h"
 
 #include <boost/numeric/ublas/lu.hpp>
-#include <gsl/gsl_fft_complex.h>
+#include <gsl/gsl_fft_real.h>
 
 #include <algorithm>
 #include <array>
@@ -56,13 +56,14 @@ namespace sprag
       std::size_t padded  = 1;
       while (padded < padding * n)
         padded *= 2;
-      std::vector<Complex> values(padded);
+      std::vector<double> values(padded); // real parts from the front, imaginary ones from the back after the transform
       for (std::size_t i = 0; i < n; ++i)
         values[i] = signal.values[i] * std::pow(std::sin(M_PI * (static_cast<double>(i) + 0.5) / static_cast<double>(n)), 2);
-      gsl_fft_complex_radix2_forward(reinterpret_cast<double *>(values.data()), 1, padded);
-      std::vector<double> magnitudes;
-      for (std::size_t i = 0; i <= padded / 2; ++i)
-        magnitudes.push_back(std::abs(values[i]));
+      gsl_fft_real_radix2_transform(values.data(), 1, padded);
+      std::vector<double> magnitudes{ std::abs(values[0]) };
+      for (std::size_t i = 1; 2 * i < padded; ++i)
+        magnitudes.push_back(std::sqrt(values[i] * values[i] + values[padded - i] * values[padded - i]));
+      magnitudes.push_back(std::abs(values[padded / 2]));
       return magnitudes;
     }
 
