@@ -286,6 +286,16 @@ class Stroke(RunTest):
         self.assertGreater(thin.max(), 0)
         self.assertLess(thick.max(), 0)
 
+    def test_own_value_is_among_those_tried(self):
+        # A narrow range that flutters, far from the points of a wide search.
+        support = ("Support/Type=sprung", "Support/Mass=1e-4", "Support/Stiffness=3000", "Support/Damping=0.005")
+        contact = ("Contact/Exponent=1", "Contact/Stiffness=2000", "Contact/Damping=0.005")
+        printed = self.run_with("Analysis/Model=rigid", *support, *contact, "Friction/Law=Coulomb", "Friction/Coefficient=0.55", "Stability/Position=40",
+                                "Stability/Direction=forward", "Stability/Roles=off", "Stability/Critical=Contact/Stiffness 20 2e5")  # fmt: skip
+        self.assertRegex(printed, "verdict +flutter")
+        low, high = (self.read("summary")[f"critical_contact_stiffness_{i}"] for i in (1, 2))
+        self.assertTrue(low < 2000 < high, (low, high))
+
     def test_limit_along_the_stroke_lies_within_its_error(self):
         changes = "Analysis/Model=condensed", "Stability/Roles=off", "Stability/Critical=Stability/Position 55 58"
         found = []
@@ -320,6 +330,16 @@ class Stroke(RunTest):
         table = self.read("table")
         corner = [(z == 0.02) == (f == 1) for z, f in zip(table["contact_damping"], table["friction_factor"])]
         self.assertAlmostEqual(found, table["growth_rate"][corner].max(), delta=1e-6 * abs(found))
+        # The worst slide has the least damping, and a mass of the support between the ends of its range.
+        support = ("Support/Type=sprung", "Friction/Law=Coulomb", "Friction/Coefficient=0.6", "Lever/Depth=34")
+        within = "Stability/Ranges=Contact/Damping 0.01 0.2; Support/Mass 2e-4 4e-3"
+        at_a_point = ("Contact/Damping=0.01", "Support/Mass=6e-4")
+        growth = []
+        for changes in ((within,), at_a_point):
+            self.run_with(*self.STROKE, *support, *changes)
+            growth.append(self.read("summary")["growth_rate"])
+        self.assertGreater(growth[0], 0.9 * growth[1])
+        self.assertGreater(growth[1], 100)
         # Levers of 8, 20 and 24 mm are stable there, those between 8 and 14 mm flutter.
         printed = self.run_with(*self.STROKE, "Lever/Depth=20", "Stability/Position=40", "Stability/Direction=forward", "Stability/Ranges=Lever/Depth 8 24")
         self.assertRegex(printed, r"verdict +flutter")

@@ -118,7 +118,7 @@ TEST(ExpectedCost, ModesOfABasisCount)
   }
 }
 
-// A search looks at 5 slides of each value where the ends of its ranges flutter, else at 19. The limits of stability with the
+// A search looks at 5 slides of each value where the ends of its ranges flutter, else at 33. The limits of stability with the
 // scene's constants and with most of those in the ranges take one and some six slides of six values.
 TEST(ExpectedCost, SearchesMayLookInsideRangesOrNot)
 {
@@ -129,7 +129,7 @@ TEST(ExpectedCost, SearchesMayLookInsideRangesOrNot)
     return expected_cost(asked("stability-a", { ranges, "Stability/Critical=" + critical })).cpu_seconds / without;
   };
   // A search tries 82 values and narrows one; beside it there are a start of 0.2 s and 25 slides of 0.25 ms.
-  const double searched = 82. * std::sqrt(5. * 19.) + 8. + 6. * (1. + 0.7 * 9.);
+  const double searched = 82. * std::sqrt(5. * 33.) + 8. + 6. * (1. + 0.7 * 9.);
   EXPECT_NEAR(slides("Lever/Depth 4 6"), 1. + searched / 825., 0.1);
 }
 

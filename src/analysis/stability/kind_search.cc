@@ -66,7 +66,8 @@ namespace sprag
             break;
         }
         for (const double hint : hints)
-          insert(checked_at(hint));
+          if (std::none_of(all.begin(), all.end(), [hint](const Tried &tried) { return tried.value == hint; }))
+            insert(checked_at(hint));
         if (const auto found = std::find_if(all.begin(), all.end(), [](const Tried &tried) { return tried.slide.has_value(); });
             found != all.end())
           result.first = found->kind();

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace sprag
 {
@@ -65,13 +66,26 @@ namespace sprag
       return result;
     }
 
-    /// Returns the values inside one of Stability/Ranges at which slides are checked.
+    /// Returns the values inside one of Stability/Ranges at which slides are checked: with a rigid lever or beam seven, in equal
+    /// ratios where both ends are positive, else the middle and, of a range over more than a factor of four, the middle by ratio.
     std::vector<double> values_inside(const Scene &scene, const ParameterRange &range)
     {
-      const unsigned int n = is_reduced(scene.analysis.model) ? 7 : 1;
+      constexpr unsigned int intervals = 8;
+      constexpr double wide            = 4.;
+      const auto [low, high]           = std::minmax(range.from, range.to);
+      const auto rounded               = [](const double value) { return std::stod(rounded_text(value)); };
+      const auto at_share              = [&, low = low, high = high](const double share)
+      { return rounded(low > 0. ? low * std::pow(high / low, share) : low + (high - low) * share); };
       std::vector<double> result;
-      for (unsigned int i = 1; i <= n; ++i)
-        result.push_back(range.from + (range.to - range.from) * i / (n + 1.));
+      if (is_reduced(scene.analysis.model))
+        for (unsigned int i = 1; i < intervals; ++i)
+          result.push_back(at_share(static_cast<double>(i) / intervals));
+      else
+      {
+        result.push_back(rounded(0.5 * (low + high)));
+        if (low > 0. && high > wide * low)
+          result.push_back(at_share(0.5));
+      }
       return result;
     }
 
@@ -131,18 +145,22 @@ namespace sprag
                                        override_text("Contact/Exponent", law.exponent) }));
     }
 
-    /// Returns the middles of the intervals of one kind that, for a beam, are narrower than the spacing of the range's points.
-    std::vector<double> beam_hints(const Scene &scene, const ParameterRange &range)
+    /// Returns the scene's own value within a range, and the middles of the intervals of one kind that, for a beam, are narrower
+    /// than the spacing of the range's points.
+    std::vector<double> find_hints(const Scene &scene, const ParameterRange &range)
     {
+      std::vector<double> hints;
+      const auto own = number_alone(scene.parameters->at(range.name));
+      if (own && (*own - range.from) * (range.to - *own) > 0.)
+        hints.push_back(*own);
       if (!is_meshed(scene.analysis.model) || scene.analysis.dimension == 3 || !scene.mesh.file.empty())
-        return {};
+        return hints;
       DynamicsMaker maker;
       const auto check_at = [&](const double value)
       { return sweep(beam_instead(variant(scene, { override_text(range.name, value) })), maker).worst(); };
       ParameterRange finer = range;
       finer.points         = 2 * range.points - 1;
       const auto found     = search_kinds(finer, { 0.01, 4 }, { check_at });
-      std::vector<double> hints;
       for (std::size_t i = 1; i < found.changes.size(); ++i)
         if (const double low = found.changes[i - 1].value, high = found.changes[i].value;
             std::abs(high - low) < 2. * found.spacing) // the range has half as many points
@@ -383,7 +401,8 @@ namespace sprag
       add(constants, directions);
     for (const auto &range : constant_ranges(scene))
     {
-      std::map<Constants, std::vector<Direction>> worst_constants;
+      std::vector<Direction> stable; // the worst slide may lie inside
+      std::set<Constants> lines;     // along which this range is looked at
       for (const auto direction : directions)
       {
         const auto fails = [&](const SweptDirection &swept)
@@ -391,12 +410,19 @@ namespace sprag
         if (std::any_of(result.sweeps.begin(), result.sweeps.end(), fails))
           continue;
         const CheckedSlide worst = result.worst(direction);
-        if (part.in_full || worst.kind == SlideKind::stable)
-          worst_constants[worst.constants].push_back(direction);
+        if (!part.in_full && worst.kind != SlideKind::stable)
+          continue;
+        stable.push_back(direction);
+        lines.insert(replaced(worst.constants, range.name, range.from));
       }
-      for (const auto &[constants, directions] : worst_constants)
+      if (stable.empty())
+        continue;
+      for (const auto &constants : combined_ends(scene))
+        if (!constants.empty())
+          lines.insert(replaced(constants, range.name, range.from));
+      for (const auto &constants : lines)
         for (const double value : values_inside(scene, range))
-          add(replaced(constants, range.name, value), directions);
+          add(replaced(constants, range.name, value), stable);
     }
     return result;
   }
@@ -426,9 +452,10 @@ namespace sprag
 
   unsigned int least_slides(const Scene &scene, const bool inside)
   {
-    auto sets = combined_ends(scene).size();
+    const auto ends = combined_ends(scene).size(); // with the scene's own
+    auto sets       = ends;
     for (const auto &range : constant_ranges(scene))
-      sets += inside ? values_inside(scene, range).size() : 0;
+      sets += inside ? ends / 2 * values_inside(scene, range).size() : 0;
     const auto n = static_cast<unsigned int>(sets * held_directions(scene).size());
     return n * (looks_over_stroke(scene) ? points_along(scene) : 1);
   }
@@ -497,7 +524,7 @@ namespace sprag
     };
     checks.tried = tried;
     auto result =
-        search_kinds(range, { tolerance, is_reduced(scene.analysis.model) ? 14u : 5u }, checks, beam_hints(scene, range));
+        search_kinds(range, { tolerance, is_reduced(scene.analysis.model) ? 14u : 5u }, checks, find_hints(scene, range));
     result.places        = std::move(places);
     const auto uncertain = constant_ranges(scene);
     const bool is_in_them =
