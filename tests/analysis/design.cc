@@ -145,6 +145,18 @@ TEST(Design, WhatCannotBeMetNamesTheDemandThatStopsIt)
   EXPECT_NEAR(stopping[1].attainable, largest, 1e-3 * largest);
 }
 
+// c is proportional to mu and k: with mu 20 % off either way it is 20 % off at best, where k gives the target itself.
+TEST(Design, TheNearestIsTheOneWithTheBestWorstCorner)
+{
+  const TemporaryFolder folder;
+  const DesignProblem problem(
+      design(folder, { "Design/Free=Rotational spring/Stiffness = 1e4 ... 2e5", "Design/Aim=minimise largest force",
+                       "Design/Demands=damping slope = 0.1 +- 0.001", "Design/Tolerances=Friction/Factor = 0.8 ... 1.2" }));
+  const auto stopping = stopping_demands(problem);
+  ASSERT_EQ(stopping.size(), 1u);
+  EXPECT_NEAR(std::abs(stopping[0].attainable - 0.1), 0.02, 1e-4);
+}
+
 TEST(Design, DemandsHoldWithinTolerances)
 {
   const TemporaryFolder folder;

@@ -401,7 +401,7 @@ namespace sprag
         counting.push_back(i);
     problem.dimension     = free.size();
     problem.n_constraints = 1 + counting.size() + (limit ? 1 : 0);
-    problem.evaluate      = [this, aim, limit, counting](const std::vector<double> &place)
+    problem.evaluate      = [this, aim, limit, omitted, counting](const std::vector<double> &place)
     {
       constexpr double strict_margin = 1e-6; // of the rules, which are strict
       const auto lever               = at(place);
@@ -420,6 +420,8 @@ namespace sprag
         take(*limit, demand_violation(*limit, term_value(limit->term, lever)));
       if (aim && is_possible)
         result.objective = (aim->maximises ? -1. : 1.) * term_value(aim->term, lever);
+      else if (omitted && is_possible)
+        result.objective = counted(lever.violations[*omitted]);
       // A table that the lever does not hold fails the demand.
       const bool is_finite = std::all_of(base.design.aims.begin(), base.design.aims.end(),
                                          [&](const DesignAim &other) { return std::isfinite(term_value(other.term, lever)); });

@@ -156,7 +156,7 @@ namespace sprag
       return base.design;
     }
 
-    /// Returns the minimisation for an aim (none: any lever that meets the demands). `omitted`: index of a demand to leave out;
+    /// Returns the minimisation for an aim, or of the violation of the demand `omitted`, by its index, which is left out;
     /// `limit`: an additional demand. Demands of growth rates count only with `expensive_model`.
     BoxProblem box(const std::optional<DesignAim> &aim, const std::optional<std::size_t> &omitted = {},
                    const std::optional<Demand> &limit = {}) const;

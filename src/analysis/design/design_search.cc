@@ -92,11 +92,6 @@ namespace sprag
       std::copy(values.begin(), values.end(), result);
     }
 
-    double largest_constraint(unsigned int, const double *x, double *, void *data)
-    {
-      return max_constraint(to_evaluator(data).at(x).constraints);
-    }
-
     // Constraints are approached by minimising b under c_i(x) <= b, with b as the last variable after x.
     double constraint_bound(const unsigned int n, const double *x, double *, void *)
     {
@@ -166,21 +161,20 @@ namespace sprag
     }
 
     /// Restarts local searches with shorter steps: COBYLA may stop early at an edge between two constraints.
-    Optimum from_start(const BoxProblem &problem, std::vector<double> start, const unsigned int evaluations,
-                       const bool only_approaches)
+    Optimum from_start(const BoxProblem &problem, std::vector<double> start, const unsigned int evaluations)
     {
       Evaluator evaluator{ problem };
       if (max_constraint(evaluator.at(start.data()).constraints) > 0.)
         for (const double step : { 0.1, 0.01, 1e-3 })
           if (evaluator.best.violation > 0.)
             approach_constraints(evaluator, evaluator.best.place, evaluations, step);
-      if (!only_approaches && evaluator.best.violation <= 0.)
+      if (evaluator.best.violation <= 0.)
         for (const double step : { 0.1, 0.02, 1e-3 })
           improve(evaluator, evaluator.best.place, evaluations, step);
       return evaluator.best;
     }
 
-    std::vector<double> global_start(const BoxProblem &problem, const SearchSettings &settings, const bool only_approaches)
+    std::vector<double> global_start(const BoxProblem &problem, const SearchSettings &settings)
     {
       Evaluator evaluator{ problem };
       nlopt::srand(settings.seed);
@@ -188,31 +182,29 @@ namespace sprag
       search.set_lower_bounds(0.);
       search.set_upper_bounds(1.);
       search.set_maxeval(static_cast<int>(settings.evaluations));
-      search.set_min_objective(only_approaches ? largest_constraint : objective, &evaluator);
-      if (!only_approaches)
-        search.add_inequality_mconstraint(constraints, &evaluator, std::vector<double>(problem.n_constraints));
+      search.set_min_objective(objective, &evaluator);
+      search.add_inequality_mconstraint(constraints, &evaluator, std::vector<double>(problem.n_constraints));
       optimise(search, std::vector<double>(problem.dimension, 0.5), evaluator);
       return evaluator.best.place;
     }
 
     /// Finds the smallest objective that satisfies all constraints: by an evolution strategy (ISRES), then by local searches
     /// (COBYLA) from its result and random starts. If none satisfies the constraints, the result has the smallest violation.
-    /// `only_approaches`: stops at the first point that satisfies them.
-    Optimum search_everywhere(const BoxProblem &problem, const SearchSettings &settings, const bool only_approaches = false)
+    Optimum search_everywhere(const BoxProblem &problem, const SearchSettings &settings)
     {
       if (!settings.near.empty())
-        if (const auto found = from_start(problem, settings.near, settings.local, only_approaches); found.violation <= 0.)
+        if (const auto found = from_start(problem, settings.near, settings.local); found.violation <= 0.)
           return found;
-      const auto begin = global_start(problem, settings, only_approaches);
-      auto best        = from_start(problem, begin, settings.local, only_approaches);
+      const auto begin = global_start(problem, settings);
+      auto best        = from_start(problem, begin, settings.local);
       std::mt19937 random(settings.seed);
       std::vector<double> start(problem.dimension);
-      for (unsigned int i = 0; i < settings.starts && !(only_approaches && best.violation <= 0.); ++i)
+      for (unsigned int i = 0; i < settings.starts; ++i)
       {
         // The same numbers with any standard library.
         for (double &x : start)
           x = static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
-        const auto found = from_start(problem, start, settings.local, only_approaches);
+        const auto found = from_start(problem, start, settings.local);
         if (is_better(found, best))
           best = found;
       }
@@ -229,12 +221,6 @@ namespace sprag
         search.local       = 150;
       }
       return search;
-    }
-
-    /// Returns the aim to move a quantity from `value` towards the demand's target.
-    DesignAim towards(const Demand &demand, const double value)
-    {
-      return { demand.term, value < demand.target, {} };
     }
 
     /// Returns the demand to be at least as good as `value` by an aim.
@@ -275,15 +261,12 @@ namespace sprag
   std::vector<StoppingDemand> stopping_demands(const DesignProblem &problem)
   {
     std::vector<StoppingDemand> result;
-    const auto &demands = problem.settings().demanded;
-    for (std::size_t i = 0; i < demands.size(); ++i)
+    for (std::size_t i = 0; i < problem.settings().demanded.size(); ++i)
     {
-      const auto without = search_everywhere(problem.box({}, i), search_settings(problem), true);
-      if (without.violation > 0.)
+      const auto optimum = search_everywhere(problem.box({}, i), search_settings(problem));
+      if (optimum.violation > 0.)
         continue;
-      const double value = problem.at(without.place).worst[i];
-      const auto nearest =
-          problem.at(search_everywhere(problem.box(towards(demands[i], value), i), search_settings(problem)).place);
+      const auto nearest = problem.at(optimum.place);
       result.push_back({ i, nearest.worst[i], nearest });
     }
     return result;
