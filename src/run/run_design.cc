@@ -505,14 +505,16 @@ namespace sprag
       }
     };
 
-    /// Adds the warnings of the last check model's scene, one if the table checked another lever before it, and one if a demand
-    /// is missed at another speed.
+    /// Adds the warnings of the last check model's scene, one if the table checked another lever before it, and those of the
+    /// machine's own motion.
     void add_warnings(const DesignSettings &design, const DesignFindings &findings, Warnings &warnings)
     {
       if (const auto &speed = findings.speed; speed && findings.unmet.empty() && misses_much(*speed))
         warnings.push_back(make_warning("mu_of_one_speed", { four_digits(speed->mu), four_digits(speed->speed),
                                                              four_digits(speed->other), other_speed_text(*speed),
                                                              four_digits(speed->other_mu), other_missed_text(design, *speed) }));
+      if (const auto &speed = findings.speed; speed && speed->amplitude > speed->stroke)
+        warnings.push_back(make_warning("table_beyond_stroke", { mm(speed->amplitude), mm(speed->stroke) }));
       if (findings.checks.empty())
         return;
       const auto *const checked = last_check(findings.checks, findings.found->lever);

@@ -31,12 +31,13 @@ PROVOKED = {
     "falling friction of a beam": ("stability-a", (*BEAM, *FALLING), []),
     "friction that falls at once": ("stability-a", (*BEAM, *FALLING, "Friction/Memory length=1e-3"), ["runaway_slip"]),
     "slides of a harmonic drive": ("stability-a", (*BEAM, "Drive/Profile=harmonic", "Stability/Position=auto"), ["largest_speed_alone"]),
+    "table beyond the stroke": ("design-machine", ("Design/Judges=none", "Drive/Stroke=8", "Design/Demands=friction ratio = 0.5 +- 0.005; relative amplitude <= 100; jamming margin >= 0.5"), ["table_beyond_stroke"]),
     "target of a drive that does not turn": ("reversal-a", ("Analysis/Model=rigid", "Drive/Start=64", "Drive/Cycles=0.5", "Accuracy/Target=0.01"), ["target_missed"]),
 }
 
 # Numbers, places and names of the run in the texts of a warning.
 NUMBERS = {
-    "defaults_of_model_a": 2, "foreign_contact_law": 5, "judged_another_lever": 2, "mu_of_one_speed": 6, "absent_part": 1, "near_locking": 6, "leaf_beyond_yield": 7, "locks": 4, "beyond_the_beam": 3, "plane_stress_of_layer": 5, "contact_between_points": 5,
+    "defaults_of_model_a": 2, "foreign_contact_law": 5, "judged_another_lever": 2, "mu_of_one_speed": 6, "table_beyond_stroke": 2, "absent_part": 1, "near_locking": 6, "leaf_beyond_yield": 7, "locks": 4, "beyond_the_beam": 3, "plane_stress_of_layer": 5, "contact_between_points": 5,
     "implausible_values": 1, "unused_columns": 1, "shaking_drive": 3, "drifting_record": 2, "sensor_in_tension": 2, "runaway_slip": 3, "largest_speed_alone": 1, "without_effect": 1,
     "speed_beyond_table": 3, "overlap_of_layer": 4, "soft_penalty": 4, "coarse_contact": 3, "stiff_penalty": 6, "soft_tangential_penalty": 5, "large_deflection": 4,
     "far_from_closed_form": 2, "large_strain": 4, "pressure_beyond_strength": 5, "long_steps": 3, "target_missed": 2, "hidden_vibration": 7, "no_steady_state": 2, "runs_with_warnings": 3,

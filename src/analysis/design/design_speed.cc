@@ -14,18 +14,18 @@ namespace sprag
 {
   namespace
   {
-    /// Returns the largest speed of the table over a base that vibrates [mm/s]; NaN where the design has no such table, or no
+    /// Returns the largest amplitude of the table over a base that vibrates [mm]; NaN where the design has no such table, or no
     /// motion that the levers hold.
-    double table_speed(const Scene &lever)
+    double table_amplitude(const Scene &lever)
     {
       const auto &isolation = lever.isolation;
       if (!asks_for(lever.design, is_table_quantity) || isolation.base != BaseMotionType::harmonic)
         return unknown;
       const double omega = 2. * M_PI * isolation.base_frequency;
-      double speed       = unknown;
+      double amplitude   = unknown;
       for (const auto &motion : harmonic_balance(isolation_system(lever), isolation.base_amplitude, omega))
-        speed = std::fmax(speed, omega * motion.amplitude);
-      return speed > 0. ? speed : unknown;
+        amplitude = std::fmax(amplitude, motion.amplitude);
+      return amplitude > 0. ? amplitude : unknown;
     }
 
     double changed(const double value, const double by_closed_form, const double there)
@@ -39,10 +39,10 @@ namespace sprag
     constexpr double slower = 0.1;
     const auto mu_at        = [&](const double speed) { return closed_form(lever, 0., speed).mu; };
     const double speed      = lever.drive.peak_speed();
-    const double by_table   = table_speed(lever);
-    const bool has_table    = !std::isnan(by_table);
-    const double other      = has_table ? by_table : slower * speed;
-    DesignSpeed result      = { speed, mu_at(speed), other, mu_at(other), has_table, {}, {} };
+    const double amplitude  = table_amplitude(lever);
+    const bool has_table    = !std::isnan(amplitude);
+    const double other      = has_table ? 2. * M_PI * lever.isolation.base_frequency * amplitude : slower * speed;
+    DesignSpeed result      = { speed, mu_at(speed), other, mu_at(other), has_table, amplitude, lever.drive.maximum(), {}, {} };
     Scene there             = lever;
     if (result.mu > 0.)
       there.friction.factor *= result.other_mu / result.mu;

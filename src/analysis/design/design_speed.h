@@ -16,7 +16,7 @@ namespace sprag
     double violation;   ///< see demand_violation()
   };
 
-  /// The speed at which a design takes mu, the largest of its drive, beside that of the machine's own motion.
+  /// The speed and stroke at which a design takes its lever, those of its drive, beside the machine's own motion.
   struct DesignSpeed
   {
     double speed;           ///< of the drive [mm/s]
@@ -24,6 +24,8 @@ namespace sprag
     double other;           ///< the table's largest over the base by harmonic balance; without a table a tenth of `speed` [mm/s]
     double other_mu;        ///< at x = 0
     bool has_table = false; ///< whether `other` is the table's
+    double amplitude;       ///< of the table over the base; NaN without one [mm]
+    double stroke;          ///< largest x of the drive [mm]
     std::vector<MissedDemand> missed; ///< at the other speed
     std::string broken_rule;          ///< of all levers, which this one breaks there; empty: none
   };
