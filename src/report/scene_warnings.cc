@@ -410,13 +410,15 @@ namespace sprag
                { "kg m2", "kg mm2", "g mm2" } };
     }
 
-    /// Turned by a radian, it would press with less than 10 N at the pivot's distance, of which levers turn a tenth.
+    /// Turned by a radian, of which levers turn a tenth, it would press with less than 10 N at the pivot's distance. That of a
+    /// lever below 100 mm is smaller as its areas are.
     CheckedValue spring(const Scene &scene)
     {
       const double distance = scene.geometry.pivot_distance;
+      const double least    = 10. * std::min(1., std::pow(distance / 100., 2));
       return { "Rotational spring/Stiffness",
                scene.spring.stiffness,
-               10. * distance,
+               least * distance,
                1e7 * distance,
                "N mm/rad",
                "model A has 7.4e4 N mm/rad, 400 N/rad at the pivot's distance",

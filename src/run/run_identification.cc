@@ -54,11 +54,13 @@ namespace sprag
       return noise.effective_rows() < least_independent * noise.rows && noise.deviation > least_deviation * peak;
     }
 
-    /// Returns true if Q is larger on the way back than on the way out, in the mean: friction cannot give work back.
-    bool is_sign_turned(const Scene &scene, const StrokeFit &fit, const Identification &found)
+    /// Returns what to do about a force measured with the wrong sign, empty where there is none. A lever presses, and friction
+    /// gives no work back: in the mean P is positive, and Q no larger on the way back than on the way out.
+    std::string turned_sign(const Scene &scene, const StrokeFit &fit, const Identification &found)
     {
       const auto &channels = scene.identification.measured.channels;
       std::array<double, 2> sums{}, numbers{};
+      double total_P = 0.;
       for (const auto &value : found.used)
         if (channels[value.channel].force == MeasuredForce::drive)
         {
@@ -66,14 +68,19 @@ namespace sprag
           sums[direction] += value.value;
           ++numbers[direction];
         }
-      return numbers[0] > 0. && numbers[1] > 0. && sums[0] / numbers[0] < sums[1] / numbers[1];
+        else if (channels[value.channel].force == MeasuredForce::normal)
+          total_P += value.value;
+      if (total_P < 0.)
+        return "Turn the sign of P: as measured, the lever pulls at the cylinder.";
+      const bool gives_work_back = numbers[0] > 0. && numbers[1] > 0. && sums[0] / numbers[0] < sums[1] / numbers[1];
+      return gives_work_back ? "Turn the sign of Q: as measured, friction gives work back to the drive." : "";
     }
 
-    /// Prepends the unknowns that would explain the residuals to a remedy; a wrong sign of Q replaces it.
-    std::string another_remedy(const std::string &remedy, const Identification &found, const bool is_turned)
+    /// Prepends the unknowns that would explain the residuals to a remedy; a wrong sign replaces it.
+    std::string another_remedy(const std::string &remedy, const Identification &found, const std::string &turned)
     {
-      if (is_turned)
-        return "Turn the sign of Q: as measured, friction gives work back to the drive.";
+      if (!turned.empty())
+        return turned;
       const auto named = mapped(found.more, [](const auto &more)
                                 { return more.name + " (by about " + with_unit(more.change, more.unit) + ")"; });
       return (named.empty() ? "" : "Check " + boost::algorithm::join(named, " or ") + ", which would explain the residuals. ") +
@@ -182,7 +189,7 @@ namespace sprag
       if (!not_followed.empty())
       {
         auto warning   = make_warning("model_does_not_follow", { boost::algorithm::join(not_followed, ", ") });
-        warning.remedy = another_remedy(warning.remedy, found, is_sign_turned(scene, fit, found));
+        warning.remedy = another_remedy(warning.remedy, found, turned_sign(scene, fit, found));
         warnings.push_back(warning);
       }
       const auto &indistinct = found.uncertainty.indistinct;

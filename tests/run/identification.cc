@@ -119,7 +119,7 @@ TEST_F(RunIdentification, WarnsWhereTheModelDoesNotFollow)
   EXPECT_EQ(warnings.front().name, "model_does_not_follow");
   EXPECT_NE(warnings.front().found.find(" independent ones"), std::string::npos) << warnings.front().found;
   // The measured cylinder has 56 mm. To first order the scale of Q does to this stroke what a radius does.
-  EXPECT_EQ(warnings.front().remedy.rfind("Check the scale of Q (by about 0.0", 0), 0u) << warnings.front().remedy;
+  EXPECT_EQ(warnings.front().remedy.rfind("Check the scale of Q (by about 5.", 0), 0u) << warnings.front().remedy;
   EXPECT_NE(warnings.front().remedy.find("Geometry/Cylinder radius"), std::string::npos) << warnings.front().remedy;
 }
 

@@ -99,7 +99,7 @@ namespace sprag
       OneMoreUnknown unknown;
       IdentifiedLever lever; ///< changed by `by`
       double by;
-      bool scales_Q = false; ///< by 1 + `by`
+      bool scales_Q = false; ///< by `by` per cent
     };
 
     std::vector<Candidate> candidates(const Scene &scene, const IdentifiedLever &lever)
@@ -115,7 +115,7 @@ namespace sprag
         const auto &channel = settings.measured.channels[i];
         const auto word     = word_for(force_words(), channel.force);
         if (channel.force == MeasuredForce::drive)
-          result.push_back({ { "the scale of " + word, "1", 0., 0. }, lever, 1., true });
+          result.push_back({ { "the scale of " + word, "%", 0., 0. }, lever, 100., true });
         if (is_sought(Unknown::force_offsets))
           continue;
         result.push_back({ { "the offset of " + word, "N", 0., 0. }, lever, 1. });
@@ -182,7 +182,7 @@ namespace sprag
         const auto slide   = fit.slide(candidate.lever, found.correction, value.row, value.stroke);
         const bool is_Q    = channels[value.channel].force == MeasuredForce::drive;
         const double force = slide ? fit.computed_force(candidate.lever, *slide, value.channel) : std::nan("");
-        return (candidate.scales_Q && is_Q ? (1. + candidate.by) * force : force) / deviations[value.channel];
+        return (candidate.scales_Q && is_Q ? (1. + candidate.by / 100.) * force : force) / deviations[value.channel];
       };
       const Candidate own{ {}, found.lever, 1. };
       auto residuals       = mapped(found.used, [&](const UsedValue &value)
