@@ -123,6 +123,29 @@ TEST_F(RunIdentification, WarnsWhereTheModelDoesNotFollow)
   EXPECT_NE(warnings.front().remedy.find("Geometry/Cylinder radius"), std::string::npos) << warnings.front().remedy;
 }
 
+TEST_F(RunIdentification, NamesTheForceWhoseSignIsTurned)
+{
+  for (const auto &[force, remedy] :
+       { std::pair(MeasuredForce::normal, "Turn the sign of P"), std::pair(MeasuredForce::drive, "Turn the sign of Q") })
+  {
+    Scene scene = identification({ "Identification/Unknowns=mu, k" });
+    for (auto &channel : scene.identification.measured.channels)
+      for (double &value : channel.values)
+        value *= channel.force == force ? -1. : 1.;
+    Warnings warnings;
+    try
+    {
+      carry_out(prepared(scene), { output, true }, warnings);
+    }
+    catch (const AnalysisError &)
+    {
+      // The values found need not make a lever.
+    }
+    ASSERT_FALSE(warnings.empty()) << remedy;
+    EXPECT_EQ(warnings.front().remedy.rfind(remedy, 0), 0u) << warnings.front().remedy;
+  }
+}
+
 TEST_F(RunIdentification, KeepsWhyNothingWasFound)
 {
   EXPECT_THROW(run(identification({ "Identification/Unknowns=mu", "Identification/Reversal window=64.9" }), output),
