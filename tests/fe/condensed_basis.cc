@@ -54,6 +54,34 @@ namespace
     return structure.positions(motion);
   }
 
+  /// Springs, dashpots and friction on two nodes of the face, a part of which follows the slip of the first late.
+  LinearisedForces contact_on(const InterfaceLayout &layout)
+  {
+    LinearisedForces forces;
+    forces.dofs = { 12, 13, 14, 15, layout.rotation() };
+    for (auto *const matrix :
+         { &forces.pressure, &forces.friction, &forces.pressure_rate, &forces.friction_rate, &forces.inertia })
+      matrix->reinit(5, 5);
+    for (unsigned int a = 0; a < 4; ++a)
+    {
+      forces.pressure(a, a)      = -800.;
+      forces.pressure_rate(a, a) = -1e-3;
+      for (unsigned int b = 0; b < 5; ++b)
+      {
+        forces.friction(a, b)      = 160. * std::cos(1. + a * b);
+        forces.friction_rate(a, b) = 1e-4 * std::cos(2. + a * b);
+      }
+    }
+    FrictionDelay delay{ 2e-5, Vector(5), Vector(5), Vector(5) };
+    delay.force[0]             = -1.;
+    delay.stiffness_row[1]     = -580.;
+    delay.rate_row[0]          = 0.01;
+    forces.friction(0, 1)      = 580.;
+    forces.friction_rate(0, 0) = -0.01;
+    forces.delays              = { delay };
+    return forces;
+  }
+
   std::string only_file(const std::string &folder)
   {
     std::string result;
@@ -80,6 +108,17 @@ TEST(CondensedBasis, WithAllModesIsTheFiniteElements)
     Vector difference   = stepped(condensed);
     difference -= expected;
     EXPECT_LE(difference.linfty_norm(), 1e-8 * expected.linfty_norm()) << sprung;
+
+    const auto contact    = contact_on(whole.layout());
+    const auto vibrations = whole.vibrations(contact, 8), others = condensed.vibrations(contact, 20);
+    ASSERT_GE(vibrations.size(), 8u);
+    for (const auto &mode : vibrations)
+    {
+      double nearest = 1e300;
+      for (const auto &other : others)
+        nearest = std::min(nearest, std::abs(other.eigenvalue - mode.eigenvalue));
+      EXPECT_LT(nearest, 1e-8 * std::abs(mode.eigenvalue)) << sprung << mode.eigenvalue;
+    }
 
     whole.use_statics();
     EXPECT_LE(basis.face_compliance.linfty_norm(), 1e-9 * whole.compliance().blocks().front().matrix->linfty_norm());
@@ -118,6 +157,30 @@ TEST(CondensedBasis, ItsElasticDisplacementIsThatOfTheFiniteElements)
       condensed_displacement((*bar).held(), basis, surface_dofs(*bar), make_response(*bar), condensed.deform(forces));
   difference -= expected;
   EXPECT_LE(difference.linfty_norm(), 1e-9 * expected.linfty_norm());
+}
+
+// Both begin with the velocities of the first mode.
+TEST(CondensedBasis, ItsLocalErrorIsThatOfTheFiniteElements)
+{
+  const MeshedBar bar({});
+  const auto inertia = bar_inertia(1e-3, 1e-7);
+  const auto modes   = modes_on_spring(*bar, inertia, 3);
+  auto whole         = sparse_structure(*bar, inertia, 3, undamped_dynamics(false));
+  ModalStructure condensed(modal_data(make_basis(*bar, make_settings(3)), undamped_dynamics(false)));
+  const auto local_error = [](auto &structure, const Vector &velocity)
+  {
+    structure.use_step(generalised_alpha(1., 1e-4));
+    Motion begin               = structure.rest();
+    begin.coordinates.velocity = velocity;
+    structure.free_displacements(begin, all_dofs(structure.layout().size()));
+    return structure.local_error(begin, structure.advance(begin, InterfaceForces(), {}));
+  };
+  Vector first(condensed.rest().coordinates.position.size());
+  first[0]            = 1.;
+  const auto expected = local_error(condensed, first);
+  Vector difference = local_error(whole, TotalCoordinates(*bar).total(modes.displacements[0], modes.leaf[0], modes.rotation[0]));
+  difference -= expected;
+  EXPECT_LE(difference.linfty_norm(), 1e-6 * expected.linfty_norm());
 }
 
 TEST(CondensedBasis, IsFoundAgain)
