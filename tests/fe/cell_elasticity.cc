@@ -108,48 +108,6 @@ TEST(CellElasticity, EachMaterialHasItsOwnPlane)
   EXPECT_EQ(parts.plane_state(material_id::cylinder), PlaneState::strain);
 }
 
-// Together with lambda times the square of the dilatation's derivative.
-TEST(CellElasticity, StressAtThePressureOfTheMaterialIsThatOfTheMaterial)
-{
-  const Lame constants = plane_constants({ 20., 0.45 }, PlaneState::strain);
-  const auto G         = gradient(0.1, 0.2, -0.1, -0.05);
-  for (const auto model : { MaterialModel::linear, MaterialModel::neo_hookean })
-  {
-    const auto full  = compute_stress<2>(model, constants, G);
-    const auto theta = dilatation<2>(model, G);
-    const auto split = stress_at_pressure<2>(model, constants.mu, G, constants.lambda * theta.value);
-    EXPECT_LE((full.piola - split.piola).norm(), 1e-14 * full.piola.norm());
-    for (unsigned int i = 0; i < 4; ++i)
-      for (unsigned int j = 0; j < 4; ++j)
-        EXPECT_NEAR(full.tangent[i][j],
-                    split.tangent[i][j] + constants.lambda * theta.derivative[i / 2][i % 2] * theta.derivative[j / 2][j % 2],
-                    1e-13 * constants.lambda);
-  }
-}
-
-// Affine displacements have one dilatation in all cells, which is its own projection: energy and forces are those of the
-// material, and nodes inside are in balance.
-TEST(CellElasticity, UniformStrainPassesThePatchTest)
-{
-  dealii::Triangulation<2> triangulation;
-  make_free_block(triangulation);
-  const auto G = gradient(0.03, 0.04, -0.02, 0.01);
-  for (const unsigned int degree : { 1u, 2u })
-    for (const auto material : { MaterialModel::linear, MaterialModel::neo_hookean })
-    {
-      const ElasticBody<2> body(triangulation, soft_solid(degree, material, nearly_half));
-      const auto u         = affine(body, G);
-      const Lame constants = plane_constants({ 20., nearly_half }, PlaneState::strain);
-      const double density = energy_density<2>(material, constants, G);
-      const double energy  = density * dealii::GridTools::volume(triangulation) * width;
-      EXPECT_NEAR(body.energy(u), energy, 1e-13 * energy);
-      const auto forces   = assembled(body, u).forces;
-      const auto boundary = dealii::DoFTools::extract_boundary_dofs(body.dofs(), {}, { 0 });
-      for (unsigned int i = 0; i < body.n_dofs(); ++i)
-        EXPECT_NEAR(boundary.is_element(i) ? 0. : forces[i], 0., 1e-12 * forces.linfty_norm());
-    }
-}
-
 // Only two translations and the rotation of a free body cost no energy: there is no hourglass. The bound lies between the
 // round-off of the largest eigenvalue, some lambda, and the softest true deformation, some tenths of mu.
 TEST(CellElasticity, OnlyRigidMotionsCostNothing)
@@ -207,30 +165,6 @@ TEST(CellElasticity, TangentAndForcesAreDerivativesOfTheEnergyAtFiniteStrain)
       const double slope = at.forces * direction;
       EXPECT_NEAR((body.energy(right) - body.energy(left)) / (2. * h), slope, (1e6 * h * h + 1e-11 / h) * std::abs(slope)) << h;
     }
-  }
-}
-
-// u = ((x^2 + y^2) / 2, 0): theta = x.
-TEST(CellElasticity, LinearDilatationIsItsOwnProjectionAtDegree2)
-{
-  dealii::Triangulation<2> triangulation;
-  make_block({ 1., 1.5, 2.6, 4. }, { 0., 0.3, 1.2, 2. }, triangulation);
-  const auto properties = soft_solid(2, MaterialModel::linear, nearly_half);
-  const ElasticBody<2> body(triangulation, properties);
-  const auto &fe = body.dofs().get_fe();
-  CellElasticity<2> elasticity(body.cell_mapping(), fe, properties);
-  std::vector<dealii::Point<2>> positions(body.n_dofs());
-  dealii::DoFTools::map_dofs_to_support_points(body.cell_mapping(), body.dofs(), positions);
-  std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
-  Vector u(fe.n_dofs_per_cell());
-  for (const auto &cell : body.dofs().active_cell_iterators())
-  {
-    cell->get_dof_indices(dofs);
-    for (unsigned int i = 0; i < u.size(); ++i)
-      u[i] = fe.system_to_component_index(i).first == 0 ? 0.5 * positions[dofs[i]].square() : 0.;
-    elasticity.reinit(cell, u);
-    for (const unsigned int v : cell->vertex_indices())
-      EXPECT_NEAR(elasticity.dilatation()(cell->vertex(v)), cell->vertex(v)[0], 1e-13);
   }
 }
 
