@@ -127,18 +127,6 @@ namespace
   }
 } // namespace
 
-TEST(Identification, FindsFrictionSpringAndGeometryWithoutNoise)
-{
-  const Scene truth = device();
-  Scene scene = guess(truth, { Unknown::friction_constant, Unknown::stiffness, Unknown::interface_offset, Unknown::inclination });
-  scene.identification.measured = measured(compute_rows(truth), { 0., 0. }, 1);
-  const auto found              = identified(scene);
-  EXPECT_NEAR(number(found, "mu").value, 0.73, 1e-7);
-  EXPECT_NEAR(number(found, "k").value, 7.4e4, 1e-2);
-  EXPECT_NEAR(number(found, "e").value, 45.6, 1e-5);
-  EXPECT_NEAR(number(found, "th0").value, inclination(truth), 1e-7);
-}
-
 TEST(Identification, FindsTheRestAngleOfASpring)
 {
   Scene truth                   = device();
@@ -211,24 +199,6 @@ TEST(Identification, FindsTheFrictionLawWhereTheSpeedVaries)
         return measured(rows, { 0.1, 0. }, seed);
       },
       seeds / 2);
-}
-
-TEST(Identification, FindsATableOfFrictionSlow)
-{
-  Scene truth                          = model_a();
-  truth.analysis                       = device().analysis;
-  truth.drive                          = Drive(DriveProfile::harmonic, 0., 65., 180., 1.);
-  Scene scene                          = truth;
-  scene.friction.law                   = CoulombFriction{ 0.6 };
-  scene.identification.sought          = { Unknown::friction_table };
-  scene.identification.friction_speeds = { 5., 35., 70., 110., 150., 185. };
-  scene.identification.measured        = measured(sampled(truth, 1e-3), { 0.02, 0. }, 1);
-  scene.identification.window          = 0.;
-  const auto found                     = identified(scene);
-  for (const double speed : { 40., 70., 100., 130. })
-    EXPECT_NEAR(friction_coefficient(found.lever.friction, speed).coefficient,
-                friction_coefficient(truth.friction, speed).coefficient, 5e-3)
-        << speed;
 }
 
 // Friction rises in proportion to speed, and its table begins above the slowest rows.
@@ -317,15 +287,6 @@ TEST(Identification, HubersLossIsLeastWhereTheFitEnds)
     }
     EXPECT_NEAR(slope, 0., 1e-3 * size) << found.found[j].number.name;
   }
-}
-
-TEST(Identification, RefusesWhatLeavesTooFewRows)
-{
-  const Scene truth             = device();
-  Scene scene                   = guess(truth, { Unknown::friction_constant, Unknown::stiffness });
-  scene.identification.measured = measured(compute_rows(truth), { 0.2, 0. }, 1);
-  scene.identification.window   = 64.9;
-  EXPECT_THROW(identified(scene), AnalysisError);
 }
 
 /// A beam in time, whose reversal leaves a vibration.

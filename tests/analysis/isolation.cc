@@ -121,33 +121,6 @@ TEST(Isolation, LinearFrictionDecaysByAFixedRatioAHalfCycle)
   }
 }
 
-TEST(Isolation, LinearFrictionDissipatesTwiceTheSlopeTimesTheSquareOfTheAmplitude)
-{
-  for (const double amplitude : { 1e-3, 1., 100. })
-  {
-    const double gamma             = 0.4;
-    Scene scene                    = shaken(DamperType::linear_friction, 1.1);
-    scene.isolation.friction_slope = gamma * scene.isolation.stiffness;
-    scene.isolation.base_amplitude = amplitude;
-    const double period            = 1. / scene.isolation.base_frequency;
-    const auto table               = make_table_motion(isolation_system(scene), 0., 0., 1e-13);
-    auto &motion                   = *table;
-    const auto go_to               = [&](const double until)
-    {
-      while (motion.state().time < until)
-        motion.advance(until);
-    };
-    go_to(300. * period);
-    motion.reset_period();
-    const double before = motion.state().dissipated;
-    go_to(301. * period);
-    const double dissipated = motion.state().dissipated - before, X = motion.largest_displacement();
-    EXPECT_NEAR(dissipated / (2. * scene.isolation.friction_slope * X * X), 1., 1e-8);
-    const double loss_factor = dissipated / (2. * M_PI * 0.5 * scene.isolation.stiffness * X * X);
-    EXPECT_NEAR(loss_factor / (2. * gamma / M_PI), 1., 1e-8);
-  }
-}
-
 TEST(Isolation, ConstantFrictionLeavesTheOffsetOfTheHalfCycles)
 {
   for (const double force : { 1., 3., 7.3, 11., 40. })

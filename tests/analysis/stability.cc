@@ -107,36 +107,6 @@ TEST(Jamming, NoOffsetNoRigidLocking)
   EXPECT_TRUE(std::isinf(margin.critical_mu));
 }
 
-TEST(HeldSlide, RigidLeverMeetsTheClosedForm)
-{
-  const Scene scene = rigid_lever(0.73);
-  DynamicsMaker maker;
-  const auto dynamics = maker.make(scene);
-  for (const double v : { 112., -112. })
-  {
-    const auto slide = dynamics.model().hold({ 0., 40., v, 0. }, ContactFriction::sliding);
-    ASSERT_TRUE(slide);
-    const auto expected = closed_form(scene, 40., v);
-    // The contact of 1e7 N/mm gives way by 2e-6 mm, which turns the lever by 2e-8 of some 0.03 rad.
-    EXPECT_NEAR(slide->forces.P, expected.P, 1e-5 * expected.P);
-    EXPECT_NEAR(slide->speed, sliding_speed(scene.geometry, 40., v), 1e-3 * std::abs(v));
-    EXPECT_NEAR(slide->margin, 1. + std::copysign(0.73 * 45.6 / expected.contact.s, v), 1e-5);
-  }
-}
-
-// A rigid lever has one coordinate: it cannot flutter, whatever mu, and jams where s = mu e.
-TEST(CriticalValues, RigidLeverOnlyJams)
-{
-  Scene scene = from_params("stability-a.prm", { "Analysis/Model=rigid", "Friction/Law=Coulomb", "Friction/Coefficient=1",
-                                                 "Contact/Stiffness=1e6", "Contact/Exponent=1" });
-  DynamicsMaker maker;
-  const auto found = critical_values(scene, { "Friction/Factor", 0.5, 4., 8 }, 1e-6, maker);
-  ASSERT_EQ(found.changes.size(), 1u);
-  EXPECT_EQ(found.changes.front().below, SlideKind::stable);
-  EXPECT_EQ(found.changes.front().above, SlideKind::jammed);
-  EXPECT_NEAR(found.changes.front().value, kinematics(scene.geometry, 65.).s / 45.6, 0.02);
-}
-
 TEST(CriticalValues, ThinLeverFluttersThickOneDoesNot)
 {
   const Scene scene = from_params("stability-a.prm", {});

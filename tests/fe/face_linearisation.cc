@@ -31,42 +31,6 @@ namespace
   }
 } // namespace
 
-// mu is a parabola and the slip linear in the rates: central differences are exact but for round-off, and the regularisation's
-// third derivative at 100 mm/s.
-TEST(FaceLinearisation, RatesAreTheDerivativeOfTheForcesByVelocities)
-{
-  const MeshedBar bar(bar_on_cylinder());
-  for (const bool sprung : { false, true })
-    for (const double regularisation : { 0., 20. })
-      for (const double speed : { 100., -100. })
-      {
-        const auto properties = make_properties(*bar, sprung, regularisation);
-        FaceContact contact(*bar, properties);
-        FaceEvaluation<2> found;
-        const Vector displacements = pressed(properties.layout, 0.01);
-        const DrivePoint drive{ 0., 0., speed, 0. };
-        const auto with_rates = [&](const Vector &rates) {
-          return compute_forces(contact, { displacements, drive, speed, &rates, ContactFriction::sliding });
-        };
-        const auto exact = contact.linearise({ displacements, drive, speed }, found);
-        ASSERT_FALSE(exact.dofs.empty());
-        EXPECT_EQ(exact.pressure_rate.linfty_norm(), 0.);
-        const double largest = exact.friction_rate.linfty_norm();
-        EXPECT_GT(largest, 1e-4);
-        for (unsigned int j = 0; j < exact.dofs.size(); ++j)
-        {
-          const double h = 0.01;
-          Vector rates(displacements.size());
-          rates[exact.dofs[j]] = h;
-          const auto right     = with_rates(rates).values;
-          rates *= -1.;
-          const auto left = with_rates(rates).values;
-          for (unsigned int i = 0; i < exact.dofs.size(); ++i)
-            EXPECT_NEAR(exact.friction_rate(i, j), (right[i] - left[i]) / (2. * h), 1e-6 * largest) << sprung << i << " " << j;
-        }
-      }
-}
-
 // A step from the slide, all weight on its end: at every point the return to the cone of stick is Euler's backward rule for the
 // delay, (1 + time/dt) tau = stiffness_row . z + rate_row . z/dt. Over 2e-6 mm points of 1e-6 mm come and go.
 TEST(FaceLinearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)

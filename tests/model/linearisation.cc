@@ -176,69 +176,6 @@ TEST(Linearisation, PressureAndFrictionAreTheDerivativeOfTheForcesByDisplacement
   }
 }
 
-// Damping is linear, mu(v) quadratic: differences over 1e-2 mm/s are exact but for regularisation, whose third derivative
-// P mu / v_r^3 makes 1e-8 N s/mm, and round-off, 1e-13 N over them. The rates are 0.05 N s/mm.
-TEST(Linearisation, RatesAreTheDerivativeOfTheForcesByVelocities)
-{
-  for (const auto &slide : slides(0.05))
-  {
-    const Vector at = slide.position(penetration);
-    const Full both = linearised(slide, at).damping();
-    EXPECT_GT(both.linfty_norm(), 0.01);
-    expect_derivative(
-        slide, both, [&](const Vector &rates) { return forces(slide, at, &rates); }, 1e-2, 1e-7);
-  }
-}
-
-// A step from the slide, all weight on its end: the return to the cone of stick is Euler's backward rule for the delay,
-//   (1 + time/dt) tau = stiffness_row . z + rate_row . z/dt.
-// Over 2e-7 mm: round-off as above makes 2e-4 N/mm; rates are up to 0.02 mm/s, whose square times mu'' is nothing.
-TEST(Linearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
-{
-  unsigned int delayed = 0;
-  for (const auto &slide : slides(0.05))
-    for (const double dt : { 1e-5, 1e-4 })
-    {
-      if (slide.contact.friction.regularisation_speed > 0.)
-        continue;
-      const Vector at = slide.position(penetration);
-      PointContact contact(slide.contact);
-      PointContact::Evaluation found;
-      const auto linear = contact.linearise({ at, slide.drive(), slide.speed() }, found);
-      Motion accepted;
-      accepted.drive   = { 0., place, 0., 0. };
-      accepted.contact = found.history();
-      ASSERT_EQ(linear.delays.size(), std::holds_alternative<CorkOnAluminium>(slide.contact.friction.law) ? 1u : 0u);
-
-      Full exact = linear.immediate_stiffness();
-      exact.add(1. / dt, linear.immediate_damping());
-      for (const auto &delay : linear.delays)
-      {
-        EXPECT_GT(delay.time, 1e-5);
-        ++delayed;
-        for (unsigned int i = 0; i < exact.m(); ++i)
-          for (unsigned int j = 0; j < exact.n(); ++j)
-            exact(i, j) += delay.force[i] * (delay.stiffness_row[j] + delay.rate_row[j] / dt) / (1. + delay.time / dt);
-      }
-      const Vector rest(at.size());
-      const Kinematic begin{ at, rest, rest };
-      const DrivePoint to{ dt, place, 0., 0., slide.speed() * dt };
-      expect_derivative(
-          slide, exact,
-          [&](const Vector &change)
-          {
-            Vector end = at, rate = change;
-            end += change;
-            rate /= dt;
-            contact.evaluate(InterfaceStep{ accepted.drive, accepted.contact, to, begin, end, rate, { dt, 0., 0., 0.25, 0.5 } },
-                             found);
-            return found.forces;
-          },
-          2e-7, 2e-3);
-    }
-  EXPECT_GT(delayed, 0u);
-}
-
 TEST(Linearisation, PartsByPressureAreSymmetricAndFrictionIsNot)
 {
   for (const auto &slide : slides(0.05))

@@ -108,19 +108,6 @@ TEST(ClosedForm, RateOfInclinationIsTheDerivativeOfInclination)
     }
 }
 
-TEST(ClosedForm, SlopesOfBothModelsAreTheReference)
-{
-  const Scene a = model_a(), b = model_b();
-  EXPECT_NEAR(representative_slope(a.geometry, a.spring.stiffness, 0.73, 1), 0.0804711777, 5e-11);
-  EXPECT_NEAR(representative_slope(a.geometry, a.spring.stiffness, 0.73, -1), -0.0992025652, 5e-11);
-  EXPECT_NEAR(representative_slope(b.geometry, b.spring.stiffness, 0.73, 1), 0.1566745505, 5e-11);
-  EXPECT_NEAR(representative_slope(b.geometry, b.spring.stiffness, 0.73, -1), -0.1158129739, 5e-11);
-  EXPECT_NEAR(dimensionless_slope(a.geometry, 0.73, 1), 0.0112964134, 5e-11);
-  EXPECT_NEAR(dimensionless_slope(a.geometry, 0.73, -1), -0.0139258952, 5e-11);
-  EXPECT_NEAR(dimensionless_slope(b.geometry, 0.73, 1), 0.0100000159, 5e-11);
-  EXPECT_NEAR(dimensionless_slope(b.geometry, 0.73, -1), -0.0073919573, 5e-11);
-}
-
 TEST(ClosedForm, ForcesAtTheTurningPointAreTheReference)
 {
   const Scene a = with_friction_by_drive_speed(model_a()), b = with_friction_by_drive_speed(model_b());
