@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""The notebooks run, and find what the users of tests/robustness/users_slow.py find, whose devices they have; run with /usr/bin/python3.
-Environment: SPRAG, the program, SPRAG_SOURCE, the sources. Pictures stay in the folder SPRAG_PICTURES where there is one."""
+"""The notebooks run, and find what another model or an integration of this file finds; run with /usr/bin/python3. Environment: SPRAG,
+the program, SPRAG_SOURCE, the sources. Pictures stay in the folder SPRAG_PICTURES where there is one."""
 
 import contextlib
 import io
 import json
+import math
 import os
 import shutil
 import sys
@@ -15,11 +16,84 @@ os.environ["MPLBACKEND"] = "Agg"
 import matplotlib.pyplot as plt
 import numpy as np
 
-sys.path[:0] = [str(Path(__file__).resolve().parents[1] / folder) for folder in ("support", "robustness")]
-import users_slow  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from runs import SOURCE, FolderTest  # noqa: E402
 
+sys.path.insert(0, str(SOURCE / "postprocess"))
+import sprag  # noqa: E402  # that of the sources, which stays when a notebook's copy goes
+
 MOST_CELLS = 9  # titles among them
+DEVICE = """
+subsection Geometry
+  set Cylinder radius  = 40
+  set Interface offset = 22
+  set Pivot distance   = 150
+  set Pivot height     = 10
+end
+
+subsection Rotational spring
+  set Stiffness = 4e4
+end
+
+subsection Drive
+  set Stroke = 60
+  set Speed  = 100
+end
+
+subsection Lever
+  set Length          = 170
+  set Depth           = 8
+  set Width           = 30
+  set Young's modulus = 210 GPa
+  set Poisson's ratio = 0.3
+  set Density         = 7850 kg/m3
+  set Inertia         = as built
+end
+
+subsection Friction layer
+  set Thickness = 3
+end
+
+subsection Friction
+  set Law   = table
+  set Table = mu.csv
+end
+"""
+
+FRICTION = "speed [mm/s], mu\n1, 0.42\n10, 0.50\n30, 0.58\n100, 0.70\n300, 0.76\n"
+
+MASS, STIFFNESS = 0.5, 12.6  # t, N/mm: 0.8 Hz
+
+RECORD_STEP = 0.01  # s
+
+
+def floor_record():
+    """Acceleration of a floor [mm/s2] every RECORD_STEP: ground that resonates at 4 Hz, 60 lines from 0.2 to 19 Hz over 60 s."""
+    random = np.random.default_rng(7)
+    frequency = 0.2 * 1.08 ** np.arange(60)
+    ratio = frequency / 4
+    share = (0.8 * ratio) ** 2
+    ground = np.sqrt((1 + share) / ((1 - ratio**2) ** 2 + share))
+    amplitude = np.sqrt(frequency) * ground * frequency**2 / (0.8**2 + frequency**2)
+    amplitude *= 150 / math.sqrt(np.sum(amplitude**2) / 2)
+    phase = random.uniform(0, 2 * math.pi, len(frequency))
+    time = RECORD_STEP * np.arange(6001)
+    return time, np.sin(2 * math.pi * np.outer(time, frequency) + phase) @ amplitude
+
+
+def transmissibility(acceleration, friction, parts=200):
+    """Root mean square of the table's acceleration over the base's for constant friction [N]: steps of a part of RECORD_STEP by
+    the semi-implicit Euler method, at each of which friction takes off what it can of the speed."""
+    base = np.interp(np.arange(parts * (len(acceleration) - 1)) / parts, np.arange(len(acceleration)), acceleration)
+    step, z, rate, squares = RECORD_STEP / parts, 0.0, 0.0, 0.0
+    most = friction / MASS * step
+    for value in base.tolist():
+        before = rate
+        rate -= (STIFFNESS / MASS * z + value) * step
+        rate -= max(-most, min(most, rate))
+        z += rate * step
+        squares += ((rate - before) / step + value) ** 2
+    return math.sqrt(squares / np.sum(base**2))
 
 
 class Notebooks(FolderTest):
@@ -45,13 +119,19 @@ class Notebooks(FolderTest):
         return found, printed.getvalue()
 
     def test_my_device(self):
-        (self.folder / "lever.prm").write_text(users_slow.DEVICE, encoding="utf-8")
-        (self.folder / "mu.csv").write_text(users_slow.FRICTION, encoding="utf-8")
+        (self.folder / "lever.prm").write_text(DEVICE, encoding="utf-8")
+        (self.folder / "mu.csv").write_text(FRICTION, encoding="utf-8")
         found, printed = self.run_cells("my-device")
         stroke = found["sprag"].run(self.folder / "lever.prm", {"Lever/Depth": 7})
         self.assertEqual(found["thickness"], 7)
         self.assertAlmostEqual(found["critical"], 6.83, delta=0.05)
         self.assertEqual(found["judged"]["verdict"], "stable")
+        # Held at many places both ways at all corners of the ranges; the same check sees a lever that is too thin.
+        held = {"Stability/Position": range(2, 61, 2), "Stability/Direction": ["forward", "backward"], "Contact/Damping": [0.01, 0.1], "Friction/Factor": [0.8, 1.2]}
+        changes = {"Study/Type": "stability", "Analysis/Model": "condensed", "Stability/Roles": "off", "Stability/Critical": "none"}
+        for depth, sign in ((7, -1), (3.5, 1)):
+            growth = sprag.sweep(self.folder / "lever.prm", held, {**changes, "Lever/Depth": depth}).table["growth_rate"]
+            self.assertGreater(sign * growth.max(), 0)
         self.assertAlmostEqual(found["stroke"].summary["peak_Q_forward"] / stroke.summary["peak_Q_forward"], 1, delta=1e-9)
         self.assertTrue((self.folder / "postprocess/notebooks/my-device/report.html").is_file(), printed)
 
@@ -65,18 +145,18 @@ class Notebooks(FolderTest):
 
     def test_isolate_my_machine(self):
         found, printed = self.run_cells("isolate-my-machine")
-        _, acceleration = users_slow.floor_record()
+        _, acceleration = floor_record()
         np.testing.assert_allclose(found["acceleration"], acceleration, atol=1e-9)
         self.assertEqual(found["design"].summary["meets_demands"], 1)
         best = {each.damper: each for each in found["dampers"]}
         without, lever = found["compared"]
         for each, friction in ((without, 0.0), (best["constant friction"], best["constant friction"].strength)):
-            self.assertAlmostEqual(each.transmissibility / users_slow.transmissibility(acceleration, friction), 1, delta=0.02, msg=each.damper)
+            self.assertAlmostEqual(each.transmissibility / transmissibility(acceleration, friction), 1, delta=0.02, msg=each.damper)
         self.assertIn("The lever lets through", printed)
         self.assertAlmostEqual(lever.transmissibility, 0.498, delta=0.005)
         # A linear table's resonance curve.
-        ratio = 2 * np.pi * np.array(found["frequencies"]) / np.sqrt(users_slow.STIFFNESS / users_slow.MASS)
-        damping = best["viscous"].strength / np.sqrt(users_slow.STIFFNESS * users_slow.MASS) * ratio
+        ratio = 2 * np.pi * np.array(found["frequencies"]) / np.sqrt(STIFFNESS / MASS)
+        damping = best["viscous"].strength / np.sqrt(STIFFNESS * MASS) * ratio
         np.testing.assert_allclose(found["curves"]["viscous"], np.sqrt((1 + damping**2) / ((1 - ratio**2) ** 2 + damping**2)), rtol=1e-3)
 
 
