@@ -113,44 +113,6 @@ TEST_P(BatchedStepOfAnAxis, PointsInContactTellWhatAllPointsTell)
   }
 }
 
-// Steady sliding is evaluated point by point where its parts are wanted, and eight at once where not.
-TEST_P(BatchedStepOfAnAxis, ASlideIsThatOfItsParts)
-{
-  const FrictionLaw friction{ StribeckFriction{} };
-  Bed bed(skewed(GetParam()), 12.5, 6, friction);
-  const auto displacements = bed.pressed(0.03);
-  const DrivePoint drive{ 0., Bed::x, -112., 0. };
-  for (const auto rubs : { ContactFriction::sliding, ContactFriction::none })
-  {
-    const SlidingState state{ displacements, drive, -112., nullptr, rubs };
-    FaceEvaluation<3> found, in_parts;
-    bed.surface().evaluate_sliding(state, found);
-    bed.surface().add_points(found);
-    auto rest            = bed.surface().linearise(state, in_parts).stiffness();
-    const auto &expected = in_parts.forces;
-    ASSERT_GT(expected.dofs.size(), 20u);
-    ASSERT_EQ(found.forces.dofs, expected.dofs);
-    rest.add(-1., found.forces.tangent);
-    EXPECT_LT(rest.frobenius_norm(), 1e-9 * found.forces.tangent.frobenius_norm());
-    auto difference = found.forces.values;
-    difference -= expected.values;
-    EXPECT_LT(difference.linfty_norm(), 1e-9 * expected.values.linfty_norm());
-    EXPECT_NEAR(found.sums.stored, in_parts.sums.stored, 1e-9 * in_parts.sums.stored);
-    EXPECT_EQ(std::abs(found.sums.work.drive) + std::abs(found.sums.work.friction) + std::abs(found.sums.work.algorithmic), 0.);
-    ASSERT_EQ(found.points.size(), in_parts.points.size());
-    for (unsigned int i = 0; i < found.points.size(); ++i)
-    {
-      const auto &point = found.points[i], &other = in_parts.points[i];
-      EXPECT_NEAR(point.pressure, other.pressure, 1e-9);
-      EXPECT_LT((point.traction - other.traction).norm(), 1e-9);
-      EXPECT_LT((point.slip_change - other.slip_change).norm(), 1e-9);
-      EXPECT_LT((point.end_force - other.end_force).norm(), 1e-7);
-      EXPECT_EQ(point.slipping, other.slipping);
-      EXPECT_NEAR(point.mu, other.mu, 1e-15);
-    }
-  }
-}
-
 namespace
 {
   /// Compares every entry of the tangent with differences of the forces that `evaluated(displacements)` finds. Where differences

@@ -105,19 +105,6 @@ TEST(MeanNormalForce, TimesTheChangeOfTheGapIsTheChangeOfTheEnergy)
         }
 }
 
-TEST(MeanNormalForce, OpeningAndClosingAgainGivesNothingBackAndTakesNothing)
-{
-  for (const auto &law : { linear, curved })
-  {
-    double work        = 0.;
-    const double way[] = { 0.003, -0.011, -0.004, 0.02, 0.05, -0.017, 0.003 };
-    for (unsigned int i = 0; i + 1 < std::size(way); ++i)
-      work -= mean_normal_force(law, way[i], way[i + 1]).mean * (way[i + 1] - way[i]);
-    // Round-off of six works of 0.3 N mm and less.
-    EXPECT_NEAR(work, 0., 1e-15);
-  }
-}
-
 TEST(MeanNormalForce, DerivativesAgreeWithFiniteDifferencesHoweverSmallTheChange)
 {
   // Central differences over h, 1e-4 of the penetration: h^2/6 of the third derivative is 1e-9 of the stiffness; round-off 4
@@ -157,16 +144,6 @@ TEST(EndDamping, DerivativesAgreeWithFiniteDifferences)
     EXPECT_NEAR(exact.d[1], central([](const double r) { return dashpot_force(0.05, 20., -0.01, r); }, rate, 0.1), 1e-12);
     EXPECT_NEAR(exact.d[0], central([=](const double n) { return dashpot_force(0.05, n, -0.01, rate); }, 20., 0.1), 1e-12);
   }
-}
-
-TEST(EndFriction, SticksWithinTheConeAsASpring)
-{
-  const auto friction = end_friction({ -3., 0., dt }, stiffness, 5e-3, pressure, cork, dt);
-  EXPECT_FALSE(friction.slipping);
-  EXPECT_DOUBLE_EQ(friction.traction, 2.);
-  EXPECT_DOUBLE_EQ(friction.energy, 0.5 * 2. * 2. / stiffness);
-  EXPECT_NEAR(friction.dissipated, 0., 1e-17);
-  EXPECT_EQ(friction.slip_speed, 0.);
 }
 
 TEST(EndFriction, SlipsOnTheConeOfItsSpeedAtTheEnd)
