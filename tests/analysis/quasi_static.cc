@@ -128,27 +128,3 @@ TEST(QuasiStatic, WorkOfTheDriveIsTheIntegralOfQ)
   EXPECT_NEAR((*turn)[Column::drive_work], 200., 1e-10);
   EXPECT_NEAR(rows.back()[Column::drive_work], 0., 1e-10);
 }
-
-// Model A at mu = 1.3 locks on its way back where s falls to mu e, 1.3 x 45.6 = 59.3 mm, which at x = 129 it has passed:
-// s(129) = 55.5 mm. A rigid lever could not turn back at all; an elastic one ends soon after, in the passage through stick.
-TEST(QuasiStatic, LeverThatLocksEndsTheRunWithItsRowsKept)
-{
-  Scene scene = with_face_size(with_coulomb(model_a(), 1.3), 2.);
-  scene.drive = Drive(DriveProfile::triangle, 0., 129., 112., 1.);
-  std::vector<Row> rows;
-  std::string message;
-  try
-  {
-    run_scene(scene, rows);
-  }
-  catch (const AnalysisError &error)
-  {
-    message = error.what();
-  }
-  EXPECT_NE(message.find("x = 12"), std::string::npos) << message;
-  EXPECT_NE(message.find("lock"), std::string::npos) << message;
-  const auto turn = std::find_if(rows.begin(), rows.end(), [](const Row &row) { return row[Column::x] == 129.; });
-  ASSERT_NE(turn, rows.end());
-  EXPECT_GE(turn - rows.begin(), 129);
-  EXPECT_GT(rows.back()[Column::P], 0.);
-}

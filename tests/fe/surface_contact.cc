@@ -34,66 +34,6 @@ TEST(SurfaceContact, ATiltedCylinderOnABedOfSpringsIsKnown)
   }
 }
 
-// The moment of the tractions about the shaft's middle turns it.
-TEST(SurfaceContact, TheForcesOnTheSlopesAreMomentsOfTheTractions)
-{
-  Bed bed(skewed(true), 12.5, 6);
-  auto end                  = bed.pressed(0.03);
-  end[bed.layout.slope(0)]  = 2e-4;
-  end[bed.layout.slope(1)]  = 0.03;
-  const auto begin          = bed.pressed(0.02);
-  const auto found          = bed.evaluated(begin, Bed::x - 0.7, end, 0.4);
-  const auto moment         = -1. * bed.resultant(found)[1]; // on the cylinder
-  const auto [tilts, skews] = turns_by_slopes(8e-4, 0.032);
-  const auto force          = [&](const unsigned int slope)
-  { return found.forces.values[find_index(bed.layout.slope(slope), found.forces.dofs)]; };
-  EXPECT_GT(std::abs(force(0)), 10.);
-  EXPECT_NEAR(force(0), tilts * moment, 1e-10 * moment.norm());
-  EXPECT_NEAR(force(1), skews * moment, 1e-10 * moment.norm());
-}
-
-// k (tilt - Tilt) = -cos(theta) M(tilt cos(theta)) with M of ATiltedCylinderOnABedOfSpringsIsKnown. Where it is small
-// tilt = Tilt/(1 + S cos(theta)^2/k), S = c sqrt(d_0) w^3/8.
-TEST(SurfaceContact, AShaftOnABedOfSpringsYieldsAsKnown)
-{
-  const double K = 12.5, d_0 = 0.03, Tilt = 1.2e-3, inclination = 0.08552, c = 4. / 3. * K * std::sqrt(2. * 56.);
-  const double cosine = std::cos(inclination);
-  const auto moment   = [&](const double tilt)
-  {
-    const auto antiderivative = [&](const double d) { return 2. / 7. * std::pow(d, 3.5) - 0.4 * d_0 * std::pow(d, 2.5); };
-    return c / (tilt * tilt) *
-           (antiderivative(d_0 + 0.5 * width * tilt) - antiderivative(std::max(0., d_0 - 0.5 * width * tilt)));
-  };
-  for (const double stiffness : { 1e5, 5e5, 3e6 })
-  {
-    double low = 1e-6, high = Tilt;
-    while (high - low > 1e-13)
-    {
-      const double middle                                                                = 0.5 * (low + high);
-      (stiffness * (middle - Tilt) + cosine * moment(middle * cosine) > 0. ? high : low) = middle;
-    }
-    Cylinder cylinder       = tilted(Tilt);
-    cylinder.tilt_stiffness = stiffness;
-    Bed bed(cylinder, K);
-    auto at = bed.pressed(d_0);
-    for (unsigned int i = 0; i < 6; ++i)
-    {
-      const auto found         = bed.evaluated(at, Bed::x - 0.7, at, 0.); // slides, so that nothing sticks at no force
-      const unsigned int place = find_index(bed.layout.slope(0), found.forces.dofs);
-      const double residual    = found.forces.values[place] - stiffness * at[bed.layout.slope(0)];
-      at[bed.layout.slope(0)] += residual / (stiffness - found.forces.tangent(place, place));
-    }
-    // The tolerance is the error of the parabola for the circle and that of the closed form's moment, see above.
-    const double approximation = 2. * (d_0 + 0.5 * width * Tilt) / 56. + 2.5 * 0.5 * 56. * Tilt * Tilt / d_0;
-    const double tilt          = Tilt + at[bed.layout.slope(0)];
-    EXPECT_NEAR(tilt, low, approximation * std::min(low, Tilt - low) + 1e-8) << stiffness;
-    if (stiffness <= 1e5)
-    {
-      EXPECT_NEAR(tilt, Tilt / (1. + c * std::sqrt(d_0) * std::pow(width, 3) / 8. * cosine * cosine / stiffness), 0.03 * tilt);
-    }
-  }
-}
-
 // P = pi K sqrt(R_1 R_2) d^2.
 TEST(SurfaceContact, ABarrelOnABedOfSpringsIsKnown)
 {

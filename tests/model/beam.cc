@@ -70,38 +70,6 @@ namespace
   }
 } // namespace
 
-TEST(BeamFrequencies, OfAPinnedBarAreTheRootsOfTanIsTanh)
-{
-  // A spring so soft that its mode is at 4e-6 of the first bending mode.
-  const Scene scene      = bar(1e-6, 0., 0.);
-  const auto frequencies = free_frequencies(scene, make_beam_mesh(scene));
-  const double known[]   = { 3.92660231, 7.06858275, 10.21017612 };
-  const auto equation    = [](const double z) { return std::tan(z) - std::tanh(z); };
-  const double before[]  = { 3.2, 6.4, 9.5 };
-  const double behind[]  = { 4.5, 7.5, 10.6 };
-  for (unsigned int i = 0; i < 3; ++i)
-  {
-    const double exact = root(equation, before[i], behind[i]);
-    EXPECT_NEAR(exact, known[i], 1e-8);
-    expect_frequency(scene, frequencies[i + 1], exact);
-  }
-  EXPECT_NEAR(frequencies[0], std::sqrt(1e-6 / scene.lever.moment_of_inertia), 1e-9 * frequencies[0]);
-}
-
-TEST(BeamFrequencies, OfAClampedBarAreTheRootsOfCosTimesCoshIsMinusOne)
-{
-  const Scene scene      = bar(1e16, 0., 0.);
-  const auto frequencies = free_frequencies(scene, make_beam_mesh(scene));
-  const double known[]   = { 1.87510407, 4.69409113, 7.85475744 };
-  const auto equation    = [](const double z) { return std::cos(z) + 1. / std::cosh(z); };
-  for (unsigned int i = 0; i < 3; ++i)
-  {
-    const double exact = root(equation, known[i] - 0.3, known[i] + 0.3);
-    EXPECT_NEAR(exact, known[i], 1e-8);
-    expect_frequency(scene, frequencies[i], exact);
-  }
-}
-
 TEST(BeamFrequencies, OfBarsWithATipMass)
 {
   for (const double share : { 0.1, 0.5 }) // of the moment of inertia

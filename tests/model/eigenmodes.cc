@@ -183,24 +183,6 @@ TEST(Growth, OfAnUndampedFlutterIsFrictions)
   EXPECT_GT(largest, 50.);
 }
 
-// C = alpha M: lambda^2 + alpha lambda = -omega^2, and without friction every omega^2 > 0. The support has its own damping.
-TEST(MassDamping, TakesHalfOfItsFactorOffEveryVibration)
-{
-  for (const auto model_type : { ModelType::rigid, ModelType::beam })
-  {
-    Scene scene              = undamped(lever_scene(model_type, false));
-    scene.lever.mass_damping = 34.;
-    const auto model         = make_reduced_lever(scene);
-    for (const bool in_contact : { true, false })
-    {
-      const auto modes = model->vibrations(held(*model, drive(44., 1.), ContactFriction::none), in_contact, 10);
-      EXPECT_EQ(modes.size(), model_type == ModelType::rigid ? 1u : 17u);
-      for (const auto &mode : modes)
-        EXPECT_NEAR(mode.mode.eigenvalue.real(), -17., 1e-12 * std::abs(mode.mode.eigenvalue));
-    }
-  }
-}
-
 TEST(Vibrations, OutOfContactAreThoseOfTheFreeLever)
 {
   const Scene scene = undamped(lever_scene(ModelType::beam, false));

@@ -132,14 +132,6 @@ class BadScene(ProgramTest):
         self.write(header + text, "own.csv")
         return self.write(f"subsection {section}\n  set {choice} = table\n  set Table = own.csv\nend\n")
 
-    def test_decimal_commas(self):
-        says = ["Friction/Coefficient = 0,73", "decimal point", "'0.73'"]
-        changes = ("--set", "Friction/Law=Coulomb", "--set", "Friction/Coefficient=0,73")
-        self.refused(self.write(""), *changes, says=says, mistakes=1)
-        offset = section("Geometry", Interface_offset=("45,6 mm", ["decimal point", "'45.6 mm'"]))
-        mass = section("Support", Type=("sprung", None), Mass=("2,5e-3", ["decimal point", "'2.5e-3'"]))
-        self.refused_lines(offset + mass)
-
     def test_decimal_commas_in_tables(self):
         for text in ("0;0,3\n10,5;0,5\n20;0,7\n30;0,9\n", "0,0 0,3\n10,5\t0,5\n20,0 0,7\n30,0 0,9\n"):
             with self.subTest(text=text):

@@ -176,16 +176,6 @@ class Refused(EndsTest):
             self.assertEqual((done.returncode, len(done.stderr.splitlines())), (code, code // 2), done.stderr)
             self.assertEqual("64 kB by ulimit -s: must be at least 1024 kB" in done.stderr, code == 2)
 
-    def test_too_many_rows(self):
-        for options in (
-            (*CLOSED_FORM, "--set", "Drive/Cycles=1e5"),
-            (*CLOSED_FORM, "--set", "Drive/Cycles=1e5", "--set", "Drive/Profile=harmonic"),
-            ("--set", "Analysis/Type=transient", "--set", "Analysis/Model=beam", "--set", "Drive/Speed=1e-8"),
-        ):
-            with self.subTest(options=options):
-                self.expect_refused(self.run_to_end(*options), "e+", "rows or more, of which a run may have 1e+07")
-                self.assertFalse(self.output.exists())
-
     def test_slow_and_held(self):
         held = ("Analysis/Type=stability", "Analysis/Model=beam", "Stability/Critical=none", "Drive/Speed=1e-8")
         self.completed("model-a", held)

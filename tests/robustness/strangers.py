@@ -290,10 +290,6 @@ class Inputs(StrangerTest):
     def test_that_cannot_be_read_to_the_end(self):
         self.expect_refused(sprag("/proc/self/mem", "--validate"), "/proc/self/mem: cannot be read: Input/output error")
 
-    def test_byte_order_mark(self):
-        (self.folder / "scene.prm").write_bytes(b"\xef\xbb\xbf" + CLOSED_FORM.replace("\n", "\r\n").encode())
-        self.assertEqual(self.run_scene("--validate").returncode, 0)
-
     def test_messages_are_short_and_plain(self):
         self.scene("subsection Geometry\n  set Cylinder radius = \x1b]0;title\x07\x1b[31m\nend\n")
         self.expect_refused(self.run_scene(), "\\x1b]0;title\\x07")

@@ -194,34 +194,6 @@ TEST(SolidPartsInTime, SensorsFeelWhatThePlanesFeel)
         EXPECT_EQ(row.across.at(first_sensor + 2 * place + side), 0.5 * row.sensor_forces[place]);
 }
 
-// Eigenvalues of a slide in contact, friction and all.
-TEST(SolidPartsInTime, VibrationsOfASlideAreThoseOfThePlaneSlow)
-{
-  const Scene bare = in_space(AnalysisType::stability);
-  for (const Scene &scene : { on_leaf_with_tip(bare), on_sensors(bare) })
-  {
-    const auto lowest = [](const Scene &some)
-    {
-      DynamicsMaker maker(false);
-      const auto dynamics = maker.make(some);
-      const auto slide    = dynamics.model().hold(held_drive(some), ContactFriction::sliding);
-      EXPECT_TRUE(slide);
-      return slide ? dynamics.model().eigenvalues(*slide, 40) : std::vector<std::complex<double>>();
-    };
-    const auto plane = lowest(in_plane(scene)), solid = lowest(scene);
-    unsigned int compared = 0;
-    for (const auto &value : plane)
-      if (value.imag() > 0. && ++compared <= 3)
-      {
-        double off = std::abs(value);
-        for (const auto &other : solid)
-          off = std::min(off, std::abs(other - value));
-        EXPECT_LT(off, 6e-5 * std::abs(value)) << value;
-      }
-    EXPECT_GE(compared, 3u);
-  }
-}
-
 namespace
 {
   /// Narrow pads at the corners, with contraction, the axis out of true.

@@ -74,20 +74,6 @@ TEST(SolidShaftInTime, TheLedgerClosesOverAReversal)
   EXPECT_LT(open, 1e-7 * work);
 }
 
-// See Growth.
-TEST(SolidShaftInTime, AVibrationGrowsAsItsEigenvalueSaysSlow)
-{
-  Scene scene                   = yielding(AnalysisType::sprag_slip);
-  scene.drive                   = Drive(DriveProfile::triangle, 0., 65., 112., 1.);
-  scene.contact.penalty         = std::nullopt;
-  scene.lever.depth             = 6.;
-  scene.cylinder.tilt           = 1e-4;
-  scene.cylinder.skew           = 0.;
-  scene.cylinder.skew_stiffness = 1e6;
-  scene.stability.position      = 65.;
-  expect_predicted_growth(JudgedSlide(scene));
-}
-
 // Before a lever inclined by theta a skew presses where the axis comes forward, by sin(theta) of it, and there P sin(theta) and
 // friction mu P cos(theta) push it, in a slide back one against the other: a true axis stays so where the shaft is stiffer than
 //   S sin(theta) (mu cos(theta) - sin(theta)),
