@@ -202,13 +202,6 @@ TEST(Oscillation, WhatRings)
   EXPECT_NEAR(found.rms_end, 8. * std::exp(-0.095) / std::sqrt(2.), 0.1);
 }
 
-TEST(Oscillation, WhatGrowsIsSaidToGrow)
-{
-  const auto found = find_oscillation(rows_with(sinusoid(1., 290., 15.)));
-  EXPECT_EQ(found.verdict, Verdict::grows);
-  EXPECT_GT(found.growth_rate, 0.);
-}
-
 // The same lever ten times larger, of the same materials: all takes ten times as long.
 TEST(Oscillation, LongPeriodsHaveTheVerdictOfShortOnes)
 {

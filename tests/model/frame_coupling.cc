@@ -106,6 +106,9 @@ TEST(FrameCoupling, TangentIsTheDerivativeOfTheForces)
   {
     const auto weights          = generalised_alpha(radius, step);
     const InterfaceForces exact = with(coupling, InterfaceForces(), begin(), end(), weights);
+    // It is added to that of the contact.
+    const InterfaceForces contact{ { layout.rotation() }, Vector(1), dealii::FullMatrix<double>(dealii::IdentityMatrix(1)) };
+    EXPECT_DOUBLE_EQ(with(coupling, contact, begin(), end(), weights).tangent(0, 0), exact.tangent(0, 0) + 1.);
     for (unsigned int j = 0; j < 4; ++j)
     {
       // Movements of 1e-6 change accelerations by 1: h^2 of the third derivative, mass() times 1, is 1e-5; round-off 1e-10 of it.
@@ -117,40 +120,6 @@ TEST(FrameCoupling, TangentIsTheDerivativeOfTheForces)
       const Vector left = with(coupling, InterfaceForces(), begin(), z, weights).values;
       for (unsigned int i = 0; i < 4; ++i)
         EXPECT_NEAR(exact.tangent(i, j), (right[i] - left[i]) / (2. * h), 1e-9 * weights.mass()) << i << j << ", " << radius;
-    }
-  }
-}
-
-TEST(FrameCoupling, AddsToTheForcesOfTheContact)
-{
-  InterfaceForces contact;
-  contact.dofs   = { 1, layout.rotation(), layout.support() };
-  contact.values = Vector(3);
-  contact.tangent.reinit(3, 3);
-  for (unsigned int i = 0; i < 3; ++i)
-  {
-    contact.values[i] = 1. + i;
-    for (unsigned int j = 0; j < 3; ++j)
-      contact.tangent(i, j) = 10. * i + j;
-  }
-  FrameCoupling coupling(layout, rest);
-  const InterfaceForces alone = with(coupling, InterfaceForces(), begin(), end(), implicit());
-  const InterfaceForces both  = with(coupling, contact, begin(), end(), implicit());
-  ASSERT_EQ(both.dofs, (std::vector<unsigned int>{ 1, 2, 3, 4, 5 }));
-  const unsigned int place[] = { 0, 1, 4 };
-  for (unsigned int i = 0; i < 5; ++i)
-  {
-    double expected = i > 0 ? alone.values[i - 1] : 0.;
-    for (unsigned int a = 0; a < 3; ++a)
-      expected += place[a] == i ? contact.values[a] : 0.;
-    EXPECT_DOUBLE_EQ(both.values[i], expected);
-    for (unsigned int j = 0; j < 5; ++j)
-    {
-      double expected_tangent = i > 0 && j > 0 ? alone.tangent(i - 1, j - 1) : 0.;
-      for (unsigned int a = 0; a < 3; ++a)
-        for (unsigned int b = 0; b < 3; ++b)
-          expected_tangent += place[a] == i && place[b] == j ? contact.tangent(a, b) : 0.;
-      EXPECT_DOUBLE_EQ(both.tangent(i, j), expected_tangent);
     }
   }
 }

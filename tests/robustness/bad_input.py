@@ -34,12 +34,6 @@ def tree(folder):
     return {path: path.read_bytes() if path.is_file() else None for path in sorted(folder.rglob("*"))}
 
 
-def section(name, **settings):
-    """Lines of a section, and what is said about each: {name with _ for blanks: (value, texts or None)}."""
-    entries = [(f"  set {setting.replace('_', ' ')} = {value}", texts) for setting, (value, texts) in settings.items()]
-    return [(f"subsection {name}", None), *entries, ("end", None)]
-
-
 class ProgramTest(RunTest):
     def write(self, text, name="scene.prm"):
         path = self.folder / name
@@ -64,18 +58,6 @@ class ProgramTest(RunTest):
         self.assertEqual(tree(self.folder), before)
         return done.stderr.splitlines()
 
-    def refused_lines(self, lines, *options, also=(), **checks):
-        """Each line of the scene is refused by one message that names it and holds the texts paired with the line; those paired
-        with None are none. `also`: texts of messages about the options, one each."""
-        scene = self.write("".join(f"{line}\n" for line, _ in lines))
-        expected = [(f"scene.prm:{number}: ", *texts) for number, (_, texts) in enumerate(lines, 1) if texts is not None]
-        expected += [(text,) for text in also]
-        messages = self.refused(scene, *options, says=(), mistakes=len(expected), **checks)
-        for texts in expected:
-            found = [message for message in messages if texts[0] in message]
-            self.assertEqual(len(found), 1, messages)
-            for text in texts:
-                self.assertIn(text, found[0])
 
 
 class BadScene(ProgramTest):
@@ -107,26 +89,6 @@ class BadScene(ProgramTest):
             self.assertEqual(done.returncode, 2)
             self.assertIn(says, done.stderr)
         self.assertEqual(tree(self.folder), before)
-
-    def test_all_mistakes_at_once(self):
-        offset = ("45.6 N", ["Geometry/Interface offset = 45.6 N", "'N' has the dimension m.kg.s-2, mm has the dimension m"])
-        self.refused_lines(
-            [
-                *section("Rotational spring", Stifness=("1", ["Rotational spring/Stifness", "did you mean 'Stiffness'"])),
-                ("subsection Geometri", ["did you mean 'Geometry'"]),
-                ("  set Cylinder radius = 56", None),
-                ("end", None),
-                ("nonsense", []),
-                *section("Geometry", Interface_offset=offset, Pivot_hight=("0", ["'Pivot height'"])),
-                *section("Drive", Profile=("harmonical", ["Drive/Profile = harmonical", "'harmonic'"])),
-                *section("Friction", Law=("table", None), Table=("missing.csv", ["Friction/Table", "missing.csv"])),
-                ("subsection Mesh", ["end"]),
-                ("  set File = missing.geo", ["Mesh/File", "missing.geo", "cannot be read"]),
-            ],
-            *("--set", "Mesh/Degree=3"),
-            also=["--set: Mesh/Degree = 3"],
-            older=True,
-        )
 
     def table(self, text, section="Friction", choice="Law", header=""):
         self.write(header + text, "own.csv")

@@ -132,25 +132,6 @@ TEST(SceneWarnings, AreGivenBeyondTheirBounds)
   EXPECT_EQ(names(scene_warnings(near_locking(0.23))), Names{ "near_locking" });
 }
 
-TEST(RowWarnings, OverlapOfABareLever)
-{
-  Scene bare               = model_a();
-  bare.layer.thickness     = 0.;
-  Row row                  = usual_row();
-  row[Column::indentation] = 0.;
-  const auto names_at      = [&](const double share)
-  {
-    // Hertz: the cylinder's arc over the contact is a^2/(2 R) high.
-    const double a =
-        std::sqrt(4. * row[Column::P] * bare.geometry.cylinder_radius * (1. - std::pow(bare.lever.poisson_ratio, 2)) /
-                  (M_PI * bare.lever.width * bare.lever.young_modulus));
-    row[Column::penetration] = share / (1. - share) * a * a / (2. * bare.geometry.cylinder_radius);
-    return names(row_warnings(bare, { first_row(), row }));
-  };
-  EXPECT_FALSE(contains(names_at(0.19), "soft_penalty"));
-  EXPECT_TRUE(contains(names_at(0.21), "soft_penalty"));
-}
-
 // A cylinder of 60 MPa yields 3500 times as far as a lever of steel and hides what the penalty overlaps.
 TEST(RowWarnings, OverlapBesideAnElasticCylinder)
 {

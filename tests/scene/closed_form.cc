@@ -151,22 +151,6 @@ TEST(ClosedForm, MomentsAboutThePivotBalance)
     }
 }
 
-TEST(ClosedForm, ChangeOfCoefficientMovesTheForcesAsTheMomentBalanceSays)
-{
-  const Scene scene = with_coulomb(model_a(), 0.73), less = with_coulomb(model_a(), 0.9 * 0.73);
-  const double s = std::sqrt(120.5 * 120.5 - 10.4 * 10.4), e = 45.6;
-  for (const int sign : { 1, -1 })
-  {
-    const auto more = at_turning_point(scene, sign * 112.), fewer = at_turning_point(less, sign * 112.);
-    const double ratio = (s + sign * 0.73 * e) / (s + sign * 0.9 * 0.73 * e);
-    EXPECT_NEAR(fewer.P / more.P, ratio, 1e-13);
-    EXPECT_NEAR(fewer.F / more.F, 0.9 * ratio, 1e-13);
-    EXPECT_GT(std::abs(1. - ratio), 0.02);
-  }
-  // Without offset friction has no moment.
-  EXPECT_EQ(at_turning_point(with_coulomb(model_b(), 0.657), 112.).P, at_turning_point(with_coulomb(model_b(), 0.73), 112.).P);
-}
-
 TEST(ClosedForm, LoopAreaIsTheReference)
 {
   EXPECT_NEAR(loop_area(with_friction_by_drive_speed(model_a())), 677.8639225, 5e-8);
@@ -182,15 +166,6 @@ TEST(ClosedForm, LoopAreaOfASmoothDriveIsTheReference)
   EXPECT_NEAR(loop_area(scene), 596.8775636513263, 1e-9 * 596.);
   scene.drive = Drive(DriveProfile::harmonic, 0., 65., 300., 1.);
   EXPECT_NEAR(loop_area(scene), 824.6971991239793, 1e-8 * 824.);
-}
-
-TEST(ClosedForm, LoopAreaEqualsFrictionWork)
-{
-  for (const Scene &scene : scenes())
-  {
-    EXPECT_GT(friction_work(scene), 0.);
-    EXPECT_NEAR(loop_area(scene), friction_work(scene), 1e-9 * friction_work(scene));
-  }
 }
 
 TEST(ClosedForm, BackwardStrokeStopsDampingAtTheCriticalInclination)
