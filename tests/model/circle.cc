@@ -9,55 +9,6 @@
 
 using namespace sprag;
 
-namespace
-{
-  constexpr unsigned int n = 4;
-  using Coordinates        = dealii::Tensor<1, n>;
-
-  // A raised pivot and a point off the ideal contact: nothing cancels.
-  const Geometry geometry = { 56., 45.6, 185.5, 4. };
-  const LeverPoint rest   = { 150., 45.9 };
-  constexpr double x      = 23.;
-  constexpr double theta  = 0.071;
-
-  ContactKinematics<n> moved(const Coordinates &q)
-  {
-    return moving_circle_contact(placed_for_points(geometry, x + q[3], theta + q[2]), { rest.xi + q[0], rest.eta + q[1] });
-  }
-
-  Coordinates along(const unsigned int i, const double h)
-  {
-    Coordinates q;
-    q[i] = h;
-    return q;
-  }
-} // namespace
-
-// Lengths here are about 1, 100 with the rotation's arm; central differences with step h (a rotation h / 100) err by h^2 / 6 of
-// third derivatives and by 1e-14 mm / h of round-off in a gap of some 100 mm positions.
-TEST(Circle, RowsAreTheDerivativesOfGapAndSlipAndCurvaturesThoseOfTheRows)
-{
-  const auto at_rest = moved({});
-  for (unsigned int j = 0; j < n; ++j)
-    for (const double h : { 1e-2, 1e-3, 1e-4, 1e-5 })
-    {
-      const double step    = j == 2 ? h / 100. : h;
-      const auto right     = moved(along(j, step));
-      const auto left      = moved(along(j, -step));
-      const double allowed = (j == 2 ? 150. : 1.) * (1e-2 * h * h + 5e-14 / h);
-      const auto gap_rows  = (right.gap_row - left.gap_row) / (2. * step);
-      const auto slip_rows = (right.slip_row - left.slip_row) / (2. * step);
-      EXPECT_NEAR(at_rest.gap_row[j], (right.gap - left.gap) / (2. * step), allowed) << j << ", h " << h;
-      EXPECT_NEAR(at_rest.slip_row[j], (right.slip - left.slip) / (2. * step), allowed) << j << ", h " << h;
-      for (unsigned int i = 0; i < n; ++i)
-      {
-        const double row_tolerance = (i == 2 ? 150. : 1.) * allowed;
-        EXPECT_NEAR(at_rest.gap_curvature[i][j], gap_rows[i], row_tolerance) << i << j << ", h " << h;
-        EXPECT_NEAR(at_rest.slip_curvature[i][j], slip_rows[i], row_tolerance) << i << j << ", h " << h;
-      }
-    }
-}
-
 TEST(Circle, IdealContactTouchesAtTheClosedFormsPoint)
 {
   for (const auto &scene : { model_a(), model_b() })
