@@ -65,15 +65,6 @@ class SeveralTest(PictureTest):
 
 
 class ParametersTest(unittest.TestCase):
-    def test_values_and_units(self):
-        found = parameters.parse(listing())
-        self.assertEqual(found["Lever/Depth"][:5], ("20", "mm", None, "Depth of the metal, without the friction layer", "a number > 0"))
-        self.assertEqual(found["Friction/Coefficient"][:3], ("0.73", "1", None))  # its default
-        self.assertEqual(parameters.parse(listing(mu="0.7"))["Friction/Coefficient"][:3], ("0.7", "1", "0.73"))
-        own_unit = listing(mu="0.7").replace("# default: 0.73", "# given as 70 %; default: 0.73")
-        self.assertEqual(parameters.parse(own_unit)["Friction/Coefficient"][:3], ("0.7", "1", "0.73"))
-        self.assertEqual((found["Analysis/Model"].text, found["Analysis/Model"].number), ("beam", None))
-
     def test_what_differs(self):
         same = [parameters.parse(text) for text in (listing(), listing(mu="7.3e-1", interval="3"))]
         self.assertEqual(parameters.differing(same), [])

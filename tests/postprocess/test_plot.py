@@ -15,7 +15,6 @@ from pictures import PictureTest, draw  # noqa: E402
 from real_results import real_result, run_once  # noqa: E402
 import forces  # noqa: E402
 import isolation  # noqa: E402
-from sprag import results  # noqa: E402
 
 
 def cut(file, rows):
@@ -115,13 +114,6 @@ class PlotTest(PictureTest):
                     if name == "table/x":
                         file[name] = "a text"
                 self.expect_refusal(self.plot(self.folder / name.replace("/", "-")), "damaged or of another version")
-
-    def test_parameters_as_used(self):
-        result = results.read_result(run_once("closed-form-a"))
-        self.assertEqual(result.parameter("Drive", "Speed"), "112")
-        self.assertEqual(result.parameter("Friction", "Factor"), "1")
-        with self.assertRaises(KeyError):
-            result.parameter("Drive", "Factor")
 
 
 if __name__ == "__main__":

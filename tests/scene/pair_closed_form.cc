@@ -62,24 +62,6 @@ namespace
   }
 } // namespace
 
-TEST(PairClosedForm, WithoutOffsetEachLeverIsASingleOneToTheLastDigit)
-{
-  for (const Scene &scene : pairs(0., 1.))
-    for (const double x : { 0., 20., 65. })
-      for (const double v : { 112., -112. })
-      {
-        const auto single = closed_form(scene, x, v);
-        for (const auto &lever : pair_closed_form(scene, x, v))
-        {
-          EXPECT_TRUE(lever.touches);
-          EXPECT_EQ(lever.state.P, single.P);
-          EXPECT_EQ(lever.state.Q, single.Q);
-          EXPECT_EQ(lever.state.contact.theta, single.contact.theta);
-          EXPECT_EQ(lever.spring_energy, moment_law(scene.spring).energy(turn(scene, single.contact.theta)));
-        }
-      }
-}
-
 // Eq. 9 with the cylinder's centre off the mirror plane: nearer to the pivot of the first lever by as much as it is farther from
 // that of the second.
 TEST(PairClosedForm, BothLeversTouchTheCylinderWhereverItIs)
@@ -193,20 +175,4 @@ TEST(PairClosedForm, LeversThatSwingTogetherStandClearAtTheStartAndPressAtOnce)
   EXPECT_NEAR(turn(scene, theta[0]), 0.5 / (g.pivot_distance * std::cos(theta[0])), 1e-5);
   for (const auto &lever : pair_closed_form(scene, 0.01, 1.))
     EXPECT_GT(lever.state.P, 0.);
-}
-
-TEST(PairClosedForm, TheDrivesWorkIsRubbedAwayOrStored)
-{
-  for (const double offset : { -0.5, 0., 0.5 })
-    for (const Scene &scene : pairs(offset, 0.8))
-      for (const double end : { 0.3, scene.drive.duration() })
-      {
-        const auto works   = pair_work_between(scene, 0., end);
-        const double drive = works[0].drive + works[1].drive;
-        const double left  = drive - works[0].friction - works[1].friction - spring_energy(scene, scene.drive.at(end).x) +
-                            spring_energy(scene, 0.);
-        EXPECT_NEAR(left, 0., 1e-8 * drive) << "offset " << offset << " end " << end;
-        EXPECT_GT(works[0].friction, 0.);
-        EXPECT_GT(works[1].friction, 0.);
-      }
 }

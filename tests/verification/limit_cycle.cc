@@ -100,15 +100,6 @@ TEST(LimitCycle, TellsItsErrorSlow)
   }
 }
 
-TEST(LimitCycle, SaysInWordsWhyAnIrregularOneHasNoError)
-{
-  const JudgedSlide checked(backward_a(ModelType::beam, 6.));
-  HeldRun run(checked.dynamics.model(), checked.step());
-  for (const auto &error : compute_errors(checked, run, after_kick(checked, 1e-3, run)))
-    EXPECT_NE(error.unknown.find("P does not repeat itself"), std::string::npos) << error.quantity;
-  EXPECT_TRUE(compute_errors(checked, run, { Settling::slide, {} }).empty());
-}
-
 // Friction and damping take what the turning cylinder gives, over whole cycles and with everything that opens and sticks.
 TEST(LimitCycle, ClosesTheLedger)
 {
