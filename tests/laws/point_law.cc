@@ -125,18 +125,6 @@ TEST(FrictionTraction, StickKeepsTheTrialUpToTheConeAtRest)
   }
 }
 
-TEST(FrictionTraction, SlipUnderCoulombIsMuTimesThePressureOfNow)
-{
-  for (const double trial : { 1.5, 3., -3., 1e3 })
-  {
-    const auto friction = friction_traction(trial, 2., coulomb, 500., 0.01);
-    EXPECT_TRUE(friction.slipping);
-    EXPECT_NEAR(friction.traction, std::copysign(1.46, trial), 4. * epsilon * std::abs(trial));
-    EXPECT_NEAR(friction.d_trial, 0., 1e-14);
-    EXPECT_DOUBLE_EQ(friction.d_pressure, std::copysign(0.73, trial));
-  }
-}
-
 TEST(FrictionTraction, SlipSpeedAndCoefficientAreSolvedTogether)
 {
   for (const auto &law : { coulomb, cork, table })

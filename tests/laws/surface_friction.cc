@@ -113,16 +113,6 @@ TEST(SurfaceFriction, TurnsWithTheSlipOnTheConeAndDissipates)
   }
 }
 
-TEST(SurfaceFriction, CoulombHasTheSizeOfItsConeWhateverItsDirection)
-{
-  const auto friction = friction_traction(Two({ 30., -40. }), 2., coulomb, 500., 0.01);
-  EXPECT_NEAR(friction.traction[0], 0.6 * 1.46, 1e-14);
-  EXPECT_NEAR(friction.traction[1], -0.8 * 1.46, 1e-14);
-  // Only the direction follows the trial: nothing along it, t / |trial| across.
-  EXPECT_NEAR((friction.d_trial * Two({ 0.6, -0.8 })).norm(), 0., 1e-15);
-  EXPECT_NEAR((friction.d_trial * Two({ 0.8, 0.6 }) - 1.46 / 50. * Two({ 0.8, 0.6 })).norm(), 0., 1e-15);
-}
-
 TEST(SurfaceFriction, TangentIsTheDerivativeWhereSlipTurns)
 {
   const History histories[] = { {}, { along(0.3, 14.), along(0.2, 110.), dt }, { along(2., 3.), along(1.9, 60.), 2. * dt } };

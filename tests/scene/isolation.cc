@@ -226,20 +226,6 @@ TEST(IsolationInput, LeversThatEndOrLockAtTheBeginningAreRefused)
                  "whatever pulls it back");
 }
 
-TEST(IsolationInput, RecordsNeedAUnit)
-{
-  const std::string rows = "0,1\n0.1,2\n0.2,3\n0.3,4\n";
-  EXPECT_NE(find_message(record_scene, "Isolation/Base table", "time,acceleration\n" + rows)
-                .find("unit of the acceleration is not known"),
-            std::string::npos);
-  EXPECT_EQ(find_message(record_scene, "Isolation/Base table", "time [s], acceleration [m/s2]\n" + rows), "");
-  EXPECT_EQ(
-      find_message({ record_scene[0], record_scene[1], record_scene[2], "Isolation/Base unit=g" }, "Isolation/Base table", rows),
-      "");
-  EXPECT_NE(find_message(record_scene, "Isolation/Base table", "time [s], acceleration [V]\n" + rows).find("must be in mm/s2"),
-            std::string::npos);
-}
-
 TEST(IsolationInput, TheUnitOfARecordScalesIt)
 {
   const TemporaryFolder folder;
