@@ -93,38 +93,6 @@ TEST(HubSpring, ActsOnTheRotationBesidesTheContact)
   EXPECT_NEAR(together.tangent(1, 1), 11. - 3. * c * turn * turn, 1e-12 * k);
 }
 
-/// Work of the force of a step is the change of energy and, with a delay, what the scheme dissipates.
-TEST(HubSpring, ItsForceOfAStepMakesNoEnergy)
-{
-  HubSpringExcess spring(layout, { hardening() });
-  for (const double radius : { 1., 0.8, 0. })
-    for (const auto &[begin, end] : { std::pair<double, double>{ 0.01, 0.04 }, { 0.03, -0.02 }, { 0.02, 0.02 + 1e-9 } })
-    {
-      const auto weights = generalised_alpha(radius, 1e-4);
-      const auto forces  = with(spring, contact_forces({}), PerLever{ { begin } }, PerLever{ { end } }, weights);
-      StepWork work;
-      spring.add_work({ { begin } }, { { end } }, weights, work);
-      const double done = -forces.values[0] * (end - begin);
-      EXPECT_NEAR(done, excess_energy(end) - excess_energy(begin) + work.algorithmic, 1e-12 * k * 1e-4);
-      EXPECT_GE(work.algorithmic, 0.);
-    }
-}
-
-TEST(HubSpring, ItsTangentOfAStepMatchesDifferences)
-{
-  HubSpringExcess spring(layout, { hardening() });
-  const auto weights = generalised_alpha(0.8, 1e-4);
-  const double h     = 1e-5;
-  for (const double end : { 0.04, -0.013 })
-  {
-    const auto force = [&](const double at)
-    { return with(spring, contact_forces({}), PerLever{ { 0.01 } }, PerLever{ { at } }, weights).values[0]; };
-    const double tangent = with(spring, contact_forces({}), PerLever{ { 0.01 } }, PerLever{ { end } }, weights).tangent(0, 0);
-    // Third derivatives of the excess, 6 c, by h^2 / 6; round-off of the moments over h.
-    EXPECT_NEAR(tangent, (force(end + h) - force(end - h)) / (2. * h), c * h * h + 1e-13 * k / h);
-  }
-}
-
 /// A rigid lever with a leaf spring of one vibration: two degrees of freedom by hand.
 TEST(HubSpring, ALeafsVibrationCouplesWithTheRotation)
 {
@@ -185,33 +153,37 @@ TEST(HubSpring, JoinedOnesOpenAgainstTheirMeanTurnAndSwingFreely)
   }
 }
 
-TEST(HubSpring, AStepOfJoinedOnesMakesNoEnergyAndItsTangentMatchesDifferences)
+/// Work of the forces of a step is the change of energy and, with a delay, what the scheme dissipates.
+TEST(HubSpring, AStepMakesNoEnergyAndItsTangentMatchesDifferences)
 {
-  HubSpringExcess spring(pair_layout, { hardening(), hardening() }, true);
-  const PerLever begin{ { 0.01, 0.03 } };
-  const PerLever end{ { 0.04, 0.02 } };
-  for (const double radius : { 1., 0.8, 0. })
-  {
-    const auto weights = generalised_alpha(radius, 1e-4);
-    const auto forces  = with(spring, contact_forces({}), begin, end, weights);
-    StepWork work;
-    spring.add_work(begin, end, weights, work);
-    double done = 0.;
-    for (unsigned int i = 0; i < 2; ++i)
-      done -= forces.values[i] * (end[i] - begin[i]);
-    EXPECT_NEAR(done, joined_energy(end) - joined_energy(begin) + work.algorithmic, 1e-12 * k * 1e-2);
-    const double h = 1e-6;
-    for (unsigned int j = 0; j < 2; ++j)
-    {
-      PerLever more = end, less = end;
-      more[j] += h;
-      less[j] -= h;
-      const auto right = with(spring, contact_forces({}), begin, more, weights).values;
-      const auto left  = with(spring, contact_forces({}), begin, less, weights).values;
-      for (unsigned int i = 0; i < 2; ++i)
-        EXPECT_NEAR(forces.tangent(i, j), (right[i] - left[i]) / (2. * h), 1e-8 * k);
-    }
-  }
+  for (const bool joined : { false, true })
+    for (const double radius : { 1., 0.8, 0. })
+      for (const auto &[begin, end] : { std::pair<PerLever, PerLever>{ { { 0.01, 0.03 } }, { { 0.04, 0.02 } } },
+                                        { { { 0.03, 0.02 } }, { { -0.02, 0.02 + 1e-9 } } } })
+      {
+        HubSpringExcess spring(pair_layout, { hardening(), hardening() }, joined);
+        const auto weights = generalised_alpha(radius, 1e-4);
+        const auto forces  = with(spring, contact_forces({}), begin, end, weights);
+        StepWork work;
+        spring.add_work(begin, end, weights, work);
+        double done = 0.;
+        for (unsigned int i = 0; i < 2; ++i)
+          done -= forces.values[i] * (end[i] - begin[i]);
+        EXPECT_NEAR(done, spring.energy(end) - spring.energy(begin) + work.algorithmic, 1e-12 * k * 1e-4);
+        EXPECT_TRUE(joined || work.algorithmic >= 0.);
+        const double h = 1e-6;
+        // Differences reach over the end of a step that is shorter than they are.
+        for (unsigned int j = 0; j < 2 && std::abs(end[j] - begin[j]) > h; ++j)
+        {
+          PerLever more = end, less = end;
+          more[j] += h;
+          less[j] -= h;
+          const auto right = with(spring, contact_forces({}), begin, more, weights).values;
+          const auto left  = with(spring, contact_forces({}), begin, less, weights).values;
+          for (unsigned int i = 0; i < 2; ++i)
+            EXPECT_NEAR(forces.tangent(i, j), (right[i] - left[i]) / (2. * h), 1e-8 * k);
+        }
+      }
 }
 
 TEST(HubSpring, EachLeverOfAPairHasItsOwnWhereTheJointIsHeld)
