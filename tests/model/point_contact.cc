@@ -240,27 +240,6 @@ TEST(PointContact, ForceOfTheSpringIsMinusTheDerivativeOfItsEnergy)
   }
 }
 
-TEST(PointContact, MomentInSlidingIsThatOfTheClosedForm)
-{
-  // Straight lever: the moment is P (s + sigma mu e), s of the point across from the centre; the slip is that of the circle's
-  // undeformed surface, R/(R - delta) as much.
-  for (const double direction : { 1., -1. })
-  {
-    Case lever      = levers(coulomb)[0];
-    lever.direction = direction;
-    const Vector at = lever.position(0., 0.01);
-    PointContact contact(lever.properties());
-    PointContact::Evaluation found;
-    contact.evaluate_sliding({ at, lever.drive(0.), direction * 100. }, found);
-    const double P     = stiffness * 0.01;
-    const double theta = lever.properties().rest_inclination + at[0];
-    const double s     = cylinder_centre(geometry, lever.x, theta).xi;
-    ASSERT_EQ(found.forces.dofs.size(), 1u);
-    // k times the round-off of the gap, 1e-13 mm after it was solved for, times the arm.
-    EXPECT_NEAR(found.forces.values[0], P * (s + direction * 0.73 * geometry.interface_offset * 56. / 55.99), 1e-7);
-  }
-}
-
 // The speed of 1 mm/s, over which friction changes sign, leaves a share of mu p.
 TEST(PointContact, ASlideHasTheMuOfItsLawWhereRegularisationLeavesLessFriction)
 {
