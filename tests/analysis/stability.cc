@@ -390,6 +390,19 @@ TEST(CriticalValues, ScenesThatAreNotAdmittedArePassedOver)
   EXPECT_TRUE(critical_values(scene, { "Geometry/Interface offset", 56., 80., 3 }, 1e-3, maker).changes.empty());
 }
 
+// A thin one: bending that is made stiff alone still vibrates at 3 kHz, with hardly any damping.
+TEST(Roles, ABeamWithoutFlexureIsARigidLever)
+{
+  const Scene scene = from_params("stability-a.prm", { "Lever/Depth=2", "Lever/Modal damping=0.001", "Contact/Damping=0.2",
+                                                       "Stability/Position=40", "Stability/Direction=forward" });
+  DynamicsMaker maker;
+  const auto found   = roles(scene, check_slide(scene, maker), maker);
+  const auto flexure = std::find_if(found.begin(), found.end(), [](const Role &role) { return role.name == "without_flexure"; });
+  ASSERT_NE(flexure, found.end());
+  const double rigid = check_slide(variant(scene, { "Analysis/Model=rigid" }), maker).growth_rate();
+  EXPECT_NEAR(flexure->found.value().growth_rate(), rigid, 1e-6 * std::abs(rigid));
+}
+
 TEST(Roles, FlexureMakesTheSpragSlip)
 {
   const Scene scene = from_params("stability-a.prm", {});

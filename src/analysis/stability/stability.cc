@@ -157,9 +157,14 @@ namespace sprag
     }
     if (scene.analysis.model != ModelType::rigid)
     {
-      Scene stiff = scene;
-      stiff.lever.young_modulus *= rigid_factor;
-      result.push_back(checked("without_flexure", "Young's modulus of the lever times 1e4", stiff, maker));
+      const bool is_beam = scene.analysis.model == ModelType::beam;
+      Scene stiff        = scene;
+      if (is_beam)
+        stiff.analysis.model = ModelType::rigid;
+      else
+        stiff.lever.young_modulus *= rigid_factor;
+      result.push_back(
+          checked("without_flexure", is_beam ? "a rigid lever" : "Young's modulus of the lever times 1e4", stiff, maker));
     }
     return result;
   }
