@@ -19,7 +19,6 @@
 #include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iosfwd>
@@ -54,33 +53,37 @@ namespace sprag
       return noise.effective_rows() < least_independent * noise.rows && noise.deviation > least_deviation * peak;
     }
 
-    /// Returns what to do about a force measured with the wrong sign, empty where there is none. A lever presses, and friction
-    /// gives no work back: in the mean P is positive, and Q no larger on the way back than on the way out.
-    std::string turned_sign(const Scene &scene, const StrokeFit &fit, const Identification &found)
+    /// Returns what to do about forces that are exchanged or have the wrong sign, empty where there are none. A lever presses,
+    /// and friction gives no work back: P is positive, and Q no larger on the way back than on the way out, in the mean.
+    std::string mistaken_force(const Scene &scene, const StrokeFit &fit, const Identification &found)
     {
-      const auto &channels = scene.identification.measured.channels;
-      std::array<double, 2> sums{}, numbers{};
-      double total_P = 0.;
-      for (const auto &value : found.used)
-        if (channels[value.channel].force == MeasuredForce::drive)
-        {
-          const std::size_t direction = fit.motion.strokes()[value.stroke].direction > 0 ? 0 : 1;
-          sums[direction] += value.value;
-          ++numbers[direction];
-        }
-        else if (channels[value.channel].force == MeasuredForce::normal)
-          total_P += value.value;
-      if (total_P < 0.)
+      /// Returns the mean of a force on the way out (1) or back (-1); NaN without values.
+      const auto mean = [&](const MeasuredForce force, const int direction)
+      {
+        double sum = 0., number = 0.;
+        for (const auto &value : found.used)
+          if (scene.identification.measured.channels[value.channel].force == force &&
+              fit.motion.strokes()[value.stroke].direction * direction > 0)
+          {
+            sum += value.value;
+            ++number;
+          }
+        return sum / number;
+      };
+      const double P_out = mean(MeasuredForce::normal, 1), P_back = mean(MeasuredForce::normal, -1);
+      const double Q_out = mean(MeasuredForce::drive, 1), Q_back = mean(MeasuredForce::drive, -1);
+      if (P_out * P_back < 0. && Q_out * Q_back > 0.)
+        return "Exchange P and Q: as measured, P turns with the motion and Q does not.";
+      if (P_out < 0. || P_back < 0.)
         return "Turn the sign of P: as measured, the lever pulls at the cylinder.";
-      const bool gives_work_back = numbers[0] > 0. && numbers[1] > 0. && sums[0] / numbers[0] < sums[1] / numbers[1];
-      return gives_work_back ? "Turn the sign of Q: as measured, friction gives work back to the drive." : "";
+      return Q_out < Q_back ? "Turn the sign of Q: as measured, friction gives work back to the drive." : "";
     }
 
-    /// Prepends the unknowns that would explain the residuals to a remedy; a wrong sign replaces it.
-    std::string another_remedy(const std::string &remedy, const Identification &found, const std::string &turned)
+    /// Prepends the unknowns that would explain the residuals to a remedy; what mistaken_force() says replaces it.
+    std::string another_remedy(const std::string &remedy, const Identification &found, const std::string &mistaken)
     {
-      if (!turned.empty())
-        return turned;
+      if (!mistaken.empty())
+        return mistaken;
       const auto named = mapped(found.more, [](const auto &more)
                                 { return more.name + " (by about " + with_unit(more.change, more.unit) + ")"; });
       return (named.empty() ? "" : "Check " + boost::algorithm::join(named, " or ") + ", which would explain the residuals. ") +
@@ -189,7 +192,7 @@ namespace sprag
       if (!not_followed.empty())
       {
         auto warning   = make_warning("model_does_not_follow", { boost::algorithm::join(not_followed, ", ") });
-        warning.remedy = another_remedy(warning.remedy, found, turned_sign(scene, fit, found));
+        warning.remedy = another_remedy(warning.remedy, found, mistaken_force(scene, fit, found));
         warnings.push_back(warning);
       }
       const auto &indistinct = found.uncertainty.indistinct;

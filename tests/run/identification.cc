@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <gtest/gtest.h>
 
 using namespace sprag;
@@ -123,15 +124,28 @@ TEST_F(RunIdentification, WarnsWhereTheModelDoesNotFollow)
   EXPECT_NE(warnings.front().remedy.find("Geometry/Cylinder radius"), std::string::npos) << warnings.front().remedy;
 }
 
-TEST_F(RunIdentification, NamesTheForceWhoseSignIsTurned)
+TEST_F(RunIdentification, NamesForcesOfTheWrongSignOrExchanged)
 {
-  for (const auto &[force, remedy] :
-       { std::pair(MeasuredForce::normal, "Turn the sign of P"), std::pair(MeasuredForce::drive, "Turn the sign of Q") })
+  using Channels  = std::vector<ForceChannel>;
+  const auto turn = [](const MeasuredForce force)
+  {
+    return [force](Channels &channels)
+    {
+      for (auto &channel : channels)
+        for (double &value : channel.values)
+          value *= channel.force == force ? -1. : 1.;
+    };
+  };
+  const auto exchange = [](Channels &channels) { std::swap(channels.at(0).values, channels.at(1).values); };
+  const std::vector<std::pair<std::function<void(Channels &)>, std::string>> mistakes = {
+    { turn(MeasuredForce::normal), "Turn the sign of P" },
+    { turn(MeasuredForce::drive), "Turn the sign of Q" },
+    { exchange, "Exchange P and Q" },
+  };
+  for (const auto &[mistake, remedy] : mistakes)
   {
     Scene scene = identification({ "Identification/Unknowns=mu, k" });
-    for (auto &channel : scene.identification.measured.channels)
-      for (double &value : channel.values)
-        value *= channel.force == force ? -1. : 1.;
+    mistake(scene.identification.measured.channels);
     Warnings warnings;
     try
     {
