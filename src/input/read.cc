@@ -357,7 +357,14 @@ namespace sprag
             check_range(parameter, range);
         };
         if (scene.analysis.type == AnalysisType::stability || scene.analysis.type == AnalysisType::map)
-          check_list("Stability/Ranges", uncertain_ranges(scene), "none");
+        {
+          const auto ranges = uncertain_ranges(scene);
+          check_list("Stability/Ranges", ranges, "none");
+          std::set<std::string> names;
+          for (const auto &range : ranges.value_or(std::vector<ParameterRange>()))
+            if (!names.insert(range.name).second)
+              report("Stability/Ranges", range.name + " must be there once only");
+        }
         if (scene.analysis.type == AnalysisType::stability)
           check_list("Stability/Critical", critical_searches(scene), "auto, none");
       }

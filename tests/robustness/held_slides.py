@@ -50,6 +50,9 @@ REFUSED = {
         "Lever/Depth 3": ["must be auto, none or a list of SECTION/NAME FROM TO"],
         "Friction/Coefficient 0.1 1": ["Friction/Coefficient counts only with Friction/Law = Coulomb", "Friction/Factor"],
     }.items()},
+    "ranges of one parameter": ({**BEAM, "Analysis/Type": "stability"}, {
+        "Stability/Ranges=Contact/Damping 0.01 0.1; Contact/Damping 0.02 0.05": ["Contact/Damping must be there once only"],
+    }),
     "sprag slip that cannot begin": ({**SLIP, "Sprag slip/Initial amplitude": 0.1}, {
         "Sprag slip/Final amplitude=0.01": ["more than Initial amplitude = 0.1"],
         "Sprag slip/Turn=70": ["0 ... 65 mm"],
