@@ -537,10 +537,10 @@ namespace sprag
     /// The failure of the method, beyond a share of friction at which there is an equilibrium.
     static AnalysisError no_equilibrium(const DrivePoint &drive, const double share)
     {
-      return AnalysisError("no equilibrium found at x = " + mm(drive.x) + " with all of the friction; with " +
-                           formatted("%.6g", 100. * share) +
-                           " % of it there is one, and the lever does not jam. Try another Friction/Factor, Stability/Position "
-                           "or mesh.");
+      return AnalysisError(
+          "no equilibrium found at x = " + mm(drive.x) + " with all of the friction" +
+          (share < 1. ? "; with " + formatted("%.6g", 100. * share) + " % of it there is one" : "") +
+          ", and no fold at which the lever would jam. Try another Friction/Factor, Stability/Position or mesh.");
     }
 
     /// Follows the equilibrium from no friction to the scene's, in steps that are halved where Newton's method fails or has left
