@@ -231,7 +231,7 @@ namespace sprag
 
     std::string other_speed_text(const DesignSpeed &speed)
     {
-      return speed.has_table ? "the table's own over its base" : "a tenth";
+      return std::isnan(speed.amplitude) ? "a tenth" : "the table's own over its base";
     }
 
     std::vector<Entry> design_summary(const DesignSettings &design, const DesignFindings &findings)

@@ -40,9 +40,8 @@ namespace sprag
     const auto mu_at        = [&](const double speed) { return closed_form(lever, 0., speed).mu; };
     const double speed      = lever.drive.peak_speed();
     const double amplitude  = table_amplitude(lever);
-    const bool has_table    = !std::isnan(amplitude);
-    const double other      = has_table ? 2. * M_PI * lever.isolation.base_frequency * amplitude : slower * speed;
-    DesignSpeed result      = { speed, mu_at(speed), other, mu_at(other), has_table, amplitude, lever.drive.maximum(), {}, {} };
+    const double other      = std::isnan(amplitude) ? slower * speed : 2. * M_PI * lever.isolation.base_frequency * amplitude;
+    DesignSpeed result      = { speed, mu_at(speed), other, mu_at(other), amplitude, lever.drive.maximum(), {}, {} };
     Scene there             = lever;
     if (result.mu > 0.)
       there.friction.factor *= result.other_mu / result.mu;

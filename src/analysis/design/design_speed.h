@@ -19,13 +19,12 @@ namespace sprag
   /// The speed and stroke at which a design takes its lever, those of its drive, beside the machine's own motion.
   struct DesignSpeed
   {
-    double speed;           ///< of the drive [mm/s]
-    double mu;              ///< at x = 0
-    double other;           ///< the table's largest over the base by harmonic balance; without a table a tenth of `speed` [mm/s]
-    double other_mu;        ///< at x = 0
-    bool has_table = false; ///< whether `other` is the table's
-    double amplitude;       ///< of the table over the base; NaN without one [mm]
-    double stroke;          ///< largest x of the drive [mm]
+    double speed;     ///< of the drive [mm/s]
+    double mu;        ///< at x = 0
+    double other;     ///< the table's largest over the base by harmonic balance; without a table a tenth of `speed` [mm/s]
+    double other_mu;  ///< at x = 0
+    double amplitude; ///< of the table over the base; NaN without one [mm]
+    double stroke;    ///< largest x of the drive [mm]
     std::vector<MissedDemand> missed; ///< at the other speed
     std::string broken_rule;          ///< of all levers, which this one breaks there; empty: none
   };

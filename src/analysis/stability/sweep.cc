@@ -72,9 +72,10 @@ namespace sprag
     {
       constexpr unsigned int intervals = 8;
       constexpr double wide            = 4.;
-      const auto [low, high]           = std::minmax(range.from, range.to);
+      const double low                 = std::min(range.from, range.to);
+      const double high                = std::max(range.from, range.to);
       const auto rounded               = [](const double value) { return std::stod(rounded_text(value)); };
-      const auto at_share              = [&, low = low, high = high](const double share)
+      const auto at_share              = [&](const double share)
       { return rounded(low > 0. ? low * std::pow(high / low, share) : low + (high - low) * share); };
       std::vector<double> result;
       if (is_reduced(scene.analysis.model))
