@@ -2,6 +2,7 @@
 #include "run/design_checks.h"
 
 #include "analysis/stability/stability.h"
+#include "analysis/stability/sweep.h"
 #include "analytic/isolation.h"
 #include "base/errors.h"
 #include "base/ranges.h"
@@ -29,7 +30,8 @@ namespace sprag
   {
     using Q = DesignQuantity;
 
-    constexpr double infinite = std::numeric_limits<double>::infinity();
+    constexpr double infinite             = std::numeric_limits<double>::infinity();
+    constexpr const char *no_unique_slide = "there is no unique slide at some x of the stroke: the lever jams";
 
     /// Share of the drive from its smallest x: near enough to x = 0 for the slope, and far enough for a contact.
     constexpr double share_for_slopes = 0.05;
@@ -71,7 +73,7 @@ namespace sprag
                        : unknown;
     }
 
-    /// Q and P of slides at places, of one way.
+    /// Q and P of slides at sample_positions(), of one way.
     struct Slides
     {
       std::vector<double> Q, P;
@@ -80,20 +82,27 @@ namespace sprag
       bool all_unique       = true;
     };
 
-    Slides slides_along(const Scene &scene, const Direction direction, DynamicsMaker &maker)
+    /// `places_of_growth`: further x, whose forces do not count.
+    Slides slides_along(const Scene &scene, const Direction direction, const std::vector<double> &places_of_growth,
+                        DynamicsMaker &maker)
     {
       Slides result;
-      for (const double x : sample_positions(scene))
+      const auto look_at = [&](const double x)
       {
-        const auto found   = slide_at(scene, x, direction, maker);
+        auto found         = slide_at(scene, x, direction, maker);
         result.growth_rate = std::max(result.growth_rate, compute_growth(found));
         result.all_unique  = result.all_unique && found.slide && found.kind != SlideKind::jammed;
-        if (!found.slide)
-          continue;
-        result.Q.push_back(found.slide->forces.Q);
-        result.P.push_back(found.slide->forces.P);
-        result.jamming_margin = std::min(result.jamming_margin, found.slide->margin);
-      }
+        return std::move(found.slide);
+      };
+      for (const double x : sample_positions(scene))
+        if (const auto slide = look_at(x))
+        {
+          result.Q.push_back(slide->forces.Q);
+          result.P.push_back(slide->forces.P);
+          result.jamming_margin = std::min(result.jamming_margin, slide->margin);
+        }
+      for (const double x : places_of_growth)
+        look_at(x);
       return result;
     }
 
@@ -200,6 +209,8 @@ namespace sprag
       compute(check);
       for (const auto &corner : tolerance_corners(design.design))
         check_corner(overrides(design.design.toleranced, corner), check);
+      if (by != CheckModel::table && check.passes(design.design.demanded))
+        check_stroke(check);
       if (in_time && check.passes(design.design.demanded))
         follow_in_time(check);
     }
@@ -256,12 +267,12 @@ namespace sprag
     check.warnings    = scene_warnings(scene);
     require_memory(scene);
     auto &maker                 = *in_memory.dynamics;
-    const auto out              = slides_along(scene, Direction::forward, maker);
-    const auto back             = slides_along(scene, Direction::backward, maker);
+    const auto out              = slides_along(scene, Direction::forward, places_of_growth, maker);
+    const auto back             = slides_along(scene, Direction::backward, places_of_growth, maker);
     check.found[Q::growth_rate] = std::max(out.growth_rate, back.growth_rate);
     if (!out.all_unique || !back.all_unique)
     {
-      check.failure = "there is no unique slide at some x of the stroke: the lever jams";
+      check.failure = no_unique_slide;
       return;
     }
     const auto ideal      = lever_quantities(scene);
@@ -269,6 +280,26 @@ namespace sprag
     const double backward = ratio_near_rest(scene, Direction::backward, maker);
     add_slopes(scene, forward * ideal[Q::forward_slope], backward * ideal[Q::backward_slope], check.found);
     add_forces(scene, out, back, check.found);
+  }
+
+  void DesignChecks::check_stroke(ModelCheck &check)
+  {
+    const auto corners = tolerance_corners(design.design);
+    for (std::size_t corner = 0; corner <= corners.size(); ++corner)
+    {
+      auto at = check;
+      if (corner > 0)
+        at.corner = overrides(design.design.toleranced, corners[corner - 1]);
+      const auto worst = sweep(make_scene(at), *in_memory.dynamics, { false, std::vector<std::string>() }).worst();
+      const bool jams  = worst.kind == SlideKind::jammed;
+      double &growth   = (corner > 0 ? check.at_corners[corner - 1] : check.found)[Q::growth_rate];
+      if (!jams && worst.growth_rate <= growth)
+        continue;
+      growth = jams ? infinite : worst.growth_rate;
+      places_of_growth.push_back(worst.drive.x);
+      if (jams)
+        check.failure = no_unique_slide;
+    }
   }
 
   void DesignChecks::follow_in_time(ModelCheck &check)
@@ -297,8 +328,8 @@ namespace sprag
     auto &maker         = *in_memory.dynamics;
     try
     {
-      const double forward = slides_along(beam, Direction::forward, maker).growth_rate;
-      return std::max(forward, slides_along(beam, Direction::backward, maker).growth_rate);
+      const double forward = slides_along(beam, Direction::forward, places_of_growth, maker).growth_rate;
+      return std::max(forward, slides_along(beam, Direction::backward, places_of_growth, maker).growth_rate);
     }
     catch (const AnalysisError &)
     {

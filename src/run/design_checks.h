@@ -47,7 +47,8 @@ namespace sprag
   const ModelCheck *last_check(const std::vector<ModelCheck> &checks, const Proposal &lever);
 
   /// Computes levers of a design again by more expensive models. Forces come from steady slides at Design/Positions both ways,
-  /// and one near x = 0 for the slopes; in time from the drive followed once.
+  /// and one near x = 0 for the slopes; in time from the drive followed once. A lever that meets the demands there is checked
+  /// over the whole stroke: where a slide grows faster than at these x, levers are looked at from then on.
   class DesignChecks
   {
   public:
@@ -62,12 +63,14 @@ namespace sprag
   private:
     const Scene design;
     InMemory in_memory = run_in_memory();
+    std::vector<double> places_of_growth; ///< looked at for growth besides Design/Positions [mm]
 
     Scene make_scene(const ModelCheck &check) const;
     void compute(ModelCheck &check);
     void check_corner(const std::vector<std::string> &corner, ModelCheck &check);
     void check_table(ModelCheck &check) const;
     void check_slides(ModelCheck &check);
+    void check_stroke(ModelCheck &check);
     void follow_in_time(ModelCheck &check);
   };
 } // namespace sprag
