@@ -115,6 +115,20 @@ namespace
     return stroke;
   }
 
+  /// With white noise of 1 % of each reading.
+  MeasuredStroke measured_in_percent(const std::vector<Row> &rows, const unsigned int seed)
+  {
+    auto stroke      = measured(rows, { 0., 0. }, seed);
+    const auto noisy = measured(rows, { 1., 0. }, seed);
+    for (std::size_t i = 0; i < stroke.channels.size(); ++i)
+      for (std::size_t row = 0; row < stroke.rows(); ++row)
+      {
+        double &value = stroke.channels[i].values[row];
+        value *= 1. + 0.01 * (noisy.channels[i].values[row] - value);
+      }
+    return stroke;
+  }
+
   double inclination(const Scene &scene)
   {
     return kinematics(scene.geometry, 0.).theta;
@@ -161,6 +175,16 @@ TEST(Identification, IntervalsHoldTheTruthUnderCorrelatedNoise)
                 [&](const unsigned int seed) {
                   return measured(rows, { 0.2, 0.8 }, seed);
                 });
+}
+
+TEST(Identification, IntervalsHoldTheTruthUnderNoiseThatGrowsWithTheForce)
+{
+  const Scene truth = device();
+  const auto rows   = compute_rows(truth);
+  const auto all    = { Unknown::friction_constant, Unknown::stiffness, Unknown::interface_offset };
+  expect_honest(
+      guess(truth, all), { { "mu", 0.73 }, { "k", 7.4e4 }, { "e", 45.6 } },
+      [&](const unsigned int seed) { return measured_in_percent(rows, seed); }, seeds / 2);
 }
 
 TEST(Identification, FindsOffsetsAndLag)

@@ -355,10 +355,11 @@ namespace sprag
         result.lever = lever();
         const auto slopes =
             jacobian([&](const auto &at) { return fit.residuals(at, result.used, deviations, result.correction); }, scaled);
-        result.more         = more_unknowns(scene, fit, result, deviations, slopes);
-        const auto &numbers = unknowns.numbers();
-        result.uncertainty  = uncertainty(slopes, result.used, result.noise, numbers, settings.confidence);
-        const auto values   = fit.in_units(scaled);
+        result.more           = more_unknowns(scene, fit, result, deviations, slopes);
+        const auto &numbers   = unknowns.numbers();
+        const auto influences = mapped(residuals(), [&](const double residual) { return influence(settings.loss, residual); });
+        result.uncertainty    = uncertainty(slopes, result.used, influences, result.noise, numbers, settings.confidence);
+        const auto values     = fit.in_units(scaled);
         for (std::size_t i = 0; i < numbers.size(); ++i)
         {
           const double deviation = numbers[i].scale * result.uncertainty.deviations[i];

@@ -221,10 +221,11 @@ namespace sprag
     std::vector<std::string> weak;       ///< sentences: badly separated unknowns, if all are determined
   };
 
-  /// Returns the uncertainty from the Jacobian of residuals in deviations of `noise`, without weights. `confidence` is between 0
-  /// and 1.
+  /// Returns the uncertainty from the Jacobian of residuals in deviations of `noise`, without weights, and their influence().
+  /// Noise may be larger at some values than at others. `confidence` is between 0 and 1.
   Uncertainty uncertainty(const std::vector<double> &jacobian, const std::vector<UsedValue> &values,
-                          const std::vector<ChannelNoise> &noise, const std::vector<UnknownNumber> &unknowns, double confidence);
+                          const std::vector<double> &influences, const std::vector<ChannelNoise> &noise,
+                          const std::vector<UnknownNumber> &unknowns, double confidence);
 
   /// An identified number with its confidence interval, in its unit.
   struct FoundNumber

@@ -129,34 +129,55 @@ namespace sprag
       return names.empty() ? last : boost::algorithm::join(names, ", ") + " and " + last;
     }
 
-    /// Returns the covariance of the scaled unknowns, (J'J)^-1 (sum_c f_c J_c' J_c) (J'J)^-1, by J = U S V'. f_c is
-    /// correlation times spread of channel c, 1 for white normal noise (sandwich estimator).
+    /// Returns the covariance of the scaled unknowns, (J'J)^-1 (sum_i f_i J_i' J_i) (J'J)^-1, by J = U S V'. f_i is correlation
+    /// times spread of the channel of value i, 1 for white normal noise, times `shares` (sandwich estimator).
     std::vector<double> covariance(const SingularValues &singular, const std::vector<UsedValue> &values,
-                                   const std::vector<ChannelNoise> &noise)
+                                   const std::vector<ChannelNoise> &noise, const std::vector<double> &shares)
     {
-      const auto n = singular.values.size();
-      std::vector<double> middle(n * n), inverse(n), result(n * n);
+      const auto n       = singular.values.size();
+      const auto is_lost = [&](const std::size_t a) { return singular.values[a] <= smallest_singular * singular.values[0]; };
+      std::vector<double> result(n * n), change(n); // of the unknowns by one value
+      const auto add = [&](const double factor)
+      {
+        for (std::size_t i = 0; i < n; ++i)
+          for (std::size_t j = 0; j < n; ++j)
+            result[i * n + j] += factor * change[i] * change[j];
+      };
       for (std::size_t row = 0; row < values.size(); ++row)
       {
-        const auto &channel = noise[values[row].channel];
-        const double factor = channel.correlation * channel.spread;
+        std::fill(change.begin(), change.end(), 0.);
         for (std::size_t a = 0; a < n; ++a)
-          for (std::size_t b = 0; b < n; ++b)
-            middle[a * n + b] += factor * singular.left[row * n + a] * singular.left[row * n + b];
+          for (std::size_t i = 0; i < n && !is_lost(a); ++i)
+            change[i] += singular.left[row * n + a] / singular.values[a] * singular.directions[i * n + a];
+        const auto &channel = noise[values[row].channel];
+        add(channel.correlation * channel.spread * shares[row]);
       }
       for (std::size_t a = 0; a < n; ++a)
       {
-        const bool is_lost = singular.values[a] <= smallest_singular * singular.values[0];
-        inverse[a]         = is_lost ? unlimited_deviation : 1. / singular.values[a];
-        if (is_lost)
-          middle[a * n + a] = 1.;
+        for (std::size_t i = 0; i < n; ++i)
+          change[i] = unlimited_deviation * singular.directions[i * n + a];
+        if (is_lost(a))
+          add(1.);
       }
-      for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j)
-          for (std::size_t a = 0; a < n; ++a)
-            for (std::size_t b = 0; b < n; ++b)
-              result[i * n + j] +=
-                  singular.directions[i * n + a] * inverse[a] * middle[a * n + b] * inverse[b] * singular.directions[j * n + b];
+      return result;
+    }
+
+    /// Returns the square of the influence of each value over the mean of its channel: 1 on average, more where there is more
+    /// noise.
+    std::vector<double> noise_shares(const std::vector<UsedValue> &values, const std::vector<double> &influences,
+                                     const std::size_t channels)
+    {
+      std::vector<double> sums(channels), counts(channels), result;
+      for (std::size_t i = 0; i < values.size(); ++i)
+      {
+        sums[values[i].channel] += influences[i] * influences[i];
+        counts[values[i].channel] += 1.;
+      }
+      for (std::size_t i = 0; i < values.size(); ++i)
+      {
+        const double mean = sums[values[i].channel] / counts[values[i].channel];
+        result.push_back(mean > 0. ? influences[i] * influences[i] / mean : 1.);
+      }
       return result;
     }
 
@@ -173,9 +194,10 @@ namespace sprag
                         found.singular.directions[j * n + direction];
         if (found.quantile * std::sqrt(variance) < indistinct_width)
           continue;
-        const auto names = direction_names(found.singular, direction, unknowns);
-        found.indistinct.push_back(names.size() == 1 ? "The data do not tell " + names[0] + "."
-                                                     : "The data do not tell " + listed(names) + " apart.");
+        const auto names    = direction_names(found.singular, direction, unknowns);
+        const auto sentence = "The data do not tell " + listed(names) + (names.size() == 1 ? "." : " apart.");
+        if (!contains(found.indistinct, sentence))
+          found.indistinct.push_back(sentence);
       }
     }
 
@@ -353,13 +375,20 @@ namespace sprag
   }
 
   Uncertainty uncertainty(const std::vector<double> &jacobian, const std::vector<UsedValue> &values,
-                          const std::vector<ChannelNoise> &noise, const std::vector<UnknownNumber> &unknowns,
-                          const double confidence)
+                          const std::vector<double> &influences, const std::vector<ChannelNoise> &noise,
+                          const std::vector<UnknownNumber> &unknowns, const double confidence)
   {
     Uncertainty result;
-    const auto n             = unknowns.size();
-    result.singular          = singular_values(jacobian, n);
-    const auto covariances   = covariance(result.singular, values, noise);
+    const auto n          = unknowns.size();
+    result.singular       = singular_values(jacobian, n);
+    auto covariances      = covariance(result.singular, values, noise, std::vector<double>(values.size(), 1.));
+    const auto by_squares = covariance(result.singular, values, noise, noise_shares(values, influences, noise.size()));
+    std::vector<double> wider; // by which a deviation is larger, as noise is larger where the unknown counts
+    for (std::size_t i = 0; i < n; ++i)
+      wider.push_back(std::sqrt(std::max(1., by_squares[i * n + i] / covariances[i * n + i])));
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        covariances[i * n + j] *= wider[i] * wider[j];
     const double independent = sum_over(noise, [](const ChannelNoise &channel) { return channel.effective_rows(); });
     result.freedom           = std::max(1., independent - static_cast<double>(n));
     result.quantile          = boost::math::quantile(boost::math::students_t(result.freedom), 0.5 + 0.5 * confidence);
