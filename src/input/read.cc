@@ -58,12 +58,6 @@ namespace sprag
       scene.contact.enforcement   = settings.enforcement.value_or(automatic_enforcement(scene));
     }
 
-    /// For an upper bound: what it says is allowed.
-    std::string rounded_down_text(const double value)
-    {
-      return rounded_text(value * (1. - 5e-6));
-    }
-
     const char *const time_tolerance = "Time/Tolerance";
 
     /// Returns the parameters that were given or chosen, without those left at their defaults.
@@ -364,6 +358,12 @@ namespace sprag
           for (const auto &range : ranges.value_or(std::vector<ParameterRange>()))
             if (!names.insert(range.name).second)
               report("Stability/Ranges", range.name + " must be there once only");
+            else if (range.name == "Stability/Position")
+              report("Stability/Ranges", range.name + " is no constant: Stability/Position = auto judges the whole stroke");
+          if (names.size() > 10)
+            report("Stability/Ranges", "must be at most 10 parameters, as all combinations of their ends are judged");
+          if (settings.mistakes.empty())
+            check_ends(ranges.value_or(std::vector<ParameterRange>()));
         }
         if (scene.analysis.type == AnalysisType::stability)
           check_list("Stability/Critical", critical_searches(scene), "auto, none");
@@ -415,6 +415,26 @@ namespace sprag
           report(parameter, range.name + " must have a range, not " + number_text(range.from) + " alone");
       }
 
+      /// The scene must be valid with all combinations of the ends.
+      void check_ends(const std::vector<ParameterRange> &ranges)
+      {
+        const SceneSettings kept = input;
+        for (unsigned int corner = 0; corner < 1u << ranges.size() && settings.mistakes.empty(); ++corner)
+        {
+          std::string ends;
+          for (std::size_t i = 0; i < ranges.size(); ++i)
+          {
+            const double value = (corner >> i & 1u) == 0 ? ranges[i].from : ranges[i].to;
+            find_parameter(parameters, ranges[i].name)->store(number_text(value));
+            ends += (i == 0 ? "with " : ", ") + ranges[i].name + " = " + rounded_text(value);
+          }
+          make_drive();
+          for (const auto &violation : violations(input.scene))
+            report("Stability/Ranges", ends + ": " + violation.parameter + ' ' + violation.rule);
+          input = kept;
+        }
+      }
+
       /// A default beside a choice given in the same place passes: so do the printed parameters.
       void check_unused()
       {
@@ -455,7 +475,7 @@ namespace sprag
         const std::vector<std::string> others = { "Analysis/Type", "Drive/Profile", "Drive/Start",
                                                   "Drive/Stroke",  "Drive/Speed",   "Drive/Cycles" };
         if (std::none_of(others.begin(), others.end(), [this](const auto &name) { return is_invalid(name); }))
-          report("Drive/Reversal duration", "must be at most " + rounded_down_text(largest) +
+          report("Drive/Reversal duration", "must be at most " + rounded_text((1. - 5e-6) * largest) +
                                                 " s, or the ramps of speed do not fit into the shortest stroke");
         return 0.;
       }

@@ -53,6 +53,13 @@ REFUSED = {
     "ranges of one parameter": ({**BEAM, "Analysis/Type": "stability"}, {
         "Stability/Ranges=Contact/Damping 0.01 0.1; Contact/Damping 0.02 0.05": ["Contact/Damping must be there once only"],
     }),
+    **{f"ranges of {text}": ({**BEAM, "Analysis/Type": "stability", "Stability/Position": 65}, {f"Stability/Ranges={text}": says}) for text, says in {
+        "Stability/Position 20 40": ["Stability/Position is no constant"],
+        "Drive/Stroke 50 70": ["with Drive/Stroke = 50: Stability/Position must lie on the drive, 0 ... 50 mm"],
+        "Geometry/Interface offset 40 70; Lever/Depth 5 6": [
+            "with Geometry/Interface offset = 70, Lever/Depth = 5: Geometry/Interface offset must be less than Cylinder radius R = 56 mm",
+        ],
+    }.items()},
     "sprag slip that cannot begin": ({**SLIP, "Sprag slip/Initial amplitude": 0.1}, {
         "Sprag slip/Final amplitude=0.01": ["more than Initial amplitude = 0.1"],
         "Sprag slip/Turn=70": ["0 ... 65 mm"],
