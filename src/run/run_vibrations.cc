@@ -45,10 +45,10 @@ namespace sprag
     /// The scene as its worst slide has it.
     Scene slide_scene(const Scene &scene, const CheckedSlide &slide)
     {
-      Scene result               = slide.constants.empty() ? scene : prepared(variant(scene, slide.constants));
-      result.stability.position  = slide.drive.x;
-      result.stability.direction = slide.drive.v < 0. ? Direction::backward : Direction::forward;
-      return result;
+      const std::vector<std::string> place = { override_text("Stability/Position", slide.drive.x),
+                                               slide.drive.v < 0. ? "Stability/Direction=backward"
+                                                                  : "Stability/Direction=forward" };
+      return prepared(variant(scene, joined(slide.constants, place)));
     }
 
     bool limits_stability(const CriticalValue &change)
@@ -64,12 +64,7 @@ namespace sprag
       const double distance  = share * std::abs(limit.value);
       DynamicsMaker maker;
       const auto slide_at = [&](const double value)
-      {
-        Scene slide = slide_scene(prepared(variant(scene, { override_text(name, value) })), limit.worse);
-        if (name == "Stability/Position")
-          slide.stability.position = value;
-        return held_scene(slide);
-      };
+      { return held_scene(prepared(variant(slide_scene(scene, limit.worse), { override_text(name, value) }))); };
       const auto growth_at = [&](const double value) { return check_slide(slide_at(value), maker).growth_rate(); };
       try
       {
