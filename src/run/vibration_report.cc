@@ -224,10 +224,12 @@ namespace sprag
         if (std::isnan(value))
           return std::string();
         const bool everywhere = value == (upward ? std::min(range.from, range.to) : std::max(range.from, range.to));
-        return (everywhere ? std::string("stable throughout")
-                           : (upward ? "stable from " : "stable up to ") +
-                                 with_unit(rounded_to(value, upward), parameter_unit(range.name))) +
-               " with " + constants;
+        const bool up_to_next =
+            std::any_of(search.changes.begin(), search.changes.end(),
+                        [&](const CriticalValue &other) { return &other != &critical && other.value == value; });
+        const std::string limit =
+            (upward ? "stable from " : "stable up to ") + with_unit(rounded_to(value, upward), parameter_unit(range.name));
+        return (everywhere ? "stable throughout" : up_to_next ? "no limit here" : limit) + " with " + constants;
       };
       const auto own    = text(critical.own, "the scene's constants");
       const auto likely = text(critical.likely, four_digits(100. * probable_share) + " % of those in the ranges");

@@ -283,6 +283,11 @@ TEST(Report, LimitsOfStabilitySayOnWhichSideTheyAreStable)
   EXPECT_EQ(find_text(),
             "Geometry/Interface offset from 0 to 29 mm: stable, flutter from 15.69 +- 0.12 mm (stable up to 20 mm with the "
             "scene's constants), stable from 24.28 mm (stable from 24.1 mm with the scene's constants)");
+  search.changes[0].own = end.value;
+  search.changes[1].own = begin.value;
+  EXPECT_NE(find_text().find("0.12 mm (no limit here with the scene's constants), stable from 24.28 mm (no limit here with"),
+            std::string::npos)
+      << find_text();
   search.changes        = { begin };
   search.changes[0].own = 29.;
   EXPECT_NE(find_text().find("flutter from 15.69 +- 0.12 mm (stable throughout with the scene's constants)"), std::string::npos);
