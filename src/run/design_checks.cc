@@ -82,8 +82,8 @@ namespace sprag
       bool all_unique       = true;
     };
 
-    /// `places_of_growth`: further x, whose forces do not count.
-    Slides slides_along(const Scene &scene, const Direction direction, const std::vector<double> &places_of_growth,
+    /// `growth_positions`: further x, whose forces do not count.
+    Slides slides_along(const Scene &scene, const Direction direction, const std::vector<double> &growth_positions,
                         DynamicsMaker &maker)
     {
       Slides result;
@@ -101,7 +101,7 @@ namespace sprag
           result.P.push_back(slide->forces.P);
           result.jamming_margin = std::min(result.jamming_margin, slide->margin);
         }
-      for (const double x : places_of_growth)
+      for (const double x : growth_positions)
         look_at(x);
       return result;
     }
@@ -267,8 +267,8 @@ namespace sprag
     check.warnings    = scene_warnings(scene);
     require_memory(scene);
     auto &maker                 = *in_memory.dynamics;
-    const auto out              = slides_along(scene, Direction::forward, places_of_growth, maker);
-    const auto back             = slides_along(scene, Direction::backward, places_of_growth, maker);
+    const auto out              = slides_along(scene, Direction::forward, growth_positions, maker);
+    const auto back             = slides_along(scene, Direction::backward, growth_positions, maker);
     check.found[Q::growth_rate] = std::max(out.growth_rate, back.growth_rate);
     if (!out.all_unique || !back.all_unique)
     {
@@ -296,7 +296,7 @@ namespace sprag
       if (!jams && worst.growth_rate <= growth)
         continue;
       growth = jams ? infinite : worst.growth_rate;
-      places_of_growth.push_back(worst.drive.x);
+      growth_positions.push_back(worst.drive.x);
       if (jams)
         check.failure = no_unique_slide;
     }
@@ -328,8 +328,8 @@ namespace sprag
     auto &maker         = *in_memory.dynamics;
     try
     {
-      const double forward = slides_along(beam, Direction::forward, places_of_growth, maker).growth_rate;
-      return std::max(forward, slides_along(beam, Direction::backward, places_of_growth, maker).growth_rate);
+      const double forward = slides_along(beam, Direction::forward, growth_positions, maker).growth_rate;
+      return std::max(forward, slides_along(beam, Direction::backward, growth_positions, maker).growth_rate);
     }
     catch (const AnalysisError &)
     {

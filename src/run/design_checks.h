@@ -63,7 +63,7 @@ namespace sprag
   private:
     const Scene design;
     InMemory in_memory = run_in_memory();
-    std::vector<double> places_of_growth; ///< looked at for growth besides Design/Positions [mm]
+    std::vector<double> growth_positions; ///< looked at for growth besides Design/Positions [mm]
 
     Scene make_scene(const ModelCheck &check) const;
     void compute(ModelCheck &check);

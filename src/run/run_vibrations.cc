@@ -169,12 +169,6 @@ namespace sprag
                { "growth_rate_without_contact_damping", growth_rate_at_none } };
     }
 
-    /// Returns whether a memory of friction counts, which eigenvalues in three dimensions leave out.
-    bool has_memory(const Scene &scene)
-    {
-      return falls_with_speed(step_friction(scene.friction, scene.drive.peak_speed())) && scene.analysis.dimension == 2;
-    }
-
     /// Checks with a spring of stick ten times as soft as it is, and rigid. The mesh of a meshed lever has the layer's own shear:
     /// its stick is checked rigid alone. Where mu falls with speed, its memory is a tenth and ten times as long.
     std::vector<Entry> unmeasured_entries(const Scene &scene, DynamicsMaker &maker)
@@ -193,7 +187,7 @@ namespace sprag
         changed.contact.tangential_stiffness = rigid * own;
       }
       const double rigid_growth = compute_growth(changed, maker);
-      if (has_memory(scene))
+      if (falls_with_speed(step_friction(scene.friction, scene.drive.peak_speed())))
       {
         changed                        = varied;
         changed.friction.memory_length = 0.1 * scene.friction.memory_length;

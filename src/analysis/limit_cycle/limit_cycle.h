@@ -48,8 +48,8 @@ namespace sprag
 
   /// Measured growth or decay of a small perturbation of a held slide, beside its eigenvalue.
   ///
-  /// The eigenvalue is that of the contact in time as long as it slides on without stick. In three dimensions delays of friction
-  /// are left out, see friction_lag().
+  /// The eigenvalue is that of the contact in time as long as it slides on without stick. In three dimensions what the spring
+  /// of stick delays is left out, see friction_lag().
   struct Growth
   {
     std::complex<double> eigenvalue; ///< predicted [1/s]

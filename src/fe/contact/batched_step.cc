@@ -250,14 +250,15 @@ namespace sprag
                     });
       const SimdBatch sign = w.is_nothing ? uniform_batch(std::copysign(1., data.slide.speed)) : uniform_batch(1.);
       friction.slipping    = ~BatchMask{};
-      if (part == Part::friction_rate)
+      if (part == Part::friction_rate || part == Part::mu_rate)
       {
         // The slips' derivatives by the coordinates are those of their rates by the coordinates' rates.
         const SizeAndDirection<N, 2> rate(
             Several<N, 2>{ { end.slip[0] + friction.slip_speed[0], end.slip[1] + friction.slip_speed[1] } });
         const N size = chained(coefficient, slope, rate.size);
         for (unsigned int s = 0; s < 2; ++s)
-          friction.traction[s] = value(end.pressure) * (size * rate.direction[s]);
+          friction.traction[s] =
+              value(end.pressure) * (size * (part == Part::mu_rate ? N{} + value(rate.direction[s]) : rate.direction[s]));
       }
       else
         for (unsigned int s = 0; s < 2; ++s)
@@ -461,7 +462,7 @@ namespace sprag
         }
         const auto force = point_force(cylinder.shape, end.seen, pose_balanced.axes.axis, end.mean_pressure, end.mean_traction);
         auto along       = generalised(pose_balanced, at, end.seen.from_centre, force);
-        if (part == Part::friction_rate)
+        if (part == Part::friction_rate || part == Part::mu_rate)
           for (int k = 0; k < 5 + slopes; ++k)
             along[k] = -end.slip[0].d[k] * end.mean_traction[0] - end.slip[1].d[k] * end.mean_traction[1];
         const Triple<Batch> round{ value(end.seen.round.x), value(end.seen.round.y), value(end.seen.round.z) };

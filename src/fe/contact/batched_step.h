@@ -44,13 +44,14 @@ namespace sprag
       AxisSlopes slope_rates = {};
     };
 
-    /// The part of the forces of a slide that a tangent is of; friction_rate: by the rates of the coordinates.
+    /// The part of the forces of a slide that a tangent is of.
     enum class Part
     {
       all,
       pressure,
       friction,
-      friction_rate
+      friction_rate, ///< by the rates of the coordinates
+      mu_rate        ///< of it what mu alone has, which follows the speed
     };
 
     /// Constants that all points of a step have in common.

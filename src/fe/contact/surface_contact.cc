@@ -245,6 +245,29 @@ namespace sprag
     result.pressure      = tangent(BatchedStep::Part::pressure);
     result.friction      = tangent(BatchedStep::Part::friction);
     result.friction_rate = tangent(BatchedStep::Part::friction_rate);
+    if (sliding.friction == ContactFriction::sliding)
+      result.delays = friction_delays(slide_friction(properties.friction, sliding), sliding.speed);
+    return result;
+  }
+
+  /// Returns one delay on each dof, of the sum of all points: a mu that falls with speed follows it over the memory length, which
+  /// takes all points equally long. None for other laws.
+  std::vector<FrictionDelay> SurfaceContact::friction_delays(const FrictionLaw &law, const double speed) const
+  {
+    std::vector<FrictionDelay> result;
+    if (!falls_with_speed(law))
+      return result;
+    const auto by_rates = tangent(BatchedStep::Part::mu_rate);
+    for (unsigned int i = 0; i < by_rates.m(); ++i)
+    {
+      FrictionDelay delay{ law.memory_length / std::abs(speed), Vector<double>(by_rates.m()), Vector<double>(by_rates.m()),
+                           Vector<double>(by_rates.m()) };
+      delay.force[i] = 1.;
+      for (unsigned int j = 0; j < by_rates.n(); ++j)
+        delay.rate_row[j] = by_rates(i, j);
+      if (!delay.rate_row.all_zero())
+        result.push_back(std::move(delay));
+    }
     return result;
   }
 

@@ -28,7 +28,8 @@ namespace sprag
     void evaluate_sliding(const SlidingState &sliding, FaceEvaluation<3> &found);
 
     /// The same of all elements in contact, whether candidates or not, with its interface forces linearised. What the spring of
-    /// stick delays is left out: at a speed v it takes mu p / (v times its stiffness), microseconds.
+    /// stick delays is left out: at a speed v it takes mu p / (v times its stiffness), microseconds. The memory of a mu that
+    /// falls with speed is a delay.
     LinearisedForces linearise(const SlidingState &sliding, FaceEvaluation<3> &found);
 
     /// Evaluates the contact at rest without force.
@@ -75,6 +76,7 @@ namespace sprag
     void find_summed(Elements::Indices touched);
     void set_forces(Request request, InterfaceForces &forces) const;
     dealii::FullMatrix<double> tangent(BatchedStep::Part part) const;
+    std::vector<FrictionDelay> friction_delays(const FrictionLaw &law, double speed) const;
 
     std::vector<std::vector<unsigned int>> element_lines; ///< increasing
     std::vector<bool> is_at_end;                          ///< whether an element is at an end of the face along xi
