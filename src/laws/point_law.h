@@ -251,16 +251,23 @@ namespace sprag
     return select((history.step > 0.) & (along_last >= 0.), V(dt / (dt + history.step)), V{});
   }
 
+  /// Returns true if the point stuck where the step begins.
+  template <class V, int slips>
+  SPRAG_PART auto stuck_before(const SlipHistory<V, slips> &history)
+  {
+    return (history.step > 0.) & (history.speed == 0.) & (dot(history.traction, history.traction) > 0.);
+  }
+
   /// Returns the speed that mu follows at the end of a step [mm/s]: over the memory length L it comes to that of the faces,
-  ///   dw/ds = (v - w) / L   along the path s of the faces,
-  /// at once where the point was open or stuck before.
+  ///   dw/ds = (v - w) / L   along the path s on which they slide,
+  /// from 0 after stick, and at once where the point was open.
   template <class N, int slips>
   SPRAG_PART N lagged_speed(const SlipLaw &law, const SlipHistory<Plain<N>, slips> &history, const N &path, const N &v)
   {
     using V             = Plain<N>;
     const double length = law.friction.memory_length;
     V share{};
-    for_each_lane(history.speed > 0.,
+    for_each_lane((history.speed > 0.) | stuck_before(history),
                   [&](const unsigned int i) { set_lane(share, i, std::exp(-at_lane(value(path), i) / length)); });
     return v + chained(share, V(-1. / length * share), path) * (history.speed - v);
   }
@@ -301,14 +308,15 @@ namespace sprag
     return result;
   }
 
-  /// Returns true if the faces slide by what a layer's shear leaves. In a step that begins in stick the shear counts as slip.
+  /// Returns true if the faces slide by what a layer's shear leaves. In a step in which the point touches the shear counts as
+  /// slip.
   template <class V, int slips>
   SPRAG_PART bool slides_behind_layer(const SlipLaw &law, const SlipHistory<V, slips> &history)
   {
     if constexpr (std::is_same_v<V, Batch>)
       return false;
     else
-      return law.follows_speed && law.is_layer && history.speed > 0.;
+      return law.follows_speed && law.is_layer && (history.speed > 0. || stuck_before(history));
   }
 
   /// Traction that falls with speed behind a layer whose shear takes a part of the slip:
@@ -321,7 +329,7 @@ namespace sprag
     const double k = law.stiffness, length = law.friction.memory_length;
     const SizeAndDirection<N, slips> split(trial);
     const double last      = value(dot(history.slip_speed, split.direction));
-    const double share     = extrapolated_share(history, last, dt);
+    const double share     = history.speed > 0. ? extrapolated_share(history, last, dt) : 0.;
     const double round_off = 4. * std::numeric_limits<double>::epsilon() * value(split.size);
     PointFriction<N, slips> result;
     N t          = split.size;
@@ -356,7 +364,8 @@ namespace sprag
   }
 
   /// Traction that falls with speed. mu follows the speed of the faces over the memory length; in stick it forgets how fast the
-  /// point slid. Slip of a penalty's spring counts as that of the faces: a mesh has the layer's shear.
+  /// point slid, and begins to follow where |t_trial| exceeds mu(0) p. Slip of a penalty's spring counts as that of the faces: a
+  /// mesh has the layer's shear.
   template <class N, int slips>
   SPRAG_PART PointFriction<N, slips> following_faces(const SlipLaw &law, const SlipHistory<Plain<N>, slips> &history,
                                                      const Several<N, slips> &slip, const N &p, const double dt)
@@ -370,9 +379,12 @@ namespace sprag
     const N last  = dot(history.slip_speed, path.direction);
     const V share = select(history.speed > 0., extrapolated_share(history, value(last), dt), V{});
     const N v     = (1. + share) * (1. / dt * path.size) - share * last;
-    const N w     = lagged_speed(law, history, path.size, select(value(v) > 0., v, N{}));
-    auto result   = return_at_speed(law, trial, p, w);
-    result.speed  = select(result.slipping, value(w), V{});
+    const SizeAndDirection<N, slips> split(trial);
+    const N beyond = 1. / law.stiffness * (split.size - friction_coefficient(law.friction, 0.).coefficient * p);
+    const N slid   = select(stuck_before(history), select(value(beyond) > 0., beyond, N{}), path.size);
+    const N w      = lagged_speed(law, history, slid, select(value(v) > 0., v, N{}));
+    auto result    = return_at_speed(law, trial, p, w);
+    result.speed   = select(result.slipping, value(w), V{});
     return result;
   }
 
