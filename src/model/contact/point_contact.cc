@@ -288,10 +288,12 @@ namespace sprag
     const double damping        = state.relaxation ? -*state.relaxation * spring.d[0] : properties.damping;
     const auto dashpot          = dashpot_force(damping, spring, gap, variable<N>(end.gap_row * rate, 1));
     const auto pressure         = spring + dashpot;
-    found.slip_rate             = state.speed + end.slip_row * rate;
-    found.sliding               = slides ? sliding_friction(law, found.slip_rate) : SlidingFriction{};
-    found.d_pressure            = pressure.d[0] * end.gap_row;
-    found.d_pressure_rate       = pressure.d[1] * end.gap_row;
+    found.slip_rate             = state.speed; // -0 at rest after moving back
+    if (state.rates != nullptr)
+      found.slip_rate += end.slip_row * rate;
+    found.sliding         = slides ? sliding_friction(law, found.slip_rate) : SlidingFriction{};
+    found.d_pressure      = pressure.d[0] * end.gap_row;
+    found.d_pressure_rate = pressure.d[1] * end.gap_row;
 
     auto &response                 = found.response;
     response                       = {};

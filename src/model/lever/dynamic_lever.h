@@ -155,7 +155,7 @@ namespace sprag
     std::vector<SlidingForces> sliding_forces(const DrivePoint &drive) override
     {
       // There a lever touches without force.
-      if (drive.v == 0. && drive.x == 0. && frame.layout.levers == 1)
+      if (drive.v == 0. && drive.x == 0. && frame.layout.levers == 1 && !frame.is_preloaded())
         return { { 0., 0. } };
       if (slides.solve(drive, 1.) == nullptr)
         return {};
@@ -352,8 +352,7 @@ namespace sprag
     /// Touching at x = 0. Further on as slowly slid there from x = 0, with friction as in a motion forward and mu at rest.
     Motion start_at_rest(const DrivePoint &drive)
     {
-      const bool is_preloaded = frame.springs.front().moment(0.) > 0.;
-      if (drive.x > 0. || is_preloaded)
+      if (drive.x > 0. || frame.is_preloaded())
         return pressed_at_rest(drive, ContactFriction::sliding);
       Motion motion = structure->rest();
       motion.drive  = drive;

@@ -36,6 +36,12 @@ namespace sprag
     /// Writes the sensor forces of a lever [N] to its row.
     std::function<void(std::vector<double> forces, Row &row)> observe_sensors = [](std::vector<double> forces, Row &row)
     { row.sensor_forces = std::move(forces); };
+
+    /// Returns whether the first lever presses at x = 0.
+    bool is_preloaded() const
+    {
+      return springs.front().moment(0.) > 0.;
+    }
   };
 
   /// Returns the frame of a device; `lengths` are 1 except for the hubs' rotations. `lever_mass` [t] of one lever moves with a
