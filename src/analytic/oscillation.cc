@@ -15,7 +15,6 @@ namespace sprag
 {
   namespace
   {
-    constexpr double window_length     = 0.1;     ///< [s], at least
     constexpr unsigned window_periods  = 15;      ///< of a vibration that is slower
     constexpr double last_share        = 0.1;     ///< of the window, in which what is left counts
     constexpr double noise             = 1e-3;    ///< relative to the largest force
@@ -27,6 +26,7 @@ namespace sprag
     constexpr double passing_share     = 0.04;    ///< of the frequency
     constexpr double lasting_share     = 0.1;     ///< of the rms, left at the end
     constexpr double envelope_end      = 0.05;    ///< of its peak
+    constexpr double slower            = 0.5;     ///< frequency of another vibration, over the first
     constexpr double coarsest_sampling = 1e-5;    ///< [s]
     constexpr double most_samples      = 1 << 17; ///< of a resampled signal
 
@@ -116,11 +116,11 @@ namespace sprag
       return latest;
     }
 
-    /// `samples` from the turning point on.
-    double overshoot(const Samples &samples, const double window_begin)
+    /// `samples` from the turning point on. `sliding`: when friction slides in the new direction at the latest [s].
+    double overshoot(const Samples &samples, const double window_begin, const double sliding)
     {
       const double scale  = largest_reference(later_than(samples, window_begin));
-      const double excess = largest(later_than(samples, first_crossing(samples, window_begin)), [](const auto &sample)
+      const double excess = largest(later_than(samples, first_crossing(samples, sliding)), [](const auto &sample)
                                     { return std::max(0., std::copysign(1., sample.reference) * sample.difference); });
       return scale > 0. ? excess / scale : unknown;
     }
@@ -195,7 +195,8 @@ namespace sprag
       return last == from_reversal.rend() ? 0. : std::abs(last->x - x);
     }
 
-    /// Returns how long P takes to meet its value without inertia twice in each of the periods, or to decay by the last tenth.
+    /// Returns how long a force takes to meet its value without inertia twice in each of the periods, or to decay by the last
+    /// tenth.
     double vibration_length(const Samples &from_reversal)
     {
       unsigned crossings = 0;
@@ -268,6 +269,21 @@ namespace sprag
       return !(sum > 0.) ? unknown : phases > 1 ? stuck / sum : 0.;
     }
 
+    /// Returns when friction slides again behind the first stick between two times, `begin` without such [s].
+    double find_sliding(const std::vector<Row> &rows, const double begin, const double end)
+    {
+      bool was_stuck = false;
+      for (const auto &row : rows)
+        if (row[Column::time] > begin && row[Column::time] <= end)
+        {
+          const bool is_stuck = row[Column::P] > 0. && sticks(row);
+          if (was_stuck && !is_stuck)
+            return row[Column::time];
+          was_stuck = is_stuck;
+        }
+      return begin;
+    }
+
     /// P that never counts [N].
     double negligible(const std::vector<Row> &rows)
     {
@@ -276,21 +292,23 @@ namespace sprag
       return noise * largest(rows, finite_P);
     }
 
-    void add_normal_force(Oscillation &oscillation, const Samples &after_turn, const std::vector<Row> &rows,
+    void add_normal_force(Oscillation &oscillation, const Samples &after_turn, const double sliding, const std::vector<Row> &rows,
                           const double face_size)
     {
       const Samples after_reversal = later_than(after_turn, oscillation.window_begin);
       const Samples window         = up_to(after_reversal, oscillation.window_end);
       if (window.size() < 2)
         return;
-      const Ringing found     = detect_ringing(window);
-      oscillation.frequency   = found.frequency;
-      oscillation.growth_rate = found.growth_rate;
-      oscillation.overshoot_P = overshoot(up_to(after_turn, oscillation.window_end), oscillation.window_begin);
-      oscillation.open_share  = open_share(window);
-      oscillation.rms         = rms(window);
-      const double last_tenth = oscillation.window_end - last_share * (oscillation.window_end - oscillation.window_begin);
-      oscillation.rms_end     = rms(later_than(window, last_tenth));
+      const Samples first         = up_to(window, oscillation.window_begin + least_window);
+      const Ringing found         = detect_ringing(window);
+      oscillation.frequency       = found.frequency;
+      oscillation.first_frequency = first.size() < window.size() ? detect_ringing(first).frequency : found.frequency;
+      oscillation.growth_rate     = found.growth_rate;
+      oscillation.overshoot_P     = overshoot(up_to(after_turn, oscillation.window_end), oscillation.window_begin, sliding);
+      oscillation.open_share      = open_share(window);
+      oscillation.rms             = rms(window);
+      const double last_tenth     = oscillation.window_end - last_share * (oscillation.window_end - oscillation.window_begin);
+      oscillation.rms_end         = rms(later_than(window, last_tenth));
       oscillation.stick_share =
           stick_share(rows, 0.5 * (oscillation.window_begin + oscillation.window_end), oscillation.window_end);
       oscillation.extent = extent(after_reversal, oscillation.x);
@@ -301,15 +319,20 @@ namespace sprag
       oscillation.verdict = classify(oscillation, negligible(rows));
     }
 
-    void add_force_along_x(const Samples &after_turn, const double begin, const double end, double &excess, double &frequency,
-                           double &distance)
+    void add_force_along_x(const Samples &after_turn, const double sliding, const double begin, const double end, double &excess,
+                           double &frequency, double &distance)
     {
       const Samples window = later_than(up_to(after_turn, end), begin);
       if (window.size() < 2)
         return;
-      excess    = overshoot(up_to(after_turn, end), begin);
+      excess    = overshoot(up_to(after_turn, end), begin, sliding);
       frequency = detect_ringing(window).frequency;
       distance  = rms(window);
+    }
+
+    bool moves_support(const std::vector<Row> &rows)
+    {
+      return largest(rows, Column::support_displacement) > 0.;
     }
 
     unsigned int rank(const Verdict verdict)
@@ -329,18 +352,39 @@ namespace sprag
                                const double next_reversal, const double face_size)
     {
       Oscillation result;
-      result.time         = turn.time;
-      result.x            = turn.x;
-      result.window_begin = turn.time + reversal_duration / 2.;
-      const double end    = std::min(next_reversal, rows.empty() ? turn.time : rows.back()[Column::time]);
-      const auto after    = collect_samples(rows, Column::P, Column::P_quasi_static, turn.time, end);
-      const double length = std::max(window_length, vibration_length(later_than(after, result.window_begin)));
-      result.window_end   = std::max(std::min(result.window_begin + length, end), result.window_begin);
-      add_normal_force(result, after, rows, face_size);
-      add_force_along_x(collect_samples(rows, Column::Q, Column::Q_quasi_static, turn.time, end), result.window_begin,
+      result.time           = turn.time;
+      result.x              = turn.x;
+      result.window_begin   = turn.time + reversal_duration / 2.;
+      const double end      = std::min(next_reversal, rows.empty() ? turn.time : rows.back()[Column::time]);
+      const auto after      = collect_samples(rows, Column::P, Column::P_quasi_static, turn.time, end);
+      const auto window_end = [&](const Column force, const Column reference)
+      {
+        const auto from_reversal = later_than(collect_samples(rows, force, reference, turn.time, end), result.window_begin);
+        const double length      = std::max(least_window, vibration_length(from_reversal));
+        return std::max(std::min(result.window_begin + length, end), result.window_begin);
+      };
+      const auto window  = [&](const double until) { return up_to(later_than(after, result.window_begin), until); };
+      result.window_end  = window_end(Column::P, Column::P_quasi_static);
+      double support_end = moves_support(rows) ? window_end(Column::Q_support, Column::Q_quasi_static) : result.window_end;
+      support_end        = std::max(support_end, result.window_end);
+      // P may ring fast at first and vibrate with a slow support for long.
+      if (support_end > result.window_end)
+      {
+        const auto whole             = window(support_end);
+        const auto last_tenth        = later_than(whole, (1. - last_share) * support_end + last_share * result.window_begin);
+        const double first_frequency = detect_ringing(window(result.window_end)).frequency;
+        const bool lasts             = rms(last_tenth) > decayed_rms * largest_reference(whole);
+        const bool is_slow           = first_frequency * (result.window_end - result.window_begin) < window_periods;
+        if (lasts && (is_slow || detect_ringing(whole).frequency < slower * first_frequency))
+          result.window_end = support_end;
+      }
+      const double sliding = std::max(result.window_begin, find_sliding(rows, turn.time, result.window_end));
+      add_normal_force(result, after, sliding, rows, face_size);
+      add_force_along_x(collect_samples(rows, Column::Q, Column::Q_quasi_static, turn.time, end), sliding, result.window_begin,
                         result.window_end, result.overshoot_Q, result.frequency_Q, result.rms_Q);
-      add_force_along_x(collect_samples(rows, Column::Q_support, Column::Q_quasi_static, turn.time, end), result.window_begin,
-                        result.window_end, result.overshoot_Q_support, result.frequency_Q_support, result.rms_Q_support);
+      add_force_along_x(collect_samples(rows, Column::Q_support, Column::Q_quasi_static, turn.time, end), sliding,
+                        result.window_begin, support_end, result.overshoot_Q_support, result.frequency_Q_support,
+                        result.rms_Q_support);
       return result;
     }
   } // namespace

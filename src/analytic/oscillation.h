@@ -23,17 +23,20 @@ namespace sprag
   /// - rings: none of these, it decays, but not within the window.
   SPRAG_ENUMERATION(Verdict, unknown, vibrates, sticks_and_slips, elements_pass, grows, decays, rings)
 
+  constexpr double least_window = 0.1; ///< behind a reversal [s]
+
   /// The vibration after a reversal of the drive, measured by how far P, Q and Q_support are off the values without inertia.
   ///
   /// The window begins at the end of the reversal, half its duration after the turning point. It is 0.1 s long, and longer for a
-  /// slow vibration: until P has met its value without inertia thirty times, as in 15 periods, or has decayed. It ends earlier
-  /// where the next reversal begins or the rows end. All times of rows are taken as they come, unequally spaced. A value that
-  /// does not follow from the rows is NaN.
+  /// slow vibration: until P has met its value without inertia thirty times, as in 15 periods, or has decayed. On a sprung
+  /// support it lasts as long for Q_support, and for P where that comes to vibrate with a slower support. It ends earlier where
+  /// the next reversal begins or the rows end. All times of rows are taken as they come, unequally spaced. A value that does not
+  /// follow from the rows is NaN.
   ///
   /// Overshoot: largest excess of a force over its quasi-static value in the direction of that value, relative to the largest
   /// quasi-static value of the window; 0 if there is none. It counts up to the end of the window and from where the force first
   /// meets its quasi-static value after the turning point: before that friction is still on its way from one direction to the
-  /// other. If that is only after the reversal's end, it counts from there.
+  /// other. It counts at the latest from where the reversal has ended and friction slides again.
   struct Oscillation
   {
     double time         = unknown; ///< of the turning point [s]
@@ -46,6 +49,7 @@ namespace sprag
     double overshoot_Q         = unknown;
     double overshoot_Q_support = unknown; ///< against the quasi-static Q
     double frequency           = unknown; ///< of P [Hz], dominant in the window; NaN without oscillation
+    double first_frequency     = unknown; ///< of P in the first `least_window` [Hz]
     double frequency_Q         = unknown; ///< [Hz]
     double frequency_Q_support = unknown; ///< [Hz]
     double growth_rate         = unknown; ///< of the envelope of P in the window [1/s], negative: decays

@@ -211,14 +211,22 @@ namespace sprag
       const auto decay_rate = [&](const SlideStability &slide) { return -eigenvalue_near(slide, measured).real(); };
       if (!(slide_frequency(found) > 0.) || !(eigenvalue_near(found, measured).real() < 0.))
         throw NoEstimate{ "the slide behind the first reversal does not ring down." };
-      const double turn          = scene.drive.reversals().front();
-      const double omega         = 2. * M_PI * slide_frequency(found);
-      const auto frequency_error = [&](const double dt)
-      { return std::abs(algorithmic_frequency_error(scene.time.spectral_radius, omega * dt)); };
-      const auto errors = estimate_step_errors(rows, turn, turned.window_end, frequency_error);
-      const double peak = largest(rows, Column::P);
-      const double lag  = change_by_frequency(rows, turn, turned.window_end) / peak;
-      const auto step   = [&](const double value)
+      const double turn      = scene.drive.reversals().front();
+      const double omega     = 2. * M_PI * slide_frequency(found);
+      const auto step_errors = [&](const double at, const double end)
+      {
+        return estimate_step_errors(rows, turn, end,
+                                    [&](const double dt)
+                                    { return std::abs(algorithmic_frequency_error(scene.time.spectral_radius, at * dt)); });
+      };
+      // Behind a reversal P rings faster than what lasts on a soft support.
+      const double fastest   = eigenvalue_near(found, std::fmax(measured, turned.first_frequency)).imag();
+      const auto errors      = step_errors(omega, turned.window_end);
+      const double fast_end  = fastest > omega ? turned.window_begin + least_window : turned.window_end;
+      const auto fast_errors = step_errors(fastest, fast_end);
+      const double peak      = largest(rows, Column::P);
+      const double lag       = change_by_frequency(rows, turn, fast_end) / peak;
+      const auto step        = [&](const double value)
       {
         return ErrorPart{ "step", value,
                           scene.time.tolerance > 0. ? "Try a third of the Time/Tolerance."
@@ -243,8 +251,10 @@ namespace sprag
         if (!(part.value < 2. * too_far))
           throw NoEstimate{ "with another " + part.name + (part.name == "mesh" ? ", or elsewhere between its nodes," : "") +
                             " the slide behind the first reversal has no vibration of this frequency." };
-      const double between_rows = 1. - std::cos(0.5 * omega * errors.peak_step); // of a peak
-      const double at_overshoot = 2. * frequency_error(errors.peak_step) + between_rows;
+      const double peak_angle   = fastest * errors.peak_step;
+      const double between_rows = 1. - std::cos(0.5 * peak_angle); // of a peak
+      const double at_overshoot =
+          2. * std::abs(algorithmic_frequency_error(scene.time.spectral_radius, peak_angle)) + between_rows;
       ErrorEstimate decay{ "decay", "", {}, "No estimate: P does not decay in the window behind the first reversal." };
       if (const double fitted = -turned.growth_rate; fitted > 0.)
       {
@@ -272,7 +282,7 @@ namespace sprag
       const bool goes_on          = turned.verdict == Verdict::grows || turned.verdict == Verdict::sticks_and_slips;
       ErrorEstimate P{ "P", "", {}, "No estimate: P vibrates on behind the first reversal, and errors grow with it." };
       if (!goes_on)
-        P = { "P", "its peak", add_both(times(frequency_parts, lag), errors.P / peak, largest_before / peak), {} };
+        P = { "P", "its peak", add_both(times(frequency_parts, lag), fast_errors.P / peak, largest_before / peak), {} };
       return { P, overshoot, { "frequency", "it", add_both(frequency_parts, errors.frequency, weight * apart), {} }, decay };
     }
   } // namespace

@@ -171,6 +171,30 @@ TEST(Oscillation, KeepsContactAndSupportApart)
   EXPECT_NEAR(found.rms_Q, found.rms / 2., 1e-9);
 }
 
+// It vibrates 15 times in 0.375 s, P as well, but for 0.1 s that rings more at 290 Hz.
+TEST(Oscillation, FollowsASlowSupportForAsManyPeriods)
+{
+  const auto slow = sinusoid(2., 40., -0.1), fast = sinusoid(8., 290., -20.);
+  auto rows             = rows_with([&](const double time) { return slow(time) + fast(time); });
+  const double turn     = there_and_back().reversals().front() + duration / 2.;
+  const auto found_with = [&](const double support_frequency)
+  {
+    for (auto &row : rows)
+      if (row[Column::time] > turn)
+      {
+        row[Column::Q_support]            = quasi_static_Q + sinusoid(5., support_frequency, -0.1)(row[Column::time] - turn);
+        row[Column::support_displacement] = 0.01 * row[Column::Q_support];
+      }
+    return find_oscillation(rows);
+  };
+  const auto found = found_with(40.);
+  EXPECT_NEAR(found.window_end - found.window_begin, 15. / 40., 0.013);
+  EXPECT_NEAR(found.frequency, 40., 0.1);
+  EXPECT_NEAR(found.first_frequency, 290., 1.);
+  EXPECT_NEAR(found.frequency_Q_support, 40., 0.1);
+  EXPECT_NEAR(found_with(200.).frequency, 290., 1.);
+}
+
 TEST(Oscillation, WhatDecays)
 {
   const auto found = find_oscillation(rows_with(sinusoid(8., 290., -60.)));
@@ -279,14 +303,18 @@ TEST(Oscillation, LivesUntilItsEnvelopeIsLow)
 
 TEST(Oscillation, FrictionThatTurnsIsNoOvershoot)
 {
-  // 30 N are left from the stroke before, and the way down to 25 N is finished 4 ms after the turning point.
+  // 30 N are left from the stroke before, and the way down to 25 N is finished 4 ms after the turning point. Friction may stick
+  // until then.
   const double turn    = there_and_back().reversals().front();
-  const auto with_peak = [&](const double peak)
+  const auto with_peak = [&](const double peak, const bool is_stuck = false)
   {
     auto rows = rows_with([](double) { return 0.; });
     for (auto &row : rows)
     {
-      const double time = row[Column::time] - turn;
+      const double time               = row[Column::time] - turn;
+      row[Column::mu]                 = 0.5;
+      row[Column::normal_resultant]   = quasi_static_P;
+      row[Column::friction_resultant] = (is_stuck && time > 0. && time < 4e-3 ? 0.1 : 0.5) * quasi_static_P;
       if (time >= 0.)
         row[Column::P] = quasi_static_P + (time < 4e-3 ? 30. * (1. - time / 4e-3) : time < 5e-3 ? -1. : time < 6e-3 ? peak : 0.);
     }
@@ -295,6 +323,7 @@ TEST(Oscillation, FrictionThatTurnsIsNoOvershoot)
   const double reversal_ended = 30. * (1. - duration / 2. / 4e-3);
   EXPECT_NEAR(with_peak(0.5), reversal_ended / quasi_static_P, 0.02);
   EXPECT_NEAR(with_peak(20.), 20. / quasi_static_P, 1e-12);
+  EXPECT_NEAR(with_peak(0.5, true), 0.5 / quasi_static_P, 1e-12);
 }
 
 TEST(Oscillation, FirstPeakCountsWithinTheReversal)
