@@ -6,20 +6,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <tuple>
+#include <utility>
 
 // Boost 1.74 calls isnan without its namespace, which only this header provides.
 #include <math.h>
 
+#include <boost/math/interpolators/cubic_hermite.hpp>
 #include <boost/math/interpolators/pchip.hpp>
 
 namespace sprag
 {
-  class MonotoneCubic::Interpolant : public boost::math::interpolators::pchip<std::vector<double>>
-  {
-  public:
-    using pchip::pchip;
-  };
-
   namespace
   {
     void check_points(const std::vector<double> &x, const std::vector<double> &y)
@@ -38,23 +36,68 @@ namespace sprag
                            ": the first column must increase from row to row");
       }
     }
+
+    /// Returns the derivative at x[i] of the polynomial through the points from `begin` to before `end`.
+    double polynomial_slope(const std::vector<double> &x, const std::vector<double> &y, const std::size_t i,
+                            const std::size_t begin, const std::size_t end)
+    {
+      double result = 0.;
+      for (std::size_t j = begin; j < end; ++j)
+      {
+        double weight = j == i ? 0. : 1. / (x[j] - x[i]);
+        for (std::size_t k = begin; k < end; ++k)
+          if (k != i && k != j)
+            weight *= (x[i] - x[k]) / (x[j] - x[k]);
+        result += weight * (y[j] - y[i]);
+      }
+      return result;
+    }
+
+    std::vector<double> smooth_slopes(const std::vector<double> &x, const std::vector<double> &y)
+    {
+      constexpr std::size_t beside = 2;
+      const std::size_t n          = x.size();
+      const auto secant            = [&](const std::size_t i) { return (y[i + 1] - y[i]) / (x[i + 1] - x[i]); };
+      std::vector<double> result;
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        const double before = secant(i == 0 ? 0 : i - 1), after = secant(i + 1 == n ? n - 2 : i);
+        const double sign = before * after > 0. ? std::copysign(1., after) : 0.;
+        const double most = 3. * std::min(std::abs(before), std::abs(after));
+        const double at   = polynomial_slope(x, y, i, i < beside ? 0 : i - beside, std::min(n, i + beside + 1));
+        result.push_back(sign * std::clamp(sign * at, 0., most));
+      }
+      return result;
+    }
+
+    template <class Interpolant>
+    std::pair<std::function<double(double)>, std::function<double(double)>> functions(Interpolant &&interpolant)
+    {
+      const auto kept = std::make_shared<const Interpolant>(std::move(interpolant));
+      return { [kept](const double x) { return (*kept)(x); }, [kept](const double x) { return kept->prime(x); } };
+    }
   } // namespace
 
-  MonotoneCubic::MonotoneCubic(const std::vector<double> &x, const std::vector<double> &y)
+  MonotoneCubic::MonotoneCubic(const std::vector<double> &x, const std::vector<double> &y, const Slopes slopes)
   {
+    namespace interpolators = boost::math::interpolators;
     check_points(x, y);
-    first       = x.front();
-    last        = x.back();
-    interpolant = std::make_shared<const Interpolant>(std::vector<double>(x), std::vector<double>(y));
+    first   = x.front();
+    last    = x.back();
+    auto at = x, values = y;
+    const auto own           = slopes == Slopes::smooth
+                                   ? functions(interpolators::cubic_hermite(std::move(at), std::move(values), smooth_slopes(x, y)))
+                                   : functions(interpolators::pchip(std::move(at), std::move(values)));
+    std::tie(between, slope) = own;
   }
 
   double MonotoneCubic::value(const double x) const
   {
-    return (*interpolant)(std::clamp(x, first, last));
+    return between(std::clamp(x, first, last));
   }
 
   double MonotoneCubic::derivative(const double x) const
   {
-    return x < first || x > last ? 0. : interpolant->prime(x);
+    return x < first || x > last ? 0. : slope(x);
   }
 } // namespace sprag

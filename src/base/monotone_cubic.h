@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <vector>
 
 namespace sprag
 {
-  /// The monotone cubic of Fritsch and Butland (PCHIP): y over x through given points, which it never overshoots. It is constant
-  /// beyond its ends.
+  /// Cubics through given points, y over x, that overshoot none of them. They are constant beyond their ends.
   class MonotoneCubic
   {
   public:
+    /// Slopes at the points; 0 where y turns or stays.
+    enum class Slopes
+    {
+      pchip, ///< of Fritsch and Butland: of two secants their weighted harmonic mean
+      smooth ///< of polynomials through five points, at most three times the smaller secant: dy/dx of a motion to fourth order
+    };
+
     /// Takes at least 4 points, all finite, with `x` strictly increasing. Throws InputError naming the row otherwise.
-    MonotoneCubic(const std::vector<double> &x, const std::vector<double> &y);
+    MonotoneCubic(const std::vector<double> &x, const std::vector<double> &y, Slopes slopes = Slopes::pchip);
 
     double value(double x) const;
 
@@ -20,8 +26,7 @@ namespace sprag
     double derivative(double x) const;
 
   private:
-    class Interpolant;
-    std::shared_ptr<const Interpolant> interpolant;
+    std::function<double(double)> between, slope;
     double first;
     double last;
   };

@@ -332,7 +332,7 @@ namespace sprag
           : DriveMotion(DriveProfile::table)
           , sample_times(times_)
           , sample_positions(positions_)
-          , samples(sample_times, sample_positions)
+          , samples(sample_times, sample_positions, MonotoneCubic::Slopes::smooth)
       {
         if (sample_times.front() != 0.)
           throw InputError("row 1: time " + number_text(sample_times.front()) + " s: must be 0");
