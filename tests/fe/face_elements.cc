@@ -42,7 +42,7 @@ TEST(FaceElements, AreFoundByBoxInThreeDimensions)
   // Beside the face the closest.
   EXPECT_EQ(face.elements_in({ { { 8., -1., 4.2 }, { 9., 1., 4.4 } } }), (std::vector<unsigned int>{ 34 }));
   EXPECT_EQ(face.element_displacements({ 1, 0 }).size(), 24u);
-  EXPECT_EQ(face.point_element(7), 7u);
+  EXPECT_EQ(face.point_elements[7], 7u);
 }
 
 // If displacements move the face, a sphere touches what a search of all elements finds, also across a slit.

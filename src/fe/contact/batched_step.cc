@@ -216,7 +216,7 @@ namespace sprag
     Several<Batch, 2> result{ { uniform_batch(slide.speed), SimdBatch{} } };
     if (slide.rates == nullptr)
       return result;
-    const unsigned int element = grid.point_element(block.first);
+    const unsigned int element = grid.point_elements[block.first];
     const auto place           = at_points(block.shapes, block.position, blocks[element].travel.displacement());
     const auto rate            = at_points(block.shapes, {}, Elements::nodal(grid.elements[element], *slide.rates));
     for (unsigned int i = 0; i < n_lanes; ++i)

@@ -82,14 +82,14 @@ namespace sprag
   {
     if (facet.opposed)
       return facet.arc + slip_offset;
-    const auto &element_points = face.elements[face.point_element(point)];
+    const auto &element_points = face.elements[face.point_elements[point]];
     const auto position = FaceElements<2>::position(face.points[point], FaceElements<2>::nodal(element_points, *at.displacement));
     return properties.counterface(at.x, at.theta)({ position[0], position[1] }).slip;
   }
 
   double ElasticCounterface::slip_at_begin(const unsigned int point)
   {
-    const unsigned int element_index = face.point_element(point);
+    const unsigned int element_index = face.point_elements[point];
     const auto &facets               = facets_at_begin(element_index).facets;
     return slip_coordinate(facets[point - face.elements[element_index].begin], begin_side.at.at, begin_side.first_slip, point);
   }

@@ -132,7 +132,7 @@ namespace sprag
     std::vector<unsigned int> result;
     for (const auto &entry : history)
       if (result.empty() || entry.point >= face.elements[result.back()].end)
-        result.push_back(face.point_element(entry.point));
+        result.push_back(face.point_elements[entry.point]);
     return result;
   }
 

@@ -80,6 +80,8 @@ namespace sprag
       , points(copied_points(face))
       , tree(std::make_unique<Tree>(face))
   {
+    for (unsigned int element = 0; element < elements.size(); ++element)
+      point_elements.resize(elements[element].end, element);
     find_neighbours();
     find_lines();
   }
@@ -173,14 +175,6 @@ namespace sprag
       for (unsigned int d = 0; d < dim; ++d)
         result[d] += point.shapes[a] * displacement[dim * a + d];
     return result;
-  }
-
-  template <int dim>
-  unsigned int FaceElements<dim>::point_element(const unsigned int point) const
-  {
-    const auto ends_before = [](const Element &element, const unsigned int q) { return element.end <= q; };
-    const auto found       = std::lower_bound(elements.begin(), elements.end(), point, ends_before);
-    return static_cast<unsigned int>(found - elements.begin());
   }
 
   template <int dim>

@@ -61,6 +61,7 @@ namespace sprag
     const std::vector<Point> points;
     std::vector<Indices> lines;            ///< points that have the same zeta, by increasing xi; in a plane all of them
     std::vector<unsigned int> point_lines; ///< index in `lines`
+    Indices point_elements;                ///< index in `elements`
 
     /// The element's part of the displacements of the face, dim entries a node.
     using Nodal = std::array<double, dim * max_nodes>;
@@ -78,9 +79,6 @@ namespace sprag
 
     /// Returns the indices of the displacements of the nodes of some elements, increasing.
     std::vector<unsigned int> element_displacements(const Indices &some) const;
-
-    /// Returns the index of the element that holds a point, by its index.
-    unsigned int point_element(unsigned int point) const;
 
   private:
     struct Tree;

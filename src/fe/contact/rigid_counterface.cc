@@ -23,6 +23,7 @@ namespace sprag
       : face(face_)
       , properties(properties_)
       , slopes(face.points.size())
+      , begin_points(face.points.size())
   {
     for (std::size_t k = 0; k < lever.edges.size(); ++k)
     {
@@ -44,11 +45,12 @@ namespace sprag
   void RigidCounterface::set_places(const StepPlaces &places_, const bool begins_anew)
   {
     places = places_;
+    moves  = places.moves();
     end    = properties.counterface(places.end.x, places.end.theta);
     if (begins_anew)
     {
       begin = properties.counterface(places.begin.x, places.begin.theta);
-      begin_points.clear();
+      is_begun.assign(face.elements.size(), false);
     }
     if (!places.balanced_at_end())
       balance = properties.counterface(places.balanced(places.begin.x, places.end.x),
@@ -73,13 +75,14 @@ namespace sprag
 
   void RigidCounterface::begin_element(const unsigned int element_index)
   {
-    element              = element_index;
-    at_end               = FaceElements<2>::nodal(face.elements[element], *places.end.displacement);
-    element_begin_points = places.moves() ? &points_at_begin(element) : nullptr;
-    has_forces           = false;
-    values               = {};
-    tangent              = {};
-    friction             = {};
+    element = element_index;
+    at_end  = FaceElements<2>::nodal(face.elements[element], *places.end.displacement);
+    if (moves)
+      find_begin_points(element);
+    has_forces = false;
+    values     = {};
+    tangent    = {};
+    friction   = {};
   }
 
   bool RigidCounterface::place(FacePointState<2> &state)
@@ -90,21 +93,20 @@ namespace sprag
     return true;
   }
 
-  const std::vector<RigidCounterface::BeginPoint> &RigidCounterface::points_at_begin(const unsigned int element_index)
+  /// Finds the points of an element where the step begins, if they are not known.
+  void RigidCounterface::find_begin_points(const unsigned int element_index)
   {
-    const auto [found, is_new] = begin_points.try_emplace(element_index);
-    if (is_new)
+    if (is_begun[element_index])
+      return;
+    is_begun[element_index] = true;
+    const auto &chosen      = face.elements[element_index];
+    const auto nodal        = FaceElements<2>::nodal(chosen, *places.begin.displacement);
+    for (unsigned int q = chosen.begin; q < chosen.end; ++q)
     {
-      const auto &chosen = face.elements[element_index];
-      const auto nodal   = FaceElements<2>::nodal(chosen, *places.begin.displacement);
-      for (unsigned int q = chosen.begin; q < chosen.end; ++q)
-      {
-        const auto position = FaceElements<2>::position(face.points[q], nodal);
-        const auto contact  = begin(to_lever_point(position));
-        found->second.push_back({ position, contact.gap, contact.slip });
-      }
+      const auto position = FaceElements<2>::position(face.points[q], nodal);
+      const auto contact  = begin(to_lever_point(position));
+      begin_points[q]     = { position, contact.gap, contact.slip };
     }
-    return found->second;
   }
 
   StepKinematics<4> RigidCounterface::over_step(const FacePointState<2> &state, const double slip_change) const
@@ -112,7 +114,7 @@ namespace sprag
     auto result = step_to(placed, placed.slip - slip_change);
     if (places.balanced_at_end())
       return result;
-    const auto &first  = at_begin(state.index);
+    const auto &first  = begin_points[state.index];
     const auto moved   = state.position - first.position;
     const auto between = first.position + places.balance * moved;
     result.gap_begin   = first.gap;
@@ -134,7 +136,7 @@ namespace sprag
   void RigidCounterface::step(FacePointState<2> &state, const ContactHistory &history, const FaceStep &step, ContactSums &sums)
   {
     const auto &point        = face.points[state.index];
-    const double slip_change = (element_begin_points ? placed.slip - at_begin(state.index).slip : 0.) + step.surface_run;
+    const double slip_change = (moves ? placed.slip - begin_points[state.index].slip : 0.) + step.surface_run;
     auto step_kinematics     = over_step(state, slip_change);
     SlipShift shift;
     Tensor<1, 4> direction;
@@ -145,8 +147,8 @@ namespace sprag
                                                  unwinding_stiffness(step.terms.augmented, step.law.slip.stiffness), step.history,
                                                  [this](const unsigned int q)
                                                  {
-                           const unsigned int element_index = face.point_element(q);
-                           return points_at_begin(element_index)[q - face.elements[element_index].begin].slip;
+                           find_begin_points(face.point_elements[q]);
+                           return begin_points[q].slip;
                          });
       step_kinematics.slip_shift[0] = shift.total();
     }
@@ -258,9 +260,9 @@ namespace sprag
 
   double RigidCounterface::slip(const FacePointState<2> &state) const
   {
-    if (!element_begin_points)
+    if (!moves)
       return 0.;
     const auto position = FaceElements<2>::position(face.points[state.index], at_end);
-    return end(to_lever_point(position)).slip - at_begin(state.index).slip;
+    return end(to_lever_point(position)).slip - begin_points[state.index].slip;
   }
 } // namespace sprag

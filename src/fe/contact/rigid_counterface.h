@@ -3,8 +3,6 @@
 
 #include "fe/contact/face_contact_point.h"
 
-#include <map>
-
 namespace sprag
 {
   /// A rigid counterface below the lever's face, in two dimensions. FaceContact sets a step, see set_places(), then one element
@@ -41,7 +39,7 @@ namespace sprag
     /// Returns the gap of a point of the element, by its index in the face, at the beginning of the step [mm].
     double gap_at_begin(const unsigned int point) const
     {
-      return element_begin_points ? at_begin(point).gap : placed.gap;
+      return moves ? begin_points[point].gap : placed.gap;
     }
 
     /// Response of the point placed last to the step, and its forces.
@@ -75,13 +73,7 @@ namespace sprag
     };
 
     FaceElements<2>::Indices near(const FaceConfiguration &at, const PlacedCounterface &counterface) const;
-    const std::vector<BeginPoint> &points_at_begin(unsigned int element_index);
-
-    const BeginPoint &at_begin(const unsigned int point) const
-    {
-      return (*element_begin_points)[point - face.elements[element].begin];
-    }
-
+    void find_begin_points(unsigned int element_index);
     StepKinematics<4> over_step(const FacePointState<2> &state, double slip_change) const;
     using Slopes = std::array<double, FaceElements<2>::max_nodes>;
 
@@ -104,11 +96,12 @@ namespace sprag
 
     // State at the begin of the step, the same in all its iterations.
     PlacedCounterface begin;
-    std::map<unsigned int, std::vector<BeginPoint>> begin_points; ///< by elements
+    std::vector<BeginPoint> begin_points; ///< those of the elements that were met
+    std::vector<bool> is_begun;           ///< whether an element was met
+    bool moves = false;                   ///< whether beginning and end differ
 
     // State of the present element.
-    const std::vector<BeginPoint> *element_begin_points = nullptr; ///< none where beginning and end are one
-    bool has_forces                                     = false;
+    bool has_forces = false;
     Local values;
     LocalMatrix tangent;
     FrictionParts<LocalMatrix> friction;

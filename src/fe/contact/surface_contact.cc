@@ -336,7 +336,7 @@ namespace sprag
   double SurfaceContact::slip_at(const unsigned int point, const Vector<double> &displacements,
                                  const RigidCylinder::Pose &cylinder_pose) const
   {
-    const auto nodal = Elements::nodal(grid.elements[grid.point_element(point)], displacements);
+    const auto nodal = Elements::nodal(grid.elements[grid.point_elements[point]], displacements);
     return properties.cylinder.slip(cylinder_pose, Elements::position(grid.points[point], nodal));
   }
 
