@@ -41,14 +41,6 @@ namespace sprag
     {
       return std::fmax(row[Column::P], row.lever_value(Column::P, 1));
     }
-
-    double largest_surface_stress(const std::vector<double> &pressure, const std::vector<double> &traction)
-    {
-      double result = 0.;
-      for (std::size_t q = 0; q < pressure.size(); ++q)
-        result = std::max(result, pressure[q] * pressure[q] + 3. * traction[q] * traction[q]);
-      return std::sqrt(result);
-    }
   } // namespace
 
   FieldRecorder::FieldRecorder(const Scene &scene_, BodyFields fields_, Displacements source_,

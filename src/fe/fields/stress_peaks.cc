@@ -4,6 +4,9 @@
 #include "base/unknown.h"
 #include "results/entries.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace sprag
 {
   std::optional<unsigned int> stress_region(const BodyFields::Node &node)
@@ -14,6 +17,14 @@ namespace sprag
     if (node.at_hub)
       return 2;
     return lever ? 0 : 1;
+  }
+
+  double largest_surface_stress(const std::vector<double> &pressure, const std::vector<double> &traction)
+  {
+    double result = 0.;
+    for (std::size_t q = 0; q < pressure.size(); ++q)
+      result = std::max(result, pressure[q] * pressure[q] + 3. * traction[q] * traction[q]);
+    return std::sqrt(result);
   }
 
   StressPeaks::StressPeaks(const BodyFields &fields_)

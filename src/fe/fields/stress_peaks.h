@@ -14,6 +14,9 @@ namespace sprag
   /// Returns where the stress of a node counts: 0 lever, 1 layer, 2 cells at the hub; none for other parts.
   std::optional<unsigned int> stress_region(const BodyFields::Node &node);
 
+  /// Returns the largest sqrt(p^2 + 3 t^2) of the points of a face [MPa].
+  double largest_surface_stress(const std::vector<double> &pressure, const std::vector<double> &traction);
+
   /// Largest von Mises stress in lever (web included) and layer over the states that are looked at. In the cells that the hub
   /// holds the stress of linear elasticity grows without bound with a finer mesh, so the lever's peak leaves them out and theirs
   /// is told by itself.
