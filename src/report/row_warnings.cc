@@ -185,7 +185,7 @@ namespace sprag
         return;
       warnings.push_back(
           make_warning("pressure_beyond_strength",
-                       { rounded_text(pressure) + (pressed != nullptr ? " MPa" : " MPa (by an elastic foundation)"),
+                       { rounded_text(pressure) + (pressed != nullptr ? " MPa" : " MPa (estimated)"),
                          rounded_text(location_row[Column::P]), place(location_row), rounded_text(*strength),
                          scene.layer.strength ? "Friction layer/Strength" : "0.04 E, at which the cells of cork buckle" }));
     }

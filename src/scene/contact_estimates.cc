@@ -92,6 +92,19 @@ namespace sprag
       return width / compliance;
     }
 
+    /// Deflection of the face of a layer that is bonded to a rigid base under a pressure that varies as a cosine, over the
+    /// pressure times 2 (1 - nu^2) t/E. `wave`: thickness t times the wave number; plane strain (Meijers, Applied
+    /// Scientific Research 18, 353).
+    double layer_deflection(const double wave, const double nu)
+    {
+      constexpr double thick = 30.;
+      if (wave > thick)
+        return 1. / wave;
+      const double kappa = 3. - 4. * nu;
+      return (2. * kappa * std::sinh(2. * wave) - 4. * wave) /
+             (2. * kappa * std::cosh(2. * wave) + 4. * wave * wave + 1. + kappa * kappa) / wave;
+    }
+
     /// Returns dP/d(delta) of the contact law of reduced models [N/mm].
     double law_stiffness(const ContactSettings &contact, const double P)
     {
@@ -148,15 +161,26 @@ namespace sprag
 
   double layer_pressure(const Device &device, const double P)
   {
-    const double t       = device.layer.thickness;
-    const double nu      = device.layer.poisson_ratio;
-    const double modulus = device.layer.plane == PlaneState::stress
-                               ? device.layer.young_modulus / (1. - nu * nu)
-                               : device.layer.young_modulus * (1. - nu) / ((1. + nu) * (1. - 2. * nu));
-    if (t == 0.)
+    constexpr double small = 1e-3;
+    const double t = device.layer.thickness, R = device.geometry.cylinder_radius, load = P / device.lever.width;
+    if (t == 0. || !(load > 0.))
       return 0.;
-    const double half_width_at_unit_pressure = std::sqrt(2. * device.geometry.cylinder_radius * t / modulus);
-    return std::pow(0.75 * P / (device.lever.width * half_width_at_unit_pressure), 2. / 3.);
+    const double own      = device.layer.poisson_ratio;
+    const bool is_free    = device.layer.plane == PlaneState::stress;
+    const double nu       = is_free ? own / (1. + own) : own;
+    const double modulus  = device.layer.young_modulus * (is_free ? (1. + 2. * own) / std::pow(1. + own, 2) : 1.);
+    const auto compliance = [&](const double a) { return 2. * t * (1. - nu * nu) / modulus * layer_deflection(2. * t / a, nu); };
+    double a = std::sqrt(R * t), pressure = 0., step = 1.;
+    for (unsigned int i = 0; i < 50 && std::abs(step) > 1e-9; ++i)
+    {
+      const double power = std::log(compliance(a * (1. + small)) / compliance(a * (1. - small))) / (2. * small);
+      const double shape = 1. - 0.5 * power;
+      const double mean  = 0.5 * std::sqrt(M_PI) * std::tgamma(shape + 1.) / std::tgamma(shape + 1.5);
+      pressure           = a * a / (2. * R * compliance(a));
+      step               = std::log(load / (2. * mean * a * pressure)) / (3. - power);
+      a *= std::exp(step);
+    }
+    return pressure;
   }
 
   ContactReference contact_reference(const Device &device)

@@ -258,12 +258,12 @@ namespace sprag
     if (!falls_with_speed(law))
       return result;
     const auto by_rates = tangent(BatchedStep::Part::mu_rate);
-    for (unsigned int i = 0; i < by_rates.m(); ++i)
+    const auto n        = static_cast<unsigned int>(by_rates.m());
+    for (unsigned int i = 0; i < n; ++i)
     {
-      FrictionDelay delay{ law.memory_length / std::abs(speed), Vector<double>(by_rates.m()), Vector<double>(by_rates.m()),
-                           Vector<double>(by_rates.m()) };
+      FrictionDelay delay{ law.memory_length / std::abs(speed), Vector<double>(n), Vector<double>(n), Vector<double>(n) };
       delay.force[i] = 1.;
-      for (unsigned int j = 0; j < by_rates.n(); ++j)
+      for (unsigned int j = 0; j < n; ++j)
         delay.rate_row[j] = by_rates(i, j);
       if (!delay.rate_row.all_zero())
         result.push_back(std::move(delay));
