@@ -8,6 +8,7 @@
 #include "scene/closed_form.h"
 #include "scene/contact_estimates.h"
 #include "scene/lever_inertia.h"
+#include "scene/lever_shape.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"
 
@@ -96,14 +97,11 @@ namespace sprag
 
     void tip(const Scene &scene, Rules &rules)
     {
-      // Room for the width of the contact, which is below a millimetre each way.
-      const double margin  = 2.;
-      const double x       = scene.drive.minimum();
-      const double contact = kinematics(scene.geometry, x).s;
-      rules.need(scene.lever.length >= contact + margin, "Lever/Length",
+      const double x = scene.drive.minimum();
+      rules.need(scene.lever.length >= least_length(scene), "Lever/Length",
                  joined(shape, { "Drive/Start", "Drive/Profile", "Drive/Table" }),
-                 "must be at least " + mm(contact + margin) + ": at x = " + mm(x) +
-                     " the cylinder touches the lever at s = " + mm(contact));
+                 "must be at least " + mm(least_length(scene)) + ": at x = " + mm(x) +
+                     " the cylinder touches the lever at s = " + mm(kinematics(scene.geometry, x).s));
     }
 
     void mesh(const MeshSettings &settings, const Lever &lever, Rules &rules)

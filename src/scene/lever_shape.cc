@@ -17,6 +17,11 @@ namespace sprag
     return { { kinematics(device.geometry, device.drive.maximum()).s, kinematics(device.geometry, device.drive.minimum()).s } };
   }
 
+  double least_length(const Device &device)
+  {
+    return kinematics(device.geometry, device.drive.minimum()).s + std::min(2., device.geometry.cylinder_radius / 28.);
+  }
+
   std::array<double, 2> contact_surroundings(const Device &device)
   {
     const double margin      = 0.1 * device.geometry.cylinder_radius;

@@ -22,6 +22,10 @@ namespace sprag
   /// Returns the first and last xi that the contact of a rigid lever sweeps in the drive.
   std::array<double, 2> swept_contact(const Device &device);
 
+  /// Returns the least Lever/Length: as far as a rigid lever touches the cylinder in the drive, and for the contact's width 2 mm
+  /// or, with a radius below 56 mm, R/28 more.
+  double least_length(const Device &device);
+
   /// Returns swept_contact() with a margin of a tenth of the cylinder's radius on both sides for the contact's width.
   std::array<double, 2> contact_surroundings(const Device &device);
 

@@ -244,7 +244,7 @@ def unit_rows():
     in_ms += ("Drive/Reversal duration=5", "Time/Step=0.05", "Time/Tolerance=5e-3")
     yield Row("times in ms", "reversal-a", in_ms, equal_rows(()), "the run in s", 1e-6, base=(*BRIEF, *mu(0.73)))
     options = ("Geometry/Cylinder radius=0.056", "Geometry/Interface offset=0.0456")
-    yield refused("lengths in m", "model-a", options, "Lever/Length", "must be", base=METRES)
+    yield refused("lengths in m", "model-a", options, "Mesh/Face size", "must be", base=METRES)
 
 
 METRES = ("Geometry/Pivot distance=0.1855", "Lever/Length=0.21", "Drive/Stroke=0.065", "Lever/Depth=0.02", "Lever/Width=0.04")

@@ -10,6 +10,7 @@
 #include "scene/closed_form.h"
 #include "scene/contact_estimates.h"
 #include "scene/damper.h"
+#include "scene/lever_shape.h"
 #include "scene/scene.h"
 
 #include <algorithm>
@@ -177,10 +178,8 @@ namespace sprag
       return hardest;
     take(-sliding_speed(g, end, 1.), "the cylinder must slide along the lever on the whole stroke");
     take(-least_margin(scene), "the lever must not jam on the way back");
-    constexpr double margin = 2.; // as a scene with a lever of some length needs it
     if (has_length)
-      take((kinematics(g, scene.drive.minimum()).s + margin - scene.lever.length) / l,
-           "Lever/Length must reach 2 mm beyond the contact");
+      take((least_length(scene) - scene.lever.length) / l, "Lever/Length must reach beyond the contact");
     return hardest;
   }
 

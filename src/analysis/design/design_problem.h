@@ -62,7 +62,7 @@ namespace sprag
     std::string text;      ///< "the cylinder must not reach the pivot on the stroke"
   };
 
-  /// Returns the rule with the largest violation. `has_length`: Lever/Length must reach 2 mm beyond the contact.
+  /// Returns the rule with the largest violation. `has_length`: Lever/Length must be least_length().
   LeverRule hardest_rule(const Scene &scene, bool has_length);
 
   /// Returns max |F_i - c x_i| / max |F_i| with c = sum x_i F_i / sum x_i^2, the best line through 0.
