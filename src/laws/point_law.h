@@ -258,18 +258,48 @@ namespace sprag
     return (history.step > 0.) & (history.speed == 0.) & (dot(history.traction, history.traction) > 0.);
   }
 
-  /// Returns the speed that mu follows at the end of a step [mm/s]: over the memory length L it comes to that of the faces,
+  /// Weight c(q) = (1 + e)/2 - (1 - e)/q of what a speed changes by over a path of q memory lengths, e = exp(-q), and its
+  /// derivative.
+  struct MemoryWeight
+  {
+    double value, derivative;
+  };
+
+  inline MemoryWeight memory_weight(const double q)
+  {
+    constexpr double series = 0.02; // below: to q^4
+    if (q < series)
+      return { q * q * (1. / 12. - q / 24. + q * q / 80.), q * (1. / 6. - q / 8. + q * q / 20.) };
+    const double e = std::exp(-q);
+    return { 0.5 * (1. + e) - (1. - e) / q, (1. - e) / (q * q) - e / q - 0.5 * e };
+  }
+
+  /// Returns the speed w that mu follows at the end of a step [mm/s]: over the memory length L it comes to that of the faces, v,
   ///   dw/ds = (v - w) / L   along the path s on which they slide,
-  /// from 0 after stick, and at once where the point was open.
+  /// from 0 after stick, and at once where the point was open. v is linear over the path: its mean is that of the step, `last`
+  /// that of the last one along this one.
   template <class N, int slips>
-  SPRAG_PART N lagged_speed(const SlipLaw &law, const SlipHistory<Plain<N>, slips> &history, const N &path, const N &v)
+  SPRAG_PART N lagged_speed(const SlipLaw &law, const SlipHistory<Plain<N>, slips> &history, const N &path, const N &mean,
+                            const N &last, const double dt)
   {
     using V             = Plain<N>;
     const double length = law.friction.memory_length;
-    V share{};
-    for_each_lane((history.speed > 0.) | stuck_before(history),
-                  [&](const unsigned int i) { set_lane(share, i, std::exp(-at_lane(value(path), i) / length)); });
-    return v + chained(share, V(-1. / length * share), path) * (history.speed - v);
+    const auto slid     = history.speed > 0.;
+    V share{}, weight{}, slope{};
+    for_each_lane(slid | stuck_before(history),
+                  [&](const unsigned int i)
+                  {
+                    const double q   = at_lane(value(path), i) / length;
+                    const auto found = memory_weight(q);
+                    set_lane(share, i, std::exp(-q));
+                    set_lane(weight, i, found.value);
+                    set_lane(slope, i, found.derivative / length);
+                  });
+    const V extrapolated = select(slid, extrapolated_share(history, value(last), dt), V{});
+    const N change       = 2. * extrapolated * (mean - last);
+    const N w =
+        mean + chained(share, V(-1. / length * share), path) * (history.speed - mean) + chained(weight, slope, path) * change;
+    return select(value(w) > 0., w, N{});
   }
 
   /// Friction t = mu p w / sqrt(w^2 + v_r^2) along the mean slip of a step, w at its end. mu is mu(|w|), or follows that over the
@@ -286,7 +316,7 @@ namespace sprag
     const V share      = extrapolated_share(history, value(last), dt);
     const N w          = (1. + share) * (1. / dt * path.size) - share * last;
     const N speed      = select(value(w) < 0., N(-w), w);
-    const N followed   = law.follows_speed ? lagged_speed(law, history, path.size, speed) : speed;
+    const N followed   = law.follows_speed ? lagged_speed(law, history, path.size, N(1. / dt * path.size), last, dt) : speed;
     const auto pressed = value(p) > 0.;
     V mu{}, slope{};
     set_friction(law.friction, pressed, value(followed), mu, slope);
@@ -326,28 +356,24 @@ namespace sprag
   PointFriction<N, slips> following_behind_layer(const SlipLaw &law, const SlipHistory<Plain<N>, slips> &history,
                                                  const Several<N, slips> &trial, const N &p, const double dt)
   {
-    const double k = law.stiffness, length = law.friction.memory_length;
+    const double k = law.stiffness;
     const SizeAndDirection<N, slips> split(trial);
     const double last      = value(dot(history.slip_speed, split.direction));
-    const double share     = history.speed > 0. ? extrapolated_share(history, last, dt) : 0.;
     const double round_off = 4. * std::numeric_limits<double>::epsilon() * value(split.size);
     PointFriction<N, slips> result;
     N t          = split.size;
     double lower = 0., upper = value(t);
     for (unsigned int i = 0; i < 60; ++i)
     {
-      const N path        = 1. / k * (split.size - t);
-      const N end_speed   = (1. + share) / dt * path - share * last;
-      const N v           = select(value(end_speed) > 0., end_speed, N{});
-      const N w           = lagged_speed(law, history, path, v);
-      const auto friction = friction_coefficient(law.friction, value(w));
-      const N excess      = t - chained(friction.coefficient, friction.derivative, w) * p;
-      const double rest   = std::exp(-value(path) / length);
-      const double by_path =
-          (value(end_speed) > 0. ? (1. - rest) * (1. + share) / dt : 0.) - rest / length * (history.speed - value(v));
-      result.mu       = friction.coefficient;
-      result.slipping = value(t) < value(split.size) || value(excess) > 0.;
-      result.speed    = result.slipping ? value(w) : 0.;
+      const N path         = 1. / k * (split.size - t);
+      const N w            = lagged_speed(law, history, path, N(1. / dt * path), N(N{} + last), dt);
+      const auto friction  = friction_coefficient(law.friction, value(w));
+      const N excess       = t - chained(friction.coefficient, friction.derivative, w) * p;
+      const auto varied    = variable<Dual<double, 1>>(value(path), 0);
+      const double by_path = lagged_speed(law, history, varied, 1. / dt * varied, 0. * varied + last, dt).d[0];
+      result.mu            = friction.coefficient;
+      result.slipping      = value(t) < value(split.size) || value(excess) > 0.;
+      result.speed         = result.slipping ? value(w) : 0.;
       if (!result.slipping)
         break;
       (value(excess) > 0. ? upper : lower) = value(t);
@@ -376,13 +402,11 @@ namespace sprag
       if (slides_behind_layer(law, history) && value(p) > 0.)
         return following_behind_layer(law, history, trial, p, dt);
     const SizeAndDirection<N, slips> path(slip);
-    const N last  = dot(history.slip_speed, path.direction);
-    const V share = select(history.speed > 0., extrapolated_share(history, value(last), dt), V{});
-    const N v     = (1. + share) * (1. / dt * path.size) - share * last;
+    const N last = dot(history.slip_speed, path.direction);
     const SizeAndDirection<N, slips> split(trial);
     const N beyond = 1. / law.stiffness * (split.size - friction_coefficient(law.friction, 0.).coefficient * p);
     const N slid   = select(stuck_before(history), select(value(beyond) > 0., beyond, N{}), path.size);
-    const N w      = lagged_speed(law, history, slid, select(value(v) > 0., v, N{}));
+    const N w      = lagged_speed(law, history, slid, N(1. / dt * path.size), last, dt);
     auto result    = return_at_speed(law, trial, p, w);
     result.speed   = select(result.slipping, value(w), V{});
     return result;

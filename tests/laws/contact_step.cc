@@ -240,8 +240,8 @@ TEST(EndFriction, ClosesItsOwnLedger)
   }
 }
 
-// dw/dt = |v| (v - w) / L, by Runge-Kutta, along a speed v = 100 mm/s + 4e5 mm/s^2 t. A step takes v at its end, which makes w
-// too large by half of what v grows by in it. Before, it sticks under up to mu(0) p; then w begins at 0.
+// dw/dt = |v| (v - w) / L, by Runge-Kutta, along a speed v = 100 mm/s + 4e5 mm/s^2 t. w is within a tenth of what v grows by in a
+// step: it sticks under up to mu(0) p before, and where in a step that ends does not count. Then w begins at 0.
 TEST(EndFriction, FallingFrictionFollowsTheSpeedOfTheFacesOverTheMemoryLength)
 {
   const FrictionLaw falling{ StribeckFriction{ 0.9, 0.5, 60. } };
@@ -272,7 +272,7 @@ TEST(EndFriction, FallingFrictionFollowsTheSpeedOfTheFacesOverTheMemoryLength)
     {
       EXPECT_TRUE(friction.slipping);
       EXPECT_LT(w, v(t + step) - 10.);
-      EXPECT_NEAR(friction.speed, w, 0.6 * growth * step);
+      EXPECT_NEAR(friction.speed, w, 0.1 * growth * step);
       EXPECT_NEAR(friction.traction[0], (0.5 + 0.4 * std::exp(-friction.speed / 60.)) * pressure, 1e-12);
     }
     history = { friction.traction, friction.slip_speed, step, friction.speed };
@@ -313,7 +313,7 @@ TEST(EndFriction, FallingFrictionFollowsTheSpeedBehindTheShearOfALayer)
     const double k_3 = rate(t + 0.5 * step, w + 0.5 * step * k_2), k_4 = rate(t + step, w + step * k_3);
     w += step / 6. * (k_1 + 2. * k_2 + 2. * k_3 + k_4);
     ASSERT_TRUE(friction.slipping);
-    EXPECT_NEAR(friction.speed, w, 0.6 * growth * step) << i;
+    EXPECT_NEAR(friction.speed, w, 0.1 * growth * step) << i;
     EXPECT_NEAR(friction.traction[0], (0.5 + 0.4 * std::exp(-friction.speed / 60.)) * pressure, 1e-11);
     const double h = 1e-3 * slip, dp = 1e-4 * pressure;
     EXPECT_NEAR(friction.d_slip[0][0] * 2. * h, at(slip + h, pressure).traction[0] - at(slip - h, pressure).traction[0],
