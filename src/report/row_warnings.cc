@@ -253,17 +253,20 @@ namespace sprag
 
     /// The layer's shear k_t delays what friction does to the slip: where mu falls by |mu'| a speed, |mu'| P / k_t [s] feeds a
     /// vibration. Beyond L / v, L Friction/Memory length, the slip runs away at once.
-    void add_falling_friction(const Scene &scene, const Row &slide, Warnings &warnings)
+    void add_falling_friction(const Scene &scene, const std::vector<Row> &slides, Warnings &warnings)
     {
-      const auto friction = step_friction(scene.friction, slide[Column::v]);
-      const double speed  = std::abs(slide[Column::v_rel]);
-      const double slope  = -friction_coefficient(friction, speed).derivative;
-      if (!falls_with_speed(friction) || !(slope > 0.))
-        return;
-      const double shear  = slope * slide[Column::P] / contact_reference(scene).tangential;
-      const double memory = friction.memory_length / speed;
-      if (shear > memory)
-        warnings.push_back(make_warning("runaway_slip", { place(slide), rounded_text(1e3 * shear), rounded_text(1e3 * memory) }));
+      const double tangential = contact_reference(scene).tangential;
+      const auto shear        = [&](const Row &slide)
+      {
+        const auto friction = step_friction(scene.friction, slide[Column::v]);
+        const double slope  = -friction_coefficient(friction, std::abs(slide[Column::v_rel])).derivative;
+        return falls_with_speed(friction) && slope > 0. ? slope * slide[Column::P] / tangential : 0.;
+      };
+      const auto memory = [&](const Row &slide) { return scene.friction.memory_length / std::abs(slide[Column::v_rel]); };
+      const Row *worst  = find_largest_row(slides, [&](const Row &slide) { return shear(slide) / memory(slide); });
+      if (worst != nullptr && shear(*worst) > memory(*worst))
+        warnings.push_back(make_warning(
+            "runaway_slip", { place(*worst), rounded_text(1e3 * shear(*worst)), rounded_text(1e3 * memory(*worst)) }));
     }
   } // namespace
 
@@ -300,6 +303,8 @@ namespace sprag
       add_strain(scene, rows, warnings);
       add_pressure(scene, rows, *peak, warnings);
       add_friction_speed(scene, rows, warnings);
+      if (scene.analysis.type == AnalysisType::transient && is_reduced(scene.analysis.model))
+        add_falling_friction(scene, rows, warnings);
       return warnings;
     }
 
@@ -350,7 +355,7 @@ namespace sprag
                       [](const Scene &own, const std::vector<Row> &rows)
                       {
                         auto warnings = lever_warnings(own, rows);
-                        add_falling_friction(own, rows.front(), warnings);
+                        add_falling_friction(own, rows, warnings);
                         return warnings;
                       });
   }

@@ -30,6 +30,7 @@ PROVOKED = {
     "layer under a beam": ("stability-a", (*BEAM, "Friction layer/Young's modulus=40"), ["foreign_contact_law"]),
     "falling friction of a beam": ("stability-a", (*BEAM, *FALLING), []),
     "friction that falls at once": ("stability-a", (*BEAM, *FALLING, "Friction/Memory length=1e-3"), ["runaway_slip"]),
+    "friction that falls at once, in time": ("stribeck-a", ("Support/Type=rigid", "Drive/Start=53", "Friction/Memory length=1e-4"), ["runaway_slip"]),
     "slides of a harmonic drive": ("stability-a", (*BEAM, "Drive/Profile=harmonic", "Stability/Position=auto"), ["largest_speed_alone"]),
     "table beyond the stroke": ("design-machine", ("Design/Judges=none", "Drive/Stroke=8", "Design/Demands=friction ratio = 0.5 +- 0.005; relative amplitude <= 100; jamming margin >= 0.5"), ["table_beyond_stroke"]),
     "target of a drive that does not turn": ("reversal-a", ("Analysis/Model=rigid", "Drive/Start=64", "Drive/Cycles=0.5", "Accuracy/Target=0.01"), ["target_missed"]),
