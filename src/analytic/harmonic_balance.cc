@@ -31,10 +31,10 @@ namespace sprag
   } // namespace
 
   std::vector<HarmonicBalance> harmonic_balance(const IsolationSystem &system, const double base_amplitude,
-                                                const double frequency)
+                                                const double angular_frequency)
   {
     constexpr unsigned int brackets = 160; // of A, geometrically spaced; each change of sign holds a solution
-    const double w = frequency, base_force = system.mass * w * w * base_amplitude;
+    const double w = angular_frequency, base_force = system.mass * w * w * base_amplitude;
     const double largest = std::min(system.damper.reach, 1e3 * base_amplitude);
     const auto residual  = [&](const double A)
     {

@@ -43,7 +43,7 @@ namespace sprag
     double energy_residual = 0.; ///< largest, over the largest energy or work
   };
 
-  /// Records a row of the table. `is_before`: at a turn the force is still that before it, and a second row follows.
+  /// Records a row of results. `is_before` marks the first of two rows at a turn, with the force just before it.
   using RecordTable = std::function<void(const IsolatedTable &, bool is_before)>;
 
   /// Keeps the progress of a run; `serialise_table` adds the state of the table.
@@ -59,7 +59,7 @@ namespace sprag
   void run_isolation(const Scene &scene, IsolatedTable &table, IsolationFindings &findings, const RecordTable &record,
                      const TableKeeper *keeper = nullptr);
 
-  /// Runs a table on the damper of the closed form.
+  /// Runs a table on the scene's damper without a model: levers follow the closed form.
   void run_isolation(const Scene &scene, IsolationFindings &findings, const RecordTable &record);
 
   /// Returns Isolation/Periodic tolerance, with levers in time at least the error of z that their steps make: periods differ by

@@ -30,7 +30,7 @@ namespace sprag
   {
     std::shared_ptr<const MeshedLever> lever; ///< null where there is no mesh in a plane
     std::shared_ptr<const SolidInTime> solid; ///< null where there is none in three dimensions
-    MeshedDynamics meshed;                    ///< facts of the mesh; its model is `model`'s owner there
+    MeshedDynamics meshed;                    ///< facts of the mesh, and the model that model() returns where there is a mesh
     std::unique_ptr<DynamicModel> reduced;
 
     DynamicModel &model() const
@@ -57,8 +57,8 @@ namespace sprag
     /// Makes models; with `store_bases` condensed bases go to the cache on disk. The last `kept_meshes` meshed levers are kept.
     explicit DynamicsMaker(bool store_bases = true, std::size_t kept_meshes = 1);
 
-    /// Throws InputError for a mesh that cannot be used, AnalysisError if a factorisation fails. Of a condensed scene
-    /// `fewer_modes` leaves the lowest so many of its modes alone, at least one, by its own bases.
+    /// Throws InputError for a mesh that cannot be used, AnalysisError if a factorisation fails. Of a condensed
+    /// scene's basis `fewer_modes` >= 1 keeps only so many of the lowest modes; the others act statically.
     Dynamics make(const Scene &scene, const std::optional<unsigned int> &fewer_modes = {});
 
     /// Measures the wall and CPU time spent on meshes and models.
@@ -67,7 +67,7 @@ namespace sprag
       return time;
     }
 
-    /// Returns the CPU time that meshes and bases which were used again did not take again [s].
+    /// Returns the CPU time saved by using plane meshes and their bases again [s]. In three dimensions it is not counted.
     double seconds_saved() const
     {
       return saved;

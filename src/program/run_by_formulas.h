@@ -15,8 +15,8 @@ namespace sprag
   /// A function that carries out an analysis.
   using Run = std::function<void(const Scene &, const RunOptions &, Warnings &)>;
 
-  /// Carries out an analysis from its first line to the last: tells the margin to jamming, which `margin` finds for one lever,
-  /// before anything is computed and the warnings at the end.
+  /// Carries out an analysis and prints its warnings at the end. Analyses that move along the drive or hold a slide first print
+  /// the margin to jamming, which `margin` finds for one lever.
   void run_from_margin_to_warnings(const Scene &scene, const RunOptions &options,
                                    const std::function<JammingMargin(const Device &)> &margin, const Run &analysis);
 

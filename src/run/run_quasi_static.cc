@@ -158,8 +158,8 @@ namespace sprag
       check_deviation(scene, summary);
     }
 
-    /// Makes the folder for factors that are kept in files, with nothing of an earlier run, and returns its name, with which it
-    /// goes; null where they are kept in memory.
+    /// Makes an empty folder for factors that are kept in files and returns its path; it is removed with the last copy of the
+    /// pointer. Null if factors are kept in memory.
     std::shared_ptr<const std::string> folder_for_factors(const Scene &scene, const RunOptions &options)
     {
       const auto files = factor_files(scene, options.processes, options.folder);

@@ -13,7 +13,8 @@ namespace sprag
   // (for the second: mirrored) axes, lever_geometry() and lever_friction(). Both turn from rest_inclination(). With a joint
   // that is held each has a spring of its own, M_i = M(phi_i). With a free one nothing holds them but each other: the springs'
   // energy 2 W((phi_1 + phi_2)/2) gives M_1 = M_2 = M((phi_1 + phi_2)/2). A lever that would have to be pulled to the cylinder
-  // does not reach it: held it rests; free neither reaches, and both stay as far from it as they share what is missing.
+  // does not touch it. With a held joint it stays at its spring's rest. With a free one neither touches: both stay off by the
+  // same angle.
 
   /// Returns the inclinations of both levers at x, with or without contact [rad].
   std::array<double, 2> pair_inclinations(const Device &device, double x);
@@ -22,7 +23,7 @@ namespace sprag
   struct PairedLever
   {
     ClosedFormState state;       ///< without contact of its theta alone, the rest 0
-    bool touches         = true; ///< whether it reaches the cylinder, if without force
+    bool touches         = true; ///< whether it touches the cylinder, even without force
     double spring_energy = 0.;   ///< its share [N mm]
   };
 

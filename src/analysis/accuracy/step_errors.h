@@ -11,7 +11,7 @@ namespace sprag
   /// Errors of a vibration due to finite time steps.
   struct StepErrors
   {
-    double frequency = 0.; ///< relative, mean over the steps weighted by |P - P_quasi_static|
+    double frequency = 0.; ///< relative; mean over time after P - P_quasi_static first changes sign, weighted by its size
     double P         = 0.; ///< max |d(P - P_quasi_static)/dt| times the delay accumulated since the overshoot [N]
     double peak_step = 0.; ///< longest step up to the overshoot, the largest excess of P after friction has turned [s]
   };

@@ -23,7 +23,7 @@ namespace sprag
     struct VibrationWindow
     {
       double window; ///< [mm]
-      bool is_full;  ///< residuals are still large where it ends for being the largest
+      bool is_full;  ///< residuals still exceed the noise at the end of the largest window
     };
 
     constexpr std::size_t fewest_rows = 8;
@@ -91,7 +91,7 @@ namespace sprag
     }
 
     constexpr double explains     = 0.8;  ///< of the squares of residuals beyond the noise, from which an unknown is named
-    constexpr double small_change = 1e-4; ///< change of a lever by which derivatives are found, relative
+    constexpr double small_change = 1e-4; ///< relative change of the radius by which its derivatives are found
 
     /// A change of the lever, or of what a channel shows of it.
     struct Candidate
@@ -131,8 +131,8 @@ namespace sprag
       return result;
     }
 
-    /// Takes off what the columns of an orthonormal basis, row by row, have of a vector.
-    std::vector<double> beside(const std::vector<double> &basis, std::vector<double> vector)
+    /// Returns the part of a vector that is orthogonal to the columns of an orthonormal basis, which is stored row by row.
+    std::vector<double> orthogonal_part(const std::vector<double> &basis, std::vector<double> vector)
     {
       const std::size_t columns = basis.size() / vector.size();
       for (std::size_t j = 0; j < columns; ++j)
@@ -188,14 +188,14 @@ namespace sprag
       auto residuals       = mapped(found.used, [&](const UsedValue &value)
                                     { return value.value / deviations[value.channel] - computed_force(own, value); });
       const double noise   = noise_squares(found.used, residuals, channels.size());
-      residuals            = beside(basis, residuals);
+      residuals            = orthogonal_part(basis, residuals);
       const double squares = product(residuals, residuals) - noise;
       std::vector<OneMoreUnknown> result;
       for (auto &candidate : candidates(scene, found.lever))
       {
-        const auto change =
-            beside(basis, mapped(found.used, [&](const UsedValue &value)
-                                 { return (computed_force(candidate, value) - computed_force(own, value)) / candidate.by; }));
+        const auto change = orthogonal_part(
+            basis, mapped(found.used, [&](const UsedValue &value)
+                          { return (computed_force(candidate, value) - computed_force(own, value)) / candidate.by; }));
         const double length = product(change, change), along = product(change, residuals);
         candidate.unknown.change = along / length;
         candidate.unknown.share  = along * along / (length * squares);

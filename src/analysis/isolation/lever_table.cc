@@ -17,11 +17,11 @@ namespace sprag
     constexpr unsigned int most_iterations = 25;
     constexpr unsigned int most_halvings   = 12; ///< of Time/Step
     constexpr double steps_per_period      = 200.;
-    constexpr double first_step_limit      = 20.; ///< the longest step over Time/Step
+    constexpr double longest_step_ratio    = 20.; ///< the longest step over Time/Step
     constexpr double error_aimed_at        = 0.4;
     constexpr double largest_growth        = 2.;   ///< of a step over the last
     constexpr double travel_share          = 0.1;  ///< accuracy of the table's travel, of the error that a step may have
-    constexpr double balanced              = 1e-8; ///< what may be left of the forces where there is no such error
+    constexpr double balanced              = 1e-8; ///< least tolerance of the residual, over the sum of the forces
 
     /// Behind its rest no lever follows the cylinder so far, over the cylinder's radius: there its place does not matter.
     constexpr double separated = -5. / 28.;
@@ -55,7 +55,7 @@ namespace sprag
       , base_excitation(base_motion(scene.isolation))
       , largest_z(scene.drive.maximum())
       , longest_step(adapts()
-                         ? std::min(first_step_limit * settings.time.step,
+                         ? std::min(longest_step_ratio * settings.time.step,
                                     std::min(2. * M_PI * std::sqrt(m / K), base_excitation.shortest_period) / steps_per_period)
                          : settings.time.step)
       , travel_tolerance(travel_share * settings.force_scale / settings.contact_stiffness * settings.local_tolerance())
@@ -334,10 +334,10 @@ namespace sprag
       // The run stops at the end of a lever's stroke and fills in the findings until then.
     }
     const double needed = std::ceil(1.1 * std::max(std::abs(now.z), by_closed_form.largest_displacement));
-    return "At t = " + rounded_text(now.time) + " s, z = " + mm(now.z) + ": the levers are made for a way of " + mm(largest_z) +
-           ", the Drive/Stroke. Try Drive/Stroke = " + rounded_text(needed) +
-           ", as on levers of the closed form the table goes to " + mm(by_closed_form.largest_displacement) +
-           ", or a smaller motion of the base or of the beginning, or more damping";
+    return "At t = " + rounded_text(now.time) + " s, z = " + mm(now.z) + ": the levers are made for a stroke of " +
+           mm(largest_z) + ", the Drive/Stroke; on levers of the closed form the table goes to " +
+           mm(by_closed_form.largest_displacement) + ". Try Drive/Stroke = " + rounded_text(needed) +
+           ", a smaller initial displacement, a smaller motion of the base or more damping";
   }
 
   double LeverTable::damper_energy() const

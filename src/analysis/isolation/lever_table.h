@@ -167,7 +167,7 @@ namespace sprag
       unsigned long steps        = 0;
     };
 
-    /// Largest accelerations of table and base [mm/s^2].
+    /// Accelerations of table and base at one instant [mm/s^2].
     struct Accelerations
     {
       double table, base;

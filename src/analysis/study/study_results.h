@@ -47,7 +47,7 @@ namespace sprag
     std::vector<double> errors; ///< of the finished runs, in their order
     std::vector<bool> front;    ///< see pareto_front()
 
-    /// Rows of the cheapest runs that meet the accuracies, and with them all that are the same but for smaller sizes.
+    /// Row of the cheapest run that meets each accuracy, as all runs do that differ from it by smaller sizes alone.
     std::array<std::optional<std::size_t>, recommended_accuracies.size()> recommended;
   };
 

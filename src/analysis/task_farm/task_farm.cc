@@ -197,7 +197,7 @@ namespace sprag
     results_log.emplace(options.folder + '/' + name, words.analysis, key);
     address  = results_log->address();
     from_log = results_log->lines();
-    if (results_log->dropped())
+    if (results_log->was_emptied())
       progress.say(name + " is of another scene or build: begun anew");
     if (const auto damaged = results_log->damaged_lines(); damaged > 0)
       std::cerr << name << ": damaged lines dropped, their " << words.pieces << " are " << words.again << ": " << damaged

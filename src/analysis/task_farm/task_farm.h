@@ -30,7 +30,8 @@ namespace sprag
   public:
     /// Opens the results log and reads the lines in it, or begins one. `what` is what it is of, "map"; `scene` says all that the
     /// pieces depend on: lines of another scene, or of another build of the program, are dropped, and so is any line that is not
-    /// as it was written. Throws InputError if the file cannot be written or another run keeps it open for more than 5 s.
+    /// as it was written. Throws InputError if the file cannot be opened or emptied, or if another run keeps it open for more
+    /// than 5 s, and AnalysisError if a line cannot be written.
     ResultsLog(const std::string &path, const std::string &what, const std::string &scene);
 
     /// Lines found in the file, without checksums.
@@ -39,8 +40,8 @@ namespace sprag
       return found;
     }
 
-    /// Returns whether the file held lines of another scene, which were dropped.
-    bool dropped() const
+    /// Returns whether the file was emptied as its first line was of another scene or build, or damaged.
+    bool was_emptied() const
     {
       return other_scene;
     }
@@ -120,8 +121,8 @@ namespace sprag
       std::string again;    ///< "judged again", what becomes of lost pieces
     };
 
-    /// Makes the run's folder and opens the results log in it on rank 0, which tells what that holds. Throws as prepare_folder()
-    /// and ResultsLog do, on all ranks. All must live as long.
+    /// Makes the run's folder and opens the results log in it on rank 0, which prints what it holds. Throws as prepare_folder()
+    /// and ResultsLog do, on all ranks. Scene and progress must live as long.
     TaskFarm(const Scene &scene, const RunOptions &options, Words words, FarmProgress &progress);
 
     /// Lines that were in the results log.
@@ -132,8 +133,9 @@ namespace sprag
 
     /// Does the pieces in `groups`, whose indices `work` takes and whose lines it returns, and hands the lines of all ranks to
     /// `learn`. Groups are dealt out to the nodes; a rank takes one after another of its node's, as soon as it is free. Throws
-    /// AnalysisError on all ranks when one was asked to end, the check fails or the results log cannot be written; what was
-    /// finished until then is learned. Other nodes than that of such a rank first do the groups that they have.
+    /// AnalysisError on all ranks when one is interrupted, `work` throws it, an input file has changed or the log cannot be
+    /// written; `learn` gets the lines that are in the log by then. Other nodes than that of such a rank first do the groups that
+    /// they have.
     void carry_out(const PieceGroups &groups, const std::function<std::string(std::size_t)> &work,
                    const std::function<void(const std::string &)> &learn);
 

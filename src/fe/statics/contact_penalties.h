@@ -11,13 +11,14 @@ namespace sprag
 {
   struct Device;
 
-  /// Automatic normal penalty over E/depth of the friction layer or, without one, of the first cells, of hard contact, to which
-  /// laws of the reduced models are fitted.
+  /// Normal penalty of hard contact over E/depth of the friction layer or, without one, of the first cells. Contact laws of the
+  /// reduced models are fitted to it.
   constexpr double indentation_penalty = 1200.;
 
-  /// The settings' penalties, or `over_layer` E/depth, or without it what suits mesh and layer of a run without inertia or of the
-  /// augmented Lagrangian. `longest` is the length of the longest cells where the contact passes, of a graded mesh [mm]; 0: they
-  /// are as long as the shortest. With an elastic cylinder the softer of both faces counts.
+  /// Returns the penalties of the settings. An automatic normal one is `over_layer` E/depth where contact is enforced by penalty;
+  /// without `over_layer`, or by the augmented Lagrangian, it follows from layer and mesh. `longest` is the length of the longest
+  /// cells where the contact passes, of a graded mesh [mm]; 0: they are as long as the shortest. With an elastic cylinder the
+  /// softer of both faces counts.
   template <int dim>
   ContactPenalties contact_penalties(const ElasticBody<dim> &body, const ContactSettings &settings, double layer_thickness,
                                      const std::optional<double> &over_layer, double longest = 0.);

@@ -14,7 +14,7 @@ namespace sprag
   /// Returns the index of a dof among increasing ones, or that at which it would be inserted.
   unsigned int find_index(unsigned int dof, const DofSelection &dofs);
 
-  /// Returns the inverse of a matrix (LAPACK), of a symmetric one by its factors.
+  /// Returns the inverse of a matrix by LAPACK; a symmetric one must be positive definite.
   dealii::FullMatrix<double> inverse(const dealii::FullMatrix<double> &matrix, bool is_symmetric = false);
 
   /// Compliance G of the interface of a linear structure: displacements of the dofs by unit forces on them, symmetric. G is block
