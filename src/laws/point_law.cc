@@ -79,10 +79,10 @@ namespace sprag
     const auto mu    = friction_coefficient(law, std::abs(speed));
     const double v_r = law.regularisation_speed;
     if (v_r == 0.)
-      return { std::copysign(mu.coefficient, speed), mu.derivative, mu.coefficient };
+      return { std::copysign(mu.coefficient, speed), mu.derivative, mu.coefficient, mu.derivative };
     const double root  = std::hypot(speed, v_r);
     const double share = speed / root;
-    return { mu.coefficient * share, mu.derivative * std::abs(share) + mu.coefficient * v_r * v_r / (root * root * root),
-             mu.coefficient };
+    const double by_mu = mu.derivative * std::abs(share);
+    return { mu.coefficient * share, by_mu + mu.coefficient * v_r * v_r / (root * root * root), mu.coefficient, by_mu };
   }
 } // namespace sprag

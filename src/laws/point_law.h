@@ -40,6 +40,7 @@ namespace sprag
     double coefficient = 0.; ///< signed as the speed
     double derivative  = 0.; ///< [s/mm]
     double mu          = 0.; ///< of the law at that speed
+    double by_mu       = 0.; ///< the part of the derivative that mu has, which follows the speed where it falls [s/mm]
   };
 
   /// mu(|w|) sgn(w), or mu(|w|) w / sqrt(w^2 + v_r^2) with a regularisation speed v_r; w != 0 [mm/s].

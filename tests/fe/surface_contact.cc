@@ -194,31 +194,34 @@ TEST_P(SurfaceContactOfAnAxis, SlidingIsLinearisedByDisplacementsAndVelocities)
   }
 }
 
-// Its forces without the delayed ones are those of a constant mu.
+// Its forces without the delayed ones are those of a constant mu, regularised or not.
 TEST_P(SurfaceContactOfAnAxis, AFallingFrictionFollowsTheSpeedOverItsMemory)
 {
-  FrictionLaw falling{ StribeckFriction{ 0.9, 0.6, 30. } };
-  falling.memory_length = 0.02;
   const double speed    = -40.;
-  const auto linearised = [&](const FrictionLaw &friction)
+  const auto linearised = [&](FrictionLaw friction, const double regularisation)
   {
+    friction.memory_length        = 0.02;
+    friction.regularisation_speed = regularisation;
     Bed bed(skewed(GetParam()), 12.5, 6, friction);
     const auto displacements = bed.pressed(0.03);
     FaceEvaluation<3> found;
     return bed.surface().linearise({ displacements, { 0., Bed::x, speed, 0. }, speed }, found);
   };
-  const auto linear   = linearised(falling);
-  const auto constant = linearised({ CoulombFriction{ 0.6 + 0.3 * std::exp(-40. / 30.) } });
-  EXPECT_TRUE(constant.delays.empty());
-  EXPECT_FALSE(linear.delays.empty());
-  for (const auto &delay : linear.delays)
-    EXPECT_DOUBLE_EQ(delay.time, 0.02 / 40.);
-  auto difference = linear.immediate_damping();
-  difference.add(-1., constant.damping());
-  EXPECT_LT(difference.linfty_norm(), 1e-10 * linear.damping().linfty_norm());
-  auto falls = linear.damping();
-  falls.add(-1., constant.damping());
-  EXPECT_GT(falls.linfty_norm(), 0.1 * linear.damping().linfty_norm());
+  for (const double regularisation : { 0., 20. })
+  {
+    const auto linear   = linearised({ StribeckFriction{ 0.9, 0.6, 30. } }, regularisation);
+    const auto constant = linearised({ CoulombFriction{ 0.6 + 0.3 * std::exp(-40. / 30.) } }, regularisation);
+    EXPECT_TRUE(constant.delays.empty());
+    EXPECT_FALSE(linear.delays.empty());
+    for (const auto &delay : linear.delays)
+      EXPECT_DOUBLE_EQ(delay.time, 0.02 / 40.);
+    auto difference = linear.immediate_damping();
+    difference.add(-1., constant.damping());
+    EXPECT_LT(difference.linfty_norm(), 1e-10 * linear.damping().linfty_norm());
+    auto falls = linear.damping();
+    falls.add(-1., constant.damping());
+    EXPECT_GT(falls.linfty_norm(), 0.1 * linear.damping().linfty_norm());
+  }
 }
 
 // On a long way the contact is at both ends, and passes over the rest.

@@ -245,8 +245,9 @@ namespace sprag
                     [&](const unsigned int i)
                     {
                       const auto found = sliding_friction(data.law.slip.friction, w.size[i]);
-                      coefficient[i] = found.coefficient, slope[i] = found.derivative;
-                      friction.mu[i] = found.mu;
+                      coefficient[i]   = found.coefficient;
+                      slope[i]         = part == Part::mu_rate ? found.by_mu : found.derivative;
+                      friction.mu[i]   = found.mu;
                     });
       const SimdBatch sign = w.is_nothing ? uniform_batch(std::copysign(1., data.slide.speed)) : uniform_batch(1.);
       friction.slipping    = ~BatchMask{};

@@ -93,7 +93,8 @@ namespace sprag
     sliding_tangent.coupled  = share.coefficient * penalty.normal;
     sliding_tangent.stuck    = sliding.friction == ContactFriction::stuck ? -penalty.tangential : 0.;
     sliding_tangent.by_speed = -share.derivative * state.pressure;
-    sliding_tangent.lag      = friction_lag(law, penalty.tangential, false, -sliding_tangent.by_speed, speed);
+    sliding_tangent.by_mu    = -share.by_mu * state.pressure;
+    sliding_tangent.lag      = friction_lag(law, penalty.tangential, false, -sliding_tangent.by_mu, speed);
     return sliding_tangent;
   }
 
@@ -102,8 +103,8 @@ namespace sprag
     FrictionDelay result{ sliding_tangent.lag.time, rows.slip, rows.gap, rows.slip };
     result.force *= -rows.weight;
     result.stiffness_row *= -sliding_tangent.lag.pressure * sliding_tangent.coupled;
-    result.stiffness_row.add(-sliding_tangent.by_speed * speed, rows.stretch);
-    result.rate_row *= -sliding_tangent.by_speed;
+    result.stiffness_row.add(-sliding_tangent.by_mu * speed, rows.stretch);
+    result.rate_row *= -sliding_tangent.by_mu;
     return result;
   }
 } // namespace sprag

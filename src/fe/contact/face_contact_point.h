@@ -264,6 +264,7 @@ namespace sprag
     double coupled  = 0.;
     double stuck    = 0.;
     double by_speed = 0.;
+    double by_mu    = 0.; ///< of it what mu has, see SlidingFriction
     FrictionLag lag{ 0., 1. };
   };
 

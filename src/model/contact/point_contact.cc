@@ -344,7 +344,7 @@ namespace sprag
   std::vector<FrictionDelay> PointContact::friction_delays(const InterfaceCoordinates &places, const FrictionLaw &law,
                                                            const Evaluation &found) const
   {
-    const double slope    = found.sliding.derivative * found.response.pressure;
+    const double slope    = found.sliding.by_mu * found.response.pressure;
     const auto lag        = friction_lag(law, properties.tangential, true, slope, found.slip_rate);
     const double friction = lag.pressure * found.sliding.coefficient;
     if (lag.time == 0.)
