@@ -292,23 +292,20 @@ namespace sprag
       return noise * largest(rows, finite_P);
     }
 
-    void add_normal_force(Oscillation &oscillation, const Samples &after_turn, const double sliding, const std::vector<Row> &rows,
-                          const double face_size)
+    void add_normal_force(Oscillation &oscillation, const Samples &after_turn, const Ringing &found, const double sliding,
+                          const std::vector<Row> &rows, const double face_size)
     {
       const Samples after_reversal = later_than(after_turn, oscillation.window_begin);
       const Samples window         = up_to(after_reversal, oscillation.window_end);
       if (window.size() < 2)
         return;
-      const Samples first         = up_to(window, oscillation.window_begin + least_window);
-      const Ringing found         = detect_ringing(window);
-      oscillation.frequency       = found.frequency;
-      oscillation.first_frequency = first.size() < window.size() ? detect_ringing(first).frequency : found.frequency;
-      oscillation.growth_rate     = found.growth_rate;
-      oscillation.overshoot_P     = overshoot(up_to(after_turn, oscillation.window_end), oscillation.window_begin, sliding);
-      oscillation.open_share      = open_share(window);
-      oscillation.rms             = rms(window);
-      const double last_tenth     = oscillation.window_end - last_share * (oscillation.window_end - oscillation.window_begin);
-      oscillation.rms_end         = rms(later_than(window, last_tenth));
+      oscillation.frequency   = found.frequency;
+      oscillation.growth_rate = found.growth_rate;
+      oscillation.overshoot_P = overshoot(up_to(after_turn, oscillation.window_end), oscillation.window_begin, sliding);
+      oscillation.open_share  = open_share(window);
+      oscillation.rms         = rms(window);
+      const double last_tenth = oscillation.window_end - last_share * (oscillation.window_end - oscillation.window_begin);
+      oscillation.rms_end     = rms(later_than(window, last_tenth));
       oscillation.stick_share =
           stick_share(rows, 0.5 * (oscillation.window_begin + oscillation.window_end), oscillation.window_end);
       oscillation.extent = extent(after_reversal, oscillation.x);
@@ -363,23 +360,28 @@ namespace sprag
         const double length      = std::max(least_window, vibration_length(from_reversal));
         return std::max(std::min(result.window_begin + length, end), result.window_begin);
       };
-      const auto window  = [&](const double until) { return up_to(later_than(after, result.window_begin), until); };
-      result.window_end  = window_end(Column::P, Column::P_quasi_static);
-      double support_end = moves_support(rows) ? window_end(Column::Q_support, Column::Q_quasi_static) : result.window_end;
-      support_end        = std::max(support_end, result.window_end);
+      const auto window      = [&](const double until) { return up_to(later_than(after, result.window_begin), until); };
+      result.window_end      = window_end(Column::P, Column::P_quasi_static);
+      double support_end     = moves_support(rows) ? window_end(Column::Q_support, Column::Q_quasi_static) : result.window_end;
+      support_end            = std::max(support_end, result.window_end);
+      auto ringing           = detect_ringing(window(result.window_end));
+      result.first_frequency = ringing.frequency;
       // P may ring fast at first and vibrate with a slow support for long.
       if (support_end > result.window_end)
       {
-        const auto whole             = window(support_end);
-        const auto last_tenth        = later_than(whole, (1. - last_share) * support_end + last_share * result.window_begin);
-        const double first_frequency = detect_ringing(window(result.window_end)).frequency;
-        const bool lasts             = rms(last_tenth) > decayed_rms * largest_reference(whole);
-        const bool is_slow           = first_frequency * (result.window_end - result.window_begin) < window_periods;
-        if (lasts && (is_slow || detect_ringing(whole).frequency < slower * first_frequency))
+        const auto whole        = window(support_end);
+        const auto last_tenth   = later_than(whole, (1. - last_share) * support_end + last_share * result.window_begin);
+        const auto long_ringing = detect_ringing(whole);
+        const bool lasts        = rms(last_tenth) > decayed_rms * largest_reference(whole);
+        const bool is_slow      = ringing.frequency * (result.window_end - result.window_begin) < window_periods;
+        if (lasts && (is_slow || long_ringing.frequency < slower * ringing.frequency))
+        {
           result.window_end = support_end;
+          ringing           = long_ringing;
+        }
       }
       const double sliding = std::max(result.window_begin, find_sliding(rows, turn.time, result.window_end));
-      add_normal_force(result, after, sliding, rows, face_size);
+      add_normal_force(result, after, ringing, sliding, rows, face_size);
       add_force_along_x(collect_samples(rows, Column::Q, Column::Q_quasi_static, turn.time, end), sliding, result.window_begin,
                         result.window_end, result.overshoot_Q, result.frequency_Q, result.rms_Q);
       add_force_along_x(collect_samples(rows, Column::Q_support, Column::Q_quasi_static, turn.time, end), sliding,

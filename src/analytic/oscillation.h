@@ -49,7 +49,7 @@ namespace sprag
     double overshoot_Q         = unknown;
     double overshoot_Q_support = unknown; ///< against the quasi-static Q
     double frequency           = unknown; ///< of P [Hz], dominant in the window; NaN without oscillation
-    double first_frequency     = unknown; ///< of P in the first `least_window` [Hz]
+    double first_frequency     = unknown; ///< of P before it vibrates with a slower support, else `frequency` [Hz]
     double frequency_Q         = unknown; ///< [Hz]
     double frequency_Q_support = unknown; ///< [Hz]
     double growth_rate         = unknown; ///< of the envelope of P in the window [1/s], negative: decays

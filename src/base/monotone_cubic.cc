@@ -6,9 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <tuple>
-#include <utility>
+#include <functional>
 
 // Boost 1.74 calls isnan without its namespace, which only this header provides.
 #include <math.h>
@@ -69,35 +67,41 @@ namespace sprag
       }
       return result;
     }
-
-    template <class Interpolant>
-    std::pair<std::function<double(double)>, std::function<double(double)>> functions(Interpolant &&interpolant)
-    {
-      const auto kept = std::make_shared<const Interpolant>(std::move(interpolant));
-      return { [kept](const double x) { return (*kept)(x); }, [kept](const double x) { return kept->prime(x); } };
-    }
   } // namespace
+
+  struct MonotoneCubic::Interpolant
+  {
+    std::function<double(double)> value, slope;
+
+    template <class Cubic>
+    explicit Interpolant(const std::shared_ptr<const Cubic> &cubic)
+        : value([cubic](const double x) { return (*cubic)(x); })
+        , slope([cubic](const double x) { return cubic->prime(x); })
+    {
+    }
+  };
 
   MonotoneCubic::MonotoneCubic(const std::vector<double> &x, const std::vector<double> &y, const Slopes slopes)
   {
-    namespace interpolators = boost::math::interpolators;
+    using Smooth = boost::math::interpolators::cubic_hermite<std::vector<double>>;
+    using Pchip  = boost::math::interpolators::pchip<std::vector<double>>;
+    using Values = std::vector<double>;
     check_points(x, y);
-    first   = x.front();
-    last    = x.back();
-    auto at = x, values = y;
-    const auto own           = slopes == Slopes::smooth
-                                   ? functions(interpolators::cubic_hermite(std::move(at), std::move(values), smooth_slopes(x, y)))
-                                   : functions(interpolators::pchip(std::move(at), std::move(values)));
-    std::tie(between, slope) = own;
+    first = x.front();
+    last  = x.back();
+    if (slopes == Slopes::smooth)
+      interpolant = std::make_shared<Interpolant>(std::make_shared<const Smooth>(Values(x), Values(y), smooth_slopes(x, y)));
+    else
+      interpolant = std::make_shared<Interpolant>(std::make_shared<const Pchip>(Values(x), Values(y)));
   }
 
   double MonotoneCubic::value(const double x) const
   {
-    return between(std::clamp(x, first, last));
+    return interpolant->value(std::clamp(x, first, last));
   }
 
   double MonotoneCubic::derivative(const double x) const
   {
-    return x < first || x > last ? 0. : slope(x);
+    return x < first || x > last ? 0. : interpolant->slope(x);
   }
 } // namespace sprag

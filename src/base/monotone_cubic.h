@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include <functional>
+#include <memory>
 #include <vector>
 
 namespace sprag
@@ -26,7 +26,8 @@ namespace sprag
     double derivative(double x) const;
 
   private:
-    std::function<double(double)> between, slope;
+    struct Interpolant;
+    std::shared_ptr<const Interpolant> interpolant;
     double first;
     double last;
   };

@@ -175,15 +175,15 @@ namespace sprag
                   });
   }
 
-  /// Returns a trial traction to the cone mu(w) p of a speed w >= 0 [mm/s].
+  /// Returns a trial traction to the cone mu(w) p of a speed w >= 0 [mm/s]. `split`: its size and direction.
   template <class N, int slips>
-  SPRAG_PART PointFriction<N, slips> return_at_speed(const SlipLaw &law, const Several<N, slips> &trial, const N &p, const N &w)
+  SPRAG_PART PointFriction<N, slips> return_at_speed(const SlipLaw &law, const Several<N, slips> &trial,
+                                                     const SizeAndDirection<N, slips> &split, const N &p, const N &w)
   {
     using V            = Plain<N>;
     const auto pressed = value(p) > 0.;
     V mu{}, slope{};
     set_friction(law.friction, pressed, value(w), mu, slope);
-    const SizeAndDirection<N, slips> split(trial);
     const N cone = chained(mu, slope, w) * p;
     PointFriction<N, slips> result;
     result.mu       = mu;
@@ -408,7 +408,7 @@ namespace sprag
     const N beyond = 1. / law.stiffness * (split.size - friction_coefficient(law.friction, 0.).coefficient * p);
     const N slid   = select(stuck_before(history), select(value(beyond) > 0., beyond, N{}), path.size);
     const N w      = lagged_speed(law, history, slid, N(1. / dt * path.size), last, dt);
-    auto result    = return_at_speed(law, trial, p, w);
+    auto result    = return_at_speed(law, trial, split, p, w);
     result.speed   = select(result.slipping, value(w), V{});
     return result;
   }

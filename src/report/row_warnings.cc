@@ -255,12 +255,11 @@ namespace sprag
     /// vibration. Beyond L / v, L Friction/Memory length, the slip runs away at once.
     void add_falling_friction(const Scene &scene, const std::vector<Row> &slides, Warnings &warnings)
     {
+      if (scene.friction.speed == FrictionSpeed::drive || !falls_with_speed(scene.friction))
+        return;
       const double tangential = contact_reference(scene).tangential;
-      const auto shear        = [&](const Row &slide)
-      {
-        const auto friction = step_friction(scene.friction, slide[Column::v]);
-        const double slope  = -friction_coefficient(friction, std::abs(slide[Column::v_rel])).derivative;
-        return falls_with_speed(friction) && slope > 0. ? slope * slide[Column::P] / tangential : 0.;
+      const auto shear        = [&](const Row &slide) {
+        return -friction_coefficient(scene.friction, std::abs(slide[Column::v_rel])).derivative * slide[Column::P] / tangential;
       };
       const auto memory = [&](const Row &slide) { return scene.friction.memory_length / std::abs(slide[Column::v_rel]); };
       const Row *worst  = find_largest_row(slides, [&](const Row &slide) { return shear(slide) / memory(slide); });
