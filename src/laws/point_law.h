@@ -79,7 +79,6 @@ namespace sprag
     Plain<N> mu{};
     Mask<N> slipping{};
     Several<Plain<N>, slips> slip_speed; ///< mean of the step, of plastic slip or of the faces; 0 in stick [mm/s]
-    Plain<N> speed{};                    ///< see SlipHistory [mm/s]
     Plain<N> energy{};                   ///< of the tangential spring at the end
     Plain<N> dissipated{};               ///< in the step
     Plain<N> creep{};                    ///< slip below the regularisation speed [mm]
@@ -91,7 +90,7 @@ namespace sprag
   {
     Several<V, slips> traction;
     Several<V, slips> slip_speed; ///< mean of the last step; 0 after stick [mm/s]
-    V speed{};                    ///< that mu follows where it falls with speed [mm/s]
+    V mu{};                       ///< where the point slid, else 0
     V step{};                     ///< duration of the last step [s]
   };
 
@@ -162,35 +161,19 @@ namespace sprag
     }
   };
 
-  /// Sets mu and dmu/dw at speeds w >= 0 [mm/s] where `here` holds.
-  template <class V, class M>
-  SPRAG_PART void set_friction(const FrictionLaw &law, const M &here, const V &w, V &mu, V &slope)
+  /// Returns mu at speeds w >= 0 [mm/s] where `here` holds, else 0.
+  template <class N, class M>
+  SPRAG_PART N friction_at(const FrictionLaw &law, const M &here, const N &w)
   {
+    Plain<N> mu{}, slope{};
     for_each_lane(here,
                   [&](const unsigned int i)
                   {
-                    const auto found = friction_coefficient(law, at_lane(w, i));
+                    const auto found = friction_coefficient(law, at_lane(value(w), i));
                     set_lane(mu, i, found.coefficient);
                     set_lane(slope, i, found.derivative);
                   });
-  }
-
-  /// Returns a trial traction to the cone mu(w) p of a speed w >= 0 [mm/s]. `split`: its size and direction.
-  template <class N, int slips>
-  SPRAG_PART PointFriction<N, slips> return_at_speed(const SlipLaw &law, const Several<N, slips> &trial,
-                                                     const SizeAndDirection<N, slips> &split, const N &p, const N &w)
-  {
-    using V            = Plain<N>;
-    const auto pressed = value(p) > 0.;
-    V mu{}, slope{};
-    set_friction(law.friction, pressed, value(w), mu, slope);
-    const N cone = chained(mu, slope, w) * p;
-    PointFriction<N, slips> result;
-    result.mu       = mu;
-    result.slipping = pressed & (value(split.size) > value(cone));
-    for (int i = 0; i < slips; ++i)
-      result.traction[i] = select(pressed, select(result.slipping, cone * split.direction[i], trial[i]), N{});
-    return result;
+    return chained(mu, slope, w);
   }
 
   /// Returns a trial traction to the cone of the pressure p at the end of a step of a duration [s]. In stick |t| <= mu(0) p and
@@ -256,55 +239,49 @@ namespace sprag
   template <class V, int slips>
   SPRAG_PART auto stuck_before(const SlipHistory<V, slips> &history)
   {
-    return (history.step > 0.) & (history.speed == 0.) & (dot(history.traction, history.traction) > 0.);
+    return (history.step > 0.) & (history.mu == 0.) & (dot(history.traction, history.traction) > 0.);
   }
 
-  /// Weight c(q) = (1 + e)/2 - (1 - e)/q of what a speed changes by over a path of q memory lengths, e = exp(-q), and its
-  /// derivative.
-  struct MemoryWeight
-  {
-    double value, derivative;
-  };
-
-  inline MemoryWeight memory_weight(const double q)
-  {
-    constexpr double series = 0.02; // below: to q^4
-    if (q < series)
-      return { q * q * (1. / 12. - q / 24. + q * q / 80.), q * (1. / 6. - q / 8. + q * q / 20.) };
-    const double e = std::exp(-q);
-    return { 0.5 * (1. + e) - (1. - e) / q, (1. - e) / (q * q) - e / q - 0.5 * e };
-  }
-
-  /// Returns the speed w that mu follows at the end of a step [mm/s]: over the memory length L it comes to that of the faces, v,
-  ///   dw/ds = (v - w) / L   along the path s on which they slide,
-  /// from 0 after stick, and at once where the point was open. v is linear over the path: its mean is that of the step, `last`
-  /// that of the last one along this one.
+  /// Returns mu at the end of a step where it falls with speed: over the memory length L it comes to that of the speed v of the
+  /// faces,
+  ///   dmu/ds = (mu(v) - mu) / L   along the path s on which they slide,
+  /// from mu(0) after stick, and at once where the point was open. Ruina's slip law does so near a slide; here mu stays within
+  /// its law however fast slip is. mu(v) is linear over the path, with the speeds that the means of this step and the last give
+  /// at its ends: with e = exp(-q), q = s/L,
+  ///   mu_end = e mu_begin + ((1 - e)/q - e) mu(v_begin) + (1 - (1 - e)/q) mu(v_end).
+  /// `mean`: of the step, `last`: that of the last one along this one [mm/s]. Only points that are `pressed` count.
   template <class N, int slips>
-  SPRAG_PART N lagged_speed(const SlipLaw &law, const SlipHistory<Plain<N>, slips> &history, const N &path, const N &mean,
-                            const N &last, const double dt)
+  SPRAG_PART N remembered_friction(const SlipLaw &law, const SlipHistory<Plain<N>, slips> &history, const Mask<N> &pressed,
+                                   const N &path, const N &mean, const N &last, const double dt)
   {
-    using V             = Plain<N>;
-    const double length = law.friction.memory_length;
-    const auto slid     = history.speed > 0.;
-    V share{}, weight{}, slope{};
+    using V                            = Plain<N>;
+    constexpr double most_extrapolated = 0.2; ///< of the mean: what jumps from step to step would go on to
+    const double length                = law.friction.memory_length;
+    const auto slid                    = history.mu > 0.;
+    V e{}, d_e{}, g{}, d_g{}; // g = (1 - e)/q
     for_each_lane(slid | stuck_before(history),
                   [&](const unsigned int i)
                   {
-                    const double q   = at_lane(value(path), i) / length;
-                    const auto found = memory_weight(q);
-                    set_lane(share, i, std::exp(-q));
-                    set_lane(weight, i, found.value);
-                    set_lane(slope, i, found.derivative / length);
+                    const double q    = at_lane(value(path), i) / length;
+                    const double left = std::exp(-q), share = q > 0. ? -std::expm1(-q) / q : 1.;
+                    set_lane(e, i, left);
+                    set_lane(d_e, i, -left / length);
+                    set_lane(g, i, share);
+                    set_lane(d_g, i, (q > 1e-6 ? (left - share) / q : -0.5) / length);
                   });
-    const V extrapolated = select(slid, extrapolated_share(history, value(last), dt), V{});
-    const N change       = 2. * extrapolated * (mean - last);
-    const N w =
-        mean + chained(share, V(-1. / length * share), path) * (history.speed - mean) + chained(weight, slope, path) * change;
-    return select(value(w) > 0., w, N{});
+    const V at_begin     = select(slid, history.mu, V{} + friction_coefficient(law.friction, 0.).coefficient);
+    const N extrapolated = select(slid, extrapolated_share(history, value(last), dt), V{}) * (mean - last);
+    const N most         = most_extrapolated * mean;
+    const N at_least     = select(value(extrapolated) > -value(most), extrapolated, N(-most));
+    const N half_change  = select(value(at_least) < value(most), at_least, most);
+    const N mu_begin     = friction_at(law.friction, pressed, N(mean - half_change));
+    const N mu_end       = friction_at(law.friction, pressed, N(mean + half_change));
+    const N kept = chained(e, d_e, path), mixed = chained(g, d_g, path);
+    return kept * (at_begin - mu_begin) + mixed * (mu_begin - mu_end) + mu_end;
   }
 
-  /// Friction t = mu p w / sqrt(w^2 + v_r^2) along the mean slip of a step, w at its end. mu is mu(|w|), or follows that over the
-  /// memory length where it falls with speed.
+  /// Friction t = mu p w / sqrt(w^2 + v_r^2) along the mean slip of a step, w at its end. mu is mu(|w|), or comes to that over
+  /// the memory length where it falls with speed.
   template <class N, int slips>
   SPRAG_PART PointFriction<N, slips> regularised(const SlipLaw &law, const SlipHistory<Plain<N>, slips> &history,
                                                  const Several<N, slips> &slip, const N &p, const double dt)
@@ -317,16 +294,14 @@ namespace sprag
     const V share      = extrapolated_share(history, value(last), dt);
     const N w          = (1. + share) * (1. / dt * path.size) - share * last;
     const N speed      = select(value(w) < 0., N(-w), w);
-    const N followed   = law.follows_speed ? lagged_speed(law, history, path.size, N(1. / dt * path.size), last, dt) : speed;
     const auto pressed = value(p) > 0.;
-    V mu{}, slope{};
-    set_friction(law.friction, pressed, value(followed), mu, slope);
-    const N root         = square_root(w * w + v_r * v_r);
-    const N along        = chained(mu, slope, followed) * w / root;
-    const V rest_tangent = (1. + share) / dt * mu * v_r * v_r / (value(root) * value(root) * value(root));
-    result.mu            = mu;
+    const N mu    = law.follows_speed ? remembered_friction(law, history, pressed, path.size, N(1. / dt * path.size), last, dt)
+                                      : friction_at(law.friction, pressed, speed);
+    const N root  = square_root(w * w + v_r * v_r);
+    const N along = mu * w / root;
+    const V rest_tangent = (1. + share) / dt * value(mu) * v_r * v_r / (value(root) * value(root) * value(root));
+    result.mu            = value(mu);
     result.slipping      = pressed;
-    result.speed         = select(pressed, value(followed), V{});
     for (int i = 0; i < slips; ++i)
     {
       const N at_rest      = rest_tangent * slip[i] + (i == 0 ? value(along) : V{});
@@ -347,52 +322,58 @@ namespace sprag
     if constexpr (std::is_same_v<V, Batch>)
       return false;
     else
-      return law.follows_speed && law.is_layer && (history.speed > 0. || stuck_before(history));
+      return law.follows_speed && law.is_layer && (history.mu > 0. || stuck_before(history));
   }
 
   /// Traction that falls with speed behind a layer whose shear takes a part of the slip:
-  ///   t = mu(w) p,   w follows the speed of the path (t_trial - t) / stiffness.
-  /// Newton's method is kept inside 0 <= t <= t_trial.
+  ///   t = mu p,   mu that of remembered_friction() after the path (t_trial - t) / stiffness.
+  /// Newton's method is kept inside 0 <= t <= t_trial. Several t may do: it begins at the speed of the last step, and from stick
+  /// at none, from where it finds the shortest path.
   template <class N, int slips>
   PointFriction<N, slips> following_behind_layer(const SlipLaw &law, const SlipHistory<Plain<N>, slips> &history,
                                                  const Several<N, slips> &trial, const N &p, const double dt)
   {
-    const double k = law.stiffness;
+    using Varied = Dual<double, 1>;
     const SizeAndDirection<N, slips> split(trial);
-    const double last      = value(dot(history.slip_speed, split.direction));
-    const double round_off = 4. * std::numeric_limits<double>::epsilon() * value(split.size);
+    const double size = value(split.size), last = value(dot(history.slip_speed, split.direction));
+    const double round_off = 4. * std::numeric_limits<double>::epsilon() * size;
+    const auto mu_behind   = [&](const auto &taken) // by the layer
+    {
+      using X      = std::decay_t<decltype(taken)>;
+      const X path = 1. / law.stiffness * taken;
+      return remembered_friction<X, slips>(law, history, true, path, 1. / dt * path, X{} + last, dt);
+    };
     PointFriction<N, slips> result;
-    N t          = split.size;
-    double lower = 0., upper = value(t);
+    double t = size, lower = 0., upper = size, slope = 1.;
     for (unsigned int i = 0; i < 60; ++i)
     {
-      const N path         = 1. / k * (split.size - t);
-      const N w            = lagged_speed(law, history, path, N(1. / dt * path), N(N{} + last), dt);
-      const auto friction  = friction_coefficient(law.friction, value(w));
-      const N excess       = t - chained(friction.coefficient, friction.derivative, w) * p;
-      const auto varied    = variable<Dual<double, 1>>(value(path), 0);
-      const double by_path = lagged_speed(law, history, varied, 1. / dt * varied, 0. * varied + last, dt).d[0];
-      result.mu            = friction.coefficient;
-      result.slipping      = value(t) < value(split.size) || value(excess) > 0.;
-      result.speed         = result.slipping ? value(w) : 0.;
+      const auto varied = variable<Varied>(t, 0);
+      const auto mu     = mu_behind(Varied(size - varied));
+      const auto excess = varied - value(p) * mu;
+      result.mu         = mu.v;
+      result.slipping   = t < size || excess.v > 0.;
       if (!result.slipping)
         break;
-      (value(excess) > 0. ? upper : lower) = value(t);
-      const bool found                     = std::abs(value(excess)) <= round_off;
-      t                                    = t - 1. / (1. + friction.derivative * value(p) * by_path / k) * excess;
-      if (found)
+      (excess.v > 0. ? upper : lower) = t;
+      slope                           = excess.d[0];
+      if (std::abs(excess.v) <= round_off)
         break;
-      if (!(value(t) >= lower && value(t) <= upper))
-        t = N{} + 0.5 * (lower + upper);
+      if (i == 0 && last > 0.)
+        t = std::max(0., size - law.stiffness * last * dt);
+      else
+        t -= excess.v / slope;
+      if (!(t >= lower && t <= upper))
+        t = 0.5 * (lower + upper);
     }
+    const N at_t     = N{} + t; // by the implicit function theorem
+    const N traction = result.slipping ? at_t - 1. / slope * (at_t - mu_behind(N(split.size - at_t)) * p) : split.size;
     for (int i = 0; i < slips; ++i)
-      result.traction[i] = t * split.direction[i];
+      result.traction[i] = traction * split.direction[i];
     return result;
   }
 
-  /// Traction that falls with speed. mu follows the speed of the faces over the memory length; in stick it forgets how fast the
-  /// point slid, and begins to follow where |t_trial| exceeds mu(0) p. Slip of a penalty's spring counts as that of the faces: a
-  /// mesh has the layer's shear.
+  /// Traction that falls with speed, see remembered_friction(). In stick |t| <= mu(0) p. Slip of a penalty's spring counts as
+  /// that of the faces: a mesh has the layer's shear.
   template <class N, int slips>
   SPRAG_PART PointFriction<N, slips> following_faces(const SlipLaw &law, const SlipHistory<Plain<N>, slips> &history,
                                                      const Several<N, slips> &slip, const N &p, const double dt)
@@ -402,14 +383,19 @@ namespace sprag
     if constexpr (!std::is_same_v<V, Batch>)
       if (slides_behind_layer(law, history) && value(p) > 0.)
         return following_behind_layer(law, history, trial, p, dt);
+    const auto pressed = value(p) > 0.;
     const SizeAndDirection<N, slips> path(slip);
     const N last = dot(history.slip_speed, path.direction);
     const SizeAndDirection<N, slips> split(trial);
     const N beyond = 1. / law.stiffness * (split.size - friction_coefficient(law.friction, 0.).coefficient * p);
     const N slid   = select(stuck_before(history), select(value(beyond) > 0., beyond, N{}), path.size);
-    const N w      = lagged_speed(law, history, slid, N(1. / dt * path.size), last, dt);
-    auto result    = return_at_speed(law, trial, split, p, w);
-    result.speed   = select(result.slipping, value(w), V{});
+    const N mu     = remembered_friction(law, history, pressed, slid, N(1. / dt * path.size), last, dt);
+    const N cone   = mu * p;
+    PointFriction<N, slips> result;
+    result.mu       = value(mu);
+    result.slipping = pressed & (value(split.size) > value(cone));
+    for (int i = 0; i < slips; ++i)
+      result.traction[i] = select(pressed, select(result.slipping, cone * split.direction[i], trial[i]), N{});
     return result;
   }
 

@@ -75,8 +75,8 @@ namespace sprag::test
   {
     dealii::Tensor<1, slips> traction;
     dealii::Tensor<1, slips> slip_speed;
-    double step  = 0.;
-    double speed = 0.;
+    double step = 0.;
+    double mu   = 0.;
   };
 
   template <int slips>
@@ -88,7 +88,7 @@ namespace sprag::test
     double mu;
     bool slipping;
     dealii::Tensor<1, slips> slip_speed;
-    double energy, dissipated, creep, speed;
+    double energy, dissipated, creep;
   };
 
   template <int slips>
@@ -98,8 +98,8 @@ namespace sprag::test
   {
     using N = Dual<double, slips + 1>;
     SlipHistory<double, slips> slip_history;
-    slip_history.step  = history.step;
-    slip_history.speed = history.speed;
+    slip_history.step = history.step;
+    slip_history.mu   = history.mu;
     for (int i = 0; i < slips; ++i)
     {
       slip_history.traction[i]   = history.traction[i];
@@ -115,7 +115,6 @@ namespace sprag::test
              values(found.slip_speed),
              found.energy,
              found.dissipated,
-             found.creep,
-             found.speed };
+             found.creep };
   }
 } // namespace sprag::test

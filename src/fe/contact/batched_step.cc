@@ -123,8 +123,8 @@ namespace sprag
   {
     const auto same = [](const ContactHistory &a, const ContactHistory &b)
     {
-      return a.point == b.point && a.step == b.step && a.traction == b.traction && a.slip_speed == b.slip_speed &&
-             a.speed == b.speed && a.normal_multiplier == b.normal_multiplier;
+      return a.point == b.point && a.step == b.step && a.traction == b.traction && a.slip_speed == b.slip_speed && a.mu == b.mu &&
+             a.normal_multiplier == b.normal_multiplier;
     };
     return std::equal(history.begin(), history.end(), begin_history.begin(), begin_history.end(), same);
   }
@@ -197,11 +197,11 @@ namespace sprag
       auto &begin = begins[group.first + b];
       if (!begin.is_placed)
         place_block(group.all[b], group.begin, begin);
-      begin.touches          = true;
-      begin.known[i]         = -1;
-      begin.history.step[i]  = entry->step;
-      begin.history.speed[i] = entry->speed;
-      begin.multiplier[i]    = entry->normal_multiplier;
+      begin.touches         = true;
+      begin.known[i]        = -1;
+      begin.history.step[i] = entry->step;
+      begin.history.mu[i]   = entry->mu;
+      begin.multiplier[i]   = entry->normal_multiplier;
       for (unsigned int s = 0; s < 2; ++s)
       {
         begin.history.traction[s][i]   = entry->traction[s];
@@ -587,7 +587,7 @@ namespace sprag
         begin_traction[d] = begin.history.traction[d][i];
     }
     state.history.traction = state.traction;
-    state.history.speed    = friction.speed[i];
+    state.history.mu       = data.kind == Kind::in_time && state.slipping ? state.mu : 0.;
     state.history.point    = state.index;
     state.history.step     = data.kind == Kind::in_time ? data.law.weights.dt : 0.;
     state.elastic_slip     = (state.traction - begin_traction).norm() / data.law.slip.stiffness;

@@ -112,8 +112,8 @@ namespace sprag
   SlipHistory<double, slips> slip_history(const ContactHistory &history)
   {
     SlipHistory<double, slips> result;
-    result.step  = history.step;
-    result.speed = history.speed;
+    result.step = history.step;
+    result.mu   = history.mu;
     for (unsigned int s = 0; s < slips; ++s)
     {
       result.traction[s]   = history.traction[s];
@@ -221,7 +221,7 @@ namespace sprag
       response.history.slip_speed[s] = friction.slip_speed[s];
     }
     set_response(point, N(end + dashpot), friction, pressure, traction, response);
-    response.history.speed   = friction.speed;
+    response.history.mu      = friction.slipping ? friction.mu : 0.;
     response.history.damping = dashpot.v;
     response.history.step    = law.weights.dt;
     response.energy          = spring_energy(law.normal, point.gap_end) + friction.energy;

@@ -29,8 +29,8 @@ namespace sprag
     // Steps in time only.
     double damping = 0.; ///< force of the dashpot at the end of the last step, per area at points of a face
     Slip slip_speed;     ///< mean of the last step; 0 in stick and where there was no contact [mm/s]
-    double speed = 0.;   ///< that a mu falling with speed follows [mm/s]
-    double step  = 0.;   ///< duration of the last step if it ended in contact, else 0 [s]
+    double mu   = 0.;    ///< where the point slid, else 0
+    double step = 0.;    ///< duration of the last step if it ended in contact, else 0 [s]
 
     unsigned int point = 0; ///< index of the point in a face, where only points in contact have a history
   };
