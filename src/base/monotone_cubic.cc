@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 
 // Boost 1.74 calls isnan without its namespace, which only this header provides.
 #include <math.h>
@@ -51,19 +52,37 @@ namespace sprag
       return result;
     }
 
+    /// Returns the number nearest to 0 of those of one sign, else 0.
+    double minmod(const std::initializer_list<double> values)
+    {
+      const auto [least, most] = std::minmax_element(values.begin(), values.end());
+      return *least > 0. ? *least : std::min(*most, 0.);
+    }
+
+    /// The limits are those of H. T. Huynh, Accurate monotone cubic interpolation, SIAM J. Numer. Anal. 30 (1993) 57-100, which
+    /// let y turn between points. Here y must bend outside of an interval at least half as much as at its ends, and the interval
+    /// be at most twice as wide as those beside it: a longer one between equal points is a rest.
     std::vector<double> smooth_slopes(const std::vector<double> &x, const std::vector<double> &y)
     {
       constexpr std::size_t beside = 2;
       const std::size_t n          = x.size();
-      const auto secant            = [&](const std::size_t i) { return (y[i + 1] - y[i]) / (x[i + 1] - x[i]); };
-      std::vector<double> result;
+      const auto width             = [&](const std::size_t i) { return x[i + 1] - x[i]; };
+      const auto secant            = [&](const std::size_t i) { return (y[i + 1] - y[i]) / width(i); };
+      std::vector<double> bends(n, 0.), result;
+      for (std::size_t i = 1; i + 1 < n; ++i)
+        bends[i] = (secant(i) - secant(i - 1)) / (x[i + 1] - x[i - 1]);
+      const auto change = [&](const std::size_t i)
+      {
+        const bool is_even = i > 0 && i + 2 < n && width(i) <= 2. * std::min(width(i - 1), width(i + 1));
+        return is_even ? minmod({ 2. * bends[i - 1], bends[i], bends[i + 1], 2. * bends[i + 2] }) * width(i) : 0.;
+      };
       for (std::size_t i = 0; i < n; ++i)
       {
-        const double before = secant(i == 0 ? 0 : i - 1), after = secant(i + 1 == n ? n - 2 : i);
-        const double sign = before * after > 0. ? std::copysign(1., after) : 0.;
-        const double most = 3. * std::min(std::abs(before), std::abs(after));
-        const double at   = polynomial_slope(x, y, i, i < beside ? 0 : i - beside, std::min(n, i + beside + 1));
-        result.push_back(sign * std::clamp(sign * at, 0., most));
+        const std::size_t left = i == 0 ? 0 : i - 1, right = i + 1 == n ? n - 2 : i;
+        const double flat   = 3. * minmod({ secant(left), secant(right) });
+        const double turned = 1.5 * minmod({ secant(left) + change(left), secant(right) - change(right) });
+        const double at     = polynomial_slope(x, y, i, i < beside ? 0 : i - beside, std::min(n, i + beside + 1));
+        result.push_back(std::clamp(at, std::min({ 0., flat, turned }), std::max({ 0., flat, turned })));
       }
       return result;
     }

@@ -6,15 +6,16 @@
 
 namespace sprag
 {
-  /// Cubics through given points, y over x, that overshoot none of them. They are constant beyond their ends.
+  /// Cubics through given points, y over x, constant beyond their ends.
   class MonotoneCubic
   {
   public:
-    /// Slopes at the points; 0 where y turns or stays.
+    /// Slopes at the points.
     enum class Slopes
     {
-      pchip, ///< of Fritsch and Butland: of two secants their weighted harmonic mean
-      smooth ///< of polynomials through five points, at most three times the smaller secant: dy/dx of a motion to fourth order
+      pchip, ///< of Fritsch and Butland: of two secants their weighted harmonic mean, 0 where y turns or stays
+      smooth ///< of polynomials through five points: dy/dx of a motion to fourth order, which turns between points where it bends
+             ///< alike on both sides; elsewhere none is overshot
     };
 
     /// Takes at least 4 points, all finite, with `x` strictly increasing. Throws InputError naming the row otherwise.

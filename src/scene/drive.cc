@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deal.II/base/exceptions.h>
+#include <iterator>
 #include <limits>
 
 namespace sprag
@@ -343,7 +344,7 @@ namespace sprag
           throw InputError("the position must change");
         find_reversals();
         const auto &met = sample_times.size() <= most_samples_met ? sample_times : times;
-        kinks.assign(met.begin() + 1, met.end() - 1);
+        std::set_union(met.begin() + 1, met.end() - 1, times.begin() + 1, times.end() - 1, std::back_inserter(kinks));
       }
 
     protected:
@@ -386,19 +387,42 @@ namespace sprag
         return std::max({ std::abs(v0), std::abs(v2), std::abs(inside) });
       }
 
-      /// The cubic is monotone between samples, so that it turns or comes to rest only where they do.
+      /// Returns the time at which v takes the sign of the end of an interval, in which it changes sign once. Near a row it is
+      /// that of the row, as no step should be so short.
+      double turn(const std::size_t i, const int end_direction) const
+      {
+        constexpr double sliver = 1e-3;
+        double early            = 0.;
+        double late             = 1.;
+        for (double middle = 0.5; early < middle && middle < late; middle = (early + late) / 2.)
+          (samples.derivative(sample_times[i] + middle * length(i)) * end_direction > 0. ? late : early) = middle;
+        return late < sliver ? sample_times[i] : late > 1. - sliver ? sample_times[i + 1] : sample_times[i] + late * length(i);
+      }
+
+      /// Between two samples the cubic goes one way, rests or turns once.
       void find_pieces()
       {
-        int before = 2;
-        for (std::size_t i = 0; i + 1 < sample_times.size(); ++i)
+        int before      = 2;
+        const auto goes = [&](const double time, const int direction)
         {
-          const int direction = signum(sample_positions[i + 1] - sample_positions[i]);
           if (direction != before)
           {
-            times.push_back(sample_times[i]);
-            positions.push_back(sample_positions[i]);
+            times.push_back(time);
+            positions.push_back(samples.value(time));
           }
           before = direction;
+        };
+        for (std::size_t i = 0; i + 1 < sample_times.size(); ++i)
+        {
+          const int way       = signum(sample_positions[i + 1] - sample_positions[i]);
+          const auto at       = [&](const std::size_t row) { return signum(samples.derivative(sample_times[row])); };
+          const int begin     = at(i) != 0 ? at(i) : way;
+          const int end       = at(i + 1) != 0 ? at(i + 1) : way;
+          const double turned = begin == end ? sample_times[i + 1] : turn(i, end);
+          if (turned > sample_times[i])
+            goes(sample_times[i], begin);
+          if (turned < sample_times[i + 1])
+            goes(turned, end);
         }
         times.push_back(sample_times.back());
         positions.push_back(sample_positions.back());
