@@ -240,7 +240,7 @@ namespace sprag
     hand_on(point, point);
     while (point.time < drive.duration())
     {
-      const auto next = drive.step(point.time, scene.analysis.step);
+      const auto next = drive.step(point.time, scene.analysis.step, largest_speed_change);
       hand_on(point, next);
       point = next;
       if (drive.turns_at(point.time))

@@ -15,9 +15,12 @@ namespace sprag
   /// Returns the row of a rigid lever in ideal contact at a point of the drive; columns that such a lever lacks are 0.
   Row ideal_contact_row(const DrivePoint &point, const ClosedFormState &state, double spring_energy);
 
-  /// Evaluates the closed form along the scene's drive in steps of at most Analysis/Step. A reversal gives two rows, before and
-  /// after. The rows of a full pair hold both levers. Works are integrated within each step by work_between(). Requires a drive
-  /// without locking().
+  /// Limits the change of v in a step without inertia, over the drive's peak speed: mu may follow it.
+  constexpr double largest_speed_change = 0.02;
+
+  /// Evaluates the closed form along the scene's drive in steps of at most Analysis/Step and largest_speed_change. A reversal
+  /// gives two rows, before and after. The rows of a full pair hold both levers. Works are integrated within each step by
+  /// work_between(). Requires a drive without locking().
   void run_closed_form(const Scene &scene, const std::function<void(const Row &)> &sink);
 
   /// Follows a rigid lever that never leaves the cylinder along the drive in steps of Time/Step: theta and its rates follow from

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/statics/quasi_static.h"
 
+#include "analytic/closed_form.h"
 #include "base/errors.h"
 #include "base/text.h"
 #include "model/step/state_archive.h"
@@ -17,12 +18,11 @@ namespace sprag
 {
   namespace
   {
-    constexpr double round_off            = 5e-15; ///< of positions, over the size of the scene
-    constexpr double growth               = 1.5;
-    constexpr double cut                  = 0.25;
-    constexpr double stalled_penetration  = 100.; ///< accepted after all augmentations, over the tolerance
-    constexpr double largest_speed_change = 0.02; ///< per step, over the peak speed: mu is that of the step's mean speed
-    constexpr double slow                 = 1e-6; ///< least speed of the approach to Start, over the peak speed
+    constexpr double round_off           = 5e-15; ///< of positions, over the size of the scene
+    constexpr double growth              = 1.5;
+    constexpr double cut                 = 0.25;
+    constexpr double stalled_penetration = 100.; ///< accepted after all augmentations, over the tolerance
+    constexpr double slow                = 1e-6; ///< least speed of the approach to Start, over the peak speed
 
     // The passage through stick after a reversal is about (|F+| + |F-|) / k_t long; its steps are these shares of it.
     constexpr double first_share   = 0.02;
