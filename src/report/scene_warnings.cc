@@ -13,6 +13,7 @@
 #include "scene/closed_form.h"
 #include "scene/contact_estimates.h"
 #include "scene/held_slide.h"
+#include "scene/mirrored_pair.h"
 #include "scene/scene.h"
 
 #include <boost/algorithm/string/join.hpp>
@@ -260,9 +261,29 @@ namespace sprag
       warnings.push_back(make_warning("defaults_of_model_a", { is_other_device ? "The geometry or spring" : "The lever", list }));
     }
 
+    /// A slide is held at its largest x, where s is least.
+    std::optional<Locking> held_locking(const Scene &scene, const Device &device)
+    {
+      DrivePoint held  = held_drive(scene);
+      held.v           = -std::abs(held.v);
+      const auto state = closed_form(device, held.x, held.v);
+      const bool locks = state.contact.s <= state.mu * device.geometry.interface_offset;
+      return locks && contains(held_directions(scene), Direction::backward)
+                 ? std::make_optional(Locking{ held.x, state.contact.s, state.mu })
+                 : std::nullopt;
+    }
+
     void add_locking(const Scene &scene, Warnings &warnings)
     {
-      const auto found = follows_drive(scene) && scene.analysis.model != ModelType::closed_form ? locking(scene) : std::nullopt;
+      const auto type    = scene.analysis.type;
+      const bool holds   = type == AnalysisType::stability || type == AnalysisType::sprag_slip;
+      const bool follows = follows_drive(scene) && scene.analysis.model != ModelType::closed_form;
+      std::optional<Locking> found;
+      for (unsigned int lever = 0; lever < count_levers(scene) && !found; ++lever)
+      {
+        const auto device = lever_device(scene, lever);
+        found             = holds ? held_locking(scene, device) : follows ? locking(device) : std::nullopt;
+      }
       if (found)
         warnings.push_back(make_warning(
             "locks", { mm(found->x), mm(found->s), mm(found->mu * scene.geometry.interface_offset), rounded_text(found->mu) }));

@@ -360,6 +360,23 @@ TEST(SceneWarnings, LockingOfModelsThatCanBend)
   // s = 120.05 mm at x = 65 mm, e = 45.6 mm: mu = 2.6327.
   EXPECT_FALSE(locks(scene_warnings(with_coulomb(model_a(), 2.63))));
   EXPECT_TRUE(locks(scene_warnings(with_coulomb(model_a(), 2.64))));
+  Scene pair               = with_coulomb(model_a(), 1.8);
+  pair.pair.type           = PairType::full;
+  pair.pair.friction_ratio = 1.45; // 2.61
+  EXPECT_FALSE(locks(scene_warnings(pair)));
+  pair.pair.friction_ratio = 1.5; // 2.7
+  EXPECT_TRUE(locks(scene_warnings(pair)));
+  for (const auto type : { AnalysisType::stability, AnalysisType::sprag_slip })
+  {
+    Scene held         = with_coulomb(model_a(), 2.64);
+    held.analysis.type = type;
+    EXPECT_TRUE(locks(scene_warnings(held)));
+    held.stability.direction = Direction::forward;
+    EXPECT_FALSE(locks(scene_warnings(held)));
+    held.stability.direction = Direction::backward;
+    held.stability.position  = 64.;
+    EXPECT_FALSE(locks(scene_warnings(held)));
+  }
 }
 
 TEST(TargetWarnings, WhereATargetIsMissed)
