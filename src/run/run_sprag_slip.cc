@@ -210,11 +210,10 @@ namespace sprag
       const bool has_errors;
       const SpragSlipSettings &settings = scene.sprag_slip;
       Rows rows                         = { writer, *found.slide.slide };
-      const double dt                   = choose_step(watched_mode(found.slide), settings);
-      const SettlingTimes times         = { dt * settings.steps_per_period, settings.settling,
-                                            std::max(settings.settling, settings.longest_growth) };
-      HeldRun run                       = HeldRun(model, dt);
-      double done                       = 0.;
+      const CycleSteps cycle            = choose_cycle_steps(found.slide, settings);
+      const SettlingTimes times = { cycle.period, settings.settling, std::max(settings.settling, settings.longest_growth) };
+      HeldRun run               = HeldRun(model, choose_step(watched_mode(found.slide), settings));
+      double done               = 0.;
 
       void carry_out()
       {
@@ -240,7 +239,7 @@ namespace sprag
       {
         const double rate     = std::abs(watched_mode(found.slide).mode.eigenvalue.real());
         const double duration = std::log(settings.final / settings.initial) / rate;
-        const double n_rows   = std::min(duration, settings.longest_growth) / dt;
+        const double n_rows   = std::min(duration, settings.longest_growth) / run.dt;
         rows.begin(1 + static_cast<unsigned long>(n_rows / most_growth_rows), 0);
         found.growth = measure_growth(model, found.slide, settings, run, std::ref(rows));
         report();
@@ -252,10 +251,11 @@ namespace sprag
       {
         const auto &slide   = *found.slide.slide;
         run.spectral_radius = scene.time.spectral_radius;
+        run.dt              = cycle.dt;
         if (found.slide.kind == SlideKind::stable)
           run.begin(model.perturbed(slide, watched_mode(found.slide), Continuation::large_kick * slide.penetration));
         rows.begin(std::max(1u, settings.steps_per_period / approach_rows),
-                   static_cast<std::size_t>(written_periods * settings.steps_per_period));
+                   static_cast<std::size_t>(std::lround(written_periods * cycle.period / cycle.dt)));
         found.settled       = settle(run, slide, times, std::ref(rows));
         found.settled_begin = rows.write_last();
         report();

@@ -483,6 +483,19 @@ namespace sprag
     return mode_period(mode) / settings.steps_per_period;
   }
 
+  CycleSteps choose_cycle_steps(const SlideStability &stability, const SpragSlipSettings &settings)
+  {
+    const double step = choose_step(watched_mode(stability), settings);
+    double slowest    = 0.;
+    for (const auto &mode : stability.modes)
+      if (oscillates(mode))
+        slowest = std::max(slowest, mode_period(mode));
+    if (stability.kind != SlideKind::divergence || slowest == 0.)
+      return { step * settings.steps_per_period, step };
+    constexpr double steps_in_one = 4.;
+    return { slowest, slowest / settings.steps_per_period / steps_in_one };
+  }
+
   Growth measure_growth(DynamicModel &model, const SlideStability &stability, const SpragSlipSettings &settings, HeldRun &run,
                         const RowSink &sink)
   {

@@ -62,7 +62,7 @@ namespace sprag
     /// Returns the frequency that the eigenvalue predicts [Hz].
     double predicted_frequency() const
     {
-      return eigenvalue.imag() / (2. * M_PI);
+      return std::abs(eigenvalue.imag()) / (2. * M_PI);
     }
 
     // Measured over predicted, less 1.
@@ -83,6 +83,17 @@ namespace sprag
   /// Returns the duration of a step: the mode's period over Sprag slip/Steps per period [s]. Without oscillation 2 pi / |lambda|
   /// stands for the period.
   double choose_step(const Eigenmode &mode, const SpragSlipSettings &settings);
+
+  /// Period of the vibration that a slide comes to and the duration of its steps [s].
+  struct CycleSteps
+  {
+    double period;
+    double dt;
+  };
+
+  /// Returns those of the watched mode. A divergence has no period, and runs away in microseconds or seconds: its slowest
+  /// vibration stands for it, in a quarter of the steps, as the slip that runs away is over sooner.
+  CycleSteps choose_cycle_steps(const SlideStability &stability, const SpragSlipSettings &settings);
 
   /// Perturbs a slide along its watched mode and follows that from the initial amplitude to the final one, a stable slide from
   /// the final to the initial. The run continues from there. Requires a slide that is not jammed; throws AnalysisError as

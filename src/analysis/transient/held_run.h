@@ -32,7 +32,7 @@ namespace sprag
   {
   public:
     double spectral_radius = 1.; ///< spectral radius at infinity of the generalised-alpha steps from now on, 0 to 1
-    const double dt;             ///< duration of a step [s]
+    double dt;                   ///< duration of a step from now on [s]
 
     /// Prepares steps of `dt` > 0 [s]; one without solution is divided in two, up to 12 times.
     HeldRun(DynamicModel &dynamic_model, const double step_duration)
