@@ -17,6 +17,9 @@ namespace sprag
   {
     void damper(const Scene &scene, Rules &rules)
     {
+      const bool multiplies = scene.isolation.levers > 1 && scene.specified.count("Isolation/Levers") > 0;
+      rules.need(scene.isolation.damper != DamperType::loop || !multiplies, "Isolation/Levers", { "Isolation/Damper" },
+                 "must be 1 or left out with Isolation/Damper = loop, whose table has the force of all levers together");
       if (scene.isolation.damper != DamperType::lever)
         return;
       rules.need(scene.analysis.model == ModelType::closed_form || scene.contact.type == ContactType::compliant, "Contact/Type",

@@ -325,4 +325,9 @@ TEST(IsolationInput, TablesThatCannotBeAreRefused)
   EXPECT_EQ(find_message(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n3,-3\n2,-2\n1,-1\n0,0\n"), "");
   says(find_message(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n3,0\n3,-3\n2,-2\n1,-1\n0,0\n"),
        "does not change steadily");
+  const Messages one  = { loop[0], loop[1], "Isolation/Levers=1" };
+  const Messages four = { loop[0], loop[1], "Isolation/Levers=4" };
+  EXPECT_EQ(find_message(one, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n2,-2\n1,-1\n0,0\n"), "");
+  says(find_message(four, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n2,-2\n1,-1\n0,0\n"),
+       "must be 1 or left out with Isolation/Damper = loop");
 }
