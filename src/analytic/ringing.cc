@@ -203,7 +203,7 @@ namespace sprag
     }
   } // namespace
 
-  double recurrence_time(const Signal &signal)
+  Recurrence find_recurrence(const Signal &signal)
   {
     constexpr double same  = 4e-4; ///< mean square of the change, over that of the signal
     constexpr double other = 0.5;  ///< the same of a signal that has left its beginning
@@ -245,9 +245,9 @@ namespace sprag
         found = next;
         ++lag;
       }
-      return (static_cast<double>(lag) + found.share) * signal.step;
+      return { (static_cast<double>(lag) + found.share) * signal.step, std::sqrt(found.change / square) };
     }
-    return unknown;
+    return {};
   }
 
   Ringing ringing(const Signal &signal, const double noise)

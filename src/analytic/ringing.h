@@ -22,9 +22,15 @@ namespace sprag
     double growth_rate = unknown; ///< of the envelope [1/s], negative: decays
   };
 
-  /// Returns the shortest time after which a signal is the same again [s], to 2 % of its root mean square and up to half of its
-  /// length; NaN where it never is. Between values it is taken as linear.
-  double recurrence_time(const Signal &signal);
+  /// The shortest time after which a signal is the same again; NaN where it never is.
+  struct Recurrence
+  {
+    double time   = unknown; ///< [s]
+    double change = unknown; ///< root mean square of what is not the same, over that of the signal
+  };
+
+  /// Finds it up to half of the signal's length, with a change of less than 2 %. Between values the signal is taken as linear.
+  Recurrence find_recurrence(const Signal &signal);
 
   /// Finds the ringing between the first and the last value further than `noise` from the signal's linear trend. Frequency: peak
   /// of the spectrum, refined by a least-squares fit of one exponentially growing or decaying sinusoid. Growth: log-linear fit of

@@ -418,14 +418,13 @@ TEST(Recurrence, IsThePeriodOfWhatRepeatsItself)
       result.values.push_back(value(i * result.step));
     return result;
   };
-  const auto wave = [](const double frequency, const double t) { return std::sin(2. * M_PI * frequency * t); };
-  EXPECT_NEAR(recurrence_time(signal([&](const double t) { return 3. + wave(50., t) + 0.3 * wave(100., t); })), 0.02, 1e-6);
-  EXPECT_NEAR(recurrence_time(signal([&](const double t) { return wave(50., t) + 0.1 * wave(25., t); })), 0.04, 1e-6);
-  EXPECT_NEAR(recurrence_time(signal([&](const double t) { return std::max(0., wave(50., t) + 0.2 * wave(12.5, t)); })), 0.08,
-              1e-5);
-  EXPECT_TRUE(
-      std::isnan(recurrence_time(signal([&](const double t) { return wave(50., t) + 0.5 * wave(50. * std::sqrt(2.), t); }))));
-  EXPECT_TRUE(std::isnan(recurrence_time(signal([](const double) { return 2.; }))));
+  const auto wave   = [](const double frequency, const double t) { return std::sin(2. * M_PI * frequency * t); };
+  const auto period = [&](const std::function<double(double)> &value) { return find_recurrence(signal(value)).time; };
+  EXPECT_NEAR(period([&](const double t) { return 3. + wave(50., t) + 0.3 * wave(100., t); }), 0.02, 1e-6);
+  EXPECT_NEAR(period([&](const double t) { return wave(50., t) + 0.1 * wave(25., t); }), 0.04, 1e-6);
+  EXPECT_NEAR(period([&](const double t) { return std::max(0., wave(50., t) + 0.2 * wave(12.5, t)); }), 0.08, 1e-5);
+  EXPECT_TRUE(std::isnan(period([&](const double t) { return wave(50., t) + 0.5 * wave(50. * std::sqrt(2.), t); })));
+  EXPECT_TRUE(std::isnan(period([](const double) { return 2.; })));
 }
 
 TEST(Oscillation, IsToldWhereNoReversalIs)

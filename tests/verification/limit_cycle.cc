@@ -17,6 +17,21 @@ namespace
   {
   }
 
+  Scene beam_at_onset(const std::string &depth)
+  {
+    return read_scene((params_folder() / "onset-a.prm").string(), { "Friction/Coefficient=0.6", "Lever/Depth=" + depth });
+  }
+
+  /// Returns the attractor to which a growing perturbation leads.
+  Settled settle_between(const JudgedSlide &checked, const double shortest, const double longest)
+  {
+    const auto &settings = checked.scene.sprag_slip;
+    HeldRun run(checked.dynamics.model(), checked.step());
+    measure_growth(checked.dynamics.model(), checked.stability, settings, run, ignore);
+    run.spectral_radius = checked.scene.time.spectral_radius;
+    return settle(run, checked.slide(), { checked.step() * settings.steps_per_period, shortest, longest }, ignore);
+  }
+
   /// Returns the attractor to which a kick of the slide leads.
   Settled after_kick(const JudgedSlide &checked, const double kick, HeldRun &run)
   {
@@ -98,6 +113,26 @@ TEST(LimitCycle, TellsItsErrorSlow)
     SCOPED_TRACE(device.back());
     expect_true_errors(read_scene((params_folder() / "onset-a.prm").string(), device));
   }
+}
+
+// After 6 s the same P comes back after eight vibrations. For half a second nearly the same comes back after four, with a
+// difference that doubles from window to window.
+TEST(LimitCycle, ThatIsAboutToDoubleItsPeriodIsNone)
+{
+  const JudgedSlide checked(beam_at_onset("6.8"));
+  for (const double shortest : { 0.7, 0.9, 1.1, 1.3 })
+  {
+    const auto found = settle_between(checked, shortest, 6.);
+    EXPECT_EQ(found.kind, Settling::cycle) << shortest;
+    EXPECT_EQ(found.window.vibrations(), 8.) << shortest;
+  }
+}
+
+// Windows of a cycle scatter: one look at the end may not find three that agree.
+TEST(LimitCycle, IsLookedForMoreThanOnce)
+{
+  for (const char *depth : { "7", "7.5", "8" })
+    EXPECT_EQ(settle_between(JudgedSlide(beam_at_onset(depth)), 2., 2.).kind, Settling::cycle) << depth;
 }
 
 // Friction that falls within 10 mm/s and 1e-4 mm of path lets the slip run away at 3.45e4 1/s. In steps of that rate, 1.4e6 of

@@ -19,6 +19,7 @@ namespace sprag
     constexpr double window_periods = 20.;
     constexpr double least_ringing  = 1e-7; ///< of P over its mean, above which it vibrates
     constexpr double same           = 0.01; ///< relative difference of amplitudes that counts as none
+    constexpr double leaving        = 1.5;  ///< ratio of the period_change of a window to that of the one before
 
     double amplitude(const std::vector<Sample> &signal)
     {
@@ -64,6 +65,7 @@ namespace sprag
         mean += sample.value / n;
         signal.values.push_back(sample.value);
       }
+      const auto recurrence = find_recurrence(signal);
       // P may cross its mean several times a period if contact is lost. Its frequency is that of the strongest line.
       return { begin,
                P.back().time,
@@ -73,7 +75,8 @@ namespace sprag
                open / n,
                stuck / n,
                ringing(signal, least_ringing * mean).frequency,
-               recurrence_time(signal) };
+               recurrence.time,
+               recurrence.change };
     }
 
     bool agree(const double a, const double b)
@@ -133,7 +136,9 @@ namespace sprag
       const auto &before = windows[n - 2], &last = windows[n - 1];
       if (is_small(last))
         return last.amplitude_P < before.amplitude_P ? Settling::slide : Settling::undecided;
-      const bool repeats = last.period > 0. && agree(before, last) && agree(windows[n - 3], last);
+      // A cycle that is about to double its period repeats itself worse and worse.
+      const bool leaves  = last.period_change > leaving * before.period_change;
+      const bool repeats = last.period > 0. && !leaves && agree(before, last) && agree(windows[n - 3], last);
       return repeats ? Settling::cycle : Settling::undecided;
     }
 
@@ -255,8 +260,9 @@ namespace sprag
     const double begin = run.drive().time;
     std::vector<CycleWindow> windows;
     Settled result;
-    double passed = 0.;
-    while (result.kind == Settling::undecided && passed < times.longest)
+    double passed          = 0.;
+    constexpr double looks = 1.5; ///< of the shortest time, as windows of a cycle scatter
+    while (result.kind == Settling::undecided && passed < std::max(times.longest, looks * times.shortest))
     {
       windows.push_back(next_window(run, slide, path, window_periods * times.period, sink));
       passed = windows.back().end - begin;

@@ -113,6 +113,7 @@ namespace sprag
     double stick_share           = 0.; ///< of the time, with a point in contact that does not slide on with the cylinder
     double frequency             = 0.; ///< strongest line of P's spectrum [Hz]; NaN without one
     double period                = 0.; ///< after which P is the same again [s]; NaN if it never is
+    double period_change         = 0.; ///< of P over a period, see Recurrence
 
     /// Returns the number of vibrations in a period, NaN without one.
     double vibrations() const
@@ -149,8 +150,9 @@ namespace sprag
   /// Amplitude of P over its mean below which a shrinking vibration counts as decaying to rest.
   constexpr double small_vibration = 1e-2;
 
-  /// Continues about a held slide until P repeats itself and three windows agree, in amplitudes and frequency within 1 % and
-  /// in the share of open time within 0.01, or the vibration is small and shrinks. Throws as HeldRun::step().
+  /// Continues about a held slide until P repeats itself, no worse than before, and three windows agree, in amplitudes and
+  /// frequency within 1 % and in the share of open time within 0.01, or the vibration is small and shrinks. Throws as
+  /// HeldRun::step().
   Settled settle(HeldRun &run, const HeldSlide &slide, const SettlingTimes &times, const RowSink &sink);
 
   /// Estimates the errors of cycle_amplitude_P, cycle_frequency and cycle_vibrations by finite steps: the cycle is followed on in
