@@ -520,18 +520,21 @@ namespace sprag
     const auto path    = held_path(run.drive(), slide);
     const double begin = run.drive().time;
     AmplitudeWatch watch{ 0.5 * period, at_end / at_start };
+    // Fast modes ring from the start, in turns from step to step and for long: means of two steps are free of them.
     std::vector<Sample> signal;
+    double from = 0.;
     for (double time = 0.; !growth.reached && growth.slid && time < settings.longest_growth;)
     {
       const Row &row = run.step(path);
       sink(row);
-      time                = row[Column::time] - begin;
-      const double P      = row.lever_value(Column::P, lever);
-      const Sample sample = { time, P - slide_P };
-      growth.reached      = watch.reached(sample);
-      growth.slid         = run.slides(slide.speed) && P > 0.;
+      time            = row[Column::time] - begin;
+      const double P  = row.lever_value(Column::P, lever);
+      const double to = P - slide_P;
+      growth.reached  = watch.reached({ time, to });
+      growth.slid     = run.slides(slide.speed) && P > 0.;
       if (time > settled_after * period)
-        signal.push_back(sample);
+        signal.push_back({ time - 0.5 * run.dt, 0.5 * (from + to) });
+      from = to;
     }
     fit(signal, mode, at_start, growth);
     return growth;
