@@ -148,6 +148,13 @@ namespace sprag
       return largest_swing(filtered(rows, counts), {}, 0.).size;
     }
 
+    /// Returns the end of the stroke behind the first reversal [s].
+    double first_stroke_end(const Drive &drive)
+    {
+      const auto &turns = drive.reversals();
+      return turns.size() > 1 ? turns[1] - 0.5 * drive.reversal_duration() : drive.duration();
+    }
+
     /// The vibration of a slide that is nearest to a frequency [Hz].
     std::complex<double> eigenvalue_near(const SlideStability &slide, const double frequency)
     {
@@ -219,10 +226,13 @@ namespace sprag
                                     [&](const double dt)
                                     { return std::abs(algorithmic_frequency_error(scene.time.spectral_radius, at * dt)); });
       };
-      // Behind a reversal P rings faster than what lasts on a soft support.
-      const double fastest   = eigenvalue_near(found, std::fmax(measured, turned.first_frequency)).imag();
-      const auto errors      = step_errors(omega, turned.window_end);
-      const double fast_end  = fastest > omega ? turned.window_begin + least_window : turned.window_end;
+      // Behind a reversal P rings faster than what lasts on a soft support. The delay grows with time: in a ringing that decays
+      // as exp(-d t) it counts most at 1/d, be that beyond the window.
+      const auto fast       = eigenvalue_near(found, std::fmax(measured, turned.first_frequency));
+      const double fastest  = fast.imag();
+      const auto errors     = step_errors(omega, turned.window_end);
+      const double fast_end = std::max(fastest > omega ? turned.window_begin + least_window : turned.window_end,
+                                       std::min(first_stroke_end(scene.drive), turn - 1. / fast.real()));
       const auto fast_errors = step_errors(fastest, fast_end);
       const double peak      = largest(rows, Column::P);
       const double lag       = change_by_frequency(rows, turn, fast_end) / peak;

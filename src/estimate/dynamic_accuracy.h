@@ -25,13 +25,13 @@ namespace sprag
   /// The slide behind that reversal is held, and the vibration nearest to the frequency of P checked as vibration_accuracy()
   /// does: that gives the parts of mesh, penalty and modes, to the overshoot alone with the scatter over places. The part of the
   /// step is the frequency error of the generalised-alpha method, see estimate_step_errors(). A vibration that is too slow lags
-  /// behind, the more the longer it rings, see change_by_frequency(). The overshoot is wrong as the stiffness is, with the square
-  /// of the frequency, and a peak may lie between two rows. If P vibrates before the drive turns, as passing elements excite it
-  /// or the slide grows there, the part `vibration` tells that this goes on through the ringing at any phase: to P its amplitude,
-  /// to the overshoot the root mean square. The frequency is a mean of both, weighted by their integrals over the window. The
-  /// decay has the parts of the vibration's, for the step the algorithmic damping, and `fit`: how far the envelope's decay is
-  /// from that of the slide. Reduced levers have the parts of step and vibration alone: only finite elements show what they leave
-  /// out.
+  /// behind, the more the longer it rings, see change_by_frequency(), up to where its decay takes more than the lag adds. The
+  /// overshoot is wrong as the stiffness is, with the square of the frequency, and a peak may lie between two rows. If P vibrates
+  /// before the drive turns, as passing elements excite it or the slide grows there, the part `vibration` tells that this goes on
+  /// through the ringing at any phase: to P its amplitude, to the overshoot the root mean square. The frequency is a mean of
+  /// both, weighted by their integrals over the window. The decay has the parts of the vibration's, for the step the algorithmic
+  /// damping, and `fit`: how far the envelope's decay is from that of the slide. Reduced levers have the parts of step and
+  /// vibration alone: only finite elements show what they leave out.
   ///
   /// Drives without a reversal, contacts that open and slides that grow on their own have no estimate, but the reason in words.
   std::vector<ErrorEstimate> transient_accuracy(const Scene &scene, const MeshedDynamics &dynamics, const std::vector<Row> &rows,
