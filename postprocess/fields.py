@@ -91,7 +91,8 @@ def draw_apparatus(axes, scenery, magnify):
 
 
 def add(axes, collection):
-    """The limits of all panels are set by hand: finding those of a collection would cost as much as drawing it."""
+    """The limits of all panels are set by hand: finding those of a collection, here or for the layout, would cost as much as drawing it."""
+    collection.set_in_layout(False)
     return axes.add_collection(collection, autolim=False)
 
 
