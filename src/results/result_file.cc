@@ -291,14 +291,22 @@ namespace sprag
     growing::Table table;
     std::optional<growing::Face> face                = {};
     std::chrono::steady_clock::time_point last_flush = {};
+    std::size_t pending                              = 0; ///< bytes of faces since then
+
+    void flush_now_and_then()
+    {
+      if (std::chrono::steady_clock::now() - last_flush >= flush_interval)
+        flush();
+    }
 
     void flush()
     {
       reserve.require_in_place();
-      reserve.cover(overhead + table.pending_bytes());
+      reserve.cover(overhead + table.pending_bytes() + pending);
       table.write();
       hdf5::checked("flushing", H5Fflush(file.id(), H5F_SCOPE_LOCAL));
       last_flush = std::chrono::steady_clock::now();
+      pending    = 0;
     }
 
     /// Returns false at the end of a run where there is no space left but for the end itself.
@@ -367,16 +375,16 @@ namespace sprag
   {
     Assert(writer, dealii::ExcMessage("The result file is finished."));
     writer->table.append(row);
-    if (std::chrono::steady_clock::now() - writer->last_flush >= flush_interval)
-      writer->flush();
+    writer->flush_now_and_then();
   }
 
   void ResultFile::append(const FaceState &state)
   {
     Assert(writer && writer->face, dealii::ExcMessage("The result file has no open /face."));
-    writer->reserve.cover(overhead + 2 * state.pressure.size() * sizeof(double));
+    writer->pending += 3 * state.pressure.size() * sizeof(double);
+    writer->reserve.cover(overhead + writer->pending);
     writer->face->append(state);
-    writer->flush();
+    writer->flush_now_and_then();
   }
 
   void add_entries(const hdf5::Handle &file, const std::string &name, const std::vector<Entry> &entries)
