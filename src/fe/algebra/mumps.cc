@@ -13,7 +13,8 @@ namespace sprag
   {
     // Jobs and settings of MUMPS by their numbers in its users' guide.
     constexpr int initialise = -1, terminate = -2, analyse = 1, decompose = 2, back_substitute = 3;
-    constexpr int print_level = 4, element_input = 5, ordering = 7, memory_margin = 14, compression = 15, distribution = 18;
+    constexpr int print_level = 4, element_input = 5, ordering = 7, scaling = 8, memory_margin = 14, compression = 15,
+                  distribution     = 18;
     constexpr int schur_complement = 19, sparse_columns = 20, factors_in_files = 22, columns_together = 27,
                   parallel_analysis = 28;
     constexpr int inverse_entries   = 30;
@@ -32,7 +33,7 @@ namespace sprag
     std::memset(&mumps, 0, sizeof mumps);
     mumps.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(ranks));
     mumps.par          = 1;
-    mumps.sym          = kind == MatrixKind::general ? 0 : 1;
+    mumps.sym          = kind < MatrixKind::positive_definite ? 0 : 1;
     call(initialise, "set-up");
     for (const int output : { 1, 2, 3 })
       set(output, -1);
@@ -41,6 +42,8 @@ namespace sprag
     set(factors_in_files, folder.empty() ? 0 : 1);
     std::strncpy(mumps.ooc_tmpdir, folder.c_str(), sizeof mumps.ooc_tmpdir - 1);
     std::strncpy(mumps.ooc_prefix, "factors", sizeof mumps.ooc_prefix - 1);
+    if (kind == MatrixKind::tangent)
+      set(scaling, 0);
     if (kind != MatrixKind::solid_stiffness)
       return;
     set(ordering, 4);          // PORD, which is best for long bodies
@@ -98,7 +101,7 @@ namespace sprag
     entries.reserve(static_cast<std::size_t>(rows.begin[rows.n]));
     for (PetscInt row = 0; row < rows.n; ++row)
       for (PetscInt i = rows.begin[row]; i < rows.begin[row + 1]; ++i)
-        if (kind == MatrixKind::general || rows.column[i] >= row)
+        if (mumps.sym == 0 || rows.column[i] >= row)
           entries.add(row, rows.column[i], rows[i]);
     factorise(std::move(entries));
     mumps.perm_in = nullptr;

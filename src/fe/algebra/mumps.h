@@ -17,6 +17,7 @@ namespace sprag
   enum class MatrixKind
   {
     general,           ///< LU
+    tangent,           ///< LU without scaling, of Newton's method, which corrects round-off
     positive_definite, ///< and symmetric: Cholesky, half of the time and memory
     solid_stiffness    ///< the same with an ordering for long bodies and three displacements a node
   };

@@ -62,7 +62,7 @@ namespace sprag
     const InterfaceLayout layout;
     const JointSprings springs;
     const std::vector<unsigned int> surface; ///< the body's degrees of freedom on a lever's faces
-    Mumps factors;
+    Mumps factors{ MatrixKind::tangent };
     dealii::PETScWrappers::SparseMatrix body_stiffness; ///< stiffness of a lever's body
     dealii::DynamicSparsityPattern pattern;
     std::vector<std::shared_ptr<dealii::PETScWrappers::SparseMatrix>> matrices; ///< each allocated for a tangent
