@@ -49,6 +49,7 @@ FEW_STEPS = ("Drive/Start=58", "Drive/Stroke=60", "Time/Step=2e-4")
 NO_SEARCH = ("Stability/Critical=none", "Stability/Roles=off")
 SPEED = {
     "start": ("closed-form-a", ()),
+    "model A as shipped": ("model-a", ()),
     "quasi-static, penalty": ("model-a", STATIC),
     "quasi-static, augmented": ("augmented-lagrangian-a", STATIC),
     "elastic cylinder": ("cylinder-a", STATIC),
@@ -59,6 +60,10 @@ SPEED = {
     "finite elements in time": ("reversal-a", (*IN_TIME, "Analysis/Model=finite element", *FEW_STEPS)),
     "pair in time": ("pair-reversal-a", (*IN_TIME, "Analysis/Model=condensed", *FEW_STEPS)),
     "eigenvalues": ("stability-a", (*STATIC, "Analysis/Model=finite element", *NO_SEARCH)),
+    "solid A as shipped": ("solid-a", ()),
+    "study of beams": ("study-reversal-a", ("Analysis/Model=beam", "Study/Reference=", "Study/Vary=Lever/Depth = 15 ... 25 : 250")),
+    "frequencies": ("study-transmissibility-a", ("Study/Vary=Isolation/Base frequency = 0.2 ... 4 : 200 log", "Isolation/Damper=lever")),
+    "random base, condensed": ("isolation-ground-a", ("Analysis/Model=condensed", "Isolation/Duration=10")),
     "map": ("map-friction-depth-a", ("Map/First points=30", "Map/Second points=30", "Map/Coarsest=1", "Map/Bisections=0")),
 }
 

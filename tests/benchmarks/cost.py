@@ -32,7 +32,7 @@ MODELS = ("finite element", "condensed", "beam", "rigid", "closed form")
 # Group, scene of params/, {run: changes}.
 GROUPS = [
     ("face size", "model-a", {f"face size {size}": {"Mesh/Face size": size} for size in (0.5, 1, 0.25, 0.125)}),
-    ("enforcement", "model-a", {"penalty": {}, "augmented Lagrangian": {"Contact/Enforcement": "augmented Lagrangian"}}),
+    ("enforcement", "model-a", {name: {"Contact/Enforcement": name} for name in ("augmented Lagrangian", "penalty")}),
     ("solution", "model-a", {"factorise once": {}, "general path": {"Analysis/Solution": "general"}}),
     ("finite strain", "model-a", {"linear": STRAIN, "neo-Hookean": {**STRAIN, "Lever/Material": "neo-Hookean"}}),
     ("parts", "model-a", PARTS),
