@@ -258,18 +258,19 @@ namespace sprag
     constexpr double most_extrapolated = 0.2; ///< of the mean: what jumps from step to step would go on to
     const double length                = law.friction.memory_length;
     const auto slid                    = history.mu > 0.;
-    V e{}, d_e{}, g{}, d_g{}; // g = (1 - e)/q
+    V at_begin                         = history.mu, e{}, d_e{}, g{}, d_g{}; // g = (1 - e)/q
     for_each_lane(slid | stuck_before(history),
                   [&](const unsigned int i)
                   {
                     const double q    = at_lane(value(path), i) / length;
                     const double left = std::exp(-q), share = q > 0. ? -std::expm1(-q) / q : 1.;
+                    if (at_lane(history.mu, i) == 0.) // it stuck
+                      set_lane(at_begin, i, friction_coefficient(law.friction, 0.).coefficient);
                     set_lane(e, i, left);
                     set_lane(d_e, i, -left / length);
                     set_lane(g, i, share);
                     set_lane(d_g, i, (q > 1e-6 ? (left - share) / q : -0.5) / length);
                   });
-    const V at_begin     = select(slid, history.mu, V{} + friction_coefficient(law.friction, 0.).coefficient);
     const N extrapolated = select(slid, extrapolated_share(history, value(last), dt), V{}) * (mean - last);
     const N most         = most_extrapolated * mean;
     const N at_least     = select(value(extrapolated) > -value(most), extrapolated, N(-most));
