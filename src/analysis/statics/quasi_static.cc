@@ -24,6 +24,9 @@ namespace sprag
     constexpr double stalled_penetration = 100.; ///< accepted after all augmentations, over the tolerance
     constexpr double slow                = 1e-6; ///< least speed of the approach to Start, over the peak speed
 
+    /// That share where an equilibrium only gives multipliers, see left_out_in_statics: 1e-6 of the penetration.
+    constexpr double left_out_before_augmentation = 10.;
+
     // The passage through stick after a reversal is about (|F+| + |F-|) / k_t long; its steps are these shares of it.
     constexpr double first_share   = 0.02;
     constexpr double largest_share = 0.125;
@@ -51,34 +54,52 @@ namespace sprag
     };
 
     /// Newton from the predictor; if it fails, once more from the stick predictor.
-    std::optional<Evaluation> equilibrate(Model &model, Step &step, const bool stick_first, StepCost &cost)
+    std::optional<NewtonSolution<Evaluation>> equilibrate(Model &model, Step &step, const bool stick_first, const double left_out,
+                                                          StepCost &cost)
     {
       const State guess = step.trial;
       for (const bool predict_stick : { stick_first, !stick_first })
       {
         step.trial  = guess;
-        auto result = solve_equilibrium(model, step, predict_stick);
+        auto result = solve_equilibrium(model, step, predict_stick, left_out);
         cost.iterations += result.iterations;
         if (result.converged)
-          return std::move(result.found);
+          return result;
       }
       return {};
     }
 
-    /// Augments from an equilibrium until no penetration exceeds the tolerance.
-    std::optional<Evaluation> augment(Model &model, Step &step, std::optional<Evaluation> found, const ContactSettings &settings,
+    /// Solves the equilibrium of a step and augments it until no penetration exceeds the tolerance. The equilibria before the
+    /// last one only give multipliers, and are found less exactly.
+    std::optional<Evaluation> balance(Model &model, Step &step, const bool stick_first, const ContactSettings &settings,
                                       StepCost &cost)
     {
-      while (found && model.penetration(*found) > settings.penetration_tolerance)
+      const bool augments = settings.enforcement == Enforcement::augmented_lagrangian;
+      const double loose  = augments ? left_out_before_augmentation : left_out_in_statics;
+      cost.failure        = "Newton's method does not converge";
+      cost.remedy = "Try a smaller friction coefficient or offset; if it is not the mechanics, a smaller Contact/Penalty or a "
+                    "finer Mesh/Face size.";
+      auto solved = equilibrate(model, step, stick_first, loose, cost);
+      if (!augments || !solved)
+        return solved ? std::optional(std::move(solved->found)) : std::nullopt;
+      cost.failure = "augmentation does not converge to Contact/Penetration tolerance = " + mm(settings.penetration_tolerance) +
+                     " in " + std::to_string(settings.maximum_augmentations) + " augmentations";
+      cost.remedy = "Try a larger Contact/Penalty, Contact/Penetration tolerance or Contact/Maximum augmentations.";
+      while (solved && model.penetration(solved->found) > settings.penetration_tolerance)
       {
         // The penetration stalls if the contact's edge alternates between two nodes; a small one is accepted and reported.
         if (++cost.augmentations > settings.maximum_augmentations)
-          return model.penetration(*found) <= stalled_penetration * settings.penetration_tolerance ? std::move(found)
-                                                                                                   : std::nullopt;
-        model.augment(*found, step.trial);
-        found = equilibrate(model, step, false, cost);
+        {
+          if (model.penetration(solved->found) > stalled_penetration * settings.penetration_tolerance)
+            return {};
+          break;
+        }
+        model.augment(solved->found, step.trial);
+        solved = equilibrate(model, step, false, loose, cost);
       }
-      return found;
+      if (solved && solved->remaining > left_out_in_statics)
+        solved = equilibrate(model, step, false, left_out_in_statics, cost);
+      return solved ? std::optional(std::move(solved->found)) : std::nullopt;
     }
 
     /// Returns the equilibrium at the end of a step; none if there is none, with the reason in `cost`.
@@ -90,18 +111,7 @@ namespace sprag
       try
       {
         cost.shortest = settings.minimum_step;
-        cost.failure  = "Newton's method does not converge";
-        cost.remedy = "Try a smaller friction coefficient or offset; if it is not the mechanics, a smaller Contact/Penalty or a "
-                      "finer Mesh/Face size.";
-        found       = equilibrate(model, step, stick_first, cost);
-        if (!found)
-          return {};
-        cost.failure =
-            "augmentation does not converge to Contact/Penetration tolerance = " + mm(settings.contact.penetration_tolerance) +
-            " in " + std::to_string(settings.contact.maximum_augmentations) + " augmentations";
-        cost.remedy = "Try a larger Contact/Penalty, Contact/Penetration tolerance or Contact/Maximum augmentations.";
-        if (settings.contact.enforcement == Enforcement::augmented_lagrangian)
-          found = augment(model, step, std::move(found), settings.contact, cost);
+        found         = balance(model, step, stick_first, settings.contact, cost);
         if (!found)
           return {};
       }
@@ -301,7 +311,7 @@ namespace sprag
     return settle(model, start, settings).first;
   }
 
-  NewtonSolution<Evaluation> solve_equilibrium(Model &model, Step &step, const bool stick_first)
+  NewtonSolution<Evaluation> solve_equilibrium(Model &model, Step &step, const bool stick_first, const double left_out)
   {
     if (stick_first)
     {
@@ -313,7 +323,7 @@ namespace sprag
         [&](const dealii::Vector<double> & /*coordinates of the trial state*/)
         { return model.evaluate(step, FrictionMode::cone); },
         [&](const Evaluation &found) { return model.correction(found); },
-        [&](const dealii::Vector<double> &change) { return model.movement(change); });
+        [&](const dealii::Vector<double> &change) { return model.movement(change); }, left_out);
   }
 
   double stick_stiffness(Model &model, const State &accepted)

@@ -12,9 +12,12 @@
 
 namespace sprag
 {
+  /// Share of Newton's tolerance up to which an equilibrium leaves out the last correction: 1e-9 of the penetration.
+  constexpr double left_out_in_statics = 0.01;
+
   /// Solves the equilibrium of a step by solve_by_newton(), from its trial state. `stick_first`: the first correction assumes
   /// stick everywhere, which finds the direction of slip after a reversal.
-  NewtonSolution<Evaluation> solve_equilibrium(Model &model, Step &step, bool stick_first);
+  NewtonSolution<Evaluation> solve_equilibrium(Model &model, Step &step, bool stick_first, double left_out = left_out_in_statics);
 
   /// Settings of a run without inertia.
   struct QuasiStaticSettings

@@ -14,7 +14,8 @@ namespace sprag
   struct NewtonResult
   {
     bool converged          = false;
-    unsigned int iterations = 0; ///< linear solves
+    unsigned int iterations = 0;  ///< linear solves
+    double remaining        = 0.; ///< movement that the residual may leave, over the tolerance; 0 behind a negligible correction
   };
 
   /// The result and the evaluation at the x that Newton's method ended with.
@@ -54,6 +55,7 @@ namespace sprag
         x += change;
         found            = evaluate(x);
         result.converged = true;
+        result.remaining = 0.;
         break;
       }
       const dealii::Vector<double> from = x;
@@ -67,7 +69,8 @@ namespace sprag
           break;
       }
       by_unit          = std::max(by_unit, moved / residual);
-      result.converged = share == 1. && by_unit * found.residual < left_out * negligible();
+      result.remaining = by_unit * found.residual / negligible();
+      result.converged = share == 1. && result.remaining < left_out;
       if (result.converged)
         break;
     }
