@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -125,8 +124,8 @@ namespace sprag
     /// Distance over the layer's depth within which cells must be equal for two blocks to have equal columns.
     constexpr double surroundings_over_depth = 0.3;
 
-    /// Smallest entries of G_near that are kept, over the largest.
-    constexpr double negligible = 1e-9;
+    /// Smallest entries of G_near that are kept, over the largest: below a tenth of what the attachment modes leave out.
+    constexpr double negligible = 1e-6;
 
     /// Number of columns solved together, limited by memory.
     constexpr int chunk = 64;
@@ -181,8 +180,22 @@ namespace sprag
       , dofs(surface_dofs(body))
   {
     find_blocks(surroundings_over_depth * body.near_layer_depth());
-    if (body.has_near_layer())
-      find_basis(begin, end, spacing_over_depth * body.near_layer_depth());
+    if (!body.has_near_layer())
+      return;
+    find_basis(begin, end, spacing_over_depth * body.near_layer_depth());
+    find_reach();
+  }
+
+  /// Sets the reach of G_near from the columns of the block that serves for most others.
+  void LayeredCompliance::find_reach()
+  {
+    const auto serves_fewer = [](const Block &one, const Block &other) { return one.n_represented < other.n_represented; };
+    const int most          = static_cast<int>(std::max_element(blocks.begin(), blocks.end(), serves_fewer)->representative);
+    const auto &columns     = near_columns(static_cast<unsigned int>(most));
+    const int first         = most + columns.first;
+    const int last          = first + static_cast<int>(columns.block_matrices.size()) - 1;
+    if (first > 0 || last + 1 < static_cast<int>(blocks.size()))
+      reach = std::max(blocks[most].xi - blocks[first].xi, blocks[last].xi - blocks[most].xi);
   }
 
   void LayeredCompliance::find_blocks(const double surroundings)
@@ -321,14 +334,22 @@ namespace sprag
            rounded(blocks[other].xi - blocks[representative].xi) == rounded(blocks[row_block].xi - blocks[column_block].xi);
   }
 
+  /// Returns the columns of a block, which are found once.
+  const LayeredCompliance::NearColumns &LayeredCompliance::near_columns(const unsigned int block_index)
+  {
+    auto found = known.find(block_index);
+    if (found == known.end())
+      found = known.emplace(block_index, find_near_columns(block_index)).first;
+    return found->second;
+  }
+
   /// Returns the block of G_near; null if it is negligible.
   const FullMatrix<double> *LayeredCompliance::near_block(const unsigned int row_block, const unsigned int column_block)
   {
-    const unsigned int source = is_represented(row_block, column_block) ? blocks[column_block].representative : column_block;
-    auto found                = known.find(source);
-    if (found == known.end())
-      found = known.emplace(source, find_near_columns(source)).first;
-    const auto &columns    = found->second;
+    if (std::abs(blocks[row_block].xi - blocks[column_block].xi) > reach)
+      return nullptr;
+    const auto &columns =
+        near_columns(is_represented(row_block, column_block) ? blocks[column_block].representative : column_block);
     const int number       = static_cast<int>(row_block) - static_cast<int>(column_block) - columns.first;
     const bool is_far_away = number < 0 || number >= static_cast<int>(columns.block_matrices.size());
     return is_far_away ? nullptr : &columns.block_matrices[number];

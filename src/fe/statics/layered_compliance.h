@@ -6,6 +6,7 @@
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -61,8 +62,10 @@ namespace sprag
     };
 
     void find_blocks(double surroundings);
+    void find_reach();
     void find_basis(double begin, double end, double spacing);
     bool is_represented(unsigned int row_block, unsigned int column_block) const;
+    const NearColumns &near_columns(unsigned int block_index);
     const dealii::FullMatrix<double> *near_block(unsigned int row_block, unsigned int column_block);
     dealii::FullMatrix<double> block(unsigned int row_block, unsigned int column_block);
     NearColumns find_near_columns(unsigned int block_index) const;
@@ -73,5 +76,8 @@ namespace sprag
     std::vector<Block> blocks;
     std::map<unsigned int, NearColumns> known; ///< by block
     dealii::FullMatrix<double> basis;          ///< Z, dofs x attachment modes
+
+    /// Distance along xi beyond which G_near is negligible [mm].
+    double reach = std::numeric_limits<double>::infinity();
   };
 } // namespace sprag
