@@ -20,6 +20,8 @@ namespace sprag
     constexpr double no_contact  = 1e-3; ///< P over the largest one so far
     constexpr double intervals   = 20.;  ///< between frames over all travel, where no interval is given
 
+    constexpr std::size_t together = 8; ///< states whose fields are found together
+
     /// Middle of the lever where its free part begins.
     MeshPoint section_at_hub(const BodyFields &fields)
     {
@@ -77,7 +79,9 @@ namespace sprag
         found = { value, kept() };
     const auto frame = frame_kind(row);
     if (frame != FrameKind::none)
-      find(*kept(), frame);
+      waiting.push_back({ kept(), frame });
+    if (waiting.size() == together)
+      find_waiting();
     return frame != FrameKind::none;
   }
 
@@ -132,10 +136,20 @@ namespace sprag
     return due ? FrameKind::between : FrameKind::none;
   }
 
-  void FieldRecorder::find(const Kept &kept, const FrameKind frame)
+  void FieldRecorder::find_waiting()
   {
+    if (waiting.empty())
+      return;
     const PhaseTimer::Scope scope(timer, "fields");
-    DeviceState state{ kept.row[Column::time], to_pose(kept.row), displacements(kept.source), {}, kept.face };
+    auto elastic = displacements(mapped(waiting, [](const Waiting &some) { return some.state->source; }));
+    for (std::size_t i = 0; i < waiting.size(); ++i)
+      find(*waiting[i].state, std::move(elastic[i]), waiting[i].frame);
+    waiting.clear();
+  }
+
+  void FieldRecorder::find(const Kept &kept, std::vector<dealii::Vector<double>> elastic, const FrameKind frame)
+  {
+    DeviceState state{ kept.row[Column::time], to_pose(kept.row), std::move(elastic), {}, kept.face };
     StressSample sample;
     for (unsigned int lever = 0; lever < state.displacements.size(); ++lever)
     {
@@ -157,6 +171,13 @@ namespace sprag
 
   SPRAG_SERIALISE(FieldRecorder::Kept, row, face, direction, source)
 
+  void serialise(Archive &archive, FieldRecorder::Waiting &waiting)
+  {
+    if (archive.reads())
+      waiting.state = std::make_shared<FieldRecorder::Kept>();
+    archive(*waiting.state, waiting.frame);
+  }
+
   void serialise(Archive &archive, FieldRecorder::Best &best)
   {
     auto &[value, state] = best;
@@ -171,7 +192,7 @@ namespace sprag
 
   void FieldRecorder::serialise_progress(Archive &archive)
   {
-    archive(travelled, last_frame, last_x, peak_force, direction, turned, looked_at, samples, best);
+    archive(travelled, last_frame, last_x, peak_force, direction, turned, looked_at, samples, best, waiting);
     peaks.serialise_progress(archive);
     if (frames)
       frames->serialise_progress(archive);
@@ -179,7 +200,8 @@ namespace sprag
 
   std::vector<Entry> FieldRecorder::finish()
   {
-    std::map<double, std::pair<std::shared_ptr<Kept>, FrameKind>> left;
+    find_waiting();
+    std::map<double, Waiting> left;
     const Best *largest = nullptr;
     for (const auto &[key, found] : best)
       if (found.state)
@@ -189,10 +211,11 @@ namespace sprag
           largest = &found;
       }
     if (largest != nullptr && frames)
-      left[largest->state->row[Column::time]].second = FrameKind::whole;
+      left[largest->state->row[Column::time]].frame = FrameKind::whole;
     for (const auto &[time, state] : left)
       if (!contains(looked_at, time))
-        find(*state.first, state.second);
+        waiting.push_back(state);
+    find_waiting();
     best.clear();
     return peaks.entries(count_levers(scene));
   }

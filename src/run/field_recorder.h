@@ -6,6 +6,7 @@
 #include "fe/fields/body_fields.h"
 #include "fe/fields/field_frames.h"
 #include "fe/fields/stress_peaks.h"
+#include "fe/statics/static_interface.h"
 #include "levers/dynamics.h"
 #include "model/interface/interface_forces.h"
 #include "scene/held_slide.h"
@@ -27,10 +28,16 @@ namespace sprag
     dealii::Vector<double> face_force;
   };
 
+  inline StaticState to_static_state(const FieldSource &source)
+  {
+    return { source.coordinates, source.forces };
+  }
+
   /// Chooses the states of a run whose fields are found, writes those that are frames and looks at the stress. Frames
   /// (Output/Fields) are: turning points, the first state behind each in which the whole contact slides back (or 0.02 R behind
   /// it), the end, every interval if requested, and the state of the largest P; but for the intervals only those in contact.
-  /// Frames of intervals are for films: their stress is not looked at and written as von Mises' alone.
+  /// Frames of intervals are for films: their stress is not looked at and written as von Mises' alone. Some frames are found and
+  /// written together, as their displacements then cost little more than those of one.
   ///
   /// The largest stress of a run is found without the fields of every step: each way the states are kept in which an estimate
   /// from what a step knows anyway is largest, and their fields are found at the end. For the layer the estimate is
@@ -39,15 +46,15 @@ namespace sprag
   class FieldRecorder
   {
   public:
-    /// Finds the elastic displacements of the body, one for each lever, in lever axes.
-    using Displacements = std::function<std::vector<dealii::Vector<double>>(const FieldSource &)>;
+    /// Finds the elastic displacements of the body in some states: one for each lever, in lever axes.
+    using Displacements = std::function<std::vector<std::vector<dealii::Vector<double>>>(const std::vector<FieldSource> &)>;
 
     /// The scene must outlive the object. Without a folder it finds peaks alone. A run that goes on has its first frames in the
     /// folder already.
     FieldRecorder(const Scene &scene, BodyFields fields, Displacements displacements, const std::optional<std::string> &folder,
                   PhaseTimer &timer);
 
-    /// Looks at an accepted step and returns whether it was written as a frame. `source` makes what its fields follow from.
+    /// Looks at an accepted step and returns whether it is a frame. `source` makes what its fields follow from.
     bool record(const Row &row, const FaceState &face, const std::function<FieldSource()> &source);
 
     /// Serialises what was looked at so far.
@@ -93,7 +100,8 @@ namespace sprag
     bool slides_back(const Row &row) const;
     double moment_at_hub(const Row &row) const;
     std::vector<std::pair<Estimate, double>> estimates(const Row &row, const FaceState &face) const;
-    void find(const Kept &kept, FrameKind frame);
+    void find_waiting();
+    void find(const Kept &kept, std::vector<dealii::Vector<double>> elastic, FrameKind frame);
 
     const Scene &scene;
     PhaseTimer &timer;
@@ -109,6 +117,15 @@ namespace sprag
     double last_x;
     double peak_force = 0.;
     int direction     = 1;
+    /// A state whose fields are still to be found.
+    struct Waiting
+    {
+      std::shared_ptr<Kept> state;
+      FrameKind frame = FrameKind::none;
+    };
+    friend void serialise(Archive &archive, Waiting &waiting);
+    std::vector<Waiting> waiting;
+
     std::optional<double> turned;  ///< travel at a turning point whose state behind it is awaited
     std::vector<double> looked_at; ///< times of states
 

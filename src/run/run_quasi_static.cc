@@ -105,8 +105,8 @@ namespace sprag
       Samples samples{ path_length(scene.drive) / states_checked };
       checkpoint.add_part([&](Archive &archive) { serialise(archive, samples); });
       const bool has_frames    = scene.output.fields != FieldOutput::none;
-      const auto displacements = [&levers](const FieldSource &source)
-      { return levers.body_displacements(source.coordinates, source.forces); };
+      const auto displacements = [&levers](const std::vector<FieldSource> &sources)
+      { return levers.body_displacements(mapped(sources, to_static_state)); };
       std::optional<FieldRecorder> fields;
       timed(timer, "fields",
             [&]

@@ -76,7 +76,7 @@ namespace sprag
 
     FieldRecorder::Displacements recovery(const MeshedDynamics &lever, const unsigned int levers)
     {
-      return [&lever, levers](const FieldSource &source)
+      const auto displacements = [&lever, levers](const FieldSource &source)
       {
         Motion motion;
         motion.coordinates.position = source.coordinates;
@@ -86,6 +86,7 @@ namespace sprag
           result.push_back(lever.elastic_displacement(motion, i));
         return result;
       };
+      return [displacements](const std::vector<FieldSource> &sources) { return mapped(sources, displacements); };
     }
   } // namespace
 

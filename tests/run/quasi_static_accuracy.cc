@@ -34,8 +34,8 @@ namespace
     StaticLever<2> model(mesh, scene);
     const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
     PhaseTimer timer;
-    const auto displacements = [&](const FieldSource &source)
-    { return model.body_displacements(source.coordinates, source.forces); };
+    const auto displacements = [&](const std::vector<FieldSource> &sources)
+    { return model.body_displacements(mapped(sources, to_static_state)); };
     FieldRecorder fields(scene, BodyFields(model.body()), displacements, std::nullopt, timer);
     run_quasi_static(
         model, scene.drive, settings,

@@ -2,6 +2,7 @@
 #include "fe/statics/full_stiffness.h"
 
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "fe/algebra/matrix_rows.h"
 #include "model/step/state_archive.h"
 
@@ -178,12 +179,16 @@ namespace sprag
     return Vector<double>(begin, begin + body.n_dofs());
   }
 
-  std::vector<Vector<double>> FullStiffness::body_displacements(const Vector<double> &coordinates, const DofLoads &) const
+  std::vector<BodyDisplacements> FullStiffness::body_displacements(const std::vector<StaticState> &states) const
   {
-    std::vector<Vector<double>> result;
-    for (unsigned int lever = 0; lever < layout.levers; ++lever)
-      result.push_back(body_displacement(lever, coordinates));
-    return result;
+    return mapped(states,
+                  [&](const StaticState &state)
+                  {
+                    BodyDisplacements result;
+                    for (unsigned int lever = 0; lever < layout.levers; ++lever)
+                      result.push_back(body_displacement(lever, state.coordinates));
+                    return result;
+                  });
   }
 
   std::vector<double> FullStiffness::sensor_forces(const unsigned int lever, const Vector<double> &coordinates,

@@ -37,9 +37,8 @@ namespace sprag
     /// Returns the correction. Throws AnalysisError if the factorisation fails.
     dealii::Vector<double> correction(const Residual &residual, const InterfaceForces &forces, const DofSelection &near = {});
 
-    /// Returns the displacement of the whole body of each lever.
-    std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
-                                                           const DofLoads &forces) const;
+    /// Returns the displacements in each of some states.
+    std::vector<BodyDisplacements> body_displacements(const std::vector<StaticState> &states) const;
 
     /// Returns the forces of the sensors of a lever [N].
     std::vector<double> sensor_forces(unsigned int lever, const dealii::Vector<double> &coordinates, const DofLoads &) const;

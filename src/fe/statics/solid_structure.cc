@@ -161,22 +161,18 @@ namespace sprag
     return shares.dofs.empty() ? 0. : shares.values * displacements(shares.dofs);
   }
 
-  std::vector<Vector<double>> SolidStructure::body_displacements(const Vector<double> &coordinates, const DofLoads &forces) const
+  std::vector<BodyDisplacements> SolidStructure::body_displacements(const std::vector<StaticState> &states) const
   {
-    std::vector<Vector<double>> result;
-    if (finite)
-    {
-      for (unsigned int i = 0; i < layout.levers; ++i)
-        result.push_back(lever_displacement(coordinates, i));
-      return result;
-    }
-    std::vector<DofLoads> loads;
-    for (unsigned int i = 0; i < layout.levers; ++i)
-      loads.push_back(on_surface(forces, i));
-    const auto lever_responses = responses(loads);
-    for (auto column = lever_responses.begin(); column != lever_responses.end(); column += body.n_dofs())
-      result.emplace_back(column, column + body.n_dofs());
-    return result;
+    if (!finite)
+      return by_states(responses(on_levers(states)), body.n_dofs());
+    return mapped(states,
+                  [&](const StaticState &state)
+                  {
+                    BodyDisplacements result;
+                    for (unsigned int i = 0; i < layout.levers; ++i)
+                      result.push_back(lever_displacement(state.coordinates, i));
+                    return result;
+                  });
   }
 
   /// Displacements of all degrees of freedom of the whole body by forces on the face, one after another.

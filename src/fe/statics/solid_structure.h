@@ -71,10 +71,8 @@ namespace sprag
     Residual residual(const dealii::Vector<double> &coordinates, const InterfaceForces &forces, const DofSelection &near);
     dealii::Vector<double> correction(const Residual &residual, const InterfaceForces &forces, const DofSelection &near);
 
-    /// Returns the displacement of all degrees of freedom of each lever's body in its axes [mm]; of a linear one by a
-    /// back-substitution with the whole.
-    std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
-                                                           const DofLoads &forces) const;
+    /// Returns the displacements in each of some states; of a linear body by one back-substitution with the whole.
+    std::vector<BodyDisplacements> body_displacements(const std::vector<StaticState> &states) const;
 
     /// Returns the forces of the sensors of a lever, see SensorForces [N].
     std::vector<double> sensor_forces(unsigned int lever, const dealii::Vector<double> &coordinates,

@@ -143,4 +143,25 @@ namespace sprag
       dof -= layout.first(lever);
     return result;
   }
+
+  std::vector<DofLoads> StaticInterface::on_levers(const std::vector<StaticState> &states) const
+  {
+    std::vector<DofLoads> result;
+    for (const auto &state : states)
+      for (unsigned int lever = 0; lever < layout.levers; ++lever)
+        result.push_back(on_surface(state.forces, lever));
+    return result;
+  }
+
+  std::vector<BodyDisplacements> StaticInterface::by_states(const std::vector<double> &columns, const unsigned int n) const
+  {
+    std::vector<BodyDisplacements> result;
+    for (auto column = columns.begin(); column != columns.end();)
+    {
+      auto &displacements = result.emplace_back();
+      for (unsigned int lever = 0; lever < layout.levers; ++lever, column += n)
+        displacements.emplace_back(column, column + n);
+    }
+    return result;
+  }
 } // namespace sprag

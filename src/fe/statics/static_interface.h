@@ -38,6 +38,16 @@ namespace sprag
     std::function<dealii::FullMatrix<double>(const DofSelection &whole_blocks)> among; ///< [mm/N]
   };
 
+  /// A state of levers without inertia, which it refers to.
+  struct StaticState
+  {
+    const dealii::Vector<double> &coordinates;
+    const DofLoads &forces; ///< on the interface
+  };
+
+  /// Displacement of all degrees of freedom of each lever's body in its axes [mm].
+  using BodyDisplacements = std::vector<dealii::Vector<double>>;
+
   /// Interface of linear levers on linear springs in statics, z = G f(z). The compliance G is dense on the faces of a lever and
   /// diagonal on hubs and support, which do not move a body in its own axes, and on the cylinder's slopes. It is known for
   /// candidate dofs in whole blocks, which change if others are looked at. Only dofs with forces carry tangents, so that a Newton
@@ -84,6 +94,12 @@ namespace sprag
   protected:
     /// Returns the forces on the surface of a lever, with its dofs numbered as of one lever alone.
     DofLoads on_surface(const DofLoads &forces, unsigned int lever) const;
+
+    /// Returns those of each lever in each of some states, state by state.
+    std::vector<DofLoads> on_levers(const std::vector<StaticState> &states) const;
+
+    /// Returns columns of `n` displacements, in the order of on_levers(), as those of the states.
+    std::vector<BodyDisplacements> by_states(const std::vector<double> &columns, unsigned int n) const;
 
     const InterfaceLayout layout;
 

@@ -122,11 +122,16 @@ namespace sprag
       return own_structure;
     }
 
-    /// Returns the displacement of all degrees of freedom of each lever in its axes [mm].
-    std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
-                                                           const DofLoads &forces) const
+    /// Returns the displacements in each of some states.
+    std::vector<BodyDisplacements> body_displacements(const std::vector<StaticState> &states) const
     {
-      return std::visit([&](const auto &s) { return s.body_displacements(coordinates, forces); }, own_structure);
+      return std::visit([&](const auto &s) { return s.body_displacements(states); }, own_structure);
+    }
+
+    /// Returns those in one state.
+    BodyDisplacements body_displacements(const dealii::Vector<double> &coordinates, const DofLoads &forces) const
+    {
+      return body_displacements({ { coordinates, forces } }).front();
     }
 
     /// Returns the index of a hub's turn from the spring's rest among the coordinates.

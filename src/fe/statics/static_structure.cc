@@ -160,21 +160,16 @@ namespace sprag
     StaticInterface::serialise_history(archive);
   }
 
-  std::vector<Vector<double>> StaticStructure::body_displacements(const Vector<double> &, const DofLoads &forces) const
+  std::vector<BodyDisplacements> StaticStructure::body_displacements(const std::vector<StaticState> &states) const
   {
     SparseColumns loads;
-    for (unsigned int lever = 0; lever < layout.levers; ++lever)
+    for (const auto &acting : on_levers(states))
     {
-      const auto acting = on_surface(forces, lever);
       for (unsigned int i = 0; i < acting.dofs.size(); ++i)
         loads.add(surface[acting.dofs[i]], acting.values[i]);
       loads.end_column();
     }
-    const auto found = factors->solve(std::move(loads));
-    std::vector<Vector<double>> result;
-    for (auto column = found.begin(); column != found.end(); column += body.n_dofs())
-      result.emplace_back(column, column + body.n_dofs());
-    return result;
+    return by_states(factors->solve(std::move(loads)), body.n_dofs());
   }
 
   std::vector<double> StaticStructure::sensor_forces(const unsigned int lever, const Vector<double> &,

@@ -57,9 +57,8 @@ namespace sprag
     /// The body must outlive this.
     StaticStructure(const ElasticBody<2> &body, const InterfaceLayout &layout, const JointSprings &springs);
 
-    /// Returns the displacement of the whole body of each lever under interface forces, by a back-substitution.
-    std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
-                                                           const DofLoads &forces) const;
+    /// Returns the displacements in each of some states, by one back-substitution.
+    std::vector<BodyDisplacements> body_displacements(const std::vector<StaticState> &states) const;
 
     /// Returns the forces of the sensors of a lever [N].
     std::vector<double> sensor_forces(unsigned int lever, const dealii::Vector<double> &, const DofLoads &forces) const;
