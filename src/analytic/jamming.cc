@@ -55,7 +55,7 @@ namespace sprag
     }
   } // namespace
 
-  JammingMargin rigid_jamming_margin(const Device &device)
+  JammingMargin jamming_margin(const Device &device)
   {
     const double e = device.geometry.interface_offset;
     JammingMargin margin;
@@ -66,9 +66,7 @@ namespace sprag
     {
       const auto state = closed_form(device, point.x, point.v);
       const double s = state.contact.s, mu = state.mu;
-      const JammingMargin here{
-        point.x, point.v, s, mu, mu * e, e > 0. ? s / e : std::numeric_limits<double>::infinity(), {}, {}
-      };
+      const JammingMargin here{ point.x, point.v, s, mu, mu * e, e > 0. ? s / e : std::numeric_limits<double>::infinity() };
       if (begins || rank(here) < rank(margin))
         margin = here;
       begins = false;
@@ -83,12 +81,8 @@ namespace sprag
   std::string jamming_text(const JammingMargin &margin)
   {
     const auto at_mu = [](const double mu) { return std::isfinite(mu) ? "mu = " + formatted("%.4g", mu) : "no mu"; };
-    std::string text = "Jamming:      margin " + formatted("%.4g", 100. * margin.flexible.value_or(margin.margin())) + " %" +
-                       (margin.flexible ? " of a beam" : "") + ", least at x = " + mm(margin.x) + " moving " +
-                       (drive_direction(margin.v) < 0 ? "backward" : "forward") + "; a rigid lever locks at " +
-                       at_mu(margin.critical_mu);
-    if (margin.flexible_critical_mu)
-      text += ", a beam on the layer's contact law at " + at_mu(*margin.flexible_critical_mu);
-    return text;
+    return "Jamming:      margin " + formatted("%.4g", 100. * margin.margin()) +
+           " % of a rigid lever, least at x = " + mm(margin.x) + " moving " +
+           (drive_direction(margin.v) < 0 ? "backward" : "forward") + "; a rigid lever locks at " + at_mu(margin.critical_mu);
   }
 } // namespace sprag

@@ -3,7 +3,6 @@
 
 #include "scene/drive.h"
 
-#include <optional>
 #include <string>
 
 namespace sprag
@@ -28,17 +27,11 @@ namespace sprag
     {
       return 1. + drive_direction(v) * mu_e / s;
     }
-
-    std::optional<double> flexible;             ///< margin of the lever as a beam, there; none: not requested, or no equilibrium
-    std::optional<double> flexible_critical_mu; ///< at which it jams there; none: above three times the rigid lever's, or 5
   };
 
   /// Finds the least margin on the way of the drive with mu at its speed there; where a slide is held, of all x of the drive and
   /// both directions at its peak speed. The lever is rigid.
-  JammingMargin rigid_jamming_margin(const Device &device);
-
-  /// Finds the same margin; `flexible`: whether the lever's flexure is counted, by a beam.
-  JammingMargin jamming_margin(const Device &device, bool flexible);
+  JammingMargin jamming_margin(const Device &device);
 
   /// Returns the margin as a line of text.
   std::string jamming_text(const JammingMargin &margin);

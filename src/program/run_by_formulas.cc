@@ -2,6 +2,7 @@
 #include "program/run_by_formulas.h"
 
 #include "analytic/closed_form.h"
+#include "analytic/jamming.h"
 #include "base/errors.h"
 #include "base/system/interrupt.h"
 #include "laws/friction_law.h"
@@ -24,18 +25,16 @@ namespace sprag
 {
   namespace
   {
-    using FindMargin = std::function<JammingMargin(const Device &)>;
-
     /// Returns the margin, as text, of the lever of a pair that is closer to jamming.
-    std::string least_margin(const Device &device, const FindMargin &margin)
+    std::string least_margin(const Device &device)
     {
       if (count_levers(device) == 1)
-        return jamming_text(margin(device));
+        return jamming_text(jamming_margin(device));
       const auto lever_margin = [&](const unsigned int lever)
       {
         Device alone = lever_device(device, lever);
         alone.pair   = {};
-        return margin(alone);
+        return jamming_margin(alone);
       };
       const auto first  = lever_margin(0);
       const auto second = lever_margin(1);
@@ -43,7 +42,7 @@ namespace sprag
     }
 
     /// Before every run in which friction moves a lever along the drive, once nothing is left for which it could be refused.
-    void announce_margin(const Scene &scene, const RunOptions &options, const FindMargin &margin)
+    void announce_margin(const Scene &scene, const RunOptions &options)
     {
       static const std::set<AnalysisType> with_margin = { AnalysisType::quasi_static, AnalysisType::transient,
                                                           AnalysisType::stability, AnalysisType::sprag_slip };
@@ -51,7 +50,7 @@ namespace sprag
         return;
       require_writable(options.folder);
       if (options.is_first)
-        std::cout << least_margin(scene, margin) << '\n' << std::flush;
+        std::cout << least_margin(scene) << '\n' << std::flush;
     }
 
     /// Warnings and, in the last line, their number.
@@ -117,9 +116,9 @@ namespace sprag
     }
   } // namespace
 
-  void run_from_margin_to_warnings(const Scene &scene, const RunOptions &options, const FindMargin &margin, const Run &analysis)
+  void run_from_margin_to_warnings(const Scene &scene, const RunOptions &options, const Run &analysis)
   {
-    announce_margin(scene, options, margin);
+    announce_margin(scene, options);
     Warnings warnings = scene_warnings(scene);
     try
     {
@@ -136,7 +135,7 @@ namespace sprag
 
   void run_by_formulas(const Scene &scene, const RunOptions &options)
   {
-    run_from_margin_to_warnings(scene, options, rigid_jamming_margin, run_formulas);
+    run_from_margin_to_warnings(scene, options, run_formulas);
   }
 
   void run_formulas(const Scene &scene, const RunOptions &options, Warnings &warnings)

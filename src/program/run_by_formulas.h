@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "analytic/jamming.h"
 #include "program/run_options.h"
 #include "results/warning.h"
 
@@ -16,9 +15,8 @@ namespace sprag
   using Run = std::function<void(const Scene &, const RunOptions &, Warnings &)>;
 
   /// Carries out an analysis and prints its warnings at the end. Analyses that move along the drive or hold a slide first print
-  /// the margin to jamming, which `margin` finds for one lever.
-  void run_from_margin_to_warnings(const Scene &scene, const RunOptions &options,
-                                   const std::function<JammingMargin(const Device &)> &margin, const Run &analysis);
+  /// the margin of a rigid lever to jamming.
+  void run_from_margin_to_warnings(const Scene &scene, const RunOptions &options, const Run &analysis);
 
   /// Carries out the analysis of a scene that follows_formulas() and has no leaf spring. It throws what run() throws.
   void run_by_formulas(const Scene &scene, const RunOptions &options);

@@ -48,12 +48,6 @@ namespace sprag
         check_solid_file(scene);
     }
 
-    JammingMargin compute_margin(const Device &device)
-    {
-      const ModelType model = device.analysis.model;
-      return jamming_margin(device, model != ModelType::closed_form && model != ModelType::rigid);
-    }
-
     /// Adds to the cost of a run what choosing its settings has taken since the process had used so much CPU time [s].
     ExpectedCost cost_with_trials(const Scene &scene, const double since)
     {
@@ -155,6 +149,6 @@ namespace sprag
     }
     if (!is_quiet)
       print_processes(std::cout, scene, options.processes);
-    run_from_margin_to_warnings(scene, telling, compute_margin, carry_out);
+    run_from_margin_to_warnings(scene, telling, carry_out);
   }
 } // namespace sprag

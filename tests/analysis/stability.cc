@@ -38,12 +38,11 @@ namespace
 
 TEST(Jamming, RigidMarginIsThatOfTheClosedForm)
 {
-  const auto margin = jamming_margin(rigid_lever(0.73), false);
+  const auto margin = jamming_margin(rigid_lever(0.73));
   const double s    = kinematics(model_a().geometry, 65.).s;
   EXPECT_DOUBLE_EQ(margin.x, 65.);
   EXPECT_NEAR(margin.critical_mu, s / 45.6, 1e-12);
   EXPECT_NEAR(margin.mu_e, 0.73 * 45.6, 1e-12);
-  EXPECT_FALSE(margin.flexible);
 }
 
 // P without friction over P is (s - mu e)/s for a rigid lever, and the beam has 1e4 times the stiffness of aluminium.
@@ -53,19 +52,22 @@ TEST(Jamming, StiffBeamJamsWhereTheRigidLeverLocks)
   scene.analysis.model      = ModelType::beam;
   scene.lever.young_modulus = 7e8;
   scene.contact.stiffness   = 1e7;
-  const auto margin         = jamming_margin(scene, true);
-  ASSERT_TRUE(margin.flexible);
-  EXPECT_NEAR(*margin.flexible, 1. - 0.73 / margin.critical_mu, 1e-4);
-  ASSERT_TRUE(margin.flexible_critical_mu);
-  EXPECT_NEAR(*margin.flexible_critical_mu, margin.critical_mu, 0.02 * margin.critical_mu);
+  const auto margin         = jamming_margin(scene);
+  const DrivePoint slide_at{ 0., margin.x, margin.v, 0. };
+  const auto slide = make_reduced_lever(scene)->hold(slide_at, ContactFriction::sliding);
+  ASSERT_TRUE(slide);
+  EXPECT_NEAR(slide->margin, margin.margin(), 1e-4);
+  scene.friction.law   = CoulombFriction{ 2. * margin.critical_mu };
+  const double jams_at = 2. * margin.critical_mu * make_reduced_lever(scene)->largest_friction_share(slide_at, 1e-5);
+  EXPECT_NEAR(jams_at, margin.critical_mu, 0.02 * margin.critical_mu);
   const auto is_held = [&](const double mu)
   {
     scene.friction.law = CoulombFriction{ mu };
-    const auto slide   = make_reduced_lever(scene)->hold({ 0., margin.x, margin.v, 0. }, ContactFriction::sliding);
-    return slide && slide->uniqueness > 0.;
+    const auto held    = make_reduced_lever(scene)->hold(slide_at, ContactFriction::sliding);
+    return held && held->uniqueness > 0.;
   };
-  EXPECT_TRUE(is_held(0.9998 * *margin.flexible_critical_mu));
-  EXPECT_FALSE(is_held(1.0002 * *margin.flexible_critical_mu));
+  EXPECT_TRUE(is_held(0.9998 * jams_at));
+  EXPECT_FALSE(is_held(1.0002 * jams_at));
 }
 
 // mu falls with speed, and a harmonic motion is slowest where s is shortest.
@@ -90,20 +92,20 @@ TEST(Jamming, MarginIsTheLeastOnTheWayWithMuAtTheSpeedThere)
   for (const auto &drive : { harmonic, table, cut_short })
   {
     scene.drive       = drive;
-    const auto margin = jamming_margin(scene, false);
+    const auto margin = jamming_margin(scene);
     EXPECT_NEAR(margin.margin(), least(), 2e-3);
     EXPECT_EQ(drive_direction(margin.v), -1);
   }
   scene.drive = harmonic;
-  EXPECT_NEAR(jamming_margin(scene, false).margin(), 1. - 0.9 * 45.6 / kinematics(scene.geometry, 65.).s, 1e-12);
+  EXPECT_NEAR(jamming_margin(scene).margin(), 1. - 0.9 * 45.6 / kinematics(scene.geometry, 65.).s, 1e-12);
   // A slide held anywhere has the peak speed.
   scene.analysis.type = AnalysisType::stability;
-  EXPECT_GT(jamming_margin(scene, false).margin(), 0.9);
+  EXPECT_GT(jamming_margin(scene).margin(), 0.9);
 }
 
 TEST(Jamming, NoOffsetNoRigidLocking)
 {
-  const auto margin = jamming_margin(with_coulomb(model_b(), 0.73), false);
+  const auto margin = jamming_margin(with_coulomb(model_b(), 0.73));
   EXPECT_TRUE(std::isinf(margin.critical_mu));
 }
 
