@@ -121,6 +121,7 @@ MAPS = (
     "map-position-depth-a",
     "map-position-depth-b",
     "map-damping-depth-a",
+    "map-damping-depth-b",
     "map-friction-depth-a",
     "map-friction-position-a",
     "map-stiffness-depth-a",
