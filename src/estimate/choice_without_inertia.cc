@@ -97,7 +97,7 @@ namespace sprag
     double jump_change(const std::string &quantity, const std::vector<Row> &rows, const Row &jump)
     {
       const Column column = quantity == "P" ? Column::P : Column::Q;
-      const auto counts   = moves_with_friction(rows, drive_direction(jump[Column::v]));
+      const auto counts   = moves_with_friction(rows, drive_direction(jump[Column::v]), column);
       const double peak   = std::abs(peak_between_rows(rows, column, counts));
       return peak > 0. ? std::abs(std::abs(jump[column]) - peak) / largest(rows, column) : 0.;
     }
@@ -184,7 +184,7 @@ namespace sprag
         const Scene fine  = with_face_size(scene, size);
         const auto places = drive_samples(scene.drive);
         const auto turn   = scene.accuracy.is_model_open ? reversal_samples(scene.drive, 2. * width) : std::vector<Row>{};
-        auto sampled      = joined(places, turn);
+        auto sampled      = with_closed_form(scene, joined(places, turn));
         std::sort(sampled.begin(), sampled.end(), [](const Row &a, const Row &b) { return a[Column::time] < b[Column::time]; });
         if (!turn.empty()) // the closed form alone jumps there
           sampled.erase(std::find_if(sampled.begin(), sampled.end(),

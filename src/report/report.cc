@@ -122,11 +122,13 @@ namespace sprag
     {
       const double R     = scene.geometry.cylinder_radius;
       const Rows settled = stroke(rows, direction, settling * R);
-      auto counts        = moves_with_friction(rows, direction);
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        counts[i] = counts[i] && !rests(rows, i);
       for (const Column column : { Column::P, Column::Q })
+      {
+        auto counts = moves_with_friction(rows, direction, column);
+        for (std::size_t i = 0; i < rows.size(); ++i)
+          counts[i] = counts[i] && !rests(rows, i);
         entries.push_back({ "peak_" + column_info(column).name + "_" + name, peak_between_rows(rows, column, counts) });
+      }
       if (begins_closed(scene))
         entries.push_back({ "slope_" + name, slope_at_zero(settled, R) });
       const auto second = count_levers(rows) == 2 ? lever_rows({ settled.begin(), settled.end() }, 1) : std::vector<Row>();
@@ -180,9 +182,9 @@ namespace sprag
       {
         if (stroke(rows, direction, 0.).empty())
           continue;
-        const auto counts = moves_with_friction(rows, direction);
         for (const Column column : { Column::P, Column::Q, Column::Q_support })
-          entries.push_back({ "peak_" + column_info(column).name + "_" + name, peak_between_rows(rows, column, counts) });
+          entries.push_back({ "peak_" + column_info(column).name + "_" + name,
+                              peak_between_rows(rows, column, moves_with_friction(rows, direction, column)) });
       }
     }
 
@@ -291,7 +293,7 @@ namespace sprag
     for (const Column column : { Column::P, Column::Q })
       for (const auto &[direction, name] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
         entries.push_back({ "second_peak_" + column_info(column).name + "_" + name,
-                            peak_between_rows(second, column, moves_with_friction(rows, direction)) });
+                            peak_between_rows(second, column, moves_with_friction(rows, direction, column)) });
     const auto difference = [](const Row &row) { return row[Column::P] - row.second_value(Column::P); };
     append<Entry>(entries, { { "peak_lateral_force", signed_peak(rows, [](const Row &row) { return row.lateral_force(); }) },
                              { "peak_swing", signed_peak(rows, [](const Row &row) { return row.swing(); }) },

@@ -20,6 +20,40 @@ namespace sprag
       return !(friction < share * row[Column::mu] * row[Column::normal_resultant]) && !(friction < 0.);
     }
 
+    /// Returns friction against the motion over that in full sliding at the drive's speed, as the closed form has it; over the
+    /// row's own where a law falls with the speed, or without a closed form. An open contact, without friction, has 1.
+    double turned_part(const Row &row)
+    {
+      const double theta = row[Column::theta_closed_form];
+      const double settled =
+          std::abs(row[Column::Q_closed_form] / row[Column::P_closed_form] - std::sin(theta)) / std::cos(theta);
+      const double full = std::fmax(row[Column::mu], settled) * row[Column::normal_resultant];
+      return full > 0. ? std::copysign(1., row[Column::v]) * row[Column::friction_resultant] / full : 1.;
+    }
+
+    using Rows = std::vector<Row>::const_iterator;
+
+    /// Returns the end of the stroke that begins at a row.
+    Rows stroke_end(const std::vector<Row> &rows, const Rows begin)
+    {
+      return std::find_if(begin, rows.end(),
+                          [&](const Row &row) { return std::signbit(row[Column::v]) != std::signbit((*begin)[Column::v]); });
+    }
+
+    /// Returns where a stroke slides in full: the first row with 0.999 of the largest part that turns in it, as elastic levers
+    /// slide a little slower than the closed form; within the contact's width behind the reversal, if most turns there. The end
+    /// of a stroke that is too short for it.
+    Rows first_sliding(const std::vector<Row> &rows, const Rows begin, const Rows end)
+    {
+      const double from = (*(begin == rows.begin() ? begin : begin - 1))[Column::x];
+      const auto near_by =
+          std::find_if(begin, end, [&](const Row &row) { return std::abs(row[Column::x] - from) > row[Column::contact_width]; });
+      for (const auto last : { near_by, end })
+        if (const double most = largest(std::vector<Row>(begin, last), turned_part); most >= turned_share)
+          return std::find_if(begin, last, [&](const Row &row) { return turned_part(row) >= sliding_share * most; });
+      return end;
+    }
+
     bool moves_on(const std::vector<Row> &rows, const std::size_t first, const std::size_t last)
     {
       return last < rows.size() && drive_direction(rows[first][Column::v]) == drive_direction(rows[last][Column::v]);
@@ -64,8 +98,7 @@ namespace sprag
     std::vector<bool> result(rows.size(), false);
     for (auto begin = rows.begin(); begin != rows.end();)
     {
-      const auto end = std::find_if(
-          begin, rows.end(), [&](const Row &row) { return std::signbit(row[Column::v]) != std::signbit((*begin)[Column::v]); });
+      const auto end   = stroke_end(rows, begin);
       const auto first = [&](const double share)
       { return std::find_if(begin, end, [&](const Row &row) { return resists(row, share); }); };
       const auto turned = first(turned_share) != end ? first(turned_share) : first(0.);
@@ -75,14 +108,24 @@ namespace sprag
     return result;
   }
 
-  std::vector<bool> moves_with_friction(const std::vector<Row> &rows, const int direction)
+  std::vector<bool> moves_with_friction(const std::vector<Row> &rows, const int direction, const Column column)
   {
-    const auto turned = friction_has_turned(rows);
-    std::vector<bool> result(rows.size()), moves(rows.size());
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    auto result = friction_has_turned(rows);
+    std::vector<bool> moves(rows.size());
+    for (auto begin = rows.begin(); begin != rows.end();)
     {
-      moves[i]  = drive_direction(rows[i][Column::v]) == direction;
-      result[i] = moves[i] && turned[i];
+      const auto end     = stroke_end(rows, begin);
+      const auto sliding = first_sliding(rows, begin, end);
+      const auto from    = begin == rows.begin() ? begin : begin - 1;
+      for (auto row = begin; row != end; ++row)
+      {
+        const auto i         = static_cast<std::size_t>(row - rows.begin());
+        const auto size      = [&](const Rows at) { return std::copysign(1., (*sliding)[column]) * (*at)[column]; };
+        const bool is_passed = row < sliding && sliding != end && !(size(row) > std::max(size(from), size(sliding)));
+        moves[i]             = drive_direction((*row)[Column::v]) == direction;
+        result[i]            = moves[i] && result[i] && !is_passed;
+      }
+      begin = end;
     }
     return std::find(result.begin(), result.end(), true) == result.end() ? moves : result;
   }
@@ -100,7 +143,7 @@ namespace sprag
       {
         const auto row       = rows.begin() + static_cast<std::ptrdiff_t>(i);
         const bool is_still  = std::isnan((*row)[Column::kinetic_energy]);
-        const bool is_inside = i > 0 && i + 1 < rows.size() && counts[i - 1] && counts[i + 1];
+        const bool is_inside = i > 0 && moves_on(rows, i - 1, i + 1);
         double size          = std::abs((*row)[column]);
         if (is_still && i > 1 && std::any_of(row - 2, row + 1, sticks))
           size = corner(rows, column, i);

@@ -71,9 +71,11 @@ namespace sprag
   /// of what it is in full sliding. In a stroke that ends before, true from where it acts against the motion.
   std::vector<bool> friction_has_turned(const std::vector<Row> &rows);
 
-  /// Returns of every row whether it moves in a direction, +1 or -1, with friction that has turned. Where that
-  /// turns in no row of this direction all of them count: the motion is shorter than stick.
-  std::vector<bool> moves_with_friction(const std::vector<Row> &rows, int direction);
+  /// Returns of every row whether a column's value in it is one of motion in a direction, +1 or -1, with friction that has
+  /// turned. Until all slides at the drive's speed that is a value beyond those on both sides of the turn: others are on their
+  /// way, and may be larger than with weak friction all behind them. Where friction turns in no row of this direction all of them
+  /// count: the motion is shorter than stick.
+  std::vector<bool> moves_with_friction(const std::vector<Row> &rows, int direction, Column column);
 
   /// Returns whether a part of the contact sticks: friction is less than 0.999 of what it is in full sliding.
   bool sticks(const Row &row);

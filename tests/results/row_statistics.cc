@@ -71,8 +71,28 @@ TEST(MovesWithFriction, CountsAllRowsWhereFrictionNeverTurns)
   std::vector<Row> rows = { sliding(1., 5.), sliding(-1., 4.), sliding(-1., 3.) };
   for (std::size_t i = 0; i < rows.size(); ++i)
     rows[i][Column::P] = 6. + 0.1 * static_cast<double>(i);
-  EXPECT_EQ(moves_with_friction(rows, -1), std::vector<bool>({ false, true, true }));
-  EXPECT_EQ(peak_between_rows(rows, Column::P, moves_with_friction(rows, -1)), 6.2);
+  EXPECT_EQ(moves_with_friction(rows, -1, Column::P), std::vector<bool>({ false, true, true }));
+  EXPECT_EQ(peak_between_rows(rows, Column::P, moves_with_friction(rows, -1, Column::P)), 6.2);
+}
+
+// Q falls from 20 N through the turn to -2 N, with a mu that rises to that of the closed form, 0.5, only at last. It is largest
+// in size as it goes through, and that counts for nothing; P is largest on its way, and that counts.
+TEST(MovesWithFriction, CountsWhatIsBeyondBothSidesOfTheTurn)
+{
+  std::vector<Row> rows = { sliding(1., 5.), sliding(-1., -2.3), sliding(-1., -2.4), sliding(-1., -4.996), sliding(-1., -5.) };
+  const double Q[] = { 20., 5., 3., -1., -2. }, P[] = { 6., 6.5, 7., 6.2, 6.1 };
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    rows[i][Column::Q]                 = Q[i];
+    rows[i][Column::P]                 = P[i];
+    rows[i][Column::x]                 = 0.;
+    rows[i][Column::mu]                = std::abs(rows[i][Column::friction_resultant]) / 10.;
+    rows[i][Column::theta_closed_form] = 0.;
+    rows[i][Column::P_closed_form]     = 6.;
+    rows[i][Column::Q_closed_form]     = -3.;
+  }
+  EXPECT_EQ(moves_with_friction(rows, -1, Column::Q), std::vector<bool>({ false, false, false, true, true }));
+  EXPECT_EQ(moves_with_friction(rows, -1, Column::P), std::vector<bool>({ false, true, true, true, true }));
 }
 
 // Friction turns over rows 0.1 mm apart, P rises by 4 from row to row and then falls by 1; the corner lies a quarter behind
@@ -89,10 +109,10 @@ TEST(PeakBetweenRows, IsTheCornerAtWhichTheLastPointSlips)
     rows.back()[Column::P]    = P;
     rows.back()[Column::Q]    = -P;
   }
-  const auto counts = moves_with_friction(rows, -1);
+  const auto counts = moves_with_friction(rows, -1, Column::P);
   EXPECT_NEAR(peak_between_rows(rows, Column::P, counts), 15., 1e-12);
   EXPECT_NEAR(peak_between_rows(rows, Column::Q, counts), -15., 1e-12);
-  EXPECT_EQ(peak_between_rows(rows, Column::P, moves_with_friction(rows, 1)), 0.);
+  EXPECT_EQ(peak_between_rows(rows, Column::P, moves_with_friction(rows, 1, Column::P)), 0.);
   // With inertia forces have no corners: it is the vertex of a parabola.
   for (Row &row : rows)
     row[Column::kinetic_energy] = 0.;

@@ -203,20 +203,21 @@ namespace sprag
       ++turn;
     if (turn >= rows.size())
       return {};
-    const auto has_turned = friction_has_turned(rows);
-    const double x        = rows[turn - 1][Column::x];
-    Index largest_P = turn, largest_Q = turn;
-    for (Index i = turn; i < rows.size() && drive_direction(rows[i][Column::v]) == drive_direction(rows[turn][Column::v]) &&
-                         std::abs(rows[i][Column::x] - x) <= rows[i][Column::contact_width];
-         ++i)
+    const double x = rows[turn - 1][Column::x];
+    const int back = drive_direction(rows[turn][Column::v]);
+    Index last     = turn;
+    for (const auto column : { Column::P, Column::Q })
     {
-      if (!has_turned[largest_P] || rows[i][Column::P] > rows[largest_P][Column::P])
-        largest_P = i;
-      if (!has_turned[largest_Q] || std::abs(rows[i][Column::Q]) > std::abs(rows[largest_Q][Column::Q]))
-        largest_Q = i;
+      const auto counts = moves_with_friction(rows, back, column);
+      Index peak        = rows.size();
+      for (Index i = turn; i < rows.size() && drive_direction(rows[i][Column::v]) == back &&
+                           std::abs(rows[i][Column::x] - x) <= rows[i][Column::contact_width];
+           ++i)
+        if (counts[i] && (peak == rows.size() || std::abs(rows[i][column]) > std::abs(rows[peak][column])))
+          peak = i;
+      last = std::max(last, peak);
     }
-    const Index last = std::max(largest_P, largest_Q);
-    if (!has_turned[last] || last - turn >= passage_limit)
+    if (last - turn >= passage_limit || last == rows.size())
       return {};
     const Index end = std::min(last + 5, rows.size());
     return { rows.begin() + static_cast<std::ptrdiff_t>(turn) - 1, rows.begin() + static_cast<std::ptrdiff_t>(end) };
@@ -244,6 +245,8 @@ namespace sprag
         state = slide_to(model, state, midpoint(state.drive, point), settings).state;
       auto next = slide_to(model, state, point, settings);
       result.push_back(observed(model, next.state, next.found));
+      for (const auto column : { Column::P_closed_form, Column::Q_closed_form, Column::theta_closed_form })
+        result.back()[column] = sample[column];
       sink(next.state, result.back(), next.found);
       state = std::move(next.state);
     }
@@ -304,8 +307,10 @@ namespace sprag
   {
     if (passage.empty() || other.empty())
       return 0.;
-    const auto peak = [&](const std::vector<Row> &rows)
-    { return std::abs(peak_between_rows(rows, column, moves_with_friction(rows, drive_direction(rows.back()[Column::v])))); };
+    const auto peak = [&](const std::vector<Row> &rows) {
+      return std::abs(
+          peak_between_rows(rows, column, moves_with_friction(rows, drive_direction(rows.back()[Column::v]), column)));
+    };
     return std::abs(peak(other) - peak(passage)) / largest(passage, column);
   }
 
