@@ -92,32 +92,37 @@ namespace
       forces[i] /= bed.unit_length(dofs[i]);
   }
 
-  /// Compares the tangent at some displacements with differences of the forces that `evaluated(displacements)` finds. Points at
-  /// the edge of the contact change their state on the way.
+  /// Compares all entries of the tangent at some displacements with differences of the forces that `evaluated(displacements)`
+  /// finds, each in units of a millimetre on the face. Points at the edge of the contact change their state on the way.
   template <class Evaluated>
   void expect_tangent(const Bed &bed, const dealii::Vector<double> &displacements, const Evaluated &evaluated,
                       const double friction, const double tolerance = 1.5e-4)
   {
     const FaceEvaluation<3> found = evaluated(displacements);
-    const auto change             = any_change(bed);
-    const double step             = 1e-7;
-    auto before = displacements, after = displacements;
-    before.add(-step, change);
-    after.add(step, change);
-    const FaceEvaluation<3> low = evaluated(before), high = evaluated(after);
-    ASSERT_EQ(low.forces.dofs, found.forces.dofs);
-    ASSERT_EQ(high.forces.dofs, found.forces.dofs);
-    dealii::Vector<double> dof_values(static_cast<unsigned int>(found.forces.dofs.size())), slope(dof_values.size());
-    for (unsigned int i = 0; i < dof_values.size(); ++i)
-      dof_values[i] = change[found.forces.dofs[i]];
-    found.forces.tangent.vmult(slope, dof_values);
-    auto difference = high.forces.values;
-    difference -= low.forces.values;
-    difference /= 2. * step;
-    difference -= slope;
-    weigh(bed, found.forces.dofs, difference);
-    weigh(bed, found.forces.dofs, slope);
-    EXPECT_LT(difference.l2_norm(), tolerance * slope.l2_norm()) << friction;
+    const auto &dofs              = found.forces.dofs;
+    const auto length             = [&](const unsigned int i)
+    { return dofs[i] == bed.layout.rotation() ? 120. : bed.unit_length(dofs[i]); }; // from the pivot to the contact
+    double largest = 0., error = 0.;
+    for (unsigned int j = 0; j < dofs.size(); ++j)
+    {
+      const double step = 1e-7 / length(j);
+      auto before = displacements, after = displacements;
+      before[dofs[j]] -= step;
+      after[dofs[j]] += step;
+      const FaceEvaluation<3> low = evaluated(before), high = evaluated(after);
+      ASSERT_EQ(low.forces.dofs, dofs);
+      ASSERT_EQ(high.forces.dofs, dofs);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+      {
+        const double weight = 1. / (length(i) * length(j));
+        const double slope  = weight * found.forces.tangent(i, j);
+        largest             = std::max(largest, std::abs(slope));
+        error = std::max(error, std::abs((high.forces.values[i] - low.forces.values[i]) / (2. * step) * weight - slope));
+      }
+    }
+    std::printf("entries are off by up to %.1e of the largest of %u columns\n", error / largest,
+                static_cast<unsigned int>(dofs.size()));
+    EXPECT_LT(error, tolerance * largest) << friction;
   }
 } // namespace
 
@@ -132,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(IsFree, SurfaceContactOfAnAxis, testing::Bool());
 // more; no point changes its state.
 TEST_P(SurfaceContactOfAnAxis, TheTangentKnowsTheSpeedOfAContactThatTravels)
 {
-  Bed bed(skewed(GetParam()), 12.5, 6);
+  Bed bed(skewed(GetParam()), 12.5, 2);
   const auto begin = bed.pressed(0.02);
   auto end         = bed.pressed(0.03);
   for (unsigned int dof = 0; dof < bed.layout.surface; ++dof)
