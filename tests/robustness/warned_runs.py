@@ -63,6 +63,55 @@ MODEL_A = {
     "Geometry/Pivot distance": "185.5", "Mesh/Faces in contact": "auto", "Geometry/Interface offset": "45.6", "Analysis/Step": "2",
 }  # fmt: skip
 
+IN_TIME = ("Analysis/Model=condensed",)
+PENALTY = ("Contact/Enforcement=penalty", "Contact/Penalty=200")
+NEO_HOOKEAN = ("Lever/Material=neo-Hookean", "Analysis/Plane=strain")
+IDENTIFIED = "mu, k, e, th0"
+# {warning: (a scene that may meet it, what it advises there)}, each naming all parameters of the remedy.
+ADVISED = {
+    "defaults_of_model_a": ("model-a", OTHER_DEVICE, [("Analysis/Type=contact law",), ("Lever/Inertia=as built",)]),
+    "foreign_contact_law": ("stability-a", BEAM, [("Analysis/Type=contact law",), ("Contact/Stiffness=2e4", "Contact/Exponent=1.4"), ("Analysis/Model=condensed",)]),
+    "judged_another_lever": ("isolation-a", (), [("Analysis/Type=isolation",)]),
+    "mu_of_one_speed": ("design-machine", (), [("Drive/Speed=20",), ("Design/Tolerances=Friction/Factor = 0.7 ... 1",)]),
+    "table_beyond_stroke": ("design-machine", (), [("Drive/Stroke=12",)]),
+    "near_locking": ("closed-form-a", PROVOKED["near locking"][1], [("Drive/Stroke=50",), ("Friction/Factor=0.8",)]),
+    "leaf_beyond_yield": ("leaf-a", ("Leaf spring/Thickness=8",), [("Analysis/Type=calibration",)]),
+    "locks": ("model-a", ("Friction/Law=Coulomb", "Friction/Coefficient=2.64"), [("Geometry/Interface offset=40",), ("Drive/Stroke=50",)]),
+    "beyond_the_beam": ("stability-a", BEAM, [("Lever/Modal damping=0.01",), ("Analysis/Model=condensed",)]),
+    "plane_stress_of_layer": ("model-a", ROWS["incompressible in plane stress"][0], [("Friction layer/Plane=strain",)]),
+    "contact_between_points": ("model-a", ROWS["e almost R"][0], [("Mesh/Face size=0.2",), ("Geometry/Interface offset=50",), ("Drive/Stroke=80",), ("Analysis/Model=closed form",)]),
+    "shaking_drive": ("reversal-a", ("Drive/Profile=table", "Drive/Table=identification-a.csv", "Drive/Start=0"), [("Drive/Smoothing=0.01",)]),
+    "drifting_record": ("isolation-a", (), [("Isolation/Drift correction=on",)]),
+    "runaway_slip": ("stability-a", (*BEAM, *FALLING), [("Friction/Memory length=0.1",)]),
+    "largest_speed_alone": ("stability-a", (*BEAM, "Stability/Position=auto"), [("Drive/Profile=triangle", "Stability/Ranges=Drive/Speed 50 112")]),
+    "overlap_of_layer": ("model-a", PENALTY, [("Contact/Penalty=auto",), ("Contact/Penalty=2000",)]),
+    "soft_penalty": ("model-a", PENALTY, [("Contact/Penalty=auto",), ("Contact/Penalty=2000",)]),
+    "coarse_contact": ("reversal-a", (*IN_TIME, "Mesh/Degree=1"), [("Mesh/Face size=0.3",), ("Mesh/Degree=2",)]),
+    "stiff_penalty": ("model-a", PENALTY, [("Contact/Penalty=auto",), ("Mesh/Degree=2", "Mesh/Face size=0.3")]),
+    "soft_tangential_penalty": ("model-a", (), [("Contact/Tangential penalty=auto",), ("Contact/Tangential penalty=1e4",)]),
+    "large_deflection": ("model-a", ROWS["lever of 1 mm"][0], [NEO_HOOKEAN]),
+    "far_from_closed_form": ("model-a", (), [("Mesh/File=../meshes/lever.geo",)]),
+    "large_strain": ("model-a", (), [NEO_HOOKEAN]),
+    "pressure_beyond_strength": ("reversal-a", (), [("Friction layer/Strength=2",)]),
+    "long_steps": ("model-a", ROWS["one step"][0], [("Analysis/Step=16",), ("Mesh/Face size=0.3",)]),
+    "hidden_vibration": ("reversal-a", (), [(), ("Time/Step=1e-5",)]),
+    "no_steady_state": ("isolation-ground-a", (), [("Isolation/Duration=20",)]),
+    "element_passing": ("reversal-a", (*IN_TIME, "Mesh/Degree=1"), [("Mesh/Degree=2",), ("Mesh/Face size=0.3",), ("Contact/Penalty=auto",)]),
+    "indistinct_unknowns": ("identification-a", (), [(f"Identification/Unknowns={IDENTIFIED}",)]),
+    "model_does_not_follow": ("identification-a", (), [("Geometry/Cylinder radius=57", f"Identification/Unknowns={IDENTIFIED}")]),
+    "long_vibration": ("identification-a", (), [("Identification/Reversal window=6",)]),
+}  # fmt: skip
+# Advice of told errors, in src/estimate and of limit cycles: scene, what it has, advice.
+IMPROVED = (
+    ("model-a", ("Mesh/Face size=1",), [("Mesh/Face size=0.5",), ("Mesh/Degree=2",), ("Analysis/Step=0.7",)]),
+    ("model-a", PENALTY, [("Contact/Penalty=400",), ("Contact/Enforcement=augmented Lagrangian",)]),
+    ("model-a", ("Contact/Tangential penalty=1000",), [("Contact/Tangential penalty=2000",), ("Contact/Tangential penalty=auto",)]),
+    ("model-a", ("Mesh/File=../meshes/lever.geo",), [()]),
+    ("reversal-a", (*IN_TIME, "Contact/Penalty=200"), [("Contact/Penalty=400",), ("Condensed/Modes=40",), ("Mesh/Face size=0.25",), ("Time/Tolerance=1e-3",), ("Time/Step=1e-5",)]),
+    ("stability-a", IN_TIME, [("Condensed/Modes=40",), ("Mesh/Face size=0.25",), ("Mesh/Degree=2",)]),
+    ("sprag-slip-a", (), [("Sprag slip/Steps per period=400",)]),
+)  # fmt: skip
+
 
 class WarnedRunsTest(RunTest):
     def stored(self, output=None):
@@ -139,6 +188,31 @@ class WarnedRunsTest(RunTest):
         rows = {name: line.split("|", 3)[3].count("*") for name, line in re.findall(r"^(?=\| `(\w+)` \|)(.*)$", text, re.MULTILINE)}
         self.assertEqual({name: count for name, count in rows.items() if count}, NUMBERS)
         self.assertLessEqual({name for *_, names in (*PROVOKED.values(), *ROWS.values()) for name in names}, program)
+
+    def expect_valid(self, scene, has, changes):
+        with self.subTest(scene=scene, changes=changes):
+            done = run_scene(scene, (*has, *changes), "--validate")
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_advice_of_each_is_a_scene(self):
+        text = (SOURCE / "params/warnings.md").read_text(encoding="utf-8")
+        for name, remedy in re.findall(r"^\| `(\w+)` \|.*\|([^|]*)\|$", text, re.MULTILINE):
+            scene, has, advice = ADVISED.get(name, ("", (), []))
+            named = set(re.findall(r"`([A-Z][\w ]*/[A-Z][\w ]*?)(?: =[^`]*)?`", remedy))
+            self.assertEqual(named - {change.partition("=")[0] for changes in advice for change in changes}, set(), name)
+            for changes in advice:
+                self.expect_valid(scene, has, changes)
+
+    def test_advice_of_errors_is_a_scene(self):
+        paths = (*(SOURCE / "src/estimate").glob("*accuracy.cc"), SOURCE / "src/estimate/coarser_scene.cc", SOURCE / "src/analysis/limit_cycle/limit_cycle.cc")
+        texts = [text for path in paths for text in re.findall(r'"[^"\n]*\b(?:Try|Give)\b[^"\n]*"', path.read_text(encoding="utf-8"))]
+        named = {name for text in texts for name in re.findall(r"[A-Z][a-z]+(?: [a-z]+)?/[A-Z][a-z]+(?: (?:size|penalty|per period))?", text)}
+        tried = {change.partition("=")[0] for _, has, advice in IMPROVED for changes in (has, *advice) for change in changes}
+        self.assertGreater(len(named), 8)
+        self.assertEqual(named - tried, set())
+        for scene, has, advice in IMPROVED:
+            for changes in advice:
+                self.expect_valid(scene, has, changes)
 
 
 if __name__ == "__main__":
