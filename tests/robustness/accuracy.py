@@ -18,7 +18,15 @@ ASKED = (
     ("accuracy-a", ("Accuracy/Target=0.01", "Accuracy/Quantity=P"), "Analysis/Model"),
     ("accuracy-a", ("Accuracy/Target=0", "Accuracy/Budget=0.3"), "Analysis/Model"),
     ("model-a", ("Accuracy/Target=0.05", "Accuracy/Quantity=largest_lever_stress", "Drive/Stroke=30"), "Mesh/Face size"),
+    ("pair-a", ("Accuracy/Target=0.02", "Analysis/Model=auto"), "Analysis/Model = finite element"),
+    ("reversal-a", ("Accuracy/Target=0.1", "Analysis/Model=auto"), "Analysis/Model = beam"),
+    ("reversal-a", ("Accuracy/Target=0.05", "Analysis/Model=auto"), "Analysis/Model = condensed"),
+    ("pair-reversal-a", ("Accuracy/Target=0.1", "Analysis/Model=auto"), "Time/Tolerance"),
+    ("stability-a", ("Accuracy/Target=0.1", "Analysis/Model=auto"), "Analysis/Model = beam"),
+    ("stability-b", ("Accuracy/Target=0.1", "Analysis/Model=auto"), "Analysis/Model = condensed"),
+    ("model-a", ("Accuracy/Target=0.1", "Analysis/Dimension=auto"), "Analysis/Dimension = 2"),
 )
+TILTED = ("Accuracy/Target=0.3", "Accuracy/Quantity=largest_pressure", "Analysis/Dimension=auto", "Cylinder/Tilt=1e-3", "Drive/Stroke=30")
 
 
 class Accuracy(RunTest):
@@ -38,6 +46,11 @@ class Accuracy(RunTest):
                     self.assertIn(chosen, file["meta/chosen_settings"].asstr()[()])
                 listing = (output / "run.log").read_text().partition("with\n")[2].partition("\n\n")[0]
                 self.assertLess(len(listing.splitlines()), 30, listing)
+
+    def test_three_dimensions_are_chosen_where_the_plane_is_too_far_off(self):
+        done = sprag(SOURCE / "params/model-a.prm", *sets(TILTED), "--validate")  # the run itself takes minutes
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("Analysis/Dimension = 3", done.stdout)
 
     def test_errors_are_off_where_a_scene_says_so(self):
         path, coarse = SOURCE / "params/model-a.prm", ("Mesh/Face size=2", "Analysis/Step=8")
