@@ -37,7 +37,8 @@ namespace sprag
     constexpr double most_trial_faces       = 300.;  ///< along the way of the contact
     constexpr double reversal_error         = 0.025; ///< of P and Q behind a reversal, times the square of the faces in contact
     constexpr double reversal_share         = 0.6;
-    constexpr double extrapolated           = 0.8; ///< face size over a trial run's, below which another trial run is solved
+    constexpr double extrapolated           = 0.4; ///< face size over that of the trial run that tells of it, at least
+    constexpr double finer_trial            = 0.8; ///< face size of a trial run over that of the one before, at most
     constexpr unsigned int most_refinements = 2;
     constexpr double finest                 = 16.; ///< Mesh/Face size of the trial run over that of a run
 
@@ -127,10 +128,14 @@ namespace sprag
         solve_trial_runs(std::max(width / trial_faces, (to - from) / most_trial_faces));
         const double target   = scene.accuracy.target;
         const auto is_too_far = [&]
-        { return longest_face(target) < extrapolated * face_size && is_paid(with_budget_left(scene, since), meeting(target)); };
-        for (unsigned int i = 0; i < most_refinements && target > 0. && is_too_far(); ++i)
         {
-          const Scene fine = with_face_size(scene, longest_face(target));
+          return longest_face(target) < extrapolated * finer_trial * face_size &&
+                 is_paid(with_budget_left(scene, since), meeting(target));
+        };
+        const bool may_refine = target > 0. && is_open(scene, "Mesh/Face size") && scene.mesh.file.empty();
+        for (unsigned int i = 0; i < most_refinements && may_refine && is_too_far(); ++i)
+        {
+          const Scene fine = with_face_size(scene, longest_face(target) / extrapolated);
           require_memory(fine);
           const auto cost = trial_cost(fine);
           if (!announce(announcement(fine, cost), cost.cpu_seconds))

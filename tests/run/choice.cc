@@ -60,6 +60,25 @@ TEST(Choice, FacesAndStepsShrinkWithTheTarget)
   EXPECT_LE(tight.error, 1e-4);
 }
 
+// A trial run of the run's own mesh doubles its cost.
+TEST(Choice, TrialRunsAreOfMuchLongerFacesThanTheRun)
+{
+  std::vector<double> tried;
+  const auto note = [&](const std::string &sentence, double)
+  {
+    tried.push_back(std::stod(sentence.substr(sentence.find("faces of ") + 9)));
+    return true;
+  };
+  const auto choice = choose_settings(asked("model-b", { "Accuracy/Target=1e-3", "Accuracy/Quantity=largest_pressure" }), note);
+  ASSERT_FALSE(tried.empty());
+  EXPECT_GT(tried.back(), 1.5 * face_size(choice));
+  for (std::size_t i = 1; i < tried.size(); ++i)
+    EXPECT_LT(tried[i], 0.9 * tried[i - 1]);
+  tried.clear();
+  choose_settings(asked("model-b", { "Accuracy/Target=1e-3", "Accuracy/Quantity=largest_pressure", "Mesh/Face size=1" }), note);
+  EXPECT_TRUE(tried.empty());
+}
+
 TEST(Choice, WhatIsGivenIsKept)
 {
   const auto choice = choose_settings(asked("model-a", { "Accuracy/Target=1e-3", "Mesh/Face size=0.5", "Analysis/Step=2" }));
