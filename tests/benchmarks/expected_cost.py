@@ -44,6 +44,9 @@ CASES = [
     ("pair-stability-a", {}),
     ("map-offset-inclination", {}),
     ("map-friction-depth-a", {}),
+    ("map-friction-position-a", {}),
+    ("map-position-depth-b", {}),
+    ("isolation-ground-a", {}),
     ("study-a", {}),
 ]
 WIDTHS = (56, 10, 10, 8, 10, 10, 8)

@@ -137,6 +137,16 @@ TEST(ExpectedCost, ModesOfABasisCount)
   }
 }
 
+// A cell of a map over the position holds slides at that place, as one with a place given does; the scene itself has none.
+TEST(ExpectedCost, MapsOverThePositionHoldOnePlace)
+{
+  const double along = expected_cost(asked("map-friction-position-a", {})).cpu_seconds;
+  const double other = expected_cost(asked("map-friction-position-a", { "Map/Second parameter=Lever/Depth", "Map/Second from=3",
+                                                                        "Map/Second to=12", "Stability/Position=65" }))
+                           .cpu_seconds;
+  EXPECT_NEAR(along / other, 1., 1e-6);
+}
+
 // A search looks at 5 slides of each value where the ends of its ranges flutter, else at 33. The limits of stability with the
 // scene's constants and with most of those in the ranges take one and some six slides of six values.
 TEST(ExpectedCost, SearchesMayLookInsideRangesOrNot)
