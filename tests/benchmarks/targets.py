@@ -4,6 +4,7 @@
 settings of a grid whose true error is within the target: along the drive, of held slides and in time; see expected-cost.md."""
 
 import argparse
+import collections
 import itertools
 import os
 import tempfile
@@ -44,7 +45,7 @@ GRIDS = {
 FINE = {"Mesh/Face size": 0.0625, "Analysis/Step": 0.25, "Contact/Enforcement": "augmented Lagrangian"}
 # Runs asked for 0.1 % have faces of 0.1 mm and penalties of 6e4 N/mm3.
 FINE_RINGING = {"Mesh/Face size": 0.0625, "Time/Tolerance": 2e-4}
-WIDTHS = (40, 10, 10, 10, 10, 8, 12, 8, 0)
+WIDTHS = (40, 10, 10, 10, 10, 12, 12, 8, 0)
 
 
 def measure_cpu(work):
@@ -56,7 +57,8 @@ def measure_cpu(work):
 
 def measured(kind, sprag, scene, changes, quantities, reference, folder):
     """CPU time, largest true and told error of a run."""
-    run, cpu = measure_cpu(lambda: kind(sprag, scene, changes, folder))
+    own = {**changes, "Condensed/Cache": tempfile.mkdtemp(dir=folder)}
+    run, cpu = measure_cpu(lambda: kind(sprag, scene, own, folder))
     errors = run.errors(reference)
     return cpu, max(errors[name] for name in quantities), max(run.estimates[name] for name in quantities)
 
@@ -81,6 +83,7 @@ def main():
     parser.add_argument("--without-grid", action="store_true", help="does not look for the cheapest settings")
     arguments = parser.parse_args()
     print_row(("asked for", "target", "CPU s", "true", "told", "", "cheapest s", "ratio", "with"), WIDTHS)
+    outcomes = collections.Counter()
     with tempfile.TemporaryDirectory() as folder:
         for kind, scene, device, quantities in CASES[: arguments.cases]:
             if kind is AlongDrive:
@@ -92,7 +95,8 @@ def main():
             settings = [] if arguments.without_grid else grid(kind, arguments.sprag, scene, device, quantities, reference, folder)
             number = next((i for i, drawn in enumerate(DRAWN) if drawn.items() <= device.items()), None)
             name = (scene if number is None else f"device {number}") + " " + ", ".join(quantities)
-            for target in TARGETS:
+            # Faces of FINE are too long to tell a largest pressure to 0.01 %.
+            for target in TARGETS[:-1] if quantities == PRESSURE else TARGETS:
                 asked = {**device, "Accuracy/Target": target, "Accuracy/Quantity": ", ".join(quantities)}
                 try:
                     cpu, error, estimate = measured(kind, arguments.sprag, scene, asked, quantities, reference, folder)
@@ -100,9 +104,12 @@ def main():
                     print(f"{name} {target:.2g}: {failure}", flush=True)
                     continue
                 cheap = min((each for each in settings if each[1] <= target), default=(float("nan"), 0, "none"))
-                outcome = "met" if error <= target else "told" if not estimate <= target else "missed"
+                warns = not estimate <= target  # target_missed
+                outcome = ("met" if error <= target else "told" if warns else "missed") + (", warns" if warns and error <= target else "")
+                outcomes[outcome] += 1
                 print_row((name, f"{target:.2g}", f"{cpu:.2f}", f"{error:.1e}", f"{estimate:.1e}", outcome,
                            f"{cheap[0]:.2f}", f"{cpu / cheap[0]:.2f}", cheap[2]), WIDTHS)
+    print(", ".join(f"{count} {outcome}" for outcome, count in outcomes.most_common()))
 
 
 if __name__ == "__main__":
