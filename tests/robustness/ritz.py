@@ -208,7 +208,8 @@ class RitzBeam:
         for start in sorted((value for value in self.eigenvalues(0, 1j * eta) if value.imag > 0), key=abs)[:10]:
             value = start
             for _ in range(6):
-                value = min(self.eigenvalues(0, eta * value / value.imag), key=lambda other: abs(other - value))
+                vibrations = (other for other in self.eigenvalues(0, eta * value / value.imag) if other.imag > 0)
+                value = min(vibrations, key=lambda other: abs(other - value))
             result.append(value)
         return max(result, key=lambda value: value.real)
 
