@@ -26,7 +26,7 @@ namespace sprag
   /// Returns the warnings for a steady slide under P of each lever [N] with this compression of the layer [mm].
   Warnings slide_warnings(const Scene &scene, const DrivePoint &drive, const std::vector<double> &P, double indentation);
 
-  /// Warns of a growing vibration of a beam whose waves are shorter than six depths of the lever, see highest_beam_frequency().
+  /// Warns of a growing vibration of a beam whose waves are too short for it, see highest_beam_frequency().
   /// `frequency` and `growth_rate` are its own [Hz, 1/s].
   Warnings beam_warnings(const Scene &scene, double frequency, double growth_rate);
 

@@ -3,10 +3,12 @@
 #include "base/ranges.h"
 #include "program/result_writer.h"
 #include "report/summary_lines.h"
+#include "report/warnings.h"
 #include "run/run.h"
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace sprag
@@ -120,6 +122,21 @@ namespace sprag
       return summary;
     }
 
+    /// Warns of the mode that grows most among those that the cells leave out.
+    Warnings left_out_modes(const Scene &scene, const MapCells &cells)
+    {
+      const MapSite *site = nullptr;
+      std::array<double, 2> most{};
+      for (const auto &[place, cell] : cells)
+        for (const unsigned int direction : { 0u, 1u })
+          if (const auto mode = cell.beyond(direction); mode[1] > most[1])
+          {
+            site = &place;
+            most = mode;
+          }
+      return site == nullptr ? Warnings{} : beam_warnings(cell_scene(scene, *site), most[0], most[1]);
+    }
+
     void write_map(const Scene &scene, const RunOptions &options, const StabilityMap &map, MapFarm &farm,
                    const std::string &status, const std::vector<Entry> &meta, Warnings &warnings)
     {
@@ -127,6 +144,7 @@ namespace sprag
       ResultWriter writer(scene, options, farm.timer(), boundary_columns(scene.map));
       for (const auto &point : map.boundary)
         writer.append(boundary_row(scene.map, point));
+      append(warnings, left_out_modes(scene, farm.cells()));
       writer.finish(status, { map_summary(map, group, farm.cells().size()), meta, { group } }, warnings);
     }
   } // namespace

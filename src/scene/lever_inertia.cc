@@ -3,6 +3,7 @@
 
 #include "scene/device.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sprag
@@ -30,13 +31,18 @@ namespace sprag
     return (lever.moment_of_inertia - added_inertia(device)) / (L * L * L / 3. + L * e_a * e_a);
   }
 
-  double highest_beam_frequency(const Device &device)
+  double bending_frequency(const Device &device, const double length)
   {
-    constexpr double depths = 6.;
     const Lever &lever      = device.lever;
     const double stiffness  = lever.young_modulus * lever.width * std::pow(lever.depth, 3) / 12.;
-    const double wavenumber = 2. * M_PI / (depths * lever.depth);
+    const double wavenumber = 2. * M_PI / length;
     return wavenumber * wavenumber * std::sqrt(stiffness / mass_per_length(device)) / (2. * M_PI);
+  }
+
+  double highest_beam_frequency(const Device &device)
+  {
+    constexpr double depths = 6., elements = 2.5;
+    return bending_frequency(device, std::max(depths * device.lever.depth, elements * device.lever.length / beam_elements));
   }
 
   double moment_of_inertia(const Device &device)

@@ -27,6 +27,7 @@ PROVOKED = {
     "near locking": ("closed-form-a", ("Friction/Law=Coulomb", "Friction/Coefficient=2.62"), ["near_locking", "pressure_beyond_strength"]),
     "pulled sensor": ("plate-a", ("Mesh/Face size=4", "Analysis/Step=2", "Output/Fields=none"), ["coarse_contact", "sensor_in_tension"]),
     "ranges that a beam does not have": ("stability-a", ("Analysis/Model=beam", "Stability/Ranges=Contact/Penalty 100 1000; Friction/Factor 0.8 1.2", "Stability/Critical=Mesh/Face size 0.5 1", "Stability/Roles=off"), ["without_effect"]),
+    "map of beams without modal damping": ("map-friction-depth-a", ("Lever/Modal damping=0", "Map/First points=2", "Map/Second points=2", "Map/Coarsest=1", "Map/Bisections=0"), ["beyond_the_beam"]),
     "layer under a beam": ("stability-a", (*BEAM, "Friction layer/Young's modulus=40"), ["foreign_contact_law"]),
     "falling friction of a beam": ("stability-a", (*BEAM, *FALLING), []),
     "friction that falls at once": ("stability-a", (*BEAM, *FALLING, "Friction/Memory length=1e-3"), ["runaway_slip"]),

@@ -151,6 +151,27 @@ TEST(Beam, LeavesOutModesWithWavesShorterThanSixDepths)
   EXPECT_GT(found.beyond->mode.eigenvalue.real(), 0.);
 }
 
+// The waves of this lever that grow lie within six depths but not within the beam's elements: one of 20 kHz is 24 mm long, an
+// element 26 mm. The condensed lever decays by 0.022/s at 63.25 Hz.
+TEST(Beam, LeavesOutModesWithWavesShorterThanItsElements)
+{
+  Scene scene               = with_depth(with_coulomb(model_a(), 0.6), 3.);
+  scene.analysis.model      = ModelType::beam;
+  scene.analysis.type       = AnalysisType::stability;
+  scene.lever.modal_damping = 0.;
+  scene.contact.stiffness   = 9541.32;
+  scene.contact.exponent    = 1.45485;
+  scene.stability.position  = 65.;
+  scene.stability.direction = Direction::forward;
+  DynamicsMaker maker;
+  const auto found = check_slide(scene, maker);
+  EXPECT_EQ(found.kind, SlideKind::stable);
+  EXPECT_NEAR(found.growth_rate(), -0.02, 0.01);
+  EXPECT_NEAR(found.frequency(), 63.25, 0.1);
+  ASSERT_TRUE(found.beyond);
+  EXPECT_NEAR(found.beyond->mode.eigenvalue.imag() / (2. * M_PI), 20026., 20.);
+}
+
 // With the mesh's neutral axis, behind the interface by the layer and half the depth, it can: 12 mm, mu 0.73, k_c = 1e4 N/mm,
 // x = 44 backward grows by about 159/s at 778 Hz (a prototype's figures, three digits).
 TEST(ModelB, FluttersWithAnAxisBehindTheInterfaceOnAStiffContact)

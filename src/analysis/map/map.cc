@@ -42,21 +42,15 @@ namespace sprag
       try
       {
         const auto &worst                               = slides.worst(direction);
-        const std::array<double, n_slide_values> values = { { static_cast<double>(worst.kind), number(worst.growth_rate),
-                                                              number(worst.frequency), number(worst.uniqueness),
-                                                              number(worst.P) } };
+        const std::array<double, n_slide_values> values = {
+          { static_cast<double>(worst.kind), number(worst.growth_rate), number(worst.frequency), number(worst.uniqueness),
+            number(worst.P), number(worst.beyond_frequency), number(worst.beyond_growth_rate) }
+        };
         std::copy(values.begin(), values.end(), place);
       }
       catch (const AnalysisError &)
       {
       }
-    }
-
-    Scene cell_scene(const Scene &map, const MapSite &site)
-    {
-      const auto &[first, second, coarsest, bisections] = map.map;
-      return prepared(variant(map, { override_text(first.name, parameter_at(first, site.first)),
-                                     override_text(second.name, parameter_at(second, site.second)) }));
     }
 
     /// Returns the parameter, 0 or 1, that alone changes the mesh: cells sorted by it share meshes. None if both or neither do.
@@ -127,10 +121,23 @@ namespace sprag
 
   const std::vector<ColumnInfo> &cell_columns()
   {
-    static const auto columns =
-        page_columns("map", "theta_0 kind_forward growth_rate_forward frequency_forward uniqueness_forward P_forward "
-                            "kind_backward growth_rate_backward frequency_backward uniqueness_backward P_backward");
+    static const auto columns = []
+    {
+      std::string names = "theta_0";
+      for (const std::string direction : { "_forward", "_backward" })
+        for (const std::string name :
+             { "kind", "growth_rate", "frequency", "uniqueness", "P", "beyond_frequency", "beyond_growth_rate" })
+          names += " " + name + direction;
+      return page_columns("map", names);
+    }();
     return columns;
+  }
+
+  Scene cell_scene(const Scene &map, const MapSite &site)
+  {
+    const auto &[first, second, coarsest, bisections] = map.map;
+    return prepared(variant(map, { override_text(first.name, parameter_at(first, site.first)),
+                                   override_text(second.name, parameter_at(second, site.second)) }));
   }
 
   double parameter_at(const ParameterRange &range, const double coordinate)

@@ -132,7 +132,7 @@ namespace sprag
     unsigned int left;
   };
 
-  constexpr std::size_t n_slide_values = 5;
+  constexpr std::size_t n_slide_values = 7;
   constexpr std::size_t n_cell_values  = 1 + 2 * n_slide_values;
 
   /// The results of a cell: numbers in the order of cell_columns(), NaN where there is none.
@@ -145,6 +145,14 @@ namespace sprag
     {
       return { { static_cast<unsigned int>(values[1]), static_cast<unsigned int>(values[1 + n_slide_values]) } };
     }
+
+    /// Returns the frequency and growth rate of a mode beyond what a beam can have, which the verdict leaves out [Hz, 1/s];
+    /// NaN: none grows.
+    std::array<double, 2> beyond(const unsigned int direction) const
+    {
+      const std::size_t end = 1 + (direction + 1) * n_slide_values;
+      return { { values[end - 2], values[end - 1] } };
+    }
   };
 
   /// Lists names, units and meaning of a cell's numbers.
@@ -152,6 +160,9 @@ namespace sprag
 
   /// Returns the parameter's value at a coordinate of the grid: its ends exactly.
   double parameter_at(const ParameterRange &range, double coordinate);
+
+  /// Returns the scene that a cell judges.
+  Scene cell_scene(const Scene &map, const MapSite &site);
 
   using MapCells = std::map<MapSite, MapCell>;
 

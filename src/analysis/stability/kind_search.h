@@ -22,11 +22,13 @@ namespace sprag
     double frequency   = unknown; ///< of that mode [Hz]
     double uniqueness  = unknown;
     double mu          = unknown;
-    double P           = unknown;       ///< [N]
-    std::string motion;                 ///< see SlideStability::motion()
-    DrivePoint drive;                   ///< position and speed
-    std::vector<std::string> constants; ///< "Section/Name=value", of Stability/Ranges; empty: those of the scene
-    std::vector<double> growth_rates;   ///< of the modes by increasing |lambda| [1/s]; empty for the worst of several
+    double P           = unknown;        ///< [N]
+    std::string motion;                  ///< see SlideStability::motion()
+    DrivePoint drive;                    ///< position and speed
+    std::vector<std::string> constants;  ///< "Section/Name=value", of Stability/Ranges; empty: those of the scene
+    double beyond_frequency   = unknown; ///< of SlideStability::beyond [Hz]; NaN: none grows
+    double beyond_growth_rate = unknown; ///< [1/s]
+    std::vector<double> growth_rates;    ///< of the modes by increasing |lambda| [1/s]; empty for the worst of several
   };
 
   /// Returns whether a is worse than b: jammed before unstable before stable, then by the larger growth rate.

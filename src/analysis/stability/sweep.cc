@@ -30,6 +30,11 @@ namespace sprag
       result.drive       = drive;
       for (const auto &mode : found.modes)
         result.growth_rates.push_back(mode.mode.eigenvalue.real());
+      if (found.beyond)
+      {
+        result.beyond_frequency   = mode_frequency(*found.beyond);
+        result.beyond_growth_rate = found.beyond->mode.eigenvalue.real();
+      }
       if (!found.slide)
         return result;
       result.mu = found.slide->mu;

@@ -2,15 +2,13 @@
 #pragma once
 
 #include "model/step/dynamic_model.h"
+#include "scene/lever_inertia.h"
 
 #include <memory>
 
 namespace sprag
 {
   struct Device;
-
-  /// Elements of the beam: 8 give frequencies in contact to 5e-4 and growth rates to 0.7 %.
-  inline constexpr unsigned int beam_elements = 8;
 
   /// The scene's lever as rigid body or beam of that many elements, with a point contact: Analysis/Model = rigid or beam.
   std::unique_ptr<DynamicModel> make_reduced_lever(const Device &device, unsigned int elements = beam_elements);
