@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/map/map.h"
+#include "analysis/stability/stability.h"
 #include "base/ranges.h"
 #include "program/result_writer.h"
 #include "report/summary_lines.h"
@@ -95,16 +96,38 @@ namespace sprag
                static_cast<double>(point.kinds[1]) };
     }
 
-    /// Returns the share of the grid with any of the kinds; NaN before the whole grid is known.
-    double find_share(const Group &map, const std::string &dataset, const std::vector<double> &kinds)
+    const Dataset &find_dataset(const Group &map, const std::string &name)
     {
-      const auto found = std::find_if(map.datasets.begin(), map.datasets.end(),
-                                      [&](const Dataset &candidate) { return candidate.info.name == dataset; });
-      if (std::any_of(found->values.begin(), found->values.end(), [](const double kind) { return std::isnan(kind); }))
+      return *std::find_if(map.datasets.begin(), map.datasets.end(),
+                           [&](const Dataset &candidate) { return candidate.info.name == name; });
+    }
+
+    /// Returns for each point of the grid whether its growth rate, by which it grows or dies out, is smaller than its error.
+    std::vector<bool> find_undecided(const Group &map, const std::string &direction)
+    {
+      const auto &rates = find_dataset(map, "growth_rate_" + direction).values;
+      const auto &error = find_dataset(map, "growth_error_" + direction).values;
+      const auto &hertz = find_dataset(map, "frequency_" + direction).values;
+      std::vector<bool> result;
+      for (std::size_t i = 0; i < rates.size(); ++i)
+      {
+        const double rate = std::abs(rates[i]);
+        result.push_back(rate < error[i] && rate > smallest_growth * std::hypot(rate, 2. * M_PI * hertz[i]));
+      }
+      return result;
+    }
+
+    /// Returns the share of the grid with any of the kinds; NaN before the whole grid is known.
+    double find_share(const Group &map, const std::string &direction, const std::vector<double> &kinds)
+    {
+      const auto &found    = find_dataset(map, "kind_" + direction).values;
+      const auto undecided = find_undecided(map, direction);
+      if (std::any_of(found.begin(), found.end(), [](const double kind) { return std::isnan(kind); }))
         return std::nan("");
-      const auto counted =
-          std::count_if(found->values.begin(), found->values.end(), [&](const double kind) { return contains(kinds, kind); });
-      return static_cast<double>(counted) / static_cast<double>(found->values.size());
+      std::size_t counted = 0;
+      for (std::size_t i = 0; i < found.size(); ++i)
+        counted += contains(kinds, found[i]) && !undecided[i] ? 1 : 0;
+      return static_cast<double>(counted) / static_cast<double>(found.size());
     }
 
     std::vector<Entry> map_summary(const StabilityMap &map, const Group &group, const std::size_t checked)
@@ -116,9 +139,14 @@ namespace sprag
                                          { "cells_judged", static_cast<double>(checked) },
                                          { "boundary_points", static_cast<double>(map.boundary.size()) } };
       for (const std::string direction : { "forward", "backward" })
-        append<Entry>(summary, { { "unstable_" + direction, find_share(group, "kind_" + direction, { 1., 2. }) },
-                                 { "jammed_" + direction, find_share(group, "kind_" + direction, { 3. }) },
-                                 { "not_judged_" + direction, find_share(group, "kind_" + direction, { 4., 5. }) } });
+      {
+        const auto undecided   = find_undecided(group, direction);
+        const auto n_undecided = static_cast<double>(std::count(undecided.begin(), undecided.end(), true));
+        append<Entry>(summary, { { "unstable_" + direction, find_share(group, direction, { 1., 2. }) },
+                                 { "undecided_" + direction, n_undecided / static_cast<double>(undecided.size()) },
+                                 { "jammed_" + direction, find_share(group, direction, { 3. }) },
+                                 { "not_judged_" + direction, find_share(group, direction, { 4., 5. }) } });
+      }
       return summary;
     }
 

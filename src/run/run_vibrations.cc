@@ -72,6 +72,8 @@ namespace sprag
         const Scene held    = slide_at(limit.value);
         const auto dynamics = maker.make(held);
         const auto found    = check_slide(dynamics.model(), held_drive(held), checked_modes(held));
+        if (!is_meshed(scene.analysis.model))
+          return found.error / std::abs(slope);
         const auto accuracy = vibration_accuracy(held, found, dynamics.meshed, maker);
         return accuracy.empty() ? std::nan("") : total_error(accuracy.front()) * std::abs(found.growth_rate() / slope);
       }
@@ -93,7 +95,8 @@ namespace sprag
       for (const auto &range : ranges)
         expected += expected_work(scene, range).values;
       Progress progress(std::cerr, progress_style(quiet || is_reduced(scene.analysis.model)), std::max(1., expected));
-      double begun = 0.;
+      double begun         = 0.;
+      const bool has_error = is_meshed(scene.analysis.model) || scene.analysis.model == ModelType::beam;
       std::vector<CriticalSearch> result;
       for (const auto &range : ranges)
       {
@@ -105,7 +108,7 @@ namespace sprag
         auto &range_maker = is_meshed(scene.analysis.model) && changes_mesh(scene, range) ? passing : maker;
         result.push_back(critical_values(scene, range, tolerance, range_maker, tried));
         for (auto &change : result.back().changes)
-          if (with_errors && is_meshed(scene.analysis.model) && limits_stability(change))
+          if (with_errors && has_error && limits_stability(change))
             change.error = limit_error(scene, range.name, change) + tolerance * std::abs(range.to - range.from);
         progress.update(begun += own, {});
       }
@@ -309,7 +312,8 @@ namespace sprag
         if (options.in_memory == nullptr)
           result.accuracy = timed(timer, "accuracy", [&] { return vibration_accuracy(held, found, dynamics.meshed, maker); });
         // A slide that jams is decided without its growth rate.
-        is_decided = found.kind == SlideKind::jammed || result.accuracy.empty() || !(total_error(result.accuracy.front()) > 1.);
+        is_decided = found.is_decided() &&
+                     (found.kind == SlideKind::jammed || result.accuracy.empty() || !(total_error(result.accuracy.front()) > 1.));
         result.summary = slide_entries(found, is_decided);
         if (options.verbose)
         {

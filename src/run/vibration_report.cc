@@ -423,8 +423,9 @@ namespace sprag
     std::vector<Entry> result;
     for (const auto &role : roles)
     {
-      const auto slide = role.found.value_or(SlideStability());
-      append<Entry>(result, { { role.name + "_verdict", role.found ? kind_name(slide.kind) : "not found", "", role.meaning },
+      const auto slide          = role.found.value_or(SlideStability());
+      const std::string verdict = !role.found ? "not found" : slide.is_decided() ? kind_name(slide.kind) : "undecided";
+      append<Entry>(result, { { role.name + "_verdict", verdict, "", role.meaning },
                               { role.name + "_growth_rate", slide.growth_rate() },
                               { role.name + "_frequency", slide.frequency() } });
       if (const auto motion = slide.motion(); !motion.empty())

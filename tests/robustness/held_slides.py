@@ -89,7 +89,7 @@ class BadSlide(ProgramTest):
     def test_values_that_cannot_be_judged_are_told(self):
         """The drive ends at 65 mm; 100 mm is a number like any other."""
         printed = self.completed("stability-a", ("Stability/Roles=off", "Stability/Critical=Stability/Position 40 100"))
-        found = re.search(r"from 40 to 100 mm: stable, flutter from 5\d\.\d+ mm; cannot be judged at (\S+) to 100 mm \(\d+ values\), as \S", printed)
+        found = re.search(r"from 40 to 100 mm: stable, flutter from 5\d\.\d+ \+- \S+ mm; cannot be judged at (\S+) to 100 mm \(\d+ values\), as \S", printed)
         self.assertTrue(found, printed)
         self.assertTrue(65 < float(found.group(1)) <= 70, found.group(0))
 
@@ -174,8 +174,8 @@ class Damping(RunTest):
         damping = 2 * limit * math.sqrt(stiffness(25.71) * 6.45) / 120.05
         loss_factor = 2 * math.pi * found["frequency"] * damping / stiffness(found["P"])
         self.assertAlmostEqual(found["contact_loss_factor_limit_high"], loss_factor, delta=0.01 * loss_factor)
-        self.assertLess(self.summary(0.99 * limit)["growth_rate"], 0)
-        beyond = self.summary(1.01 * limit)
+        self.assertLess(self.summary(0.96 * limit)["growth_rate"], 0)
+        beyond = self.summary(1.04 * limit)
         self.assertGreater(beyond["growth_rate"], 0)
         self.assertAlmostEqual(beyond["contact_damping_limit_low"], limit, delta=0.01 * limit)
 
@@ -289,8 +289,8 @@ class Stroke(RunTest):
     def test_critical_depth_is_that_of_the_worst_slide(self):
         changes = [change for change in self.STROKE if "Critical" not in change]
         printed = self.run_with(*changes, "Stability/Critical=Lever/Depth 11.5 14")
-        self.assertRegex(printed, r"Lever/Depth from 11.5 to 14 mm: flutter, stable from [\d.]+ mm \(worst forward at x = ")
-        depth = float(re.search(r"stable from ([\d.]+) mm", printed).group(1))
+        self.assertRegex(printed, r"Lever/Depth from 11.5 to 14 mm: flutter, stable from [\d.]+ \+- \S+ mm \(worst forward at x = ")
+        depth = float(re.search(r"stable from ([\d.]+) \+-", printed).group(1))
         self.assertLess(0, depth - self.read("summary")["critical_lever_depth_1"])
         thin, thick = self.dense((0.99 * depth, depth))
         self.assertGreater(thin.max(), 0)
@@ -354,6 +354,39 @@ class Stroke(RunTest):
         printed = self.run_with(*self.STROKE, "Lever/Depth=20", "Stability/Position=40", "Stability/Direction=forward", "Stability/Ranges=Lever/Depth 8 24")
         self.assertRegex(printed, r"verdict +flutter")
         self.assertRegex(printed, r"Lever/Depth=10\b")
+
+
+class BeamError(RunTest):
+    """Growth that is smaller than what the elements of a beam may be off. The condensed lever does not decide it either."""
+
+    UNDAMPED = ("Lever/Modal damping=0",)
+
+    def test_leaves_a_verdict_undecided(self):
+        changes = ("Analysis/Type=stability", "Friction/Coefficient=0.45", "Lever/Depth=10.3333", "Stability/Direction=forward", "Stability/Critical=none", "Stability/Roles=off")
+        for model in ("beam", "condensed"):
+            printed = self.completed("map-friction-depth-a", (*changes, *self.UNDAMPED, f"Analysis/Model={model}"))
+            self.assertRegex(printed, r"verdict +undecided, growth \S+ 1/s, at 3[56]\d")
+        printed = self.completed("map-friction-depth-a", changes)
+        self.assertRegex(printed, r"verdict +stable, growth -22")
+
+    def test_leaves_cells_of_a_map_undecided(self):
+        changes = ("Map/First points=2", "Map/Second points=5", "Map/Coarsest=1", "Map/Bisections=0", *self.UNDAMPED)
+        self.completed("map-friction-depth-a", changes, "--quiet")
+        cells, summary = self.read("map"), self.read("summary")
+        rate, error = (cells[name + "_forward"] for name in ("growth_rate", "growth_error"))
+        self.assertAlmostEqual(summary["undecided_forward"], np.mean(abs(rate) < error))
+        self.assertAlmostEqual(summary["unstable_forward"], np.mean(rate > error))
+
+    def test_moves_a_critical_value(self):
+        depth = ("Stability/Critical=Lever/Depth 8 10", "Stability/Roles=off")
+        self.completed("stability-a", depth)
+        limit, half_width = (self.read("summary")["critical_lever_depth_1" + part] for part in ("", "_error"))
+        found = {}
+        for share in (0.96, 1, 1.04):
+            self.completed("stability-a", (f"Lever/Depth={share * limit}", "Stability/Critical=none", "Stability/Roles=off"))
+            found[share] = self.read("summary")
+        slope = (found[1.04]["growth_rate"] - found[0.96]["growth_rate"]) / (0.08 * limit)
+        self.assertAlmostEqual(half_width, 3e-4 * 2 * np.pi * found[1]["frequency"] / abs(slope), delta=0.01 * half_width)
 
 
 class StiffLever(RunTest):

@@ -295,6 +295,8 @@ class Growth(RunTest):
                 found = table["growth_rate"][i] + 2j * np.pi * table["frequency"][i]
                 # Eight elements give frequencies to 5e-4; what they miss is a change of the eigenvalue of that size.
                 self.assertLess(abs(found - (expected.real + 1j * abs(expected.imag))), 1e-3 * abs(expected))
+                # The error of growth by which a verdict is undecided, as of a beam with long waves.
+                self.assertLess(abs(found.real - expected.real), 3e-4 * abs(expected))
                 ways["rises" if d["mu_k"] > d["mu_s"] else "falls"] += 1
                 ways["grows"] += expected.real > 0
         self.assertGreater(min(ways.values()), 1, ways)

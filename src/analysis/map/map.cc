@@ -44,7 +44,7 @@ namespace sprag
         const auto &worst                               = slides.worst(direction);
         const std::array<double, n_slide_values> values = {
           { static_cast<double>(worst.kind), number(worst.growth_rate), number(worst.frequency), number(worst.uniqueness),
-            number(worst.P), number(worst.beyond_frequency), number(worst.beyond_growth_rate) }
+            number(worst.P), worst.error, number(worst.beyond_frequency), number(worst.beyond_growth_rate) }
         };
         std::copy(values.begin(), values.end(), place);
       }
@@ -126,7 +126,7 @@ namespace sprag
       std::string names = "theta_0";
       for (const std::string direction : { "_forward", "_backward" })
         for (const std::string name :
-             { "kind", "growth_rate", "frequency", "uniqueness", "P", "beyond_frequency", "beyond_growth_rate" })
+             { "kind", "growth_rate", "frequency", "uniqueness", "P", "growth_error", "beyond_frequency", "beyond_growth_rate" })
           names += " " + name + direction;
       return page_columns("map", names);
     }();

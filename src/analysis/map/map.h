@@ -132,7 +132,7 @@ namespace sprag
     unsigned int left;
   };
 
-  constexpr std::size_t n_slide_values = 7;
+  constexpr std::size_t n_slide_values = 8;
   constexpr std::size_t n_cell_values  = 1 + 2 * n_slide_values;
 
   /// The results of a cell: numbers in the order of cell_columns(), NaN where there is none.

@@ -34,9 +34,11 @@ namespace sprag
       }
     };
 
-    unsigned int rank(const SlideKind kind)
+    unsigned int rank(const CheckedSlide &slide)
     {
-      return kind == SlideKind::jammed ? 2 : is_unstable(kind) ? 1 : 0;
+      if (slide.kind == SlideKind::jammed)
+        return 3;
+      return !is_unstable(slide.kind) ? 0 : slide.growth_rate > slide.error ? 2 : 1;
     }
 
     using Window = std::array<Tried, 3>;
@@ -274,7 +276,7 @@ namespace sprag
 
   bool is_worse(const CheckedSlide &a, const CheckedSlide &b)
   {
-    return rank(a.kind) != rank(b.kind) ? rank(a.kind) > rank(b.kind) : a.growth_rate > b.growth_rate;
+    return rank(a) != rank(b) ? rank(a) > rank(b) : a.growth_rate > b.growth_rate;
   }
 
   CriticalSearch search_kinds(const ParameterRange &range, const SearchEffort &effort, const ValueChecks &checks,

@@ -19,6 +19,7 @@ namespace sprag
   {
     SlideKind kind     = SlideKind::jammed;
     double growth_rate = unknown; ///< largest Re lambda [1/s]; NaN where it jams
+    double error       = 0.;      ///< of that, see SlideStability [1/s]
     double frequency   = unknown; ///< of that mode [Hz]
     double uniqueness  = unknown;
     double mu          = unknown;
@@ -31,7 +32,8 @@ namespace sprag
     std::vector<double> growth_rates;    ///< of the modes by increasing |lambda| [1/s]; empty for the worst of several
   };
 
-  /// Returns whether a is worse than b: jammed before unstable before stable, then by the larger growth rate.
+  /// Returns whether a is worse than b: jammed before unstable before stable, then by the larger growth rate. One that grows by
+  /// less than its error comes behind those that grow by more.
   bool is_worse(const CheckedSlide &a, const CheckedSlide &b);
 
   /// Returns whether two slides have bitwise equal growth rates and forces. Slides that jam (NaN) never have.

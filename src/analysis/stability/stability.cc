@@ -77,8 +77,27 @@ namespace sprag
   {
     CheckedModes result{ scene.stability.modes };
     if (scene.analysis.model == ModelType::beam)
-      result.up_to = highest_beam_frequency(scene);
+    {
+      result.up_to            = highest_beam_frequency(scene);
+      result.length_frequency = bending_frequency(scene, scene.lever.length);
+    }
     return result;
+  }
+
+  double CheckedModes::growth_error(const std::complex<double> lambda) const
+  {
+    constexpr double share = 3e-4;
+    if (std::isinf(length_frequency))
+      return 0.;
+    return share * std::abs(lambda) * std::max(1., lambda.imag() / (2. * M_PI * length_frequency));
+  }
+
+  bool SlideStability::is_decided() const
+  {
+    if (modes.empty() || kind == SlideKind::jammed)
+      return true;
+    const double growth = std::abs(growth_rate());
+    return growth >= error || growth <= smallest_growth * std::abs(worst_mode().mode.eigenvalue);
   }
 
   double SlideStability::highest_frequency() const
@@ -106,11 +125,13 @@ namespace sprag
     else
       for (const auto lambda : model.eigenvalues(*result.slide, modes.lowest))
         result.modes.emplace_back().mode.eigenvalue = lambda;
-    const auto growth   = [](const Eigenmode &mode) { return mode.mode.eigenvalue.real() / std::abs(mode.mode.eigenvalue); };
+    const auto growth = [](const Eigenmode &mode) { return mode.mode.eigenvalue.real() / std::abs(mode.mode.eigenvalue); };
+    const auto grows  = [&](const Eigenmode &mode)
+    { return growth(mode) > smallest_growth && mode.mode.eigenvalue.real() > modes.growth_error(mode.mode.eigenvalue); };
     const auto is_worse = [&](const Eigenmode &a, const Eigenmode &b)
     {
-      const bool a_grows = growth(a) > smallest_growth;
-      const bool b_grows = growth(b) > smallest_growth;
+      const bool a_grows = grows(a);
+      const bool b_grows = grows(b);
       return a_grows == b_grows ? a.mode.eigenvalue.real() < b.mode.eigenvalue.real() : b_grows;
     };
     const auto is_fast = [&](const Eigenmode &mode) { return mode_frequency(mode) > modes.up_to; };
@@ -125,6 +146,7 @@ namespace sprag
         std::find_if(result.modes.begin(), worst, [&](const Eigenmode &mode) { return are_tied(mode.mode, worst->mode); });
     result.worst = static_cast<std::size_t>(first - result.modes.begin());
     result.kind  = classify(*result.slide, result.worst_mode().mode.eigenvalue);
+    result.error = modes.growth_error(result.worst_mode().mode.eigenvalue);
     return result;
   }
 

@@ -6,6 +6,7 @@
 #include "levers/dynamics.h"
 
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -27,9 +28,15 @@ namespace sprag
   /// The vibrations that a verdict rests on.
   struct CheckedModes
   {
-    unsigned int lowest;                                      ///< at least so many are found
-    double up_to   = std::numeric_limits<double>::infinity(); ///< [Hz]; the model cannot have faster ones
-    bool explained = true;                                    ///< else their eigenvalues alone are found, in half the time
+    unsigned int lowest;                                               ///< at least so many are found
+    double up_to            = std::numeric_limits<double>::infinity(); ///< [Hz]; the model cannot have faster ones
+    bool explained          = true; ///< else their eigenvalues alone are found, in half the time
+    double length_frequency = std::numeric_limits<double>::infinity(); ///< [Hz] of waves as long as a beam
+
+    /// Returns the error of a growth rate that a beam's elements make [1/s], 0 of other models: 3e-4 |lambda| of waves longer
+    /// than the beam, growing with the frequency of shorter ones. 442 modes of 64 random devices with waves of two and a half
+    /// elements or more differ from a Ritz beam of 26 functions by less.
+    double growth_error(std::complex<double> lambda) const;
   };
 
   /// Returns those of the scene's model; see highest_beam_frequency().
@@ -41,12 +48,17 @@ namespace sprag
     SlideKind kind = SlideKind::jammed;
     std::optional<HeldSlide> slide;  ///< none where there is no equilibrium
     std::vector<Eigenmode> modes;    ///< by increasing |lambda|; empty without equilibrium
-    std::size_t worst = 0;           ///< of the modes, the one with the largest growth rate, the first of those that tie
+    std::size_t worst = 0;           ///< of the modes, the one with the largest growth rate, the first of those that tie; one
+                                     ///< that grows by more than its error comes first
+    double error = 0.;               ///< CheckedModes::growth_error() of that mode [1/s]
     std::optional<Eigenmode> beyond; ///< the fastest growing mode beyond CheckedModes::up_to, if one grows
 
     /// Returns the highest frequency of the modes that vibrate, which take more than a radian to decay by 1/e [Hz]; NaN if none
     /// does.
     double highest_frequency() const;
+
+    /// Returns whether the growth rate is larger than its error. None at all, within round-off, is decided.
+    bool is_decided() const;
 
     const Eigenmode &worst_mode() const
     {

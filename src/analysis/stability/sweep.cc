@@ -24,6 +24,7 @@ namespace sprag
       CheckedSlide result;
       result.kind        = found.kind;
       result.growth_rate = found.growth_rate();
+      result.error       = found.error;
       result.frequency   = found.frequency();
       result.uniqueness  = found.uniqueness();
       result.motion      = found.motion();
