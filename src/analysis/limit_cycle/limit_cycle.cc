@@ -297,7 +297,7 @@ namespace sprag
       return {};
     if (settled.kind != Settling::cycle)
       return errors(
-          "No estimate: P does not repeat itself. Twice the Sprag slip/Steps per period show whether the steps cause that.");
+          "No estimate: P does not repeat itself. Four times the Sprag slip/Steps per period show what the steps change.");
     constexpr double steps_in_one = 2.;
     constexpr double approach     = 0.5; ///< windows in which the motion comes to the cycle of the shorter steps
     const double change_to_error  = 1. + finer_share(steps_in_one, 1.);
@@ -311,7 +311,7 @@ namespace sprag
     const auto found = window(1.);
     if (!(found.period > 0.))
       return errors(
-          "No estimate: P does not repeat itself in steps of half the length. Try twice the Sprag slip/Steps per period.");
+          "No estimate: P does not repeat itself in steps of half the length. Try four times the Sprag slip/Steps per period.");
     const auto relative = [&](double CycleWindow::*member)
     { return change_to_error * std::abs(found.*member / settled.window.*member - 1.); };
     return errors("", { { relative(&CycleWindow::amplitude_P), relative(&CycleWindow::frequency),
