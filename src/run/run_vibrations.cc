@@ -174,7 +174,8 @@ namespace sprag
 
     /// Checks with a spring of stick ten times as soft as it is, and rigid. The mesh of a meshed lever has the layer's own shear:
     /// its stick is checked rigid alone. Where mu falls with speed, its memory is a tenth and ten times as long.
-    std::vector<Entry> unmeasured_entries(const Scene &scene, DynamicsMaker &maker)
+    /// `is_stable`: the verdict, which a soft stick may turn.
+    std::vector<Entry> unmeasured_entries(const Scene &scene, const bool is_stable, DynamicsMaker &maker)
     {
       constexpr double soft = 0.1, rigid = 1e6;
       double soft_growth = std::nan(""), short_growth = std::nan(""), long_growth = std::nan("");
@@ -198,10 +199,13 @@ namespace sprag
         changed.friction.memory_length = 10. * scene.friction.memory_length;
         long_growth                    = compute_growth(changed, maker);
       }
-      return { { "growth_rate_soft_stick", soft_growth },
-               { "growth_rate_rigid_stick", rigid_growth },
-               { "growth_rate_short_memory", short_growth },
-               { "growth_rate_long_memory", long_growth } };
+      std::vector<Entry> result = { { "growth_rate_soft_stick", soft_growth },
+                                    { "growth_rate_rigid_stick", rigid_growth },
+                                    { "growth_rate_short_memory", short_growth },
+                                    { "growth_rate_long_memory", long_growth } };
+      if (is_stable && soft_growth > 0.)
+        result.push_back({ "soft_stick_turns_verdict", "unstable" });
+      return result;
     }
 
     std::vector<Entry> meshed_entries(const Dynamics &dynamics)
@@ -333,7 +337,8 @@ namespace sprag
           options.in_memory == nullptr)
       {
         append(result.summary, timed(timer, search_phase, [&] { return damping_entries(whole, swept.worst(), maker); }));
-        append(result.summary, timed(timer, search_phase, [&] { return unmeasured_entries(whole, maker); }));
+        append(result.summary,
+               timed(timer, search_phase, [&] { return unmeasured_entries(whole, found.kind == SlideKind::stable, maker); }));
       }
       if (scene.stability.roles)
         append(result.summary, role_entries(roles(with_condensed_lever(scene), found, maker)));

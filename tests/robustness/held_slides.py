@@ -286,6 +286,15 @@ class Stroke(RunTest):
         self.assertRegex(printed, r"looked at +modes up to [\d.e+]+ Hz, x = 65 mm, 1 judged\n")
         self.assertNotRegex(printed, "forward +growth|unstable at")
 
+    def test_soft_stick_that_turns_the_verdict_stands_with_it(self):
+        text = "but unstable with a tenth of the stiffness in stick"
+        self.assertNotIn(text, self.run_with(*self.STROKE))
+        self.assertIn(text, self.run_with(*self.STROKE, "Lever/Depth=20"))
+        soft = self.read("summary")["growth_rate_soft_stick"]
+        # dP/d(delta)/2 of the law at the largest P of the closed form, 25.71 N, is 1230 N/mm.
+        self.run_with(*self.STROKE, "Lever/Depth=20", "Contact/Tangential stiffness=123")
+        self.assertAlmostEqual(self.read("summary")["growth_rate"], soft, delta=0.02 * soft)
+
     def test_critical_depth_is_that_of_the_worst_slide(self):
         changes = [change for change in self.STROKE if "Critical" not in change]
         printed = self.run_with(*changes, "Stability/Critical=Lever/Depth 11.5 14")
