@@ -91,18 +91,22 @@ namespace sprag
     {
       const double tolerance = is_reduced(scene.analysis.model) ? 1e-8 : 1e-3; // of a value, over the distance searched
       const auto ranges      = critical_searches(scene).value_or(std::vector<ParameterRange>());
-      double expected        = 0.;
+      const auto work        = [&](const ParameterRange &range)
+      {
+        const auto search = expected_work(scene, range);
+        return range.name == "Stability/Position" ? search.values : search.slides;
+      };
+      double expected = 0.;
       for (const auto &range : ranges)
-        expected += expected_work(scene, range).values;
+        expected += work(range);
       Progress progress(std::cerr, progress_style(quiet || is_reduced(scene.analysis.model)), std::max(1., expected));
       double begun         = 0.;
       const bool has_error = is_meshed(scene.analysis.model) || scene.analysis.model == ModelType::beam;
       std::vector<CriticalSearch> result;
       for (const auto &range : ranges)
       {
-        const double own = expected_work(scene, range).values; // where it takes more the bar waits for the end
-        double done      = 0.;
-        const auto tried = [&] { progress.update(begun + std::min(++done, own - 0.5), {}); };
+        const double own = work(range); // where it takes more the bar waits for the end
+        const auto tried = [&](const double slides) { progress.update(begun + std::min(slides, 0.99 * own), {}); };
         // Meshes that serve for one value alone are not worth a place in the cache.
         DynamicsMaker passing(false);
         auto &range_maker = is_meshed(scene.analysis.model) && changes_mesh(scene, range) ? passing : maker;

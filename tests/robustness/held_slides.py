@@ -398,6 +398,18 @@ class BeamError(RunTest):
         self.assertAlmostEqual(half_width, 3e-4 * 2 * np.pi * found[1]["frequency"] / abs(slope), delta=0.01 * half_width)
 
 
+class SearchProgress(RunTest):
+    def test_ends_near_all_of_it(self):
+        """Slides differ in number by ten between values of a search."""
+        place = ("Stability/Position=40", "Stability/Direction=forward", "Stability/Ranges=Contact/Damping 0.01 0.1; Friction/Factor 0.8 1.2")
+        changes = ("Analysis/Model=condensed", "Mesh/Face size=2", "Stability/Critical=Lever/Depth 9 25", "Stability/Roles=off", *place)
+        done = run_scene("stability-a", changes, "--output", self.output)
+        shares = [int(share) for share in re.findall(r"(\d+) %", done.stderr)]
+        self.assertEqual(shares[-1], 100, done.stderr)
+        self.assertGreaterEqual(shares[-2], 80, done.stderr)
+        self.assertLess(np.diff(shares).max(), 25, done.stderr)
+
+
 class StiffLever(RunTest):
     """Tests a lever far stiffer than the spring at its pivot, as verdicts leave out flexure."""
 

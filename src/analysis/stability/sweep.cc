@@ -231,8 +231,9 @@ namespace sprag
     using NodeGrowth = std::vector<std::vector<double>>; ///< [1/s] of all nodes, at each x first one way, then the other
 
     /// Returns the growth of slides for constants at the ends and in the middle of Stability/Ranges, which are at most
-    /// most_shared_ranges. What stands out between these x counts at all of them.
-    NodeGrowth node_growth(const Scene &scene, DynamicsMaker &maker, const std::optional<Direction> &direction)
+    /// most_shared_ranges. What stands out between these x counts at all of them. Adds to the number of slides.
+    NodeGrowth node_growth(const Scene &scene, DynamicsMaker &maker, const std::optional<Direction> &direction,
+                           unsigned int &slides)
     {
       const auto ranges         = constant_ranges(scene);
       const std::size_t n_nodes = std::size_t(std::lround(std::pow(3., ranges.size())));
@@ -246,6 +247,7 @@ namespace sprag
           part.constants->push_back(
               override_text(ranges[i].name, ranges[i].from + 0.5 * (place % 3) * (ranges[i].to - ranges[i].from)));
         const auto swept = sweep(scene, maker, part);
+        slides += swept.count_slides();
         const auto along = growth_along(swept);
         growth.resize(along.size(), std::vector<double>(n_nodes));
         for (std::size_t i = 0; i < along.size(); ++i)
@@ -291,12 +293,13 @@ namespace sprag
     }
 
     /// Returns a slide that is stable where probable_share of the constants in Stability/Ranges are, in the direction in which
-    /// fewer of them are.
-    CheckedSlide check_most(const Scene &scene, DynamicsMaker &maker, const std::optional<Direction> &only = {})
+    /// fewer of them are. Adds to the number of slides.
+    CheckedSlide check_most(const Scene &scene, DynamicsMaker &maker, unsigned int &slides,
+                            const std::optional<Direction> &only = {})
     {
       const std::size_t n   = constant_ranges(scene).size();
       const auto directions = only ? std::vector<Direction>{ *only } : held_directions(scene);
-      const auto all        = node_growth(scene, maker, only);
+      const auto all        = node_growth(scene, maker, only, slides);
       const auto n_rows     = static_cast<std::ptrdiff_t>(all.size() / directions.size());
       std::map<double, Direction> by_share;
       for (std::size_t i = 0; i < directions.size(); ++i)
@@ -507,15 +510,21 @@ namespace sprag
   }
 
   CriticalSearch critical_values(const Scene &scene, const ParameterRange &range, const double tolerance, DynamicsMaker &maker,
-                                 const std::function<void()> &tried)
+                                 const std::function<void(double)> &tried)
   {
     const auto at = [&](const double value) { return prepared(variant(scene, { override_text(range.name, value) })); };
     std::vector<PlaceGrowth> places;
     std::map<double, CheckedSlide> own;
+    unsigned int slides = 0;
+    const auto counted  = [&](SweptSlides swept)
+    {
+      slides += swept.count_slides();
+      return swept;
+    };
     ValueChecks checks;
     checks.at = [&](const double value)
     {
-      const auto swept = sweep(at(value), maker);
+      const auto swept = counted(sweep(at(value), maker));
       auto worst       = swept.worst();
       own[value] =
           SweptSlides{ filtered(swept.sweeps, [](const SweptDirection &part) { return part.constants.empty(); }) }.worst();
@@ -527,9 +536,9 @@ namespace sprag
       SweepPart part;
       part.constants = slide.constants;
       part.direction = slide_direction(slide);
-      return sweep(at(value), maker, part).worst();
+      return counted(sweep(at(value), maker, part)).worst();
     };
-    checks.tried = tried;
+    checks.tried = [&] { tried(slides); };
     auto result =
         search_kinds(range, { tolerance, is_reduced(scene.analysis.model) ? 14u : 5u }, checks, find_hints(scene, range));
     result.places        = std::move(places);
@@ -539,11 +548,13 @@ namespace sprag
     if (uncertain.empty() || is_in_them)
       return result;
     ValueChecks own_checks, most_checks;
-    own_checks.at     = [&](const double value) { return sweep(at(value), maker, { false, Constants() }).worst(); };
+    own_checks.at     = [&](const double value) { return counted(sweep(at(value), maker, { false, Constants() })).worst(); };
     own_checks.alike  = checks.alike;
-    most_checks.at    = [&](const double value) { return check_most(at(value), maker); };
+    own_checks.tried  = checks.tried;
+    most_checks.at    = [&](const double value) { return check_most(at(value), maker, slides); };
     most_checks.alike = [&](const double value, const CheckedSlide &slide)
-    { return check_most(at(value), maker, slide_direction(slide)); };
+    { return check_most(at(value), maker, slides, slide_direction(slide)); };
+    most_checks.tried = checks.tried;
     for (auto &change : result.changes)
     {
       change.own = stable_limit(result, change, own_checks, own);

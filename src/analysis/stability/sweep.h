@@ -73,8 +73,9 @@ namespace sprag
   /// Returns whether values inside the range need meshes of their own.
   bool changes_mesh(const Scene &scene, const ParameterRange &range);
 
-  /// Finds the changes of the verdict along a parameter of the scene; the worst of the slides decides.
+  /// Finds the changes of the verdict along a parameter of the scene; the worst of the slides decides. `tried` gets the
+  /// number of slides so far.
   CriticalSearch critical_values(
       const Scene &scene, const ParameterRange &range, double tolerance, DynamicsMaker &maker,
-      const std::function<void()> &tried = [] {});
+      const std::function<void(double)> &tried = [](double) {});
 } // namespace sprag
