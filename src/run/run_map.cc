@@ -112,7 +112,7 @@ namespace sprag
       for (std::size_t i = 0; i < rates.size(); ++i)
       {
         const double rate = std::abs(rates[i]);
-        result.push_back(rate < error[i] && rate > smallest_growth * std::hypot(rate, 2. * M_PI * hertz[i]));
+        result.push_back(rate < error[i] && rate > no_growth * std::hypot(rate, 2. * M_PI * hertz[i]));
       }
       return result;
     }

@@ -377,6 +377,10 @@ class BeamError(RunTest):
             self.assertRegex(printed, r"verdict +undecided, growth \S+ 1/s, at 3[56]\d")
         printed = self.completed("map-friction-depth-a", changes)
         self.assertRegex(printed, r"verdict +stable, growth -22")
+        # The condensed lever grows by 0.02 1/s; a beam that grows by 1e-8 |lambda| does not say that it is stable.
+        thin = ("Lever/Depth=3.5", "Contact/Damping=0", "Friction/Factor=0.3", "Stability/Direction=backward", "Stability/Position=10")
+        printed = self.completed("stability-a", (*thin, *self.UNDAMPED, "Stability/Critical=none", "Stability/Roles=off"))
+        self.assertRegex(printed, r"verdict +undecided, growth 0\.000\d+ 1/s, at 258\d")
 
     def test_leaves_cells_of_a_map_undecided(self):
         changes = ("Map/First points=2", "Map/Second points=5", "Map/Coarsest=1", "Map/Bisections=0", *self.UNDAMPED)

@@ -97,7 +97,7 @@ namespace sprag
     if (modes.empty() || kind == SlideKind::jammed)
       return true;
     const double growth = std::abs(growth_rate());
-    return growth >= error || growth <= smallest_growth * std::abs(worst_mode().mode.eigenvalue);
+    return growth >= error || growth <= no_growth * std::abs(worst_mode().mode.eigenvalue);
   }
 
   double SlideStability::highest_frequency() const

@@ -91,6 +91,9 @@ namespace sprag
   /// Growth above this share of |lambda| counts as growth. No structure has so little damping.
   constexpr double smallest_growth = 1e-6;
 
+  /// Likewise, up to which a growth rate is that of a vibration which neither grows nor dies out.
+  constexpr double no_growth = 1e-9;
+
   /// Checks the slide at `drive`.
   SlideStability check_slide(DynamicModel &model, const DrivePoint &drive, const CheckedModes &modes);
 
