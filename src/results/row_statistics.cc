@@ -49,8 +49,13 @@ namespace sprag
       const auto near_by =
           std::find_if(begin, end, [&](const Row &row) { return std::abs(row[Column::x] - from) > row[Column::contact_width]; });
       for (const auto last : { near_by, end })
-        if (const double most = largest(std::vector<Row>(begin, last), turned_part); most >= turned_share)
+      {
+        double most = 0.;
+        for (auto row = begin; row != last; ++row)
+          most = std::max(most, turned_part(*row));
+        if (most >= turned_share)
           return std::find_if(begin, last, [&](const Row &row) { return turned_part(row) >= sliding_share * most; });
+      }
       return end;
     }
 
