@@ -110,18 +110,14 @@ namespace sprag
       const auto &hertz = find_dataset(map, "frequency_" + direction).values;
       std::vector<bool> result;
       for (std::size_t i = 0; i < rates.size(); ++i)
-      {
-        const double rate = std::abs(rates[i]);
-        result.push_back(rate < error[i] && rate > no_growth * std::hypot(rate, 2. * M_PI * hertz[i]));
-      }
+        result.push_back(!is_decided({ rates[i], 2. * M_PI * hertz[i] }, error[i]));
       return result;
     }
 
-    /// Returns the share of the grid with any of the kinds; NaN before the whole grid is known.
-    double find_share(const Group &map, const std::string &direction, const std::vector<double> &kinds)
+    /// Returns the share of the grid that is found to be of any of the kinds and not undecided; NaN before the whole grid is
+    /// known.
+    double find_share(const std::vector<double> &found, const std::vector<bool> &undecided, const std::vector<double> &kinds)
     {
-      const auto &found    = find_dataset(map, "kind_" + direction).values;
-      const auto undecided = find_undecided(map, direction);
       if (std::any_of(found.begin(), found.end(), [](const double kind) { return std::isnan(kind); }))
         return std::nan("");
       std::size_t counted = 0;
@@ -140,12 +136,13 @@ namespace sprag
                                          { "boundary_points", static_cast<double>(map.boundary.size()) } };
       for (const std::string direction : { "forward", "backward" })
       {
+        const auto &found      = find_dataset(group, "kind_" + direction).values;
         const auto undecided   = find_undecided(group, direction);
         const auto n_undecided = static_cast<double>(std::count(undecided.begin(), undecided.end(), true));
-        append<Entry>(summary, { { "unstable_" + direction, find_share(group, direction, { 1., 2. }) },
+        append<Entry>(summary, { { "unstable_" + direction, find_share(found, undecided, { 1., 2. }) },
                                  { "undecided_" + direction, n_undecided / static_cast<double>(undecided.size()) },
-                                 { "jammed_" + direction, find_share(group, direction, { 3. }) },
-                                 { "not_judged_" + direction, find_share(group, direction, { 4., 5. }) } });
+                                 { "jammed_" + direction, find_share(found, undecided, { 3. }) },
+                                 { "not_judged_" + direction, find_share(found, undecided, { 4., 5. }) } });
       }
       return summary;
     }

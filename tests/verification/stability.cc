@@ -130,16 +130,24 @@ TEST(ModelB, NeverFluttersWithItsNeutralAxisAtThePivot)
       }
 }
 
-// Static face shapes answer at once for what the modes leave out.
+namespace
+{
+  /// The scene as a beam without modal damping, which slides at x = 65 mm.
+  Scene undamped_beam(Scene scene, const Direction direction)
+  {
+    scene.analysis.model      = ModelType::beam;
+    scene.analysis.type       = AnalysisType::stability;
+    scene.lever.modal_damping = 0.;
+    scene.stability.position  = 65.;
+    scene.stability.direction = direction;
+    return scene;
+  }
+} // namespace
+
 // Without modal damping a beam of 20 mm has a growing mode above 100 kHz, which no lever has.
 TEST(Beam, LeavesOutModesWithWavesShorterThanSixDepths)
 {
-  Scene scene               = with_coulomb(model_a(), 0.73);
-  scene.analysis.model      = ModelType::beam;
-  scene.analysis.type       = AnalysisType::stability;
-  scene.lever.modal_damping = 0.;
-  scene.stability.position  = 65.;
-  scene.stability.direction = Direction::backward;
+  const Scene scene = undamped_beam(with_coulomb(model_a(), 0.73), Direction::backward);
   DynamicsMaker maker;
   const auto found = check_slide(scene, maker);
   EXPECT_EQ(found.kind, SlideKind::stable);
@@ -155,14 +163,9 @@ TEST(Beam, LeavesOutModesWithWavesShorterThanSixDepths)
 // element 26 mm. The condensed lever decays by 0.022/s at 63.25 Hz.
 TEST(Beam, LeavesOutModesWithWavesShorterThanItsElements)
 {
-  Scene scene               = with_depth(with_coulomb(model_a(), 0.6), 3.);
-  scene.analysis.model      = ModelType::beam;
-  scene.analysis.type       = AnalysisType::stability;
-  scene.lever.modal_damping = 0.;
-  scene.contact.stiffness   = 9541.32;
-  scene.contact.exponent    = 1.45485;
-  scene.stability.position  = 65.;
-  scene.stability.direction = Direction::forward;
+  Scene scene             = undamped_beam(with_depth(with_coulomb(model_a(), 0.6), 3.), Direction::forward);
+  scene.contact.stiffness = 9541.32;
+  scene.contact.exponent  = 1.45485;
   DynamicsMaker maker;
   const auto found = check_slide(scene, maker);
   EXPECT_EQ(found.kind, SlideKind::stable);

@@ -92,12 +92,16 @@ namespace sprag
     return share * std::abs(lambda) * std::max(1., lambda.imag() / (2. * M_PI * length_frequency));
   }
 
+  bool is_decided(const std::complex<double> eigenvalue, const double error)
+  {
+    constexpr double round_off = 1e-9; // of |lambda|
+    const double growth        = std::abs(eigenvalue.real());
+    return !(growth < error && growth > round_off * std::abs(eigenvalue));
+  }
+
   bool SlideStability::is_decided() const
   {
-    if (modes.empty() || kind == SlideKind::jammed)
-      return true;
-    const double growth = std::abs(growth_rate());
-    return growth >= error || growth <= no_growth * std::abs(worst_mode().mode.eigenvalue);
+    return modes.empty() || kind == SlideKind::jammed || sprag::is_decided(worst_mode().mode.eigenvalue, error);
   }
 
   double SlideStability::highest_frequency() const

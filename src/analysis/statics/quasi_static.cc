@@ -24,7 +24,7 @@ namespace sprag
     constexpr double stalled_penetration = 100.; ///< accepted after all augmentations, over the tolerance
     constexpr double slow                = 1e-6; ///< least speed of the approach to Start, over the peak speed
 
-    /// That share where an equilibrium only gives multipliers, see left_out_in_statics: 1e-6 of the penetration.
+    /// Equilibria that only give multipliers leave out more than left_out_in_statics: 1e-6 of the penetration.
     constexpr double left_out_before_augmentation = 10.;
 
     // The passage through stick after a reversal is about (|F+| + |F-|) / k_t long; its steps are these shares of it.
