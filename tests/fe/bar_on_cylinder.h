@@ -27,18 +27,16 @@ namespace sprag
     return { R, 3., 12., (R - 3. - 12. * std::sin(rest_inclination)) / std::cos(rest_inclination) };
   }
 
-  inline FaceProperties<2> make_properties(const ElasticBody<2> &body, const bool sprung, const double regularisation_speed)
+  inline FaceProperties make_properties(const ElasticBody<2> &body, const bool sprung, const double regularisation_speed)
   {
-    FaceProperties<2> result;
-    const auto geometry     = cylinder_below_bar();
-    result.counterface      = cylinder(geometry);
-    result.centre           = cylinder_centre(geometry);
-    result.radius           = geometry.cylinder_radius;
-    result.layout           = { static_cast<unsigned int>(surface_dofs(body).size()), sprung };
-    result.rest_inclination = rest_inclination;
-    result.penalties        = { 240., 120. };
-    result.friction         = { CorkOnAluminium{}, FrictionSpeed::sliding, regularisation_speed };
-    result.layer_thickness  = 0.5;
-    return result;
+    const auto geometry = cylinder_below_bar();
+    return { cylinder_centre(geometry),
+             geometry.cylinder_radius,
+             { static_cast<unsigned int>(surface_dofs(body).size()), sprung },
+             rest_inclination,
+             { 240., 120. },
+             { CorkOnAluminium{}, FrictionSpeed::sliding, regularisation_speed },
+             0.5,
+             RigidCylinder(geometry, {}) };
   }
 } // namespace sprag

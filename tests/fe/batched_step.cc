@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "bed_of_springs.h"
-#include "fe/contact/surface_contact.h"
+#include "fe/contact/face_contact.h"
 #include "mpi_environment.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "fe/contact/face_contact.h"
 #include "fe/contact/face_contact_point.h"
-#include "fe/contact/surface_contact.h"
 #include "model/contact/circle.h"
 #include "scenes.h"
 #include <cmath>
@@ -45,10 +45,14 @@ namespace sprag
       layout.has_inertia      = false;
       layout.slopes           = cylinder.has_free_axis() ? 2 : 0;
       const Geometry geometry = model_a().geometry;
-      contact                 = std::make_unique<SurfaceContact>(
-          face, FaceProperties<3>{
-                                    { cylinder_centre(geometry), geometry.cylinder_radius, layout, 0., { stiffness, stiffness }, friction },
-                                    RigidCylinder(geometry, cylinder) });
+      contact                 = std::make_unique<FaceContact<3>>(face, FaceProperties{ cylinder_centre(geometry),
+                                                                       geometry.cylinder_radius,
+                                                                       layout,
+                                                                       0.,
+                                                                       { stiffness, stiffness },
+                                                                       friction,
+                                                                       0.,
+                                                                       RigidCylinder(geometry, cylinder) });
     }
 
     /// Returns displacements at rest and an inclination at which the cylinder penetrates by so much in the middle [mm].
@@ -78,7 +82,7 @@ namespace sprag
       return found;
     }
 
-    SurfaceContact &surface()
+    FaceContact<3> &surface()
     {
       return *contact;
     }
@@ -144,7 +148,7 @@ namespace sprag
     const dealii::FESystem<3> fe;
     dealii::DoFHandler<3> dofs;
     FrictionFace<3> face;
-    std::unique_ptr<SurfaceContact> contact;
+    std::unique_ptr<FaceContact<3>> contact;
   };
 
   inline Cylinder tilted(const double tilt)

@@ -21,7 +21,7 @@ TEST(ElasticCounterface, PartsAddUpToTheTangentAndPressureIsSymmetric)
 {
   const MeshedPair bodies;
   const auto properties = make_properties(*bodies, true, 0.);
-  FaceContact contact(*bodies, properties);
+  FaceContact<2> contact((*bodies).friction_face(), properties, (*bodies).cylinder_face());
   expect_tangent_parts(contact, pressed(*bodies, properties.layout, 2e-4, 0., 0.3), 1e-8);
 }
 
@@ -29,7 +29,7 @@ TEST(ElasticCounterface, ForcesOnLeverAndCylinderAreEqualAndOpposite)
 {
   const MeshedPair bodies;
   const auto properties = make_properties(*bodies, false, 0.);
-  FaceContact contact(*bodies, properties);
+  FaceContact<2> contact((*bodies).friction_face(), properties, (*bodies).cylinder_face());
   FaceEvaluation<2> found;
   const PressedStep step(contact, *bodies, properties.layout, 2e-4, 1.01);
   contact.evaluate(*step, found);
@@ -48,7 +48,7 @@ TEST(ElasticCounterface, RefusesAContactBeyondTheCylindersFace)
 {
   const MeshedPair bodies;
   const auto properties = make_properties(*bodies, false, 0.);
-  FaceContact contact(*bodies, properties);
+  FaceContact<2> contact((*bodies).friction_face(), properties, (*bodies).cylinder_face());
   FaceEvaluation<2> found;
   Vector displacements(properties.layout.size());
   const auto n_lever = static_cast<unsigned int>((*bodies).friction_face().nodes.size());

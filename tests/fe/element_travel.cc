@@ -26,7 +26,7 @@ TEST(ElementTravel, BoundsHowMuchNearerAnyPointComes)
     double nearest = 0.; // share of the travel
     for (const auto &element : grid.elements)
     {
-      ElementTravel travel(140., 1.5625);
+      ElementTravel<3> travel(140., 1.5625);
       Elements::Nodal nodes{};
       std::vector<double> first, gaps(element.end - element.begin);
       for (unsigned int k = 0; k < 30; ++k)
@@ -65,8 +65,8 @@ TEST(ElementTravel, IsEndlessFromFarAwayOn)
   const double nowhere = std::nan("");
   for (const double far : { 1e17, 1e200, nowhere })
   {
-    ElementTravel travel(140., 1.5625);
-    ElementTravel::Nodal nodes{};
+    ElementTravel<3> travel(140., 1.5625);
+    ElementTravel<3>::Nodal nodes{};
     const auto go = [&] { travel.go_to(nodes, cylinder.pose(Bed::x, 0.085), cylinder.shape); };
     go();
     nodes[1] = far;

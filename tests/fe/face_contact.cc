@@ -19,12 +19,12 @@ namespace
   class FaceContactOn : public testing::TestWithParam<std::string>
   {
   protected:
-    FaceProperties<2> properties(const bool sprung, const double regularisation_speed) const
+    FaceProperties properties(const bool sprung, const double regularisation_speed) const
     {
       return make_properties(body, sprung, regularisation_speed);
     }
 
-    PressedStep step(const FaceContact &contact, const InterfaceLayout &layout, const double x, const double share = 1.,
+    PressedStep step(FaceContact<2> &contact, const InterfaceLayout &layout, const double x, const double share = 1.,
                      const double spectral_radius = 0.8) const
     {
       return { contact, body, layout, size, x, share, spectral_radius };
@@ -53,7 +53,7 @@ TEST_P(FaceContactOn, TangentIsTheDerivativeOfTheForces)
       for (const double x : { 1.01, 1.0003, 0.99 })
       {
         const auto contact_properties = properties(sprung, regularisation);
-        FaceContact contact(body, contact_properties);
+        FaceContact<2> contact(body.friction_face(), contact_properties, body.cylinder_face());
         auto taken = step(contact, contact_properties.layout, x);
         FaceEvaluation<2> found;
         EXPECT_LE(tangent_error(found.forces, taken.end, [&] { contact.evaluate(*taken, found); }), tolerance)
@@ -68,7 +68,7 @@ TEST_P(FaceContactOn, TangentOfSteadySlidingIsTheDerivativeOfTheForces)
     for (const double speed : { 100., -100. })
     {
       const auto contact_properties = properties(sprung, 0.);
-      FaceContact contact(body, contact_properties);
+      FaceContact<2> contact(body.friction_face(), contact_properties, body.cylinder_face());
       const auto taken     = step(contact, contact_properties.layout, 1.01);
       Vector displacements = taken.end;
       FaceEvaluation<2> found;
@@ -84,7 +84,7 @@ TEST_P(FaceContactOn, TangentOfSteadySlidingIsTheDerivativeOfTheForces)
 TEST_P(FaceContactOn, ApartNothingHappens)
 {
   const auto contact_properties = properties(false, 0.);
-  FaceContact contact(body, contact_properties);
+  FaceContact<2> contact(body.friction_face(), contact_properties, body.cylinder_face());
   Vector displacements(contact_properties.layout.size());
   displacements[contact_properties.layout.rotation()] = 0.02;
   FaceEvaluation<2> found;
@@ -108,28 +108,28 @@ TEST(FaceContact, FindsAllPointsInReach)
   const MeshedBar bar(bar_on_cylinder());
   const auto properties = make_properties(*bar, false, 0.);
   const FaceElements<2> face((*bar).friction_face());
+  FaceContact<2> contact((*bar).friction_face(), properties);
   const double R = cylinder_below_bar().cylinder_radius;
   for (const double x : { -6., -3., 0., 3., 6. })
     for (const double turn : { 0., -0.01, -0.1, 0.2 })
     {
-      const double theta       = rest_inclination + turn;
-      const auto displacements = pressed(*bar, properties.layout, 1e-3, 0., 3.);
-      const FaceConfiguration at{ &displacements, theta, x, cylinder_centre(cylinder_below_bar(), x, theta) };
-      RigidCounterface counterface((*bar).friction_face(), face, properties);
-      counterface.set_places({ at, at }, false);
-      const auto near = counterface.near_end();
-      ASSERT_FALSE(near.empty());
-      double inside  = 1e9;
-      double outside = 1e9;
-      for (unsigned int p = 0; p < face.elements.size(); ++p)
-        for (unsigned int q = face.elements[p].begin; q < face.elements[p].end; ++q)
-        {
-          const auto position =
-              FaceElements<2>::position(face.points[q], FaceElements<2>::nodal(face.elements[p], displacements));
-          const double gap = std::hypot(position[0] - at.centre.xi, position[1] - at.centre.eta) - R;
-          double &least    = std::binary_search(near.begin(), near.end(), p) ? inside : outside;
-          least            = std::min(least, gap);
-        }
+      auto displacements                          = pressed(*bar, properties.layout, 1e-3, 0., 3.);
+      displacements[properties.layout.rotation()] = turn;
+      const auto centre                           = cylinder_centre(cylinder_below_bar(), x, rest_inclination + turn);
+      FaceEvaluation<2> found;
+      contact.touch(displacements, { 0., x, 0. }, found);
+      ASSERT_FALSE(found.points.empty());
+      double inside = 1e9, outside = 1e9;
+      for (unsigned int q = 0; q < face.points.size(); ++q)
+      {
+        const auto nodal    = FaceElements<2>::nodal(face.elements[face.point_elements[q]], displacements);
+        const auto position = FaceElements<2>::position(face.points[q], nodal);
+        const double gap    = std::hypot(position[0] - centre.xi, position[1] - centre.eta) - R;
+        const bool is_found =
+            std::any_of(found.points.begin(), found.points.end(), [&](const auto &at) { return at.index == q; });
+        double &least = is_found ? inside : outside;
+        least         = std::min(least, gap);
+      }
       EXPECT_GT(outside, 0.) << x << " " << turn;
       EXPECT_LE(inside, outside + 0.02 * face.elements.front().length) << x << " " << turn;
     }
@@ -139,7 +139,7 @@ TEST(FaceContact, ForcesOfSlidingAreThoseObserved)
 {
   const MeshedBar bar(bar_on_cylinder());
   const auto properties = make_properties(*bar, false, 0.);
-  FaceContact contact(*bar, properties);
+  FaceContact<2> contact((*bar).friction_face(), properties);
   const PressedStep step(contact, *bar, properties.layout, 1e-3, 1.01);
   FaceEvaluation<2> found;
   contact.evaluate_sliding({ step.end, step.to, 100. }, found);

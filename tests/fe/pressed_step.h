@@ -25,7 +25,7 @@ namespace sprag
   class PressedStep
   {
   public:
-    PressedStep(const FaceContact &contact, const ElasticBody<2> &body, const InterfaceLayout &layout, const double size,
+    PressedStep(FaceContact<2> &contact, const ElasticBody<2> &body, const InterfaceLayout &layout, const double size,
                 const double x, const double share = 1., const double spectral_radius = 0.8)
         : weights(generalised_alpha(spectral_radius, 1e-4))
         , to{ 1e-4, x, (x - 1.) / 1e-4, 0., 0.002 * share }

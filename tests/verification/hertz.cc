@@ -17,24 +17,16 @@ namespace
     double half_width; ///< [mm]
   };
 
-  /// Pressed together in a few steps, without friction.
-  Outcome pressed(const dealii::Triangulation<2> &triangulation, const LeverProperties &properties)
+  /// Pressed together by `depth` in a few steps, without friction.
+  Outcome pressed(const dealii::Triangulation<2> &triangulation, const LeverProperties &properties, const double depth)
   {
     StaticLever<2> model(triangulation, properties);
     Equilibrium at{ model.initial_state({ 0., 0., 1. }), {} };
-    for (const double x : { 0.1, 0.25, 0.5, 0.75, 1. })
-      at = step_to(model, at.state, x, properties.contact);
+    for (const double share : { 0.1, 0.25, 0.5, 0.75, 1. })
+      at = step_to(model, at.state, share * depth, properties.contact);
     Row row;
     model.observe(at.state, at.found, row);
     return { profile(model, at), row[Column::P] / properties.body.width, 0.5 * row[Column::contact_width] };
-  }
-
-  /// A block under a circle that is pressed in by `depth`.
-  Outcome indented(const dealii::Triangulation<2> &triangulation, LeverProperties properties, const double depth,
-                   const double radius)
-  {
-    properties.counterface = rigid_circle(radius, [=](const double x) { return LeverPoint{ 0., x * depth - radius }; });
-    return pressed(triangulation, properties);
   }
 
   double largest(const std::vector<double> &values)
@@ -80,14 +72,14 @@ namespace
     const double radius = 20.;
     dealii::Triangulation<2> triangulation;
     make_block(mirrored(graded_parts(0.025, 1.2, 1.25, 20.)), graded_parts(0.025, 0.3, 1.25, 20.), triangulation);
-    auto properties                = block_properties({}, 0.);
+    auto properties                = block_properties(radius, 0.);
     properties.body.degree         = elements.degree;
     properties.body.width          = 3.;
     properties.body.point_spacing  = 0.002;
     properties.body.constants      = { { material_id::lever, { 100., poisson_ratio } } };
     properties.contact.enforcement = elements.enforcement;
     properties.contact.penalty     = elements.penalty;
-    const auto outcome             = indented(triangulation, properties, 0.09, radius);
+    const auto outcome             = pressed(triangulation, properties, 0.09);
 
     const double ripple = elements.degree == 1 ? elements.penalty * 0.025 * 0.025 / (8. * radius) : 0.;
     expect_half_planes(outcome, 100. / (1. - poisson_ratio * poisson_ratio), radius, ripple);
@@ -103,13 +95,13 @@ namespace
                            -0.5 / radius };
     dealii::Triangulation<2> triangulation;
     make_two_blocks(upper, lower, triangulation);
-    auto properties                = two_block_properties([=](const double x) { return LeverPoint{ 0., x * depth }; }, 0.);
+    auto properties                = two_block_properties(0.);
     properties.body.width          = 3.;
     properties.body.point_spacing  = 0.002;
     properties.body.constants      = { { material_id::lever, { 100., nu } }, { material_id::cylinder, { 100., nu } } };
     properties.contact.enforcement = enforcement;
     properties.contact.penalty     = penalty;
-    expect_half_planes(pressed(triangulation, properties), 0.5 * 100. / (1. - nu * nu), radius, 0.);
+    expect_half_planes(pressed(triangulation, properties, depth), 0.5 * 100. / (1. - nu * nu), radius, 0.);
   }
 } // namespace
 
@@ -147,11 +139,11 @@ TEST(Hertz, RigidCylinderOnAThinBondedLayer)
   const double thickness = 1., delta = 0.1, radius = 2000., modulus = 20.;
   dealii::Triangulation<2> triangulation;
   make_block(mirrored(graded_parts(0.25, 23., 1.2, 40.)), { 0., 0.25, 0.5, 0.75, 1. }, triangulation);
-  auto properties               = block_properties({}, 0.);
+  auto properties               = block_properties(radius, 0.);
   properties.body.constants     = { { material_id::lever, { modulus, 0. } } };
   properties.body.point_spacing = 0.05;
   properties.contact.penalty    = 2e4; // 0.1 % of the layer's compression
-  const auto outcome            = indented(triangulation, properties, delta, radius);
+  const auto outcome            = pressed(triangulation, properties, delta);
   const double a                = std::sqrt(2. * radius * delta);
   EXPECT_NEAR(outcome.load, 4. / 3. * modulus / thickness * delta * a, 0.01 * outcome.load);
   EXPECT_NEAR(outcome.half_width, a, 0.017 * a);

@@ -30,8 +30,7 @@ namespace
   /// A layer of 1 mm on a rigid base under a circle that is pressed in by `depth`, without friction.
   Outcome indented(const dealii::Triangulation<2> &triangulation, const Layer &layer, const double radius, const double depth)
   {
-    auto properties               = block_properties({}, 0.);
-    properties.counterface        = rigid_circle(radius, [=](const double x) { return LeverPoint{ 0., x * depth - radius }; });
+    auto properties               = block_properties(radius, 0.);
     properties.body.degree        = layer.degree;
     properties.body.material      = layer.material;
     properties.body.point_spacing = 0.01;
@@ -39,8 +38,8 @@ namespace
     properties.contact.penalty    = layer.penalty;
     StaticLever<2> model(triangulation, properties);
     Equilibrium at{ model.initial_state({ 0., 0., 1. }), {} };
-    for (const double x : { 0.5, 0.75, 1. })
-      at = step_to(model, at.state, x, properties.contact);
+    for (const double share : { 0.5, 0.75, 1. })
+      at = step_to(model, at.state, share * depth, properties.contact);
     Row row;
     model.observe(at.state, at.found, row);
     Outcome result{ row[Column::P] / properties.body.width, 0.5 * row[Column::contact_width], 0., profile(model, at) };

@@ -14,15 +14,6 @@ namespace
   const double modulus = 2.;
   const double height  = 2.;
 
-  /// Two materials of the same constants on a face of unequal cells.
-  void make_element(dealii::Triangulation<2> &triangulation)
-  {
-    make_block({ 0., 0.35, 0.6, 1.3, 1.5, 2.4, 3. }, { 0., 0.4, 1., height }, triangulation);
-    for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->center()[1] < 1.)
-        cell->set_material_id(material_id::layer);
-  }
-
   struct Outcome
   {
     FaceProfile face;
@@ -37,7 +28,7 @@ namespace
     Solution solution = Solution::automatic;
   };
 
-  /// In three steps to x = 1.
+  /// In three steps to x = 0.1 mm.
   Outcome pressed(const dealii::Triangulation<2> &triangulation, LeverProperties properties, const Elements &elements)
   {
     const auto &[degree, enforcement, penalty, solution] = elements;
@@ -53,21 +44,12 @@ namespace
     properties.contact.penetration_tolerance = 1e-10;
     StaticLever<2> model(triangulation, properties);
     Equilibrium at{ model.initial_state({ 0., 0., 1. }), {} };
-    for (const double x : { 0.3, 0.6, 1. })
+    for (const double x : { 0.03, 0.06, 0.1 })
       at = step_to(model, at.state, x, properties.contact);
     Outcome outcome{ profile(model, at), {} };
     model.observe(at.state, at.found, outcome.row);
     EXPECT_EQ(outcome.face.pressure.size(), model.face_points().xi.size());
     return outcome;
-  }
-
-  /// Presses the element by 0.1 mm on a rigid plane.
-  Outcome pressed_on_plane(const Elements &elements)
-  {
-    dealii::Triangulation<2> triangulation;
-    make_element(triangulation);
-    return pressed(triangulation, block_properties(rigid_plane([](double x) { return 0.1 * x; }, [](double) { return 0.; }), 0.3),
-                   elements);
   }
 
   /// Two blocks of half the height whose cells do not match, pressed together by 0.1 mm.
@@ -76,7 +58,7 @@ namespace
     dealii::Triangulation<2> triangulation;
     make_two_blocks({ { 0., 0.35, 0.6, 1.3, 1.5, 2.4, 3. }, { 0., 0.4, 1. }, 0. },
                     { { 0., 0.5, 0.9, 1.4, 1.9, 3. }, { -1., -0.7, 0. }, 0. }, triangulation);
-    return pressed(triangulation, two_block_properties([](const double x) { return LeverPoint{ 0., 0.1 * x }; }, 0.3), elements);
+    return pressed(triangulation, two_block_properties(0.3), elements);
   }
 
   void expect_uniform(const Outcome &outcome, const double pressure)
@@ -92,23 +74,8 @@ namespace
 } // namespace
 
 // A uniform state is among what the elements can represent: the pressure is E U / H = 0.1 MPa but for the penetration of 1e-10
-// mm.
-TEST(Patch, AugmentedLagrangianCarriesAUniformPressure)
-{
-  for (const unsigned int degree : { 1u, 2u })
-    for (const double penalty : { 20., 200. })
-      expect_uniform(pressed_on_plane({ degree, Enforcement::augmented_lagrangian, penalty }), 0.1);
-}
-
-// Block and penalty are springs in series: U / (H / E + 1 / eps).
-TEST(Patch, PenaltyCarriesTheUniformPressureOfSpringsInSeries)
-{
-  for (const unsigned int degree : { 1u, 2u })
-    for (const double penalty : { 2., 20., 2000. })
-      expect_uniform(pressed_on_plane({ degree, Enforcement::penalty, penalty }), 0.1 / (height / modulus + 1. / penalty));
-}
-
-TEST(Patch, TwoElasticBlocksOfOtherCellsCarryTheSame)
+// mm. By penalty, blocks and penalty are springs in series: U / (H / E + 1 / eps).
+TEST(Patch, TwoElasticBlocksOfOtherCellsCarryAUniformPressure)
 {
   for (const auto solution : { Solution::automatic, Solution::general })
     for (const unsigned int degree : { 1u, 2u })
@@ -132,7 +99,7 @@ TEST(Patch, HydrostaticPressureBalancesAcrossACurvedInterface)
   dealii::Triangulation<2> triangulation;
   make_two_blocks({ { -2., -1.5, -1.1, -0.2, 0.3, 1.2, 2. }, { 0., 0.4, 1. }, bend },
                   { { -2., -1.4, -0.6, 0.1, 0.7, 1.5, 2. }, { -1., -0.7, 0. }, bend }, triangulation);
-  auto properties           = two_block_properties([](double) { return LeverPoint{ 0., 0. }; }, 0.3);
+  auto properties           = two_block_properties(0.3);
   properties.body.width     = width;
   properties.body.constants = { { material_id::lever, elastic }, { material_id::cylinder, elastic } };
   const ElasticBody<2> body(triangulation, properties.body);
@@ -158,13 +125,9 @@ TEST(Patch, HydrostaticPressureBalancesAcrossACurvedInterface)
   for (unsigned int i = 0; i < dofs.size(); ++i)
     z[i] = u[dofs[i]];
 
-  FaceProperties<2> constants;
-  constants.counterface = properties.counterface;
-  constants.centre      = properties.centre;
-  constants.friction    = properties.friction;
-  constants.penalties   = { 100., 100. };
-  constants.layout      = layout;
-  FaceContact contact(body, constants);
+  FaceContact<2> contact(body.friction_face(),
+                         { properties.centre, 0., layout, properties.spring.rest, { 100., 100. }, properties.friction },
+                         body.cylinder_face());
   std::vector<ContactHistory> history(body.friction_face().points.size());
   for (unsigned int q = 0; q < history.size(); ++q)
   {

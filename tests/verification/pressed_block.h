@@ -14,55 +14,16 @@
 
 namespace sprag
 {
-  /// A rigid plane at height y(x), its material at xi = c(x).
-  inline Counterface rigid_plane(std::function<double(double)> height, std::function<double(double)> place)
-  {
-    return [=](const double x, double)
-    {
-      return [eta = height(x), xi = place(x)](const LeverPoint &point)
-      {
-        ContactKinematics<4> result;
-        result.gap         = point.eta - eta;
-        result.gap_row[1]  = 1.;
-        result.slip        = point.xi - xi;
-        result.slip_row[0] = 1.;
-        return result;
-      };
-    };
-  }
-
-  /// A rigid circle whose centre moves over x. The body's axes rest.
-  inline Counterface rigid_circle(const double radius, std::function<LeverPoint(double)> centre)
-  {
-    return [=](const double x, double)
-    {
-      return [=, at = centre(x)](const LeverPoint &point)
-      {
-        const Geometry geometry = { radius, 0., at.xi, -at.eta };
-        auto result             = moving_circle_contact(placed_for_points(geometry, 0., 0.), point);
-        for (const unsigned int i : { 2, 3 })
-        {
-          result.gap_row[i] = result.slip_row[i] = 0.;
-          for (unsigned int j = 0; j < 4; ++j)
-          {
-            result.gap_curvature[i][j] = result.gap_curvature[j][i] = 0.;
-            result.slip_curvature[i][j] = result.slip_curvature[j][i] = 0.;
-          }
-        }
-        return result;
-      };
-    };
-  }
-
-  /// A block, see make_block(), against an counterface, its axes held.
-  inline LeverProperties block_properties(Counterface counterface, const double coefficient)
+  /// A block, see make_block(), its hub held. Below its face lies a rigid circle that touches it at x = 0 and moves into it by x:
+  /// the axes of the block are turned by a right angle.
+  inline LeverProperties block_properties(const double radius, const double coefficient)
   {
     LeverProperties result;
     result.body.plane  = PlaneState::strain;
-    result.counterface = std::move(counterface);
-    result.ideal_theta = [](double) { return 0.; };
-    result.centre      = [](double, double) { return LeverPoint{ 0., 0. }; };
-    result.spring      = { MomentLaw(1e9), 0., 1. };
+    result.geometry    = { radius, 0., radius, 0. };
+    result.centre      = [radius](const double x, double) { return LeverPoint{ 0., x - radius }; };
+    result.ideal_theta = [](double) { return 0.5 * M_PI; };
+    result.spring      = { MomentLaw(1e9), 0.5 * M_PI, 1. };
     result.friction    = { CoulombFriction{ coefficient }, FrictionSpeed::sliding };
     return result;
   }
@@ -78,10 +39,12 @@ namespace sprag
     return solve_equilibrium(model, step, true);
   }
 
-  /// The accepted state at drive position x (also its time), from `accepted`; augments where `model` has multipliers.
-  inline Equilibrium step_to(Model &model, const State &accepted, const double x, const ContactSettings &contact)
+  /// The accepted state at a drive position x from `accepted`, with the path of the counterface's surface by turning [mm]; their
+  /// sum counts as time. Augments where `model` has multipliers.
+  inline Equilibrium step_to(Model &model, const State &accepted, const double x, const ContactSettings &contact,
+                             const double surface = 0.)
   {
-    Step step   = model.begin_step(accepted, { x, x, 1. });
+    Step step   = model.begin_step(accepted, { x + surface, x, 1., 0., surface });
     auto solved = equilibrate(model, step);
     EXPECT_TRUE(solved.converged) << "x " << x;
     if (contact.enforcement == Enforcement::augmented_lagrangian)

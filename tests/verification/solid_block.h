@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fe/body/solid_stiffness.h"
-#include "fe/contact/surface_contact.h"
+#include "fe/contact/face_contact.h"
 #include "fe/statics/static_interface.h"
 #include "model/interface/newton.h"
 #include "verification/block.h"
@@ -291,7 +291,7 @@ namespace sprag
       return result;
     }
 
-    static FaceProperties<3> make_properties(const Counterface &counterface, const InterfaceLayout &layout)
+    static FaceProperties make_properties(const Counterface &counterface, const InterfaceLayout &layout)
     {
       Geometry geometry;
       geometry.cylinder_radius = counterface.radius;
@@ -300,15 +300,10 @@ namespace sprag
       Cylinder barrel;
       barrel.crown_radius = counterface.crown_radius;
       barrel.length       = counterface.length;
-      return { { [R = counterface.radius](double, double) {
-                  return LeverPoint{ 0., -R };
-                },
-                 counterface.radius,
-                 layout,
-                 0.,
-                 { counterface.penalty, counterface.penalty },
-                 {} },
-               RigidCylinder(geometry, barrel) };
+      return {
+        cylinder_centre(geometry),      counterface.radius, layout, 0., { counterface.penalty, counterface.penalty }, {}, 0.,
+        RigidCylinder(geometry, barrel)
+      };
     }
 
     struct Pressed
@@ -323,7 +318,7 @@ namespace sprag
     DofSelection looked_at = near.dofs;
     const InterfaceLayout layout;
     StaticInterface window;
-    SurfaceContact contact;
+    FaceContact<3> contact;
     dealii::Vector<double> elastic; ///< displacement of the face by the forces
     dealii::Vector<double> placed;  ///< and with the block's
     FaceEvaluation<3> found;

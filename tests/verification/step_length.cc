@@ -16,7 +16,7 @@ namespace
     make_mesh(scene, triangulation);
     auto properties = lever_properties(scene);
     if (!at_the_end)
-      properties.geometry.reset();
+      properties.is_damper = false;
     StaticLever<2> model(triangulation, properties);
     double result = 0.;
     run_quasi_static(model, scene.drive, { step, scene.analysis.minimum_step, scene.contact },

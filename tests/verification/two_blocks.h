@@ -113,12 +113,10 @@ namespace sprag
       triangulation.set_manifold(i + 1, charts[i]);
   }
 
-  /// The upper block on the lower one, whose interface's origin is moved to `centre` over the drive position x.
-  inline LeverProperties two_block_properties(const std::function<LeverPoint(double)> &centre, const double coefficient)
+  /// The upper block on the lower one, which moves into it by x.
+  inline LeverProperties two_block_properties(const double coefficient)
   {
-    auto result = block_properties(
-        rigid_plane([=](const double x) { return centre(x).eta; }, [=](const double x) { return centre(x).xi; }), coefficient);
-    result.centre      = [=](const double x, double) { return centre(x); };
+    auto result        = block_properties(0., coefficient);
     result.spring.law  = MomentLaw(1e15);
     result.body.curved = true;
     return result;

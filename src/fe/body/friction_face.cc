@@ -131,9 +131,8 @@ namespace sprag
 
       FEFaceValues<dim> &values_for(const unsigned int parts, const bool along)
       {
-        const UpdateFlags flags =
-            update_values | update_JxW_values | update_quadrature_points | (dim == 3 ? update_gradients : update_default);
-        const auto quadrature = make_quadrature<dim>(parts, along);
+        const UpdateFlags flags = update_values | update_JxW_values | update_quadrature_points | update_gradients;
+        const auto quadrature   = make_quadrature<dim>(parts, along);
         return values_by_parts.try_emplace({ parts, along }, mapping, fe, quadrature, flags).first->second;
       }
 
@@ -159,8 +158,7 @@ namespace sprag
           for (const unsigned int q : values.quadrature_point_indices())
           {
             points[q].nodes.emplace_back(node.first->second, values.shape_value(in_cell, q));
-            if (dim == 3)
-              points[q].slopes.push_back(values.shape_grad(in_cell, q)[0]);
+            points[q].slopes.push_back(values.shape_grad(in_cell, q)[0]);
           }
         }
       }

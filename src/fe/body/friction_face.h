@@ -29,7 +29,7 @@ namespace sprag
     dealii::Point<dim> position;                        ///< undeformed [mm]
     double weight;                                      ///< area of the face that it represents [mm^2]
     std::vector<std::pair<unsigned int, double>> nodes; ///< indices of the free nodes that move it, and their shape functions
-    std::vector<double> slopes;                         ///< of those along the first axis, in three dimensions alone [1/mm]
+    std::vector<double> slopes;                         ///< of those along the first axis [1/mm]
   };
 
   /// The points of one cell's face.

@@ -9,27 +9,25 @@
 
 namespace sprag
 {
-  struct alignas(SimdBatch) BatchedStep::Block
+  template <int dim>
+  struct alignas(SimdBatch) BatchedStep<dim>::Block : PointBlock<dim>
   {
-    Triple<Batch> position; ///< undeformed
-    SimdBatch weight;       ///< 0 beyond the element's last point
-    Batches<Elements::max_nodes> shapes;
-    Batches<Elements::max_nodes> slopes; ///< of the shapes along xi [1/mm]
-    unsigned int first;                  ///< point
-    unsigned int n;                      ///< of points
-    double clear_until;                  ///< length of the element's travel until which no point comes to the cylinder [mm]
+    using PointBlock<dim>::PointBlock;
+
+    double clear_until = -1.; ///< length of the element's travel until which no point comes to the cylinder [mm]
 
     bool is_clear;       ///< as the element was pressed last: nothing was computed
     BatchMask is_active; ///< then
   };
 
-  struct alignas(SimdBatch) BatchedStep::Begin
+  template <int dim>
+  struct alignas(SimdBatch) BatchedStep<dim>::Begin
   {
     Triple<Batch> place;
     SimdBatch gap;
     SimdBatch right, upward, along; ///< parts of the place in the cylinder's axes
     BatchMask known;                ///< whether the point was in contact before
-    SlipHistory<Batch, 2> history;
+    SlipHistory<Batch, slips> history;
     SimdBatch multiplier;                     ///< of the gap [MPa]
     SimdBatch shift, elastic_shift, by_slope; ///< see SlipShift; with a slope of 0
     bool is_placed;                           ///< else the rest is unknown
@@ -37,40 +35,25 @@ namespace sprag
   };
 
   /// Points where the step ends.
+  template <int dim>
   template <class N>
-  struct alignas(SimdBatch) BatchedStep::End
+  struct alignas(SimdBatch) BatchedStep<dim>::End
   {
     Triple<N> place;
     SeenPoint<N> seen;
     BatchMask is_active;
     N pressure;
-    Several<N, 2> slip; ///< in the step
-    SimdBatch shift;    ///< of the slip round the cylinder, without its elastic part [mm]
-    PointFriction<N, 2> friction;
+    Several<N, slips> slip; ///< in the step
+    SimdBatch shift;        ///< of the slip round the cylinder, without its elastic part [mm]
+    PointFriction<N, slips> friction;
 
     // In the step, where forces are balanced.
     N mean_pressure;
-    Several<N, 2> mean_traction;
+    Several<N, slips> mean_traction;
   };
 
-  namespace
-  {
-    using Nodal                    = FaceElements<3>::Nodal;
-    constexpr unsigned int n_nodes = FaceElements<3>::max_nodes;
-
-    SPRAG_PART Triple<Batch> at_points(const Batches<n_nodes> &shapes, const Triple<Batch> &position, const Nodal &displacement)
-    {
-      Triple<Batch> result = position;
-      for (unsigned int a = 0; a < n_nodes; ++a)
-      {
-        result.x += shapes[a] * displacement[3 * a], result.y += shapes[a] * displacement[3 * a + 1],
-            result.z += shapes[a] * displacement[3 * a + 2];
-      }
-      return result;
-    }
-  } // namespace
-
-  BatchedStep::BatchedStep(const FrictionFace<3> &face_, const Elements &grid_, const RigidCylinder &cylinder_)
+  template <int dim>
+  BatchedStep<dim>::BatchedStep(const FrictionFace<dim> &face_, const Elements &grid_, const RigidCylinder &cylinder_)
       : face(face_)
       , grid(grid_)
       , cylinder(cylinder_)
@@ -78,9 +61,11 @@ namespace sprag
   {
   }
 
-  BatchedStep::~BatchedStep() = default;
+  template <int dim>
+  BatchedStep<dim>::~BatchedStep() = default;
 
-  void BatchedStep::make_blocks(const unsigned int element)
+  template <int dim>
+  void BatchedStep<dim>::make_blocks(const unsigned int element)
   {
     const auto &range = grid.elements[element];
     double farthest = 0., most_shapes = 0.;
@@ -89,28 +74,13 @@ namespace sprag
       farthest    = std::max(farthest, grid.points[q].position.norm());
       most_shapes = std::max(most_shapes, sum_over(grid.points[q].shapes, [](const double shape) { return std::abs(shape); }));
     }
-    blocks[element].travel = ElementTravel(farthest, most_shapes);
+    blocks[element].travel = ElementTravel<dim>(farthest, most_shapes);
     for (unsigned int first = range.begin; first < range.end; first += n_lanes)
-    {
-      auto &block = blocks[element].all.emplace_back();
-      block.first = first, block.n = std::min(n_lanes, range.end - first), block.clear_until = -1.;
-      for (unsigned int i = 0; i < n_lanes; ++i)
-      {
-        const unsigned int q = first + std::min(i, block.n - 1);
-        const auto &point    = grid.points[q];
-        const auto &slopes   = face.points[q].slopes;
-        const auto &at       = point.position;
-        block.position.x[i] = at[0], block.position.y[i] = at[1], block.position.z[i] = at[2];
-        block.weight[i] = i < block.n ? point.weight : 0.;
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          block.shapes[a][i] = point.shapes[a];
-        for (unsigned int a = 0; a < slopes.size(); ++a)
-          block.slopes[a][i] = slopes[a];
-      }
-    }
+      blocks[element].all.emplace_back(face, grid, first, range.end);
   }
 
-  void BatchedStep::begin(History history)
+  template <int dim>
+  void BatchedStep<dim>::begin(History history)
   {
     begin_history = std::move(history);
     for (const unsigned int element : placed)
@@ -119,23 +89,15 @@ namespace sprag
     n_placed = 0;
   }
 
-  bool BatchedStep::begins_with(const History &history) const
-  {
-    const auto same = [](const ContactHistory &a, const ContactHistory &b)
-    {
-      return a.point == b.point && a.step == b.step && a.traction == b.traction && a.slip_speed == b.slip_speed && a.mu == b.mu &&
-             a.normal_multiplier == b.normal_multiplier;
-    };
-    return std::equal(history.begin(), history.end(), begin_history.begin(), begin_history.end(), same);
-  }
-
-  void BatchedStep::set(const Constants &constants)
+  template <int dim>
+  void BatchedStep<dim>::set(const Constants &constants)
   {
     data                 = constants;
     data.law.slip.pieces = rising_pieces(data.law.slip.friction);
   }
 
-  void BatchedStep::place(const unsigned int element, const Elements::Nodal &nodal, const std::vector<SlipShift> &shifts)
+  template <int dim>
+  void BatchedStep<dim>::place(const unsigned int element, const Nodal &nodal, const std::vector<SlipShift> &shifts)
   {
     auto &group = blocks[element];
     if (group.all.empty())
@@ -168,10 +130,11 @@ namespace sprag
   }
 
   /// Without history and shifts. Wherever it is called from it computes with the same round-off.
-  void BatchedStep::place_block(const Block &block, const Elements::Nodal &nodal, Begin &begin) const
+  template <int dim>
+  void BatchedStep<dim>::place_block(const Block &block, const Nodal &nodal, Begin &begin) const
   {
     begin           = Begin();
-    begin.place     = at_points(block.shapes, block.position, nodal);
+    begin.place     = block.place(nodal);
     const auto at   = seen(cylinder.shape, to_batch(data.begin), begin.place);
     begin.gap       = at.gap;
     begin.right     = dot(at.from_centre, data.begin.axes.right);
@@ -181,12 +144,14 @@ namespace sprag
     begin.touches   = any(begin.gap < 0.);
   }
 
-  SPRAG_PART bool BatchedStep::passes_over(const Blocks &group, const unsigned int b) const
+  template <int dim>
+  SPRAG_PART bool BatchedStep<dim>::passes_over(const Blocks &group, const unsigned int b) const
   {
     return group.travel.length() < group.all[b].clear_until && !begins[group.first + b].touches;
   }
 
-  void BatchedStep::recall(const unsigned int element)
+  template <int dim>
+  void BatchedStep<dim>::recall(const unsigned int element)
   {
     auto &group              = blocks[element];
     const unsigned int first = grid.elements[element].begin;
@@ -202,7 +167,7 @@ namespace sprag
       begin.history.step[i] = entry->step;
       begin.history.mu[i]   = entry->mu;
       begin.multiplier[i]   = entry->normal_multiplier;
-      for (unsigned int s = 0; s < 2; ++s)
+      for (unsigned int s = 0; s < slips; ++s)
       {
         begin.history.traction[s][i]   = entry->traction[s];
         begin.history.slip_speed[s][i] = entry->slip_speed[s];
@@ -210,28 +175,31 @@ namespace sprag
     }
   }
 
-  SPRAG_PART Several<Batch, 2> BatchedStep::slip_rates(const Block &block) const
+  template <int dim>
+  SPRAG_PART auto BatchedStep<dim>::slip_rates(const Block &block) const -> Several<Batch, slips>
   {
     const auto &slide = data.slide;
-    Several<Batch, 2> result{ { uniform_batch(slide.speed), SimdBatch{} } };
+    Several<Batch, slips> result;
+    result[0] = uniform_batch(slide.speed);
     if (slide.rates == nullptr)
       return result;
     const unsigned int element = grid.point_elements[block.first];
-    const auto place           = at_points(block.shapes, block.position, blocks[element].travel.displacement());
-    const auto rate            = at_points(block.shapes, {}, Elements::nodal(grid.elements[element], *slide.rates));
+    const auto place           = block.place(blocks[element].travel.displacement());
+    const auto rate            = block.moved(Elements::nodal(grid.elements[element], *slide.rates));
     for (unsigned int i = 0; i < n_lanes; ++i)
     {
       const auto changes = cylinder.changes(data.end, dealii::Point<3>(place.x[i], place.y[i], place.z[i]),
                                             dealii::Tensor<1, 3>({ rate.x[i], rate.y[i], rate.z[i] }), slide.x_rate,
                                             slide.theta_rate, slide.slope_rates);
-      result[0][i] += changes[1];
-      result[1][i] += changes[2];
+      for (unsigned int s = 0; s < slips; ++s)
+        result[s][i] += changes[1 + s];
     }
     return result;
   }
 
+  template <int dim>
   template <class N>
-  SPRAG_PART void BatchedStep::slide_on(const Block &block, const Part part, End<N> &end) const
+  SPRAG_PART void BatchedStep<dim>::slide_on(const Block &block, const Part part, End<N> &end) const
   {
     auto &friction        = end.friction;
     friction.slip_speed   = slip_rates(block);
@@ -239,56 +207,55 @@ namespace sprag
     const bool is_elastic = data.law.slip.friction.regularisation_speed == 0.;
     if (rubs)
     {
-      const SizeAndDirection<Batch, 2> w(friction.slip_speed);
+      const SizeAndDirection<Batch, slips> w(friction.slip_speed);
       SimdBatch coefficient{}, slope{};
       for_each_lane(~BatchMask{},
                     [&](const unsigned int i)
                     {
                       const auto found = sliding_friction(data.law.slip.friction, w.size[i]);
                       coefficient[i]   = found.coefficient;
-                      slope[i]         = part == Part::mu_rate ? found.by_mu : found.derivative;
+                      slope[i]         = found.derivative;
                       friction.mu[i]   = found.mu;
                     });
       const SimdBatch sign = w.is_nothing ? uniform_batch(std::copysign(1., data.slide.speed)) : uniform_batch(1.);
       friction.slipping    = ~BatchMask{};
-      if (part == Part::friction_rate || part == Part::mu_rate)
+      if (part == Part::friction_rate)
       {
         // The slips' derivatives by the coordinates are those of their rates by the coordinates' rates.
-        const SizeAndDirection<N, 2> rate(
-            Several<N, 2>{ { end.slip[0] + friction.slip_speed[0], end.slip[1] + friction.slip_speed[1] } });
+        Several<N, slips> rates;
+        for (unsigned int s = 0; s < slips; ++s)
+          rates[s] = end.slip[s] + friction.slip_speed[s];
+        const SizeAndDirection<N, slips> rate(rates);
         const N size = chained(coefficient, slope, rate.size);
-        for (unsigned int s = 0; s < 2; ++s)
-          friction.traction[s] =
-              value(end.pressure) * (size * (part == Part::mu_rate ? N{} + value(rate.direction[s]) : rate.direction[s]));
+        for (unsigned int s = 0; s < slips; ++s)
+          friction.traction[s] = value(end.pressure) * (size * rate.direction[s]);
       }
       else
-        for (unsigned int s = 0; s < 2; ++s)
+        for (unsigned int s = 0; s < slips; ++s)
           friction.traction[s] = SimdBatch(coefficient * sign * w.direction[s]) * end.pressure;
     }
     else if (data.slide.friction == ContactFriction::stuck)
-      for (unsigned int s = 0; s < 2; ++s)
+      for (unsigned int s = 0; s < slips; ++s)
         friction.traction[s] = data.law.slip.stiffness * end.slip[s];
-    for (unsigned int s = 0; s < 2 && is_elastic; ++s)
+    for (unsigned int s = 0; s < slips && is_elastic; ++s)
       friction.energy += 0.5 / data.law.slip.stiffness * value(friction.traction[s]) * value(friction.traction[s]);
   }
 
   /// Sets pressure and friction of points that are seen at the end of the step.
+  template <int dim>
   template <bool in_time, class N, class Pose>
-  SPRAG_PART void BatchedStep::respond(const Block &block, const Begin &begin, const Pose &pose, const Elements::Nodal &nodal,
-                                       const Part part, End<N> &end) const
+  SPRAG_PART void BatchedStep<dim>::respond(const Block &block, const Begin &begin, const Pose &pose, const Nodal &nodal,
+                                            const Part part, End<N> &end) const
   {
-    end.shift    = SimdBatch{};
-    end.friction = {};
-    if (!in_time && data.kind == Kind::slide)
-    {
-      const SimdBatch right  = value(N(dot(end.seen.from_centre, pose.axes.right)));
-      const SimdBatch upward = value(N(dot(end.seen.from_centre, pose.axes.upward)));
-      end.slip               = { { slip_round(cylinder.shape, right, upward, end.seen.from_centre, pose.axes),
-                                   end.seen.along - value(end.seen.along) } };
-    }
-    else
-      end.slip = { { slip_round(cylinder.shape, begin.right, begin.upward, end.seen.from_centre, pose.axes) + data.surface_run,
-                     end.seen.along - begin.along } };
+    end.shift                = SimdBatch{};
+    end.friction             = {};
+    const bool begins_here   = !in_time && data.kind == Kind::slide;
+    const SimdBatch right    = begins_here ? SimdBatch(value(N(dot(end.seen.from_centre, pose.axes.right)))) : begin.right;
+    const SimdBatch upward   = begins_here ? SimdBatch(value(N(dot(end.seen.from_centre, pose.axes.upward)))) : begin.upward;
+    const double surface_run = begins_here ? 0. : data.surface_run;
+    end.slip[0]              = slip_round(cylinder.shape, right, upward, end.seen.from_centre, pose.axes) + surface_run;
+    if constexpr (slips == 2)
+      end.slip[1] = end.seen.along - (begins_here ? SimdBatch(value(end.seen.along)) : begin.along);
     if constexpr (in_time)
     {
       const double delay = data.law.weights.delay();
@@ -296,7 +263,7 @@ namespace sprag
       end.friction       = end_friction(data.law.slip, begin.history, end.slip, end.pressure, data.law.weights.dt);
       end.mean_pressure  = mean_spring_force(data.law.normal, begin.gap, end.seen.gap) +
                           delay * (end.pressure - spring_force(data.law.normal, begin.gap));
-      for (unsigned int s = 0; s < 2; ++s)
+      for (unsigned int s = 0; s < slips; ++s)
         end.mean_traction[s] = (0.5 + delay) * end.friction.traction[s] + (0.5 - delay) * begin.history.traction[s];
       return;
     }
@@ -308,30 +275,32 @@ namespace sprag
     else
     {
       // Derivative of the deformed place along the undeformed face, and of the slip round the cylinder.
-      const auto direction = at_points(block.slopes, { uniform_batch(1.), SimdBatch{}, SimdBatch{} }, nodal);
+      const auto direction = block.direction(nodal);
       N slope              = cylinder.shape.radius / end.seen.radius * dot(in_world(pose, direction), end.seen.round);
       if constexpr (!std::is_same_v<N, Batch>)
         slope.d[std::size(slope.d) - 1] = uniform_batch(1.);
       const N shift    = begin.by_slope * slope + begin.shift;
       end.shift        = value(shift);
       const auto trial = stick_traction(data.law.slip, begin.history.traction, end.slip);
+      Several<N, slips> shifts;
+      shifts[0] = shift + begin.elastic_shift;
       if (data.law.mode == FrictionMode::stick)
         end.friction.traction = trial;
       else
-        end.friction = return_to_cone(data.law.slip, trial, end.pressure, uniform_batch(data.law.weights.dt),
-                                      Several<N, 2>{ { shift + begin.elastic_shift, N{} } }, end.slip);
+        end.friction = return_to_cone(data.law.slip, trial, end.pressure, uniform_batch(data.law.weights.dt), shifts, end.slip);
     }
     end.mean_traction = end.friction.traction;
     if (part == Part::pressure)
-      end.mean_traction = Several<N, 2>{};
+      end.mean_traction = Several<N, slips>{};
     else if (part != Part::all)
       end.mean_pressure = N{};
   }
 
-  void BatchedStep::evaluate(const Block &block, const Begin &begin, const Elements::Nodal &nodal, End<Batch> &end) const
+  template <int dim>
+  void BatchedStep<dim>::evaluate(const Block &block, const Begin &begin, const Nodal &nodal, End<Batch> &end) const
   {
     const auto pose     = to_batch(data.end);
-    end.place           = at_points(block.shapes, block.position, nodal);
+    end.place           = block.place(nodal);
     end.seen            = seen(cylinder.shape, pose, end.place);
     const SimdBatch gap = end.seen.gap;
     if (data.kind == Kind::in_time)
@@ -346,7 +315,8 @@ namespace sprag
       respond<false>(block, begin, pose, nodal, Part::all, end);
   }
 
-  bool BatchedStep::press(const unsigned int element, const Elements::Nodal &to, Forces &forces, double &penetration)
+  template <int dim>
+  bool BatchedStep<dim>::press(const unsigned int element, const Nodal &to, Forces &forces, double &penetration)
   {
     constexpr double round_off = 1e-9; // of gaps and travels [mm]
     const bool in_time         = data.kind == Kind::in_time;
@@ -380,12 +350,12 @@ namespace sprag
       const auto balanced    = in_time ? seen(cylinder.shape, balance, at) : end.seen;
       const auto force       = point_force(cylinder.shape, balanced, balance.axes.axis, end.mean_pressure, end.mean_traction);
       const SimdBatch weight = block.is_active ? block.weight : SimdBatch{};
-      const auto along       = generalised(balance, at, balanced.from_centre, weight * force);
-      for (unsigned int d = 0; d < 3; ++d)
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          sums[n_nodes * d + a] += along[d] * block.shapes[a];
+      const auto along       = generalised<dim>(balance, at, balanced.from_centre, weight * force);
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int a = 0; a < Elements::max_nodes; ++a)
+          sums[Elements::max_nodes * d + a] += along[d] * block.shapes[a];
       for (unsigned int k = 0; k < 2 + data.slopes; ++k)
-        sums[n_displacements + k] += along[3 + k];
+        sums[n_displacements + k] += along[dim + k];
     }
     for (unsigned int i = 0; is_active && i < n_coordinates; ++i)
       forces[i] += sum(sums[i]);
@@ -393,8 +363,9 @@ namespace sprag
   }
 
   /// Sums over the points of an element: derivatives of its forces by its coordinates.
+  template <int dim>
   template <int slopes>
-  struct alignas(SimdBatch) BatchedStep::TangentSums
+  struct alignas(SimdBatch) BatchedStep<dim>::TangentSums
   {
     static constexpr unsigned int n = n_displacements + 2 + slopes;
 
@@ -403,27 +374,28 @@ namespace sprag
     /// Adds forces on the coordinates of points. Where there is a variable beyond these it is the slip's slope along the face,
     /// whose derivatives by the face's direction are `by_direction`.
     template <int variables>
-    SPRAG_PART void add(const Block &block, const Several<Dual<Batch, variables>, 7> &force, const Triple<Batch> &by_direction)
+    SPRAG_PART void add(const Block &block, const Several<Dual<Batch, variables>, dim + 4> &force,
+                        const Triple<Batch> &by_direction)
     {
       const SimdBatch weight   = block.is_active ? block.weight : SimdBatch{};
       const SimdBatch along[3] = { by_direction.x, by_direction.y, by_direction.z };
-      for (unsigned int f = 0; f < 5 + slopes; ++f)
+      for (unsigned int f = 0; f < dim + 2 + slopes; ++f)
       {
         const auto &by = force[f].d;
         SimdBatch row[n];
-        for (unsigned int d = 0; d < 3; ++d)
-          for (unsigned int a = 0; a < n_nodes; ++a)
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int a = 0; a < Elements::max_nodes; ++a)
           {
-            row[n_nodes * d + a] = block.shapes[a] * by[d];
-            if constexpr (variables > 5 + slopes)
-              row[n_nodes * d + a] += block.slopes[a] * (along[d] * by[5 + slopes]);
+            row[Elements::max_nodes * d + a] = block.shapes[a] * by[d];
+            if constexpr (variables > dim + 2 + slopes)
+              row[Elements::max_nodes * d + a] += block.slopes[a] * (along[d] * by[dim + 2 + slopes]);
           }
         for (unsigned int k = 0; k < 2 + slopes; ++k)
-          row[n_displacements + k] = by[3 + k];
-        const unsigned int first = f < 3 ? n_nodes * f : n_displacements + f - 3;
-        for (unsigned int a = 0; a < (f < 3 ? n_nodes : 1); ++a)
+          row[n_displacements + k] = by[dim + k];
+        const unsigned int first = f < dim ? Elements::max_nodes * f : n_displacements + f - dim;
+        for (unsigned int a = 0; a < (f < dim ? Elements::max_nodes : 1); ++a)
         {
-          const SimdBatch share = f < 3 ? weight * block.shapes[a] : weight;
+          const SimdBatch share = f < dim ? weight * block.shapes[a] : weight;
           for (unsigned int j = 0; j < n; ++j)
             sums[first + a][j] += share * row[j];
         }
@@ -432,14 +404,14 @@ namespace sprag
   };
 
   /// Variables are a point's displacement, theta, x and the slopes and, at the end of a step, the slip's slope along the face.
+  template <int dim>
   template <int slopes, bool in_time>
-  SPRAG_PART void BatchedStep::find_element_tangents(const Elements::Indices &some, const Part part,
-                                                     const std::function<void(unsigned int, const Tangent &)> &take) const
+  SPRAG_PART void BatchedStep<dim>::find_element_tangents(const Indices &some, const Part part, const TakeTangent &take) const
   {
-    constexpr int n          = 5 + slopes + (in_time ? 0 : 1);
+    constexpr int n          = dim + 2 + slopes + (in_time ? 0 : 1);
     using N                  = Dual<Batch, n>;
-    const auto pose          = to_batch(varied_pose<n, slopes>(cylinder, data.end));
-    const auto pose_balanced = to_batch(varied_pose<n, slopes>(cylinder, data.balance, data.share));
+    const auto pose          = to_batch(varied_pose<dim, n, slopes>(cylinder, data.end));
+    const auto pose_balanced = to_batch(varied_pose<dim, n, slopes>(cylinder, data.balance, data.share));
     for (unsigned int i = 0; i < some.size(); ++i)
     {
       const auto &group = blocks[some[i]];
@@ -452,7 +424,7 @@ namespace sprag
         if (!any(block.is_active))
           continue;
         End<N> end;
-        end.place = varied_place<N>(at_points(block.shapes, block.position, nodal));
+        end.place = varied_place<dim, N>(block.place(nodal));
         end.seen  = seen(cylinder.shape, pose, end.place);
         respond<in_time>(block, begin, pose, nodal, part, end);
         Triple<N> at = end.place;
@@ -462,10 +434,14 @@ namespace sprag
           end.seen = seen(cylinder.shape, pose_balanced, at);
         }
         const auto force = point_force(cylinder.shape, end.seen, pose_balanced.axes.axis, end.mean_pressure, end.mean_traction);
-        auto along       = generalised(pose_balanced, at, end.seen.from_centre, force);
-        if (part == Part::friction_rate || part == Part::mu_rate)
-          for (int k = 0; k < 5 + slopes; ++k)
-            along[k] = -end.slip[0].d[k] * end.mean_traction[0] - end.slip[1].d[k] * end.mean_traction[1];
+        auto along       = generalised<dim>(pose_balanced, at, end.seen.from_centre, force);
+        if (part == Part::friction_rate)
+          for (unsigned int k = 0; k < dim + 2 + slopes; ++k)
+          {
+            N &sum = along[k] = N{};
+            for (unsigned int s = 0; s < slips; ++s)
+              sum = sum - end.slip[s].d[k] * end.mean_traction[s];
+          }
         const Triple<Batch> round{ value(end.seen.round.x), value(end.seen.round.y), value(end.seen.round.z) };
         sums.add(block, along, SimdBatch(cylinder.shape.radius / value(end.seen.radius)) * in_lever(to_batch(data.end), round));
       }
@@ -477,17 +453,18 @@ namespace sprag
     }
   }
 
-  void BatchedStep::find_tangents(const Elements::Indices &some, const Part part,
-                                  const std::function<void(unsigned int, const Tangent &)> &take) const
+  template <int dim>
+  void BatchedStep<dim>::find_tangents(const Indices &some, const Part part, const TakeTangent &take) const
   {
     const bool in_time = data.kind == Kind::in_time;
     if (data.slopes == 0)
       in_time ? find_element_tangents<0, true>(some, part, take) : find_element_tangents<0, false>(some, part, take);
-    else
+    else if constexpr (dim == 3)
       in_time ? find_element_tangents<2, true>(some, part, take) : find_element_tangents<2, false>(some, part, take);
   }
 
-  double BatchedStep::add_sums(const unsigned int element, ContactSums &sums) const
+  template <int dim>
+  double BatchedStep<dim>::add_sums(const unsigned int element, ContactSums &sums) const
   {
     // Second derivatives along the way of the step.
     using N           = Dual<Dual<Batch, 1>, 1>;
@@ -524,10 +501,13 @@ namespace sprag
       const N right = dot(place.from_centre, pose.axes.right), upward = dot(place.from_centre, pose.axes.upward);
       const N slip  = slip_round(cylinder.shape, value(right), value(upward), place.from_centre, pose.axes);
       const auto &t = friction.traction, &t_begin = begin.history.traction;
-      const SimdBatch work = (t[0] - t_begin[0]) * end.slip[0] + (t[1] - t_begin[1]) * end.slip[1] +
-                             end.mean_traction[0] * slip.d[0].d[0] + end.mean_traction[1] * place.along.d[0].d[0] -
-                             (end.pressure - spring_force(data.law.normal, begin.gap)) * (end.seen.gap - begin.gap) -
-                             end.mean_pressure * place.gap.d[0].d[0];
+      SimdBatch work = end.mean_traction[0] * slip.d[0].d[0] -
+                       (end.pressure - spring_force(data.law.normal, begin.gap)) * (end.seen.gap - begin.gap) -
+                       end.mean_pressure * place.gap.d[0].d[0];
+      if constexpr (slips == 2)
+        work += end.mean_traction[1] * place.along.d[0].d[0];
+      for (unsigned int s = 0; s < slips; ++s)
+        work += (t[s] - t_begin[s]) * end.slip[s];
       const auto balanced = seen(cylinder.shape, to_batch(data.balance), at);
       const auto force =
           point_force(cylinder.shape, balanced, to_batch(data.balance).axes.axis, end.mean_pressure, end.mean_traction);
@@ -539,7 +519,8 @@ namespace sprag
     return pressure;
   }
 
-  void BatchedStep::add_points(const unsigned int element, const bool all, std::vector<FacePointState<3>> &points) const
+  template <int dim>
+  void BatchedStep<dim>::add_points(const unsigned int element, const bool all, std::vector<FacePointState<dim>> &points) const
   {
     const auto pose = to_batch(data.end);
     const Begin nowhere{};
@@ -552,23 +533,26 @@ namespace sprag
       const auto &begin = block.is_clear ? nowhere : begins[blocks[element].first + b];
       evaluate(block, begin, blocks[element].travel.displacement(), end);
       const auto force = point_force(cylinder.shape, end.seen, pose.axes.axis, end.pressure, end.friction.traction);
-      const auto along = generalised(pose, end.place, end.seen.from_centre, force);
+      const auto along = generalised<dim>(pose, end.place, end.seen.from_centre, force);
       for (unsigned int i = 0; i < block.n; ++i)
       {
         auto &state   = points.emplace_back();
         state.element = element;
         set_point(block, begin, end, i, state);
-        for (unsigned int k = 0; k < 5 && state.pressure > 0.; ++k)
+        for (unsigned int k = 0; k < dim + 2 && state.pressure > 0.; ++k)
           state.end_force[k] = along[k][i];
       }
     }
   }
 
-  void BatchedStep::set_point(const Block &block, const Begin &begin, const End<Batch> &end, const unsigned int i,
-                              FacePointState<3> &state) const
+  template <int dim>
+  void BatchedStep<dim>::set_point(const Block &block, const Begin &begin, const End<Batch> &end, const unsigned int i,
+                                   FacePointState<dim> &state) const
   {
-    state.index          = block.first + i;
-    state.position       = dealii::Point<3>(end.place.x[i], end.place.y[i], end.place.z[i]);
+    state.index        = block.first + i;
+    const double at[3] = { end.place.x[i], end.place.y[i], end.place.z[i] };
+    for (unsigned int d = 0; d < dim; ++d)
+      state.position[d] = at[d];
     state.gap            = end.seen.gap[i];
     state.trial_pressure = begin.multiplier[i] - data.law.normal.stiffness * state.gap;
     if (!block.is_active[i])
@@ -578,7 +562,7 @@ namespace sprag
     state.mu             = friction.mu[i];
     state.slipping       = friction.slipping[i] != 0;
     Slip begin_traction;
-    for (unsigned int d = 0; d < 2; ++d)
+    for (unsigned int d = 0; d < slips; ++d)
     {
       state.traction[d]           = friction.traction[d][i];
       state.history.slip_speed[d] = friction.slip_speed[d][i];
@@ -597,4 +581,7 @@ namespace sprag
       state.slip_change *= data.terms.speed_ratio;
     }
   }
+
+  template class BatchedStep<2>;
+  template class BatchedStep<3>;
 } // namespace sprag

@@ -193,7 +193,7 @@ namespace sprag
   }
 
   template <int dim>
-  ContactFace<dim>::ContactFace(const FrictionFace<dim> &face_, FaceProperties<dim> properties_)
+  ContactFace<dim>::ContactFace(const FrictionFace<dim> &face_, FaceProperties properties_)
       : face(face_)
       , grid(face)
       , properties(std::move(properties_))
@@ -213,24 +213,6 @@ namespace sprag
   }
 
   template <int dim>
-  FaceConfiguration ContactFace<dim>::configuration(const dealii::Vector<double> &displacements, const double x) const
-  {
-    const double inclination = properties.rest_inclination + displacements[properties.layout.rotation()];
-    const double relative    = x - (properties.layout.sprung ? displacements[properties.layout.support()] : 0.);
-    return { &displacements, inclination, relative, properties.centre(relative, inclination) };
-  }
-
-  template <int dim>
-  bool ContactFace<dim>::begin_at(const dealii::Vector<double> &displacements, const double x) const
-  {
-    if (x == begin_x && displacements.size() == begin_displacements.size() && displacements == begin_displacements)
-      return false;
-    begin_displacements = displacements;
-    begin_x             = x;
-    return true;
-  }
-
-  template <int dim>
   AxisSlopes ContactFace<dim>::axis_turn(const dealii::Vector<double> &displacements) const
   {
     AxisSlopes result{};
@@ -243,9 +225,8 @@ namespace sprag
   AxisSlopes ContactFace<dim>::slopes_in(const FaceEvaluation<dim> &found) const
   {
     auto result = axis_turn(found.displacement);
-    if constexpr (dim == 3)
-      for (unsigned int i = 0; i < 2; ++i)
-        result[i] += properties.cylinder.slopes[i];
+    for (unsigned int i = 0; i < 2; ++i)
+      result[i] += properties.cylinder.slopes[i];
     return result;
   }
 

@@ -18,8 +18,7 @@ namespace sprag
     double duration        = 0.;         ///< of the step; 0: no slip speed [s]
     bool within_candidates = true;       ///< whether the contact was within the candidate dofs
     ContactSums sums;
-    std::vector<FacePointState<dim>>
-        points; ///< near the counterface, by increasing point; in three dimensions see SurfaceContact
+    std::vector<FacePointState<dim>> points; ///< near the counterface, by increasing point, see FaceContact::evaluate()
     InterfaceForces forces;
 
     /// Resets the results and begins another evaluation.
@@ -51,6 +50,21 @@ namespace sprag
     }
   };
 
+  /// Returns the mean of `value`(point) over the points in contact, weighted with their pressure; 0 without any.
+  template <int dim, class Value>
+  double pressure_mean(const FrictionFace<dim> &face, const FaceEvaluation<dim> &found, const Value &value)
+  {
+    double weighted = 0., weights = 0.;
+    for (const auto &point : found.points)
+      if (point.pressure > 0.)
+      {
+        const double weight = face.points[point.index].weight * point.pressure;
+        weighted += weight * value(point);
+        weights += weight;
+      }
+    return weights > 0. ? weighted / weights : 0.;
+  }
+
   /// Returns the shares of the displacements of a face's dofs, by increasing dof, whose sum is the indentation of its layer, from
   /// columns of a row that are filled: the deflection at the centre of pressure over that aside of the contact, along one of
   /// `lines`, see lines_along(), that lies closest to the largest pressure. None without a layer, lines or contact.
@@ -70,7 +84,7 @@ namespace sprag
     using Evaluation                       = FaceEvaluation<dim>;
 
     /// The face must outlive this.
-    ContactFace(const FrictionFace<dim> &face, FaceProperties<dim> properties);
+    ContactFace(const FrictionFace<dim> &face, FaceProperties properties);
 
     const ContactPenalties &penalties() const
     {
@@ -125,39 +139,13 @@ namespace sprag
     }
 
   protected:
-    /// Returns the places at interface displacements, which it refers to, and x of the drive [mm].
-    FaceConfiguration configuration(const dealii::Vector<double> &displacements, double x) const;
-
-    /// Notes where a step begins, at interface displacements and x [mm]. Returns whether the last one began elsewhere.
-    bool begin_at(const dealii::Vector<double> &displacements, double x) const;
-
     /// Returns by how much displacements or their rates turn the cylinder's axis in space.
     AxisSlopes axis_turn(const dealii::Vector<double> &displacements) const;
 
-    /// Returns the mean of `value`(point) over the points in contact, weighted with their pressure; 0 without any.
-    template <class Value>
-    double pressure_mean(const Evaluation &found, const Value &value) const
-    {
-      double weighted = 0., weights = 0.;
-      for (const auto &point : found.points)
-        if (point.pressure > 0.)
-        {
-          const double weight = face.points[point.index].weight * point.pressure;
-          weighted += weight * value(point);
-          weights += weight;
-        }
-      return weights > 0. ? weighted / weights : 0.;
-    }
-
     const FrictionFace<dim> &face;
     FaceElements<dim> grid;
-    FaceProperties<dim> properties;
+    FaceProperties properties;
     FaceCandidates<dim> candidates;
-
-    // State at the begin of the last step, the same in all its iterations.
-    mutable dealii::Vector<double> begin_displacements;
-    mutable double begin_x = 0.;
-    mutable std::vector<unsigned int> near_begin; ///< elements near the counterface there
 
   private:
     void observe_pressure(const Evaluation &found, Row &row) const;

@@ -91,41 +91,47 @@ namespace sprag
 
   /// The force on the lever, in the axes of the world, of a pressure and of tractions round and along the cylinder. They do the
   /// virtual work of gap and slips.
-  template <class N, class A, class T>
+  template <class N, class A, int slips>
   SPRAG_PART Triple<N> point_force(const RigidCylinder::Shape &cylinder, const SeenPoint<N> &at, const Triple<A> &axis,
-                                   const N &pressure, const T &traction)
+                                   const N &pressure, const Several<N, slips> &traction)
   {
-    return pressure * at.normal - (cylinder.radius * traction[0] / at.radius) * at.round -
-           (traction[1] - pressure * at.profile_slope) * axis;
+    const auto result = pressure * at.normal - (cylinder.radius * traction[0] / at.radius) * at.round;
+    if constexpr (slips == 1)
+      return result;
+    else
+      return result - (traction[1] - pressure * at.profile_slope) * axis;
   }
 
-  /// Its parts on the coordinates (displacement of the point along xi, eta and zeta, theta, x, tilt, skew).
-  template <class N, class A>
-  SPRAG_PART Several<N, 7> generalised(const CylinderPose<N, A> &pose, const Triple<N> &point, const Triple<N> &from_centre,
-                                       const Triple<N> &force)
+  /// Its parts on the coordinates (displacement of the point along xi, eta and, in space, zeta, theta, x, tilt, skew).
+  template <int dim, class N, class A>
+  SPRAG_PART Several<N, dim + 4> generalised(const CylinderPose<N, A> &pose, const Triple<N> &point, const Triple<N> &from_centre,
+                                             const Triple<N> &force)
   {
     const auto lever_force = in_lever(pose, force);
-    Several<N, 7> result{ { lever_force.x, lever_force.y, lever_force.z, lever_force.y * point.x - lever_force.x * point.y,
-                            -force.x } };
+    Several<N, dim + 4> result{ { lever_force.x, lever_force.y } };
+    if constexpr (dim == 3)
+      result[2] = lever_force.z;
+    result[dim]     = lever_force.y * point.x - lever_force.x * point.y;
+    result[dim + 1] = -force.x;
     for (int i = 0; i < 2; ++i)
-      result[5 + i] = dot(force, pose.axes.axis) * dot(pose.by_slope[i].axis, from_centre) +
-                      dot(force, pose.axes.right) * dot(pose.by_slope[i].right, from_centre) +
-                      dot(force, pose.axes.upward) * dot(pose.by_slope[i].upward, from_centre);
+      result[dim + 2 + i] = dot(force, pose.axes.axis) * dot(pose.by_slope[i].axis, from_centre) +
+                            dot(force, pose.axes.right) * dot(pose.by_slope[i].right, from_centre) +
+                            dot(force, pose.axes.upward) * dot(pose.by_slope[i].upward, from_centre);
     return result;
   }
 
-  /// The pose in numbers whose variables 3 to 6 are theta, x and the slopes, which go there at a rate; n of 5 and more, slopes
-  /// that do not vary are plain.
-  template <int n, int slopes>
+  /// The pose in numbers whose variables from `dim` on are theta, x and the slopes, which go there at a rate; slopes that do not
+  /// vary are plain.
+  template <int dim, int n, int slopes>
   auto varied_pose(const RigidCylinder &cylinder, const RigidCylinder::Pose &pose, const double rate = 1.)
   {
     using N                = Dual<double, n>;
     const auto make_varied = [&](const auto &tilt, const auto &skew, const auto &number)
     {
       const auto turned = cylinder_pose(0., 0., tilt, skew);
-      return CylinderPose<N, decltype(number(tilt))>{ variable<N>(pose.x, 4, rate),
-                                                      cosine(variable<N>(pose.theta, 3, rate)),
-                                                      sine(variable<N>(pose.theta, 3, rate)),
+      return CylinderPose<N, decltype(number(tilt))>{ variable<N>(pose.x, dim + 1, rate),
+                                                      cosine(variable<N>(pose.theta, dim, rate)),
+                                                      sine(variable<N>(pose.theta, dim, rate)),
                                                       turned.axes.each(number),
                                                       { turned.by_slope[0].each(number), turned.by_slope[1].each(number) } };
     };
@@ -139,20 +145,22 @@ namespace sprag
                          [](const Slope &a)
                          {
                            N result;
-                           result.v    = a.v;
-                           result.d[5] = a.d[0];
-                           result.d[6] = a.d[1];
+                           result.v          = a.v;
+                           result.d[dim + 2] = a.d[0];
+                           result.d[dim + 3] = a.d[1];
                            return result;
                          });
     }
   }
 
-  /// A place in numbers whose variables 0 to 2 are its coordinates.
-  template <class N>
+  /// A place in numbers whose first variables are its coordinates.
+  template <int dim, class N>
   SPRAG_PART Triple<N> varied_place(const Triple<Plain<N>> &place)
   {
     Triple<N> result{ N{} + place.x, N{} + place.y, N{} + place.z };
-    result.x.d[0] = result.y.d[1] = result.z.d[2] = Plain<N>{} + 1.;
+    result.x.d[0] = result.y.d[1] = Plain<N>{} + 1.;
+    if constexpr (dim == 3)
+      result.z.d[2] = Plain<N>{} + 1.;
     return result;
   }
 } // namespace sprag

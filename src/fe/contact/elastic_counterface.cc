@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/contact/elastic_counterface.h"
 
+#include "laws/friction_law.h"
+
 #include <algorithm>
 
 namespace sprag
@@ -9,24 +11,157 @@ namespace sprag
   using dealii::Vector;
 
   ElasticCounterface::ElasticCounterface(const FrictionFace<2> &lever, const FrictionFace<2> &cylinder,
-                                         const FaceElements<2> &face_, const FaceProperties<2> &properties_)
-      : face(face_)
+                                         const FaceElements<2> &face_, const FaceCandidates<2> &candidates_,
+                                         const FaceProperties &properties_)
+      : lever_face(lever)
+      , face(face_)
+      , candidates(candidates_)
       , properties(properties_)
       , pair(lever, cylinder)
       , first_node(cylinder.edges.front().nodes.front().position)
+      , dof_places(properties.layout.size())
   {
   }
 
-  void ElasticCounterface::set_places(const StepPlaces &places_, const bool begins_anew)
+  void ElasticCounterface::evaluate(const InterfaceStep &step, FaceEvaluation<2> &found,
+                                    const std::optional<StaticTerms> &statics)
   {
-    places         = places_;
-    end.at         = pair.configuration(places.end);
-    end.first_slip = first_slip(places.end);
-    if (begins_anew)
+    found.begin(step.end, step.to.x, step.weights.dt);
+    const FaceStep face_step{ step_terms(properties, step, statics), step.history };
+    set_places({ configuration(properties, step.begin.position, step.from.x), configuration(properties, step.end, step.to.x),
+                 step.weights.stiffness(), statics.has_value() });
+    // If forces are means over the step, elements near and in contact when it began belong to it.
+    auto elements = near(end.at);
+    if (!places.balanced_at_end())
+      elements = united(elements, begin.near);
+    if (!places.static_end)
+      elements = united(elements, touched_elements(face, step.history));
+    for (const unsigned int element_index : candidates.clip(std::move(elements), found.within_candidates))
+    {
+      begin_element(element_index);
+      step_element(face_step, found);
+    }
+    sum_forces(loaded, dof_places, found.forces);
+    found.sums.work.drive -= force_on_cylinder * (step.to.x - step.from.x);
+  }
+
+  void ElasticCounterface::step_element(const FaceStep &face_step, FaceEvaluation<2> &found)
+  {
+    const double penalty    = properties.penalties.normal;
+    const bool ends_balance = face_step.law.balance == ForceBalance::end;
+    auto known              = find_history(face_step.history, first);
+    for (unsigned int q = first; q < face.elements[element].end; ++q)
+    {
+      auto &state            = add_point(q, found);
+      const bool has_history = known != face_step.history.end() && known->point == q;
+      const auto history     = has_history ? *known++ : ContactHistory{};
+      state.trial_pressure   = (facet_at_end(q).opposed ? history.normal_multiplier : 0.) - penalty * state.gap;
+      const double begin_gap =
+          ends_balance ? state.gap : (places.moves() ? facets_at_begin(element).facets[q - first] : facet_at_end(q)).gap;
+      const bool stays_open = ends_balance ? state.trial_pressure <= 0. : state.gap >= 0. && begin_gap >= 0. && !has_history;
+      if (stays_open)
+        continue;
+      found.sums.penetration =
+          std::max(found.sums.penetration, ends_balance ? state.trial_pressure / penalty : -std::min(state.gap, begin_gap));
+      step(state, history, face_step, found.sums);
+    }
+    end_element();
+  }
+
+  LinearisedForces ElasticCounterface::linearise(const SlidingState &sliding, FaceEvaluation<2> &found)
+  {
+    slide(sliding, true, found);
+    LinearisedForces result(found.forces.dofs);
+    for (const auto &element_sum : parts)
+      result.add(element_sum);
+    found.forces.tangent = result.stiffness();
+    return result;
+  }
+
+  void ElasticCounterface::slide(const SlidingState &sliding, const bool wants_parts, FaceEvaluation<2> &found)
+  {
+    found.begin(sliding.displacements, sliding.drive.x, 1.); // slip in a second
+    const auto at = configuration(properties, sliding.displacements, sliding.drive.x);
+    set_places({ at, at });
+    in_parts       = wants_parts;
+    const auto law = slide_friction(properties.friction, sliding);
+    for (const unsigned int element_index : in_parts ? near(end.at) : candidates.clip(near(end.at), found.within_candidates))
+    {
+      begin_element(element_index);
+      for (unsigned int q = first; q < face.elements[element].end; ++q)
+      {
+        auto &state          = add_point(q, found);
+        state.trial_pressure = -properties.penalties.normal * state.gap;
+        state.slip_change[0] = sliding.speed;
+        if (state.gap < 0.)
+          slide_point(state, sliding, law, found.sums);
+      }
+      end_element();
+    }
+    sum_forces(loaded, dof_places, found.forces);
+  }
+
+  void ElasticCounterface::touch(const Vector<double> &displacements, const DrivePoint &drive, FaceEvaluation<2> &found)
+  {
+    found.begin(displacements, drive.x, 0.);
+    const auto at = configuration(properties, displacements, drive.x);
+    set_places({ at, at });
+    for (const unsigned int element_index : near(end.at))
+    {
+      begin_element(element_index);
+      for (unsigned int q = first; q < face.elements[element].end; ++q)
+        add_point(q, found);
+    }
+    sum_forces(loaded, dof_places, found.forces);
+  }
+
+  double ElasticCounterface::gap_change(const FacePointState<2> &point, const FaceEvaluation<2> &found,
+                                        const Vector<double> &moved)
+  {
+    const auto at = configuration(properties, found.displacement, found.x);
+    set_places({ at, at });
+    begin_element(point.element);
+    prepare_sums();
+    find_rows(end.element_facets, facet_at_end(point.index), end.at, coordinates, properties.radius, end_rows);
+    const auto on_interface = interface_coordinates();
+    const auto dofs         = collect_dofs(on_interface);
+    const auto row          = row_on_dofs(on_interface, end_rows.gap);
+    double result           = 0.;
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      result += row[i] * moved[dofs[i]];
+    return result;
+  }
+
+  double ElasticCounterface::mean_slip(const FaceEvaluation<2> &found, const Vector<double> &from, const double from_x,
+                                       const Vector<double> &to, const double to_x)
+  {
+    set_places({ configuration(properties, from, from_x), configuration(properties, to, to_x) });
+    element = dealii::numbers::invalid_unsigned_int;
+    return pressure_mean(lever_face, found,
+                         [&](const FacePointState<2> &point)
+                         {
+                           if (point.element != element)
+                             begin_element(point.element);
+                           return slip(point);
+                         });
+  }
+
+  /// Begins a step. The data of the beginning of the last one are kept where this one begins equally.
+  void ElasticCounterface::set_places(const StepPlaces &places_)
+  {
+    places            = places_;
+    end.at            = pair.configuration(places.end);
+    end.first_slip    = first_slip(places.end);
+    force_on_cylinder = 0.;
+    in_parts          = false;
+    loaded.clear();
+    parts.clear();
+    if (places.moves() && begin.set(*places.begin.displacement, places.begin.x))
     {
       begin_side.at         = pair.configuration(places.begin);
       begin_side.first_slip = first_slip(places.begin);
       begin_facets.clear();
+      begin.near = near(begin_side.at);
     }
     begin_side.at.at = places.begin;
     if (places.balanced_at_end())
@@ -47,7 +182,13 @@ namespace sprag
 
   double ElasticCounterface::first_slip(const FaceConfiguration &at) const
   {
-    return properties.counterface(at.x, at.theta)({ at.centre.xi + first_node[0], at.centre.eta + first_node[1] }).slip;
+    return undeformed_slip(at, { at.centre.xi + first_node[0], at.centre.eta + first_node[1] });
+  }
+
+  /// Returns the slip of a place in lever axes on the undeformed cylinder [mm].
+  double ElasticCounterface::undeformed_slip(const FaceConfiguration &at, const dealii::Point<2> &place) const
+  {
+    return properties.cylinder.slip(properties.cylinder.pose(at.x, at.theta), in_space(place));
   }
 
   const ElementFacets &ElasticCounterface::facets_at_begin(const unsigned int element_index)
@@ -67,12 +208,15 @@ namespace sprag
     pair.find_facets(element, end.at, end.element_facets);
   }
 
-  bool ElasticCounterface::place(FacePointState<2> &state) const
+  /// Adds a point of the element, with its position and gap.
+  FacePointState<2> &ElasticCounterface::add_point(const unsigned int point, FaceEvaluation<2> &found) const
   {
-    const auto &facet = facet_at_end(state.index);
-    state.position    = FaceElements<2>::position(face.points[state.index], nodal);
-    state.gap         = facet.gap;
-    return facet.opposed;
+    auto &state    = found.points.emplace_back();
+    state.index    = point;
+    state.element  = element;
+    state.position = FaceElements<2>::position(face.points[point], nodal);
+    state.gap      = facet_at_end(point).gap;
+    return state;
   }
 
   /// Returns how far the cylinder's undeformed surface has run past a facet, from where its first node without load counts 0
@@ -83,8 +227,8 @@ namespace sprag
     if (facet.opposed)
       return facet.arc + slip_offset;
     const auto &element_points = face.elements[face.point_elements[point]];
-    const auto position = FaceElements<2>::position(face.points[point], FaceElements<2>::nodal(element_points, *at.displacement));
-    return properties.counterface(at.x, at.theta)({ position[0], position[1] }).slip;
+    return undeformed_slip(
+        at, FaceElements<2>::position(face.points[point], FaceElements<2>::nodal(element_points, *at.displacement)));
   }
 
   double ElasticCounterface::slip_at_begin(const unsigned int point)
@@ -164,13 +308,13 @@ namespace sprag
   void ElasticCounterface::step(FacePointState<2> &state, const ContactHistory &history, const FaceStep &step, ContactSums &sums)
   {
     prepare_sums();
-    const double R    = properties.radius;
-    const bool at_end = places.balanced_at_end();
-    const auto &last  = facet_at_end(state.index);
-    const auto &side  = at_end ? end : balance_side;
-    const auto &force = side.element_facets.facets[state.index - first];
-    const auto *begin = places.moves() ? &facets_at_begin(element).facets[state.index - first] : &last;
-    if (!last.opposed || !force.opposed || (!at_end && !begin->opposed))
+    const double R     = properties.radius;
+    const bool at_end  = places.balanced_at_end();
+    const auto &last   = facet_at_end(state.index);
+    const auto &side   = at_end ? end : balance_side;
+    const auto &force  = side.element_facets.facets[state.index - first];
+    const auto &before = places.moves() ? facets_at_begin(element).facets[state.index - first] : last;
+    if (!last.opposed || !force.opposed || (!at_end && !before.opposed))
       return;
     find_rows(end.element_facets, last, end.at, coordinates, R, end_rows);
     if (!at_end)
@@ -179,7 +323,7 @@ namespace sprag
 
     // Gap and slip as the only coordinates.
     const double share   = at_end ? 1. : 0.5; // of the stretch at the end
-    const double stretch = (1. - share) * begin->stretch + share * last.stretch;
+    const double stretch = (1. - share) * before.stretch + share * last.stretch;
     const double run     = (places.moves() ? slip_at_end(state.index) - slip_at_begin(state.index) : 0.) + step.surface_run;
     ContactKinematics<2> kinematics{};
     kinematics.gap         = state.gap;
@@ -190,7 +334,7 @@ namespace sprag
     if (!at_end)
     {
       const auto bent        = bends(side.element_facets, force, side.at, coordinates, R, movement);
-      over_step.gap_begin    = begin->gap;
+      over_step.gap_begin    = before.gap;
       over_step.gap_bend     = bent.gap;
       over_step.slip_bend[0] = bent.slip;
     }
@@ -202,11 +346,20 @@ namespace sprag
     over_step.slip_shift[0] = stretch * shift.slip + shift.elastic;
     const auto response     = step_response(over_step, history, step.law);
 
-    record(response, step, history, stretch * (run + shift.slip), force.weight, stretch * step.surface_run, state, sums);
+    static_cast<PointTraction &>(state) = response;
+    state.history.point                 = state.index;
+    state.slip_change[0]                = stretch * (run + shift.slip) * step.terms.speed_ratio;
+    state.elastic_slip =
+        (response.traction - (step.terms.augmented ? history.traction : Slip())).norm() / step.law.slip.stiffness;
+    sums.stored += force.weight * response.energy;
+    sums.work.drive += force.weight * response.mean_traction[0] * stretch * step.surface_run;
+    sums.work.friction += force.weight * response.friction;
+    sums.work.algorithmic += force.weight * response.algorithmic;
+    sums.work.creep  = std::max(sums.work.creep, response.creep);
     sums.beyond_face = sums.beyond_face || (at_face_end && response.pressure > 0.);
     state.end_force  = on_lever(response.pressure, -response.traction[0], end_rows);
     values.add(force.weight * response.force[0], rows.gap, force.weight * response.force[1], rows.slip);
-    sums.force_on_counterface +=
+    force_on_cylinder +=
         force.weight * (response.force[0] * rows.gap[coordinates.x()] + response.force[1] * rows.slip[coordinates.x()]);
     const double d_shift = response.d_shift[0][0];
     if (shift.d_slope * d_shift != 0.)
@@ -253,37 +406,69 @@ namespace sprag
                 tangent);
   }
 
-  void ElasticCounterface::slide(FacePointState<2> &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums)
+  /// Sets the tractions of a point with a gap < 0 that slides and adds its forces. Derivatives of the forces per area p G - t S,
+  /// G and S the rows of gap and slip, v the slip speed at displacements at rest:
+  ///   pressure       -eps G G + p dG/dq
+  ///   friction       S (mu eps G + (dt/dv) dv/dq) - t dS/dq, in stick with the tangential penalty S S in place of dt/dv
+  ///   friction_rate  -(dt/dv) S S
+  void ElasticCounterface::slide_point(FacePointState<2> &state, const SlidingState &sliding, const FrictionLaw &law,
+                                       ContactSums &sums)
   {
     prepare_sums();
-    const double R    = properties.radius;
-    const auto &facet = facet_at_end(state.index);
+    const double R      = properties.radius;
+    const auto &penalty = properties.penalties;
+    const auto &facet   = facet_at_end(state.index);
     find_rows(end.element_facets, facet, end.at, coordinates, R, end_rows);
-    state.slip_change[0] = facet.stretch * sliding.speed;
+    double &speed = state.slip_change[0];
+    speed         = facet.stretch * sliding.speed;
     if (sliding.rates != nullptr)
     {
       auto rates                 = change(Vector<double>(sliding.rates->size()), *sliding.rates);
       rates[coordinates.theta()] = (*sliding.rates)[properties.layout.rotation()];
       rates[coordinates.x()]     = properties.layout.sprung ? -(*sliding.rates)[properties.layout.support()] : 0.;
-      state.slip_change[0] += end_rows.slip * rates;
+      speed += end_rows.slip * rates;
     }
-    sums.beyond_face        = sums.beyond_face || at_face_end;
-    const auto tangents     = sprag::slide(properties, law, sliding, facet.weight, state, sums);
+    sums.beyond_face            = sums.beyond_face || at_face_end;
+    const bool slides           = sliding.friction == ContactFriction::sliding;
+    const auto share            = slides ? sliding_friction(law, speed) : SlidingFriction{};
+    state.pressure              = -penalty.normal * state.gap;
+    state.traction[0]           = share.coefficient * state.pressure;
+    state.mu                    = share.mu;
+    state.slipping              = slides;
+    state.history.traction      = state.traction;
+    state.history.slip_speed[0] = sliding.speed;
+    state.history.point         = state.index;
+    state.elastic_slip          = state.traction.norm() / penalty.tangential;
+    const double elastic        = law.regularisation_speed > 0. ? 0. : 0.5 * state.traction.norm_square() / penalty.tangential;
+    sums.stored += facet.weight * (0.5 * penalty.normal * state.gap * state.gap + elastic);
+    sums.penetration = std::max(sums.penetration, -state.gap);
+
     state.end_force         = on_lever(state.pressure, -state.traction[0], end_rows);
     const double normal     = facet.weight * state.pressure;
     const double tangential = -facet.weight * state.traction[0];
+    const double by_speed   = -share.derivative * state.pressure;
     values.add(normal, end_rows.gap, tangential, end_rows.slip);
-    add_product(facet.weight * tangents.normal, end_rows.gap, end_rows.gap, tangent);
-    force_row.equ(tangents.coupled, end_rows.gap);
-    force_row.add(tangents.stuck, end_rows.slip, tangents.by_speed * sliding.speed, end_rows.stretch);
-    add_product(facet.weight, end_rows.slip, force_row, sums.in_parts ? friction.by_displacement : tangent);
-    if (!sums.in_parts)
+    add_product(-facet.weight * penalty.normal, end_rows.gap, end_rows.gap, tangent);
+    force_row.equ(share.coefficient * penalty.normal, end_rows.gap);
+    force_row.add(sliding.friction == ContactFriction::stuck ? -penalty.tangential : 0., end_rows.slip, by_speed * sliding.speed,
+                  end_rows.stretch);
+    add_product(facet.weight, end_rows.slip, force_row, in_parts ? friction.by_displacement : tangent);
+    if (!in_parts)
       return add_curvature(end.element_facets, facet, end.at, coordinates, R, normal, tangential, tangent);
     add_curvature(end.element_facets, facet, end.at, coordinates, R, normal, 0., tangent);
     add_curvature(end.element_facets, facet, end.at, coordinates, R, 0., tangential, friction.by_displacement);
-    add_product(facet.weight * tangents.by_speed, end_rows.slip, end_rows.slip, friction.by_velocity);
-    if (tangents.lag.time > 0.)
-      friction.delays.push_back(friction_delay(tangents, sliding.speed, rows_on_dofs(facet)));
+    add_product(facet.weight * by_speed, end_rows.slip, end_rows.slip, friction.by_velocity);
+    const auto lag = friction_lag(law, penalty.tangential, false, share.by_mu * state.pressure, speed);
+    if (lag.time == 0.)
+      return;
+    const auto on_interface = interface_coordinates();
+    const auto on_dofs      = [&](const Vector<double> &row) { return row_on_dofs(on_interface, row); };
+    auto &delay             = friction.delays.emplace_back(
+                    FrictionDelay{ lag.time, on_dofs(end_rows.slip), on_dofs(end_rows.gap), on_dofs(end_rows.slip) });
+    delay.force *= -facet.weight;
+    delay.stiffness_row *= -lag.pressure * share.coefficient * penalty.normal;
+    delay.stiffness_row.add(share.by_mu * state.pressure * sliding.speed, on_dofs(end_rows.stretch));
+    delay.rate_row *= share.by_mu * state.pressure;
   }
 
   Tensor<1, 4> ElasticCounterface::on_lever(const double normal, const double along_slip, const FacetRows &rows) const
@@ -308,25 +493,22 @@ namespace sprag
     return result;
   }
 
-  void ElasticCounterface::end_element(ContactSums &sums)
+  /// Adds the forces of the element, if it has any: where they are wanted in parts the tangent is that of pressure alone.
+  void ElasticCounterface::end_element()
   {
-    if (has_forces)
-      add_element(interface_coordinates(), values, tangent, friction, sums);
-  }
-
-  FacePointRows ElasticCounterface::rows(const FacePointState<2> &state)
-  {
-    prepare_sums();
-    const auto &facet = facet_at_end(state.index);
-    find_rows(end.element_facets, facet, end.at, coordinates, properties.radius, end_rows);
-    return rows_on_dofs(facet);
-  }
-
-  /// Returns the rows that were found last, over the interface dofs.
-  FacePointRows ElasticCounterface::rows_on_dofs(const Facet &facet) const
-  {
+    if (!has_forces)
+      return;
     const auto on_interface = interface_coordinates();
-    return { facet.weight, collect_dofs(on_interface), row_on_dofs(on_interface, end_rows.gap),
-             row_on_dofs(on_interface, end_rows.slip), row_on_dofs(on_interface, end_rows.stretch) };
+    InterfaceForces forces{ collect_dofs(on_interface), row_on_dofs(on_interface, values),
+                            matrix_on_dofs(on_interface, tangent) };
+    if (in_parts)
+    {
+      auto &part         = parts.emplace_back(forces.dofs);
+      part.pressure      = forces.tangent;
+      part.friction      = matrix_on_dofs(on_interface, friction.by_displacement);
+      part.friction_rate = matrix_on_dofs(on_interface, friction.by_velocity);
+      part.delays        = friction.delays;
+    }
+    loaded.push_back(std::move(forces));
   }
 } // namespace sprag

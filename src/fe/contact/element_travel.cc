@@ -7,7 +7,8 @@
 
 namespace sprag
 {
-  ElementTravel::ElementTravel(const double farthest_, const double most_shapes_)
+  template <int dim>
+  ElementTravel<dim>::ElementTravel(const double farthest_, const double most_shapes_)
       : farthest(farthest_)
       , most_shapes(most_shapes_)
   {
@@ -15,19 +16,20 @@ namespace sprag
 
   /// A gap is a distance from the axis, which changes by no more than the point moves past the cylinder, and the profile, which
   /// changes by its slope times the part of that along the axis.
-  void ElementTravel::go_to(const Nodal &displacement, const RigidCylinder::Pose &pose, const RigidCylinder::Shape &cylinder)
+  template <int dim>
+  void ElementTravel<dim>::go_to(const Nodal &displacement, const RigidCylinder::Pose &pose, const RigidCylinder::Shape &cylinder)
   {
     const dealii::Tensor<1, 3> axis({ pose.axes.axis.x, pose.axes.axis.y, pose.axes.axis.z });
     if (last)
     {
       double in_plane = 0., sideways = 0., displaced = 0.; // of nodes, the first and the last one squared
       double all = 0.;                                     // which no comparison hides
-      for (unsigned int i = 0; i < displacement.size(); i += 3)
+      for (unsigned int i = 0; i < displacement.size(); i += dim)
       {
         const double *const to = &displacement[i], *const from = &last->displacement[i];
         in_plane            = std::max(in_plane, (to[0] - from[0]) * (to[0] - from[0]) + (to[1] - from[1]) * (to[1] - from[1]));
-        sideways            = std::max(sideways, std::abs(to[2] - from[2]));
-        const double square = to[0] * to[0] + to[1] * to[1] + to[2] * to[2];
+        sideways            = std::max(sideways, dim == 3 ? std::abs(to[dim - 1] - from[dim - 1]) : 0.);
+        const double square = to[0] * to[0] + to[1] * to[1] + (dim == 3 ? to[dim - 1] * to[dim - 1] : 0.);
         displaced           = std::max(displaced, square);
         all += square;
       }
@@ -46,4 +48,7 @@ namespace sprag
     }
     last = { displacement, pose.x, pose.theta, axis };
   }
+
+  template class ElementTravel<2>;
+  template class ElementTravel<3>;
 } // namespace sprag

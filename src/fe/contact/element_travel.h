@@ -10,10 +10,11 @@ namespace sprag
 {
   /// Bound on the approach of an element's points to the cylinder over all of their way. It only grows: a point whose gap is
   /// known at some place touches nothing until the bound has grown by as much.
+  template <int dim>
   class ElementTravel
   {
   public:
-    using Nodal = FaceElements<3>::Nodal;
+    using Nodal = typename FaceElements<dim>::Nodal;
 
     /// `farthest`: of the undeformed points from the lever's pivot [mm]; `most_shapes`: the largest sum of sizes of a point's
     /// shapes.

@@ -7,13 +7,11 @@
 
 namespace sprag
 {
-  Counterface cylinder(const Geometry &geometry)
+  FaceConfiguration configuration(const FaceProperties &properties, const dealii::Vector<double> &displacements, const double x)
   {
-    return [geometry](const double x, const double theta)
-    {
-      return [circle = placed_for_points(geometry, x, theta)](const LeverPoint &point)
-      { return moving_circle_contact(circle, point); };
-    };
+    const double inclination = properties.rest_inclination + displacements[properties.layout.rotation()];
+    const double relative    = x - (properties.layout.sprung ? displacements[properties.layout.support()] : 0.);
+    return { &displacements, inclination, relative, properties.centre(relative, inclination) };
   }
 
   StepContactLaw contact_law(const ContactPenalties &penalties, const FrictionLaw &friction)
@@ -24,7 +22,7 @@ namespace sprag
     return result;
   }
 
-  StepTerms step_terms(const ContactProperties &properties, const InterfaceStep &step, const std::optional<StaticTerms> &statics)
+  StepTerms step_terms(const FaceProperties &properties, const InterfaceStep &step, const std::optional<StaticTerms> &statics)
   {
     const auto friction = statics ? statics->friction : step_friction(properties.friction, step.to.v);
     StepTerms result{ contact_law(properties.penalties, friction), step.to.surface - step.from.surface };
@@ -68,43 +66,4 @@ namespace sprag
                                    const std::vector<ContactHistory> &, const std::function<double(unsigned int)> &);
   template SlipShift slip_shift<3>(const FaceElements<3> &, unsigned int, double, double, double,
                                    const std::vector<ContactHistory> &, const std::function<double(unsigned int)> &);
-
-  SlidingTangent slide(const FaceProperties<2> &properties, const FrictionLaw &law, const SlidingState &sliding,
-                       const double weight, FacePointState<2> &state, ContactSums &sums)
-  {
-    const auto &penalty         = properties.penalties;
-    const bool slides           = sliding.friction == ContactFriction::sliding;
-    const double speed          = state.slip_change[0];
-    const auto share            = slides ? sliding_friction(law, speed) : SlidingFriction{};
-    state.pressure              = -penalty.normal * state.gap;
-    state.traction[0]           = share.coefficient * state.pressure;
-    state.mu                    = share.mu;
-    state.slipping              = slides;
-    state.history.traction      = state.traction;
-    state.history.slip_speed[0] = sliding.speed;
-    state.history.point         = state.index;
-    state.elastic_slip          = state.traction.norm() / penalty.tangential;
-    const double elastic        = law.regularisation_speed > 0. ? 0. : 0.5 * state.traction.norm_square() / penalty.tangential;
-    sums.stored += weight * (0.5 * penalty.normal * state.gap * state.gap + elastic);
-    sums.penetration = std::max(sums.penetration, -state.gap);
-
-    SlidingTangent sliding_tangent;
-    sliding_tangent.normal   = -penalty.normal;
-    sliding_tangent.coupled  = share.coefficient * penalty.normal;
-    sliding_tangent.stuck    = sliding.friction == ContactFriction::stuck ? -penalty.tangential : 0.;
-    sliding_tangent.by_speed = -share.derivative * state.pressure;
-    sliding_tangent.by_mu    = -share.by_mu * state.pressure;
-    sliding_tangent.lag      = friction_lag(law, penalty.tangential, false, -sliding_tangent.by_mu, speed);
-    return sliding_tangent;
-  }
-
-  FrictionDelay friction_delay(const SlidingTangent &sliding_tangent, const double speed, const FacePointRows &rows)
-  {
-    FrictionDelay result{ sliding_tangent.lag.time, rows.slip, rows.gap, rows.slip };
-    result.force *= -rows.weight;
-    result.stiffness_row *= -sliding_tangent.lag.pressure * sliding_tangent.coupled;
-    result.stiffness_row.add(-sliding_tangent.by_mu * speed, rows.stretch);
-    result.rate_row *= -sliding_tangent.by_mu;
-    return result;
-  }
 } // namespace sprag

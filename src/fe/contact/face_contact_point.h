@@ -15,13 +15,6 @@
 
 namespace sprag
 {
-  /// A convex body without deformation, at its place: the kinematics of a point of the lever against it, in the coordinates
-  /// (displacement along xi, along eta, theta, x).
-  using PlacedCounterface = std::function<ContactKinematics<4>(const LeverPoint &point)>;
-
-  /// The body at its position x from the pivot frame's origin and hub rotation theta.
-  using Counterface = std::function<PlacedCounterface(double x, double theta)>;
-
   /// [N/mm^3], > 0
   struct ContactPenalties
   {
@@ -29,39 +22,23 @@ namespace sprag
     double tangential;
   };
 
-  /// Constants of the contact of a meshed lever, in a plane or in space.
-  struct ContactProperties
+  /// Constants of the contact of a meshed lever. The layout has `dim` dofs a node of the face, with slopes where the cylinder's
+  /// axis may turn.
+  struct FaceProperties
   {
-    std::function<LeverPoint(double x, double theta)> centre; ///< of the counterface
-    double radius = 0.; ///< R: how far the counterface's surface runs in its axes as they turn by 1, 0 if it turns with them [mm]
+    std::function<LeverPoint(double x, double theta)> centre; ///< of the cylinder
+    double radius = 0.; ///< R: how far the cylinder's surface runs in its axes as they turn by 1, 0 if it turns with them [mm]
     InterfaceLayout layout;
     double rest_inclination = 0.; ///< theta without moment [rad]
     ContactPenalties penalties{};
     FrictionLaw friction;
-    double layer_thickness = 0.; ///< [mm]
+    double layer_thickness = 0.;      ///< [mm]
+    RigidCylinder cylinder{ {}, {} }; ///< an elastic one as it is without load
+    bool half = false;                ///< the face is half of one which is the same on both sides of the middle
   };
 
-  /// The same of one dimension. In space the layout has three dofs a node of the face, with slopes where these may change.
-  template <int dim>
-  struct FaceProperties;
-
-  /// In a plane the counterface is any convex rigid body.
-  template <>
-  struct FaceProperties<2> : ContactProperties
-  {
-    Counterface counterface; ///< an elastic one as it is without load
-  };
-
-  /// In space the counterface is the cylinder.
-  template <>
-  struct FaceProperties<3> : ContactProperties
-  {
-    RigidCylinder cylinder;
-    bool half = false; ///< the face is half of one which is the same on both sides of the middle
-  };
-
-  /// The damper's cylinder.
-  Counterface cylinder(const Geometry &geometry);
+  /// Returns the places at interface displacements, which it refers to, and x of the drive [mm].
+  FaceConfiguration configuration(const FaceProperties &properties, const dealii::Vector<double> &displacements, double x);
 
   /// A point of the friction face in an evaluation, with its tractions at the end.
   template <int dim>
@@ -104,13 +81,7 @@ namespace sprag
   /// Returns the law of points that takes neither time nor place.
   StepContactLaw contact_law(const ContactPenalties &penalties, const FrictionLaw &friction);
 
-  StepTerms step_terms(const ContactProperties &properties, const InterfaceStep &step, const std::optional<StaticTerms> &statics);
-
-  /// A step of the contact in a plane.
-  struct FaceStep : StepTerms
-  {
-    const std::vector<ContactHistory> &history; ///< of the points in contact where it begins, by increasing point
-  };
+  StepTerms step_terms(const FaceProperties &properties, const InterfaceStep &step, const std::optional<StaticTerms> &statics);
 
   /// Returns what the tangential penalty adds to the traction of the history, over the slip; a multiplier needs none.
   inline double unwinding_stiffness(const bool augmented, const double tangential_penalty)
@@ -158,120 +129,30 @@ namespace sprag
   SlipShift slip_shift(const FaceElements<dim> &face, unsigned int point, double slope, double travel, double stiffness,
                        const std::vector<ContactHistory> &history, const std::function<double(unsigned int)> &slip_at_begin);
 
-  /// Friction's part of the tangent of an element that slides steadily, where it is wanted apart; see LinearisedForces.
-  template <class Matrix>
-  struct FrictionParts
-  {
-    Matrix by_displacement;
-    Matrix by_velocity;
-    std::vector<FrictionDelay> delays; ///< at the interface of the element
-  };
-
-  /// Derivatives by some interface dofs of a point's gap and slip, and of its slip speed at displacements at rest over the
-  /// cylinder's.
-  struct FacePointRows
-  {
-    double weight; ///< area [mm^2]
-    std::vector<unsigned int> dofs;
-    dealii::Vector<double> gap;
-    dealii::Vector<double> slip;
-    dealii::Vector<double> stretch;
-  };
-
   /// Sums over the points of an evaluation.
   struct ContactSums
   {
-    double penetration          = 0.;    ///< of the contact springs, the largest in the step [mm]
-    double stored               = 0.;    ///< energy
-    double force_on_counterface = 0.;    ///< generalised, of the position x, in the step [N]
-    bool beyond_face            = false; ///< whether the contact reaches the end of what can be touched
+    double penetration = 0.;    ///< of the contact springs, the largest in the step [mm]
+    double stored      = 0.;    ///< energy
+    bool beyond_face   = false; ///< whether the contact reaches the end of what can be touched
     StepWork work;
-    std::vector<InterfaceForces> loaded; ///< forces of the elements, dofs in any order
-    bool in_parts = false;               ///< whether steady sliding gives its tangent in parts
-    std::vector<LinearisedForces> parts; ///< of the elements loaded
   };
 
-  /// Adds the forces of an element, from values and tangent over its coordinates: of pressure alone where it is wanted in parts.
-  template <class Values, class Matrix>
-  void add_element(const InterfaceCoordinates &coordinates, const Values &values, const Matrix &tangent,
-                   const FrictionParts<Matrix> &friction, ContactSums &sums)
+  /// The beginning of the last step, the same in all its iterations.
+  struct StepBegin
   {
-    InterfaceForces forces{ collect_dofs(coordinates), row_on_dofs(coordinates, values), matrix_on_dofs(coordinates, tangent) };
-    if (sums.in_parts)
-    {
-      auto &parts         = sums.parts.emplace_back(forces.dofs);
-      parts.pressure      = forces.tangent;
-      parts.friction      = matrix_on_dofs(coordinates, friction.by_displacement);
-      parts.friction_rate = matrix_on_dofs(coordinates, friction.by_velocity);
-      parts.delays        = friction.delays;
-    }
-    sums.loaded.push_back(std::move(forces));
-  }
+    dealii::Vector<double> displacements; ///< of the interface
+    double x = 0.;                        ///< of the drive [mm]
+    std::vector<unsigned int> near;       ///< elements near the counterface there
 
-  /// The places where a step begins and ends, and the share of it at which forces are balanced.
-  struct StepPlaces
-  {
-    FaceConfiguration begin;
-    FaceConfiguration end;
-    double balance  = 1.;
-    bool static_end = false; ///< without inertia: forces are those of the end, whatever was before
-
-    /// Returns whether beginning and end differ.
-    bool moves() const
+    /// Notes another beginning. Returns false if it is the same.
+    bool set(const dealii::Vector<double> &at, const double at_x)
     {
-      return begin.displacement != end.displacement || begin.x != end.x;
-    }
-
-    /// Returns whether the end is all that counts for the forces.
-    bool balanced_at_end() const
-    {
-      return static_end || !moves();
-    }
-
-    double balanced(const double at_begin, const double at_end) const
-    {
-      return (1. - balance) * at_begin + balance * at_end;
+      if (at_x == x && at.size() == displacements.size() && at == displacements)
+        return false;
+      displacements = at;
+      x             = at_x;
+      return true;
     }
   };
-
-  /// Records a point's response to a step in its state and the sums, its forces apart. `run` [mm] is how far the counterface's
-  /// surface runs at the point.
-  template <int n>
-  void record(const StepResponse<n> &response, const FaceStep &step, const ContactHistory &begin, const double slip_change,
-              const double weight, const double run, FacePointState<2> &state, ContactSums &sums)
-  {
-    static_cast<PointTraction &>(state) = response;
-
-    state.history.point  = state.index;
-    state.slip_change[0] = slip_change * step.terms.speed_ratio;
-    state.elastic_slip = (response.traction - (step.terms.augmented ? begin.traction : Slip())).norm() / step.law.slip.stiffness;
-
-    sums.stored += weight * response.energy;
-    sums.work.drive += weight * response.mean_traction[0] * run;
-    sums.work.friction += weight * response.friction;
-    sums.work.algorithmic += weight * response.algorithmic;
-    sums.work.creep = std::max(sums.work.creep, response.creep);
-  }
-
-  /// Derivatives of the forces per area p G - t S of steady sliding, G and S the rows of gap and slip:
-  ///   pressure       normal G G + pressure dG/dq
-  ///   friction       S (coupled G + stuck S + by_speed dv/dq) - traction dS/dq
-  ///   friction_rate  by_speed S S
-  /// v the slip speed at displacements at rest.
-  struct SlidingTangent
-  {
-    double normal   = 0.;
-    double coupled  = 0.;
-    double stuck    = 0.;
-    double by_speed = 0.;
-    double by_mu    = 0.; ///< of it what mu has, see SlidingFriction
-    FrictionLag lag{ 0., 1. };
-  };
-
-  /// Sets tractions from the state's gap < 0 and slip and adds them to the sums.
-  SlidingTangent slide(const FaceProperties<2> &properties, const FrictionLaw &law, const SlidingState &sliding, double weight,
-                       FacePointState<2> &state, ContactSums &sums);
-
-  /// Returns the delay of friction at a point with these rows.
-  FrictionDelay friction_delay(const SlidingTangent &sliding_tangent, double speed, const FacePointRows &rows);
 } // namespace sprag

@@ -108,6 +108,16 @@ namespace sprag
                                                                                           pose.by_slope[1].each(widen) } };
   }
 
+  /// Returns a place, those of a plane at zeta = 0.
+  template <int dim>
+  dealii::Point<3> in_space(const dealii::Point<dim> &place)
+  {
+    dealii::Point<3> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = place[d];
+    return result;
+  }
+
   /// The damper's cylinder as a rigid body of finite length: its axis may lie out of true, by slopes towards the lever (tilt) and
   /// along x (skew), it may be a barrel and have rounded ends. Distances are measured across the axis: barrel and rounding are
   /// added to them as a profile over the place s along the axis, which is exact up to the square of their slope.

@@ -31,8 +31,11 @@ namespace sprag
     {
       const InterfaceLayout layout = structure->layout();
       const auto levers            = all_lever_properties(device);
-      const auto contact           = [&](const unsigned int lever) {
-        return std::make_unique<FaceContact>(body, face_properties(body, levers[lever], layout.single_lever(), facts.penalties));
+      const auto contact           = [&](const unsigned int lever)
+      {
+        return std::make_unique<FaceContact<2>>(body.friction_face(),
+                                                face_properties(body, levers[lever], layout.single_lever(), facts.penalties),
+                                                body.cylinder_face());
       };
       return assemble_lever(std::move(structure), lever_frame(device, layout, facts.total_mass), contact,
                             static_cast<unsigned int>(body.friction_face().points.size()));

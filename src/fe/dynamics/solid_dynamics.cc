@@ -4,7 +4,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "fe/body/friction_face.h"
-#include "fe/contact/surface_contact.h"
+#include "fe/contact/face_contact.h"
 #include "fe/dynamics/condensed_basis.h"
 #include "fe/statics/contact_penalties.h"
 #include "fe/statics/lever_properties.h"
@@ -203,7 +203,7 @@ namespace sprag
       const auto properties        = all_lever_properties(device);
       const auto contact           = [&](const unsigned int index)
       {
-        return std::make_unique<SurfaceContact>(
+        return std::make_unique<FaceContact<3>>(
             face, face_properties(*lever.body, properties[index], layout.single_lever(), result.penalties));
       };
       return assemble_lever(std::move(all), make_frame(device, lever, layout), contact,

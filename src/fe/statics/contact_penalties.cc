@@ -54,10 +54,18 @@ namespace sprag
       return { normal, settings.tangential_penalty.value_or(normal) };
     }
 
-    ContactProperties contact_properties(const LeverProperties &lever, const InterfaceLayout &layout,
-                                         const ContactPenalties &penalties)
+    FaceProperties make_properties(const LeverProperties &lever, const InterfaceLayout &layout, const ContactPenalties &penalties,
+                                   const Cylinder &cylinder, const bool half)
     {
-      return { lever.centre, lever.radius, layout, lever.spring.rest, penalties, lever.friction, lever.layer_thickness };
+      return { lever.centre,
+               lever.radius,
+               layout,
+               lever.spring.rest,
+               penalties,
+               lever.friction,
+               lever.layer_thickness,
+               RigidCylinder(lever.geometry, cylinder),
+               half };
     }
   } // namespace
 
@@ -79,16 +87,16 @@ namespace sprag
     return contact_penalties(body, device.contact, device.layer.thickness, factor);
   }
 
-  FaceProperties<2> face_properties(const ElasticBody<2> &, const LeverProperties &lever, const InterfaceLayout &layout,
-                                    const ContactPenalties &penalties)
+  FaceProperties face_properties(const ElasticBody<2> &, const LeverProperties &lever, const InterfaceLayout &layout,
+                                 const ContactPenalties &penalties)
   {
-    return { contact_properties(lever, layout, penalties), lever.counterface };
+    return make_properties(lever, layout, penalties, {}, false);
   }
 
-  FaceProperties<3> face_properties(const SolidBody &body, const LeverProperties &lever, const InterfaceLayout &layout,
-                                    const ContactPenalties &penalties)
+  FaceProperties face_properties(const SolidBody &body, const LeverProperties &lever, const InterfaceLayout &layout,
+                                 const ContactPenalties &penalties)
   {
-    return { contact_properties(lever, layout, penalties), RigidCylinder(*lever.geometry, lever.cylinder), body.is_half() };
+    return make_properties(lever, layout, penalties, lever.cylinder, body.is_half());
   }
 
   template ContactPenalties contact_penalties(const ElasticBody<2> &, const ContactSettings &, double,

@@ -28,10 +28,10 @@ namespace sprag
   ContactPenalties penalties_in_time(const Device &device, const ElasticBody<dim> &body);
 
   // Properties of the contact of a lever.
-  FaceProperties<2> face_properties(const ElasticBody<2> &body, const LeverProperties &lever, const InterfaceLayout &layout,
-                                    const ContactPenalties &penalties);
-  FaceProperties<3> face_properties(const SolidBody &body, const LeverProperties &lever, const InterfaceLayout &layout,
-                                    const ContactPenalties &penalties);
+  FaceProperties face_properties(const ElasticBody<2> &body, const LeverProperties &lever, const InterfaceLayout &layout,
+                                 const ContactPenalties &penalties);
+  FaceProperties face_properties(const SolidBody &body, const LeverProperties &lever, const InterfaceLayout &layout,
+                                 const ContactPenalties &penalties);
 
   // Number of slopes that the axis of the cylinder may change before a body.
   inline unsigned int count_slopes(const ElasticBody<2> &, const Cylinder &)

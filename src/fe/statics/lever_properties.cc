@@ -50,7 +50,6 @@ namespace sprag
     result.body.point_spacing = device.geometry.cylinder_radius / 4000.;
 
     const Geometry geometry = device.geometry;
-    result.counterface      = cylinder(geometry);
     result.centre           = cylinder_centre(geometry);
     result.radius           = geometry.cylinder_radius;
     result.ideal_theta      = [geometry](double x) { return kinematics(geometry, x).theta; };
@@ -65,6 +64,7 @@ namespace sprag
     result.interface_offset = geometry.interface_offset;
     result.cylinder         = device.cylinder;
     result.geometry         = geometry;
+    result.is_damper        = true;
     return result;
   }
 

@@ -30,10 +30,9 @@ namespace sprag
   struct LeverProperties
   {
     BodyProperties body;
-    Counterface counterface;
     std::function<double(double)> ideal_theta;        ///< inclination that first guesses follow, over x [rad]
-    std::function<LeverPoint(double, double)> centre; ///< of the counterface over x and theta
-    double radius = 0.; ///< R of an elastic counterface, 0 if it turns with the lever, see FacePair [mm]
+    std::function<LeverPoint(double, double)> centre; ///< of the cylinder over x and theta
+    double radius = 0.; ///< R of an elastic cylinder, 0 if it turns with the lever, see FacePair [mm]
     HubSpring spring;
     std::optional<double> support_stiffness; ///< k_f of a sprung support [N/mm], > 0; none: it is rigid
     FrictionLaw friction;
@@ -41,10 +40,11 @@ namespace sprag
     std::optional<double> penalty_factor; ///< of an automatic penalty, see contact_penalties()
     double longest_face     = 0.;         ///< of a graded mesh, see contact_penalties() [mm]
     Solution solution       = Solution::automatic;
-    double layer_thickness  = 0.;     ///< [mm]
-    double interface_offset = 0.;     ///< e [mm]
-    Cylinder cylinder{};              ///< of the damper, of a lever in three dimensions
-    std::optional<Geometry> geometry; ///< of the damper, see static_terms(); none: another body on another path
+    double layer_thickness  = 0.; ///< [mm]
+    double interface_offset = 0.; ///< e [mm]
+    Cylinder cylinder{};          ///< in space
+    Geometry geometry{};          ///< of the cylinder's path
+    bool is_damper = false;       ///< whether the geometry is the damper's, see static_terms(); else another body on another path
   };
 
   /// Returns the properties of a single lever, or of the first of a pair as if it were alone.

@@ -23,8 +23,8 @@ namespace sprag
   /// The terms that a step without inertia adds to the contact. With the damper's `geometry` friction takes the speeds of sliding
   /// of a rigid lever at the end of the step, see StaticTerms, without it their means over the step. In the cone mode nothing has
   /// been rubbed yet where no time has passed.
-  StaticTerms static_terms(const FrictionLaw &friction, const std::optional<Geometry> &geometry, const DrivePoint &begin,
-                           const DrivePoint &end, const FrictionMode mode)
+  StaticTerms static_terms(const FrictionLaw &friction, const Geometry *geometry, const DrivePoint &begin, const DrivePoint &end,
+                           const FrictionMode mode)
   {
     constexpr double least_ratio = 1e-6;
     const double duration        = end.time - begin.time;
@@ -81,16 +81,6 @@ namespace sprag
       return result;
     }
 
-    const ElasticBody<2> &contact_source(const ElasticBody<2> &body)
-    {
-      return body;
-    }
-
-    const FrictionFace<3> &contact_source(const SolidBody &body)
-    {
-      return body.friction_face();
-    }
-
     LeverParts<2>::Structure make_structure(const ElasticBody<2> &body, const LeverProperties &properties,
                                             const InterfaceLayout &layout, const JointSprings &springs,
                                             const std::array<double, 2> &)
@@ -118,9 +108,11 @@ namespace sprag
   template <int dim>
   StaticLever<dim>::Lever::Lever(const typename Parts::Body &body, const InterfaceLayout &layout, LeverProperties lever)
       : properties(std::move(lever))
-      , contact(contact_source(body), face_properties(body, properties, layout,
-                                                      contact_penalties(body, properties.contact, properties.layer_thickness,
-                                                                        properties.penalty_factor, properties.longest_face)))
+      , contact(body.friction_face(),
+                face_properties(body, properties, layout,
+                                contact_penalties(body, properties.contact, properties.layer_thickness, properties.penalty_factor,
+                                                  properties.longest_face)),
+                body.cylinder_face())
   {
   }
 
@@ -298,8 +290,9 @@ namespace sprag
       auto &[properties, lever] = levers[i];
       auto &[history, contact]  = found.levers[i];
 
-      history         = lever_history(i, n_face_points(), trial.contact);
-      auto terms      = static_terms(properties.friction, properties.geometry, step.start, trial.drive, mode);
+      history = lever_history(i, n_face_points(), trial.contact);
+      auto terms =
+          static_terms(properties.friction, properties.is_damper ? &properties.geometry : nullptr, step.start, trial.drive, mode);
       terms.augmented = augments();
       const Kinematic begin{ extract_lever(layout, i, step.displacements), {}, {} };
       const auto own_end = extract_lever(layout, i, end);

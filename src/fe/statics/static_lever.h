@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fe/contact/augmentation.h"
-#include "fe/contact/surface_contact.h"
+#include "fe/contact/face_contact.h"
 #include "fe/statics/full_stiffness.h"
 #include "fe/statics/lever_properties.h"
 #include "fe/statics/solid_structure.h"
@@ -31,7 +31,6 @@ namespace sprag
     using Body      = ElasticBody<2>;
     using KeptBody  = const ElasticBody<2>;
     using Structure = std::variant<StaticStructure, FullStiffness>;
-    using Contact   = FaceContact;
   };
 
   /// Parts in space.
@@ -42,7 +41,6 @@ namespace sprag
     using Body      = SolidBody;
     using KeptBody  = const SolidBody &;
     using Structure = std::variant<SolidStructure>;
-    using Contact   = SurfaceContact;
   };
 
   /// A meshed lever on its hub, rotational spring and support without inertia, or the two of a full mirrored pair, each on its
@@ -149,7 +147,7 @@ namespace sprag
       Lever(const typename Parts::Body &body, const InterfaceLayout &layout, LeverProperties properties);
 
       const LeverProperties properties;
-      typename Parts::Contact contact;
+      FaceContact<dim> contact;
     };
 
     /// The contact of a lever in an evaluation.

@@ -33,6 +33,12 @@ namespace sprag
     double step = 0.;    ///< duration of the last step if it ended in contact, else 0 [s]
 
     unsigned int point = 0; ///< index of the point in a face, where only points in contact have a history
+
+    bool operator==(const ContactHistory &other) const
+    {
+      return point == other.point && step == other.step && traction == other.traction && slip_speed == other.slip_speed &&
+             mu == other.mu && damping == other.damping && normal_multiplier == other.normal_multiplier;
+    }
   };
 
   /// Treatment of friction in an evaluation without inertia.

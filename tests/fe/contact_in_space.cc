@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "bed_of_springs.h"
 #include "mpi_environment.h"
+#include "support/interface_differences.h"
 #include "support/random_vector.h"
 #include "support/turning_axis.h"
 
@@ -13,7 +14,7 @@ using namespace sprag;
 // the largest d, and across the face a tilted circle is an ellipse, R tilt^2/2 higher. The sign of the
 // moment: with a positive tilt the axis comes closer to the lever where zeta > 0. The bed is inclined, and what counts is the
 // slope towards it.
-TEST(SurfaceContact, ATiltedCylinderOnABedOfSpringsIsKnown)
+TEST(ContactInSpace, ATiltedCylinderOnABedOfSpringsIsKnown)
 {
   const std::tuple<double, double, double> known[] = { { 0., 45.8258, 0. },
                                                        { 4e-4, 46.4649, 190.402 },
@@ -35,21 +36,21 @@ TEST(SurfaceContact, ATiltedCylinderOnABedOfSpringsIsKnown)
 }
 
 // P = pi K sqrt(R_1 R_2) d^2.
-TEST(SurfaceContact, ABarrelOnABedOfSpringsIsKnown)
+TEST(ContactInSpace, ABarrelOnABedOfSpringsIsKnown)
 {
   Cylinder barrel;
   barrel.crown_radius = 500.;
   EXPECT_NEAR(Bed(barrel, 12.5, 60).pressed_by(0.03)[0], 5.91400, 2e-3 * 5.914);
 }
 
-TEST(SurfaceContact, AShortCylinderPressesOnItsLength)
+TEST(ContactInSpace, AShortCylinderPressesOnItsLength)
 {
   Cylinder cylinder;
   cylinder.length = 30.;
   EXPECT_NEAR(Bed(cylinder, 12.5).pressed_by(0.03)[0], 45.8258 * 30. / width, 1e-3 * 45.8258);
 }
 
-TEST(SurfaceContact, FrictionOpposesTheSlipWhicheverWayItGoes)
+TEST(ContactInSpace, FrictionOpposesTheSlipWhicheverWayItGoes)
 {
   Bed bed({}, 12.5);
   const auto end = bed.pressed(0.03);
@@ -127,15 +128,15 @@ namespace
 } // namespace
 
 /// The parameter says if the axis is free on its shaft.
-class SurfaceContactOfAnAxis : public testing::TestWithParam<bool>
+class ContactInSpaceOfAnAxis : public testing::TestWithParam<bool>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(IsFree, SurfaceContactOfAnAxis, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(IsFree, ContactInSpaceOfAnAxis, testing::Bool());
 
 // Friction changes with the speed, which follows from the slope of the slip along the face. That makes 1e-5 of the tangent and
 // more; no point changes its state.
-TEST_P(SurfaceContactOfAnAxis, TheTangentKnowsTheSpeedOfAContactThatTravels)
+TEST_P(ContactInSpaceOfAnAxis, TheTangentKnowsTheSpeedOfAContactThatTravels)
 {
   Bed bed(skewed(GetParam()), 12.5, 2);
   const auto begin = bed.pressed(0.02);
@@ -155,7 +156,7 @@ TEST_P(SurfaceContactOfAnAxis, TheTangentKnowsTheSpeedOfAContactThatTravels)
 
 // Friction changes with the speed. Displacements are those of a slide at rest; points at the edge of the contact change their
 // state on the way.
-TEST_P(SurfaceContactOfAnAxis, SlidingIsLinearisedByDisplacementsAndVelocities)
+TEST_P(ContactInSpaceOfAnAxis, SlidingIsLinearisedByDisplacementsAndVelocities)
 {
   const FrictionLaw friction{ StribeckFriction{ 0.9, 0.6, 30., 1., 1e-3 } };
   Bed bed(skewed(GetParam()), 12.5, 6, friction);
@@ -200,7 +201,7 @@ TEST_P(SurfaceContactOfAnAxis, SlidingIsLinearisedByDisplacementsAndVelocities)
 }
 
 // Its forces without the delayed ones are those of a constant mu, regularised or not.
-TEST_P(SurfaceContactOfAnAxis, AFallingFrictionFollowsTheSpeedOverItsMemory)
+TEST_P(ContactInSpaceOfAnAxis, AFallingFrictionFollowsTheSpeedOverItsMemory)
 {
   const double speed    = -40.;
   const auto linearised = [&](FrictionLaw friction, const double regularisation)
@@ -229,8 +230,28 @@ TEST_P(SurfaceContactOfAnAxis, AFallingFrictionFollowsTheSpeedOverItsMemory)
   }
 }
 
+TEST(ContactInSpace, PartsAddUpToTheTangentAndPressureIsSymmetric)
+{
+  Bed bed(Cylinder(), 12.5, 6, { CorkOnAluminium{}, FrictionSpeed::sliding });
+  expect_tangent_parts(bed.surface(), bed.pressed(0.03), 1e-14, Bed::x);
+}
+
+// A slide leaves out the delay of friction across the slip, and this test the displacements along zeta.
+TEST(ContactInSpace, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
+{
+  Bed bed(Cylinder(), 12.5, 2, { CorkOnAluminium{}, FrictionSpeed::sliding });
+  auto at = bed.pressed(0.03);
+  for (unsigned int dof = 0; dof < bed.layout.surface; ++dof)
+    at[dof] += 1e-3 * std::sin(1.7 * dof);
+  expect_delays_as_in_steps(bed.surface(), at, Bed::x, 1e-4,
+                            [&](const unsigned int dof) {
+                              return dof < bed.layout.surface && dof % 3 == 2 ? 0.
+                                                                              : 2e-6 / (dof < bed.layout.surface ? 1. : 120.);
+                            });
+}
+
 // On a long way the contact is at both ends, and passes over the rest.
-TEST(SurfaceContact, ALongStepReachesWhereItBeginsAndEnds)
+TEST(ContactInSpace, ALongStepReachesWhereItBeginsAndEnds)
 {
   const double theta = 0.085, middle = cylinder_centre(model_a().geometry, Bed::x, theta).xi;
   const auto reached = [&](const double travel)
