@@ -86,20 +86,22 @@ TEST(RigidCylinder, IsACircleInAPlaneWhereItIsTrue)
 {
   const Geometry geometry = model_a().geometry;
   const RigidCylinder cylinder(geometry, {});
-  const auto solid                 = at(cylinder, Coordinates({ 121., 45.57, 7., 0.086, 64., 0., 0. }));
-  const auto plane                 = moving_circle_contact(placed_for_points(geometry, 64., 0.086), { 121., 45.57 });
+  const auto solid = at(cylinder, Coordinates({ 121., 45.57, 7., 0.086, 64., 0., 0. }));
+  using N          = Dual<double, 4>;
+  const auto plane =
+      on_circle(placed_circle(geometry, variable<N>(64., 3), variable<N>(0.086, 2)), variable<N>(121., 0), variable<N>(45.57, 1));
   const unsigned int plane_index[] = { 0, 1, 3, 4 };
-  EXPECT_NEAR(solid.gap, plane.gap, 1e-12);
-  EXPECT_NEAR(solid.slip[0], plane.slip, 1e-12);
+  EXPECT_NEAR(solid.gap, plane.gap.v, 1e-12);
+  EXPECT_NEAR(solid.slip[0], plane.slip.v, 1e-12);
   EXPECT_NEAR(solid.slip[1], 7., 1e-12);
   for (unsigned int i = 0; i < 4; ++i)
   {
-    EXPECT_NEAR(solid.gap_row[plane_index[i]], plane.gap_row[i], 1e-12);
-    EXPECT_NEAR(solid.slip_row[0][plane_index[i]], plane.slip_row[i], 1e-12);
+    EXPECT_NEAR(solid.gap_row[plane_index[i]], plane.gap_row[i].v, 1e-12);
+    EXPECT_NEAR(solid.slip_row[0][plane_index[i]], plane.slip_row[i].v, 1e-12);
     for (unsigned int j = 0; j < 4; ++j)
     {
-      EXPECT_NEAR(solid.gap_curvature[plane_index[i]][plane_index[j]], plane.gap_curvature[i][j], 1e-10);
-      EXPECT_NEAR(solid.slip_curvature[0][plane_index[i]][plane_index[j]], plane.slip_curvature[i][j], 1e-10);
+      EXPECT_NEAR(solid.gap_curvature[plane_index[i]][plane_index[j]], plane.gap_row[i].d[j], 1e-10);
+      EXPECT_NEAR(solid.slip_curvature[0][plane_index[i]][plane_index[j]], plane.slip_row[i].d[j], 1e-10);
     }
   }
 }

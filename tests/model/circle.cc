@@ -14,9 +14,9 @@ TEST(Circle, IdealContactTouchesAtTheClosedFormsPoint)
   for (const auto &scene : { model_a(), model_b() })
     for (const double position : { 0., 20., 65. })
     {
-      const auto ideal   = kinematics(scene.geometry, position);
-      const auto contact = moving_circle_contact(placed_for_points(scene.geometry, position, ideal.theta),
-                                                 { ideal.s, scene.geometry.interface_offset });
+      const auto ideal = kinematics(scene.geometry, position);
+      const auto contact =
+          on_circle(placed_circle(scene.geometry, position, ideal.theta), ideal.s, scene.geometry.interface_offset);
       // Round-off of coordinates of 200 mm; the gap's row is the face's normal.
       EXPECT_NEAR(contact.gap, 0., 1e-12);
       EXPECT_NEAR(contact.gap_row[0], 0., 1e-13);
@@ -33,12 +33,12 @@ TEST(Circle, SlipGrowsAtTheSlidingSpeedOfTheClosedForm)
     for (const double position : { 1., 20., 64. })
       for (const double speed : { 112., -112. })
       {
-        const auto ideal    = kinematics(scene.geometry, position);
-        const LeverPoint at = { ideal.s, scene.geometry.interface_offset };
-        const auto slip     = [&](const double time)
+        const auto ideal = kinematics(scene.geometry, position);
+        const auto slip  = [&](const double time)
         {
           const double here = position + speed * time;
-          return moving_circle_contact(placed_for_points(scene.geometry, here, kinematics(scene.geometry, here).theta), at).slip;
+          const auto circle = placed_circle(scene.geometry, here, kinematics(scene.geometry, here).theta);
+          return on_circle(circle, ideal.s, scene.geometry.interface_offset).slip;
         };
         const double dt = 1e-3 / 112.;
         EXPECT_NEAR((slip(dt) - slip(-dt)) / (2. * dt), sliding_speed(scene.geometry, position, speed), 1e-7);

@@ -36,9 +36,9 @@ namespace
       const auto &before = step.history.front();
       using N            = Dual<double, 1>; // of the slip
       const double slip = step.end[0] - step.begin.position[0], was = before.traction[0];
-      const auto friction   = end_friction(SlipLaw{ law, holding }, slip_history<1>(before),
-                                           Several<N, 1>{ { variable<N>(slip, 0) } }, N{} + normal, step.weights.dt);
-      const double delay    = step.weights.delay();
+      const auto friction = end_friction(SlipLaw{ law, holding }, slip_history(before), Several<N, 1>{ { variable<N>(slip, 0) } },
+                                         N{} + normal, step.weights.dt);
+      const double delay  = step.weights.delay();
       const double traction = friction.traction[0].v, change = traction - was;
       found.forces.values[0]           = -(0.5 * (was + traction) + delay * change);
       found.forces.tangent(0, 0)       = -(0.5 + delay) * friction.traction[0].d[0];

@@ -11,7 +11,6 @@ namespace sprag
   {
   public:
     static constexpr bool uses_rates       = false;
-    static constexpr bool keeps_tangent    = false;
     static constexpr bool stands_for_layer = false;
     static constexpr bool looks_beside     = false;
     static constexpr unsigned int levers   = 1;
@@ -44,6 +43,11 @@ namespace sprag
         return depth;
       }
     };
+
+    bool keeps_tangent() const
+    {
+      return false;
+    }
 
     double gap_change(const Evaluation &, const dealii::Vector<double> &, unsigned int) const
     {

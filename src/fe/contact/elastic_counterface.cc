@@ -333,18 +333,18 @@ namespace sprag
     auto over_step         = step_to(kinematics, 0.);
     if (!at_end)
     {
-      const auto bent        = bends(side.element_facets, force, side.at, coordinates, R, movement);
-      over_step.gap_begin    = before.gap;
-      over_step.gap_bend     = bent.gap;
-      over_step.slip_bend[0] = bent.slip;
+      const auto bent     = bends(side.element_facets, force, side.at, coordinates, R, movement);
+      over_step.gap_begin = before.gap;
+      over_step.gap_bend  = bent.gap;
+      over_step.slip_bend = bent.slip;
     }
     SlipShift shift;
     if (step.terms.travel != 0.)
       shift = slip_shift(face, state.index, slope(state.index), step.terms.travel,
                          unwinding_stiffness(step.terms.augmented, step.law.slip.stiffness), step.history,
                          [this](const unsigned int q) { return slip_at_begin(q); });
-    over_step.slip_shift[0] = stretch * shift.slip + shift.elastic;
-    const auto response     = step_response(over_step, history, step.law);
+    over_step.slip_shift = stretch * shift.slip + shift.elastic;
+    const auto response  = step_response(over_step, history, step.law);
 
     static_cast<PointTraction &>(state) = response;
     state.history.point                 = state.index;
@@ -352,7 +352,7 @@ namespace sprag
     state.elastic_slip =
         (response.traction - (step.terms.augmented ? history.traction : Slip())).norm() / step.law.slip.stiffness;
     sums.stored += force.weight * response.energy;
-    sums.work.drive += force.weight * response.mean_traction[0] * stretch * step.surface_run;
+    sums.work.drive += force.weight * response.mean_traction * stretch * step.surface_run;
     sums.work.friction += force.weight * response.friction;
     sums.work.algorithmic += force.weight * response.algorithmic;
     sums.work.creep  = std::max(sums.work.creep, response.creep);
@@ -361,7 +361,7 @@ namespace sprag
     values.add(force.weight * response.force[0], rows.gap, force.weight * response.force[1], rows.slip);
     force_on_cylinder +=
         force.weight * (response.force[0] * rows.gap[coordinates.x()] + response.force[1] * rows.slip[coordinates.x()]);
-    const double d_shift = response.d_shift[0][0];
+    const double d_shift = response.d_shift;
     if (shift.d_slope * d_shift != 0.)
       add_shift(last, state.index, shift, d_shift);
     add_tangent(response, force, stretch, run, share);

@@ -17,10 +17,14 @@ namespace sprag
   class FaceContact : public ContactFace<dim>
   {
   public:
-    static constexpr bool keeps_tangent = true;
-
     /// `elastic_cylinder`: the face of an elastic cylinder; without elements it is rigid. Faces must outlive the contact.
     FaceContact(const FrictionFace<dim> &face_, FaceProperties properties_, const FrictionFace<dim> &elastic_cylinder = {});
+
+    /// Returns true if forces may be evaluated without a tangent, which steps in time keep, and Request::complete adds the rest.
+    bool keeps_tangent() const
+    {
+      return elastic == nullptr;
+    }
 
     /// Evaluates forces and penetration of a step, in time or without inertia, and the tangent or what Request::complete adds.
     /// Without inertia it finds points in any case: where it is augmented all near the cylinder, else those of

@@ -69,11 +69,4 @@ namespace sprag
              { { arc * cos_beta, -(arc * sin_beta), -(arc * (cos_beta * circle.eta + sin_beta * circle.xi)) - circle.radius,
                  arc * (cos_beta * circle.cosine + sin_beta * circle.sine) } } };
   }
-
-  /// The circle in numbers with derivatives by the coordinates of a point.
-  using CircleOfPoints = PlacedCircle<Dual<double, 4>>;
-  CircleOfPoints placed_for_points(const Geometry &geometry, double x, double theta);
-
-  /// Returns gap and slip of a point with first and second derivatives, see on_circle().
-  ContactKinematics<4> moving_circle_contact(const CircleOfPoints &circle, const LeverPoint &point);
 } // namespace sprag

@@ -20,7 +20,6 @@ namespace sprag
   {
   public:
     static constexpr bool uses_rates       = Contact::uses_rates;
-    static constexpr bool keeps_tangent    = Contact::keeps_tangent;
     static constexpr bool stands_for_layer = Contact::stands_for_layer;
     static constexpr bool looks_beside     = Contact::looks_beside;
     static constexpr unsigned int levers   = 2;
@@ -59,6 +58,11 @@ namespace sprag
         , layout(layout_)
         , points(points_)
     {
+    }
+
+    bool keeps_tangent() const
+    {
+      return contact[0]->keeps_tangent();
     }
 
     void evaluate(const InterfaceStep &step, Evaluation &found) const

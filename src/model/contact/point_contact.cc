@@ -244,12 +244,12 @@ namespace sprag
 
     StepKinematics<n> k;
     set_balance(balance, share, change, k);
-    k.gap_begin          = gap(found.node, q_0);
-    k.gap_end            = end.gap;
-    k.gap_row_end        = end.gap_row;
-    k.slip_change[0]     = balance.slip_row * change - delay * k.slip_bend[0];
-    k.slip_change_row[0] = balance.slip_row + change * k.slip_curvature[0] -
-                           delay * (balance.slip_curvature * change + change * balance.slip_curvature);
+    k.gap_begin       = gap(found.node, q_0);
+    k.gap_end         = end.gap;
+    k.gap_row_end     = end.gap_row;
+    k.slip_change     = balance.slip_row * change - delay * k.slip_bend;
+    k.slip_change_row = balance.slip_row + change * k.slip_curvature -
+                        delay * (balance.slip_curvature * change + change * balance.slip_curvature);
     k.gap_rate_end = end.gap_row * end_rates;
     k.gap_rate_row = step.weights.rate() * end.gap_row + end.gap_curvature * end_rates;
     return k;
@@ -261,7 +261,7 @@ namespace sprag
     const Local end_rates = rates(found.node, step.end_rate, step.to.v);
     const double surface  = step.to.surface - step.from.surface;
     auto kinematics       = step_kinematics(step, end_rates, found);
-    kinematics.slip_change[0] += surface;
+    kinematics.slip_change += surface;
     StepContactLaw law;
     law.normal              = properties.normal;
     law.damping             = properties.damping;
@@ -270,7 +270,7 @@ namespace sprag
     auto &response          = found.response;
     response                = step_response(kinematics, step.history.front(), law);
     found.slip_rate         = found.end.slip_row * end_rates + surface / step.weights.dt;
-    const double drive_work = -response.force[x_index] * (step.to.x - step.from.x) + response.mean_traction[0] * surface;
+    const double drive_work = -response.force[x_index] * (step.to.x - step.from.x) + response.mean_traction * surface;
     found.works             = { drive_work, response.friction, response.damping, response.algorithmic, response.creep };
     sum_forces(found);
   }

@@ -51,7 +51,6 @@ namespace sprag
 
   public:
     static constexpr bool uses_rates       = true;
-    static constexpr bool keeps_tangent    = false;
     static constexpr bool stands_for_layer = true; ///< its springs are physical, not penalties
     static constexpr bool looks_beside     = false;
     static constexpr unsigned int levers   = 1;
@@ -95,6 +94,12 @@ namespace sprag
     };
 
     explicit PointContact(PointContactProperties properties);
+
+    /// Returns whether forces may be evaluated without a tangent, which steps in time then keep.
+    bool keeps_tangent() const
+    {
+      return false;
+    }
 
     /// Evaluates a step in time.
     void evaluate(const InterfaceStep &step, Evaluation &found) const;

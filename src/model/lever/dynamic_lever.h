@@ -128,8 +128,8 @@ namespace sprag
       StepOutcome outcome;
       dealii::Vector<double> z;
       auto tangent       = accepted.tangent;
-      const auto solved  = solve_step<Contact::keeps_tangent>({ structure->compliance(), free, frame.lengths, near }, evaluate,
-                                                             weights, accepted.forces, factors, tangent, z);
+      const auto solved  = solve_step(contact->keeps_tangent(), { structure->compliance(), free, frame.lengths, near }, evaluate,
+                                      weights, accepted.forces, factors, tangent, z);
       outcome.iterations = solved.newton.iterations;
       if (!solved.newton.converged)
         return outcome;
@@ -139,7 +139,7 @@ namespace sprag
         return step(accepted, to, weights);
       }
 
-      if constexpr (Contact::keeps_tangent)
+      if (contact->keeps_tangent())
         evaluate(z, Request::complete);
       Motion motion  = completed(structure->advance(accepted, *solved.forces, to), to, *solved.forces);
       motion.tangent = std::move(tangent);

@@ -144,14 +144,14 @@ namespace sprag
 
   /// Solves the equations of a step in time from a guess of its forces: where the contact keeps its Jacobian by that, else, and
   /// where that does not lead there, by solve_interface(), which leaves none.
-  template <bool keeps_tangent, class Contact>
-  InterfaceSolution solve_step(const InterfaceEquations &equations, const Contact &contact_at, const StepWeights &weights,
-                               const DofLoads &guess, JacobianFactors &factors, std::shared_ptr<const StoredJacobian> &jacobian,
-                               dealii::Vector<double> &z)
+  template <class Contact>
+  InterfaceSolution solve_step(const bool keeps_tangent, const InterfaceEquations &equations, const Contact &contact_at,
+                               const StepWeights &weights, const DofLoads &guess, JacobianFactors &factors,
+                               std::shared_ptr<const StoredJacobian> &jacobian, dealii::Vector<double> &z)
   {
     unsigned int iterations = 0;
     z                       = equations.free;
-    if constexpr (keeps_tangent)
+    if (keeps_tangent)
     {
       const auto result = ModifiedNewton(equations, contact_at, weights, factors).solve(guess, jacobian, z, left_out_in_time);
       if (result.newton.converged)
