@@ -45,6 +45,15 @@ namespace sprag
                          std::to_string(least_stack / 1024) + " kB");
     }
 
+    void require_processor()
+    {
+#ifdef __AVX2__
+      if (!__builtin_cpu_supports("avx2"))
+        throw InputError("this build needs a processor with AVX2, which this one lacks: configure it anew here, or with "
+                         "-DSPRAG_AVX2=OFF");
+#endif
+    }
+
     std::string describe_end(const WorkEnd &end)
     {
       const bool by_user = end.requested || end.signal == SIGINT || end.signal == SIGTERM || end.signal == SIGHUP;
@@ -165,6 +174,7 @@ int main(int argc, char **argv)
   const std::timespec since = file_time();
   try
   {
+    require_processor();
     require_stack();
     if (under_mpi() && arguments.print_parameters.empty())
       execute_beside("sprag-models", argv);
