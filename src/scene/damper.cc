@@ -56,18 +56,27 @@ namespace sprag
       const double n     = scene.isolation.levers;
       const double reach = lever_reach(scene.geometry);
       const auto law     = moment_law(scene.spring);
-      const double rest  = kinematics(scene.geometry, 0.).theta;
-      const auto turn    = [=](const double y) { return kinematics(scene.geometry, std::min(y, reach)).theta - rest; };
-
-      Damper damper;
-      damper.resistance = [=, friction = scene.friction, geometry = scene.geometry](const double y, const double speed, int away)
+      const double begin = kinematics(scene.geometry, 0.).theta, rest = scene.spring.rest_angle;
+      const auto turn  = [=](const double x) { return kinematics(scene.geometry, std::min(x, reach)).theta - begin; };
+      const auto lever = [=, friction = scene.friction, geometry = scene.geometry](const double x, const double speed, int away)
       {
-        const auto contact  = kinematics(geometry, std::min(y, reach));
-        const double moment = law.moment(contact.theta - rest);
-        const auto state    = closed_form(geometry, friction, moment, contact, std::copysign(std::max(0., speed), away));
+        const auto contact = kinematics(geometry, std::min(x, reach));
+        const auto state =
+            closed_form(geometry, friction, law.moment(contact.theta - begin), contact, std::copysign(std::max(0., speed), away));
         return Resistance{ n * state.Q, n * std::abs(state.F * state.v_rel) };
       };
-      damper.energy         = [=](const double y) { return n * law.energy(turn(y)); };
+
+      Damper damper;
+      // A preload presses those for the other sign of z as well, to where their springs are at rest.
+      damper.resistance = [=](const double y, const double speed, const int away)
+      {
+        const auto here = lever(y, speed, away);
+        if (rest == 0. || turn(-y) <= rest)
+          return here;
+        const auto other = lever(-y, speed, -away);
+        return Resistance{ here.force - other.force, here.dissipated + other.dissipated };
+      };
+      damper.energy         = [=](const double y) { return n * (law.energy(turn(y)) + law.energy(std::max(turn(-y), rest))); };
       damper.reach          = reach;
       damper.end            = "the cylinder reaches the lever's pivot, or would slide the other way along the lever";
       damper.locking_margin = [=](const double y, const double speed)

@@ -317,6 +317,52 @@ TEST(Isolation, LeversKeepTheLedgerOfSpringAndFriction)
   EXPECT_LT(found.energy_residual, 1e-9);
 }
 
+// Constant mu: the force depends on z and its direction alone, so that work gives each turn from the one before.
+TEST(Isolation, APreloadHoldsTheTableAsFarOffAsItsWorkLeavesIt)
+{
+  Scene scene                          = isolated(DamperType::lever);
+  scene.friction.law                   = CoulombFriction{ 0.73 };
+  scene.isolation.levers               = 1;
+  scene.spring.rest_angle              = -0.01;
+  scene.isolation.initial_displacement = 60.;
+  const double R = 56., e = 45.6, l = 185.5, k = 7.4e4, mu = 0.73, K = 2., theta_0 = std::asin((R - e) / l);
+  // Those for z > 0 press to z = -40, as far as their springs' rest, those for z < 0 to 40.
+  const auto levers = [&](const double x, const int direction)
+  {
+    const double theta = std::asin((R - e) / (l - x)), s = (l - x) * std::cos(theta);
+    const double P = std::max(0., k * (theta - theta_0 + 0.01)) / (s + direction * mu * e);
+    return P * (std::sin(theta) + direction * mu * std::cos(theta));
+  };
+  const auto force = [&](const double z, const int direction) { return K * z + levers(z, direction) - levers(-z, -direction); };
+  const double spacing = 1e-3; // the trapezoidal rule's step [mm]
+  double z             = 60.;
+  int direction        = -1;
+  std::vector<double> turns;
+  while (direction * force(z, direction) < 0.)
+  {
+    // Over the last step the work is a parabola's.
+    double work = 0., next = 0.;
+    for (;; z += direction * spacing, work = next)
+    {
+      next = work - spacing * 0.5 * direction * (force(z, direction) + force(z + direction * spacing, direction));
+      if (next < 0.)
+        break;
+    }
+    z += direction * work / (direction * force(z, direction));
+    turns.push_back(z);
+    direction = -direction;
+  }
+  const auto found = compute_findings(scene);
+  ASSERT_EQ(found.turns, turns.size());
+  EXPECT_TRUE(found.rests);
+  EXPECT_GT(std::abs(found.residual_offset), 0.1);
+  EXPECT_NEAR(found.residual_offset, turns.back(), 1e-5);
+  EXPECT_LT(found.energy_residual, 1e-8);
+  const auto by_run = find_turns(scene);
+  for (std::size_t i = 0; i < turns.size(); ++i)
+    EXPECT_NEAR(by_run[i].z, turns[i], 1e-5);
+}
+
 TEST(Isolation, ARestoringLeverIsLinearFriction)
 {
   Scene scene                        = isolated(DamperType::restoring_lever);
