@@ -561,9 +561,10 @@ namespace sprag
     }
   } // namespace
 
-  void run_design(const Scene &scene, const RunOptions &options, Warnings &warnings)
+  void run_design(const Scene &input, const RunOptions &options, Warnings &warnings)
   {
     PhaseTimer timer;
+    const Scene scene  = at_table_speed(input);
     const auto &design = scene.design;
     ResultWriter writer(scene, options, timer, design_columns(design));
     remove_files(options.folder, [](const std::string &name) // of an earlier run

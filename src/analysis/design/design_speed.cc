@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/design/design_speed.h"
 
-#include "analysis/design/design_problem.h"
+#include "analysis/design/design_search.h"
 #include "analytic/harmonic_balance.h"
+#include "base/text.h"
 #include "base/unknown.h"
+#include "input/read.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
 
@@ -14,6 +16,11 @@ namespace sprag
 {
   namespace
   {
+    double table_speed(const Scene &lever, const double amplitude)
+    {
+      return 2. * M_PI * lever.isolation.base_frequency * amplitude;
+    }
+
     /// Returns the largest amplitude of the table over a base that vibrates [mm]; NaN where the design has no such table, or no
     /// motion that the levers hold.
     double table_amplitude(const Scene &lever)
@@ -34,13 +41,34 @@ namespace sprag
     }
   } // namespace
 
+  Scene at_table_speed(const Scene &design)
+  {
+    constexpr unsigned int most_rounds = 8;
+    constexpr double same              = 0.01; // of the speed
+    Scene result                       = design;
+    const bool is_open = asks_for(design.design, is_table_quantity) && design.isolation.base == BaseMotionType::harmonic &&
+                         design.specified.count("Drive/Speed") == 0 && design.drive.profile() != DriveProfile::table;
+    for (unsigned int round = 0; is_open && round < most_rounds; ++round)
+    {
+      const auto found = best_lever(DesignProblem(result)).lever;
+      if (!(found.rule.violation < 0.))
+        break;
+      const Scene lever      = variant(result, design_overrides(result, found));
+      const double amplitude = table_amplitude(lever), speed = table_speed(lever, amplitude);
+      if (!(std::abs(speed / lever.drive.peak_speed() - 1.) > same))
+        break;
+      result = variant(result, { override_text("Drive/Speed", speed) });
+    }
+    return result;
+  }
+
   DesignSpeed design_speed(const Scene &lever, const std::vector<double> &values)
   {
     constexpr double slower = 0.1;
     const auto mu_at        = [&](const double speed) { return closed_form(lever, 0., speed).mu; };
     const double speed      = lever.drive.peak_speed();
     const double amplitude  = table_amplitude(lever);
-    const double other      = std::isnan(amplitude) ? slower * speed : 2. * M_PI * lever.isolation.base_frequency * amplitude;
+    const double other      = std::isnan(amplitude) ? slower * speed : table_speed(lever, amplitude);
     DesignSpeed result      = { speed, mu_at(speed), other, mu_at(other), amplitude, lever.drive.maximum(), {}, {} };
     Scene there             = lever;
     if (result.mu > 0.)

@@ -8,6 +8,10 @@ namespace sprag
 {
   struct Scene;
 
+  /// Returns a design's scene whose Drive/Speed is that of the isolated table on the lever found with it, within 1 %; the scene
+  /// itself where that is given, or no table or motion of it is asked for or found.
+  Scene at_table_speed(const Scene &design);
+
   /// A demand that a lever meets at the design's speed and misses at another.
   struct MissedDemand
   {
