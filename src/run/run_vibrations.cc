@@ -8,6 +8,7 @@
 #include "input/read.h"
 #include "laws/friction_law.h"
 #include "levers/prepared_scene.h"
+#include "model/lever/reduced_lever.h"
 #include "model/structure/eigenmodes.h"
 #include "program/result_writer.h"
 #include "report/warnings.h"
@@ -71,7 +72,7 @@ namespace sprag
         const double slope  = (growth_at(limit.value + distance) - growth_at(limit.value - distance)) / (2. * distance);
         const Scene held    = slide_at(limit.value);
         const auto dynamics = maker.make(held);
-        const auto found    = check_slide(dynamics.model(), held_drive(held), checked_modes(held));
+        const auto found    = check_slide(dynamics.model(), held_drive(held), checked_modes(held, true));
         if (!is_meshed(scene.analysis.model))
           return found.error / std::abs(slope);
         const auto accuracy = vibration_accuracy(held, found, dynamics.meshed, maker);
@@ -298,10 +299,12 @@ namespace sprag
       const Scene scene = slide_scene(whole, swept.worst());
       auto idle         = ranges_without_effect(whole, swept);
       {
-        const Scene held    = held_scene(scene);
-        const auto dynamics = maker.make(held);
-        found =
-            timed(timer, search_phase, [&] { return check_slide(dynamics.model(), held_drive(scene), checked_modes(scene)); });
+        const Scene held = held_scene(scene);
+        auto dynamics    = maker.make(held);
+        found            = timed(timer, search_phase,
+                                 [&] { return check_slide(dynamics.model(), held_drive(scene), checked_modes(scene, true)); });
+        if (found.elements > beam_elements)
+          dynamics.reduced = make_reduced_lever(held, found.elements);
         result.meta = meshed_entries(dynamics);
         auto modes  = reported(found.modes, scene.stability.modes);
         if (dynamics.solid)

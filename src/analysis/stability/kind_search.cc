@@ -38,7 +38,9 @@ namespace sprag
     {
       if (slide.kind == SlideKind::jammed)
         return 3;
-      return !is_unstable(slide.kind) ? 0 : slide.growth_rate > slide.error ? 2 : 1;
+      if (!is_decided({ slide.growth_rate, 2. * M_PI * slide.frequency }, slide.error))
+        return 1;
+      return is_unstable(slide.kind) ? 2 : 0;
     }
 
     using Window = std::array<Tried, 3>;

@@ -32,8 +32,8 @@ namespace sprag
     std::vector<double> growth_rates;    ///< of the modes by increasing |lambda| [1/s]; empty for the worst of several
   };
 
-  /// Returns whether a is worse than b: jammed before unstable before stable, then by the larger growth rate. One that grows by
-  /// less than its error comes behind those that grow by more.
+  /// Returns whether a is worse than b: jammed before unstable before stable, then by the larger growth rate. One whose
+  /// growth is smaller than its error comes between those that surely grow and those that surely die out.
   bool is_worse(const CheckedSlide &a, const CheckedSlide &b);
 
   /// Returns whether two slides have bitwise equal growth rates and forces. Slides that jam (NaN) never have.

@@ -3,6 +3,7 @@
 
 #include "base/errors.h"
 #include "base/unknown.h"
+#include "model/lever/reduced_lever.h"
 #include "model/structure/eigenmodes.h"
 #include "scene/held_slide.h"
 #include "scene/lever_inertia.h"
@@ -24,6 +25,8 @@ namespace sprag
         return SlideKind::stable;
       return worst.imag() > smallest_growth * std::abs(worst) ? SlideKind::flutter : SlideKind::divergence;
     }
+
+    constexpr unsigned int most_elements = 4 * beam_elements; ///< of a beam on which a slide is checked
 
     /// Factor on the lever's Young's modulus that makes its flexure negligible.
     constexpr double rigid_factor = 1e4;
@@ -73,20 +76,23 @@ namespace sprag
     return worst_mode().symmetry > 0. ? "mirroring" : "swinging";
   }
 
-  CheckedModes checked_modes(const Scene &scene)
+  CheckedModes checked_modes(const Scene &scene, const bool refined)
   {
     CheckedModes result{ scene.stability.modes };
     if (scene.analysis.model == ModelType::beam)
     {
       result.up_to            = highest_beam_frequency(scene);
       result.length_frequency = bending_frequency(scene, scene.lever.length);
+      if (refined)
+        result.finer_beam = [held = held_scene(scene)](const unsigned int elements)
+        { return make_reduced_lever(held, elements); };
     }
     return result;
   }
 
   double CheckedModes::growth_error(const std::complex<double> lambda) const
   {
-    constexpr double share = 3e-4;
+    const double share = 9e-4 * std::pow(static_cast<double>(beam_elements) / elements, 3);
     if (std::isinf(length_frequency))
       return 0.;
     return share * std::abs(lambda) * std::max(1., lambda.imag() / (2. * M_PI * length_frequency));
@@ -151,14 +157,25 @@ namespace sprag
     result.worst = static_cast<std::size_t>(first - result.modes.begin());
     result.kind  = classify(*result.slide, result.worst_mode().mode.eigenvalue);
     result.error = modes.growth_error(result.worst_mode().mode.eigenvalue);
-    return result;
+    if (!grows(result.worst_mode()))
+      for (const auto &mode : result.modes)
+        result.error =
+            std::max(result.error, mode.mode.eigenvalue.real() - result.growth_rate() + modes.growth_error(mode.mode.eigenvalue));
+    result.elements = modes.elements;
+    if (result.is_decided() || !modes.finer_beam || modes.elements >= most_elements)
+      return result;
+    auto finer = modes;
+    finer.elements *= 2;
+    auto by_finer   = check_slide(*modes.finer_beam(finer.elements), slide->drive, finer);
+    by_finer.beyond = result.beyond; // finer beams have ever faster modes
+    return by_finer;
   }
 
   SlideStability check_slide(const Scene &scene, DynamicsMaker &maker)
   {
     const Scene held    = held_scene(scene);
     const auto dynamics = maker.make(held);
-    return check_slide(dynamics.model(), held_drive(scene), checked_modes(held));
+    return check_slide(dynamics.model(), held_drive(scene), checked_modes(held, true));
   }
 
   std::vector<Role> roles(const Scene &scene, const SlideStability &present, DynamicsMaker &maker)
