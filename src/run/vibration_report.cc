@@ -248,10 +248,11 @@ namespace sprag
       {
         const bool is_friction = range.name == "Friction/Factor" && !std::isnan(critical.mu);
         // The value that is printed must lie on the better side as well.
-        const bool upward  = (critical.above < critical.below) == (range.to > range.from);
-        const double value = rounded_to(critical.value, upward);
-        text += ", " + kind_name(critical.above) + " from " +
-                (std::isnan(critical.error)
+        const bool upward   = (critical.above < critical.below) == (range.to > range.from);
+        const double value  = rounded_to(critical.value, upward);
+        const bool is_known = !(critical.error > 0.5 * std::abs(critical.value));
+        text += ", " + std::string(is_known ? "" : "undecided, ") + kind_name(critical.above) + " from " +
+                (std::isnan(critical.error) || !is_known
                      ? with_unit(value, unit)
                      : four_digits(value) + " +- " + formatted("%.2g", critical.error) + (unit == "1" ? "" : ' ' + unit)) +
                 (is_friction ? " (mu = " + four_digits(rounded_to(critical.mu, upward)) + ")" : "") +

@@ -407,6 +407,10 @@ class BeamError(RunTest):
             found[share] = self.read("summary")
         slope = (found[1.04]["growth_rate"] - found[0.96]["growth_rate"]) / (0.08 * limit)
         self.assertAlmostEqual(half_width, 9e-4 / 4**3 * 2 * np.pi * found[1]["frequency"] / abs(slope), delta=0.01 * half_width)
+        # Without damping its error is wider than a limit of friction.
+        friction = (*self.UNDAMPED, "Lever/Depth=20", "Contact/Damping=0", "Stability/Critical=Friction/Factor 0 3", "Stability/Roles=off")
+        self.assertRegex(self.completed("stability-a", friction), r"stable, undecided, flutter from 0\.114\d* \(mu")
+        self.assertGreater(self.read("summary")["critical_friction_factor_1_error"], 0.114)
 
 
 class SearchProgress(RunTest):
