@@ -263,7 +263,7 @@ namespace sprag
 
       void continue_along()
       {
-        Continuation continuation(model, run, held_drive(scene), times, checked_modes(scene), settings);
+        Continuation continuation(model, run, held_drive(scene), times, with_shapes(checked_modes(scene)), settings);
         const double turn = settings.turn.value_or(scene.drive.minimum());
         const auto note   = [&]
         {
@@ -304,7 +304,7 @@ namespace sprag
         {
           const PhaseTimer::Scope scope(maker.timer(), "steps_and_output");
           const auto drive = held_drive(scene);
-          found.slide      = check_slide(dynamics.model(), drive, checked_modes(scene));
+          found.slide      = check_slide(dynamics.model(), drive, with_shapes(checked_modes(scene)));
           require_slide(found, drive.x);
           Study{ scene, dynamics.model(), writer, progress, found, warnings, estimates_errors(scene, options) }.carry_out();
           check_ledger(scene, found.ledger);

@@ -299,10 +299,10 @@ namespace sprag
       const Scene scene = slide_scene(whole, swept.worst());
       auto idle         = ranges_without_effect(whole, swept);
       {
-        const Scene held = held_scene(scene);
-        auto dynamics    = maker.make(held);
-        found            = timed(timer, search_phase,
-                                 [&] { return check_slide(dynamics.model(), held_drive(scene), checked_modes(scene, true)); });
+        const Scene held   = held_scene(scene);
+        auto dynamics      = maker.make(held);
+        const auto checked = with_shapes(checked_modes(scene, true));
+        found = timed(timer, search_phase, [&] { return check_slide(dynamics.model(), held_drive(scene), checked); });
         if (found.elements > beam_elements)
           dynamics.reduced = make_reduced_lever(held, found.elements);
         result.meta = meshed_entries(dynamics);

@@ -21,7 +21,7 @@ namespace sprag
     explicit JudgedSlide(const Scene &scene_)
         : scene(held_scene(scene_))
         , dynamics(DynamicsMaker().make(scene))
-        , stability(check_slide(dynamics.model(), held_drive(scene), checked_modes(scene)))
+        , stability(check_slide(dynamics.model(), held_drive(scene), with_shapes(checked_modes(scene))))
     {
     }
 
@@ -45,7 +45,7 @@ namespace sprag
     {
       DrivePoint there = held_drive(scene);
       there.x          = x;
-      return check_slide(dynamics.model(), there, checked_modes(scene));
+      return check_slide(dynamics.model(), there, with_shapes(checked_modes(scene)));
     }
   };
 

@@ -178,7 +178,7 @@ TEST(Continuation, FindsWhereASlideAndACycleCoexistSlow)
   const auto &settings = scene.sprag_slip;
   const SettlingTimes times{ checked.step() * settings.steps_per_period, settings.settling,
                              std::max(settings.settling, settings.longest_growth) };
-  Continuation continuation(checked.dynamics.model(), run, held_drive(scene), times, checked_modes(scene), settings);
+  Continuation continuation(checked.dynamics.model(), run, held_drive(scene), times, with_shapes(checked_modes(scene)), settings);
   unsigned int calls = 0;
   continuation.go(checked.stability, start, 38., [&] { ++calls; });
   EXPECT_GE(calls, 13u);

@@ -79,6 +79,7 @@ namespace sprag
   CheckedModes checked_modes(const Scene &scene, const bool refined)
   {
     CheckedModes result{ scene.stability.modes };
+    result.explained = scene.pair.type == PairType::full;
     if (scene.analysis.model == ModelType::beam)
     {
       result.up_to            = highest_beam_frequency(scene);

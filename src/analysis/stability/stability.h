@@ -33,7 +33,7 @@ namespace sprag
   {
     unsigned int lowest;                                               ///< at least so many are found
     double up_to            = std::numeric_limits<double>::infinity(); ///< [Hz]; the model cannot have faster ones
-    bool explained          = true; ///< else their eigenvalues alone are found, in half the time
+    bool explained          = false; ///< with shapes and shares, which take as long again as their eigenvalues
     double length_frequency = std::numeric_limits<double>::infinity(); ///< [Hz] of waves as long as a beam
 
     /// Makes a beam of so many elements, with which a slide that fewer leave undecided is checked; none: it is not.
@@ -46,8 +46,16 @@ namespace sprag
     double growth_error(std::complex<double> lambda) const;
   };
 
-  /// Returns those of the scene's model; see highest_beam_frequency(). `refined`: with finer beams.
+  /// Returns those of the scene's model, explained for a pair, whose motion() they say; see highest_beam_frequency(). `refined`:
+  /// with finer beams.
   CheckedModes checked_modes(const Scene &scene, bool refined = false);
+
+  /// Returns the same, explained.
+  inline CheckedModes with_shapes(CheckedModes modes)
+  {
+    modes.explained = true;
+    return modes;
+  }
 
   /// A steady slide and its vibrations.
   struct SlideStability

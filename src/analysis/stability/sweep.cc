@@ -122,8 +122,7 @@ namespace sprag
                                 SharedEquilibria::mapped_type &equilibria)
     {
       const bool over_stroke = looks_over_stroke(scene);
-      auto modes             = checked_modes(scene, true);
-      modes.explained        = scene.pair.type == PairType::full; // whose motion() the modes say
+      const auto modes       = checked_modes(scene, true);
       const auto check_at    = [&](const double x)
       {
         DrivePoint drive = held_drive(scene);
