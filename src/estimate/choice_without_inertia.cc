@@ -142,7 +142,9 @@ namespace sprag
         const auto [from, to] = swept_contact(scene);
         width                 = estimated_contact_width(scene, contact_reference(scene).P);
         const double target   = scene.accuracy.target;
-        is_coarse             = forces_only && !scene.accuracy.is_model_open && faces_behind_reversal(target) <= trial_faces;
+        if (needs_no_trial(target))
+          return;
+        is_coarse = forces_only && !scene.accuracy.is_model_open && faces_behind_reversal(target) <= trial_faces;
         solve_trial_runs(std::max(width / (is_coarse ? faces_for_forces : trial_faces), (to - from) / most_trial_faces));
         const auto is_too_far = [&]
         {
@@ -192,12 +194,34 @@ namespace sprag
     private:
       Scene scene;
       const bool enforcement_is_open, grading_is_open, forces_only;
+      bool is_guessed  = false;               ///< without a trial run
       bool is_coarse   = false;               ///< with the fewest faces in the first trial runs
       bool is_refined  = false;               ///< after the first trial runs
       double width     = 0.;                  ///< of the contact where P is largest [mm]
       double face_size = 0.;                  ///< of the finer trial run [mm]
       std::vector<double> errors;             ///< of the finer trial run, of each quantity
       std::vector<double> closed_form_errors; ///< of the closed form; infinite of what it does not tell
+
+      /// Returns whether the fewest faces suffice for a target, and sets these and their errors if so. The error of the pressure
+      /// is that of the warning coarse_contact.
+      bool needs_no_trial(const double target)
+      {
+        constexpr double pressure_error = 0.8; // times the cube of the faces
+        constexpr double loose          = pressure_error / (least_faces * least_faces * least_faces) / contact_mesh_share;
+        const auto is_simple            = [](const std::string &quantity)
+        { return is_force_quantity(quantity) || quantity == "largest_pressure"; };
+        const auto &requested = scene.accuracy.quantities;
+        const double faces    = forces_only ? faces_for_forces : least_faces;
+        if (!(target >= loose) || scene.accuracy.is_model_open || scene.mesh.degree != 2 ||
+            faces_behind_reversal(target) > faces || !std::all_of(requested.begin(), requested.end(), is_simple))
+          return false;
+        is_guessed = true;
+        face_size  = width / faces;
+        for (const auto &quantity : requested)
+          errors.push_back(is_force_quantity(quantity) ? 0. : contact_mesh_share * loose);
+        closed_form_errors.assign(errors.size(), std::numeric_limits<double>::infinity());
+        return true;
+      }
 
       /// Returns the faces in contact that a target needs behind a reversal; infinite without a target.
       double faces_behind_reversal(const double target) const
@@ -237,7 +261,7 @@ namespace sprag
       {
         // Beyond the coarser of the first trial runs the contact may be narrower than a face; what a refined one found holds for
         // itself.
-        double result = is_refined || is_coarse ? face_size : coarser * face_size;
+        double result = is_refined || is_coarse || is_guessed ? face_size : coarser * face_size;
         for (std::size_t i = 0; i < errors.size(); ++i)
         {
           const auto &quantity = scene.accuracy.quantities[i];
@@ -269,9 +293,10 @@ namespace sprag
         }
         choice.settings.push_back(
             { "Mesh/Face size", rounded_text(size),
-              is_shorter ? "the largest P and Q behind a reversal need " + rounded_text(width / size) + " faces in contact"
-                         : "a probe with " + rounded_text(face_size) + " mm is " +
-                               percent(*std::max_element(errors.begin(), errors.end())) + " off" });
+              is_shorter   ? "the largest P and Q behind a reversal need " + rounded_text(width / size) + " faces in contact"
+              : is_guessed ? rounded_text(width / size) + " faces in contact suffice"
+                           : "a probe with " + rounded_text(face_size) + " mm is " +
+                                 percent(*std::max_element(errors.begin(), errors.end())) + " off" });
         if (scene.cylinder.type != CylinderType::rigid && is_open(scene, "Cylinder/Face size"))
           choice.settings.push_back(
               { "Cylinder/Face size", rounded_text(with_face_size(scene, size).cylinder.face_size), "as on the lever" });
