@@ -53,15 +53,20 @@ namespace sprag
       return quantity == "P" || quantity == "Q" || quantity == "loop_area";
     }
 
-    /// Returns the error of P and Q behind a reversal times the square of the faces in contact. It goes with the square of mu,
-    /// and is the larger where mu rises with speed: slip spreads the more slowly. Measured on models A and B and two other
-    /// devices with mu of 0.4 to 1.5 and 1 to 8 faces in contact: half to twice as much.
-    double reversal_error(const Scene &scene)
+    /// Returns the faces in contact that P and Q need behind a reversal for a target; infinite without a target. Their error goes
+    /// with the square of mu and of the face size, and is the larger where mu rises with speed: slip spreads the more slowly. On
+    /// models A and B and two other devices, with mu of 0.4 to 1.5 and 1 to 8 faces, it is half to twice that taken here. Of a
+    /// contact narrower than four faces the run tells too large an error for a tight target; its width is taken up to a fifth too
+    /// large here.
+    double faces_behind_reversal(const Scene &scene, const double target)
     {
-      const double speed = scene.drive.peak_speed();
-      const auto law     = step_friction(scene.friction, speed);
-      const double mu    = friction_coefficient(law, speed).coefficient;
-      return (friction_coefficient(law, 0.).coefficient < mu ? 0.05 : 0.01) * mu * mu;
+      constexpr double tight = 2.5e-3;
+      const double speed     = scene.drive.peak_speed();
+      const auto law         = step_friction(scene.friction, speed);
+      const double mu        = friction_coefficient(law, speed).coefficient;
+      const bool rises       = friction_coefficient(law, 0.).coefficient < mu;
+      const double error     = (rises ? 0.05 : 0.01) * mu * mu; // of one face in contact
+      return std::max(target < tight ? 5. : 0., std::sqrt(error / (reversal_share * target)));
     }
 
     double share_for(const std::string &quantity)
@@ -144,7 +149,7 @@ namespace sprag
         const double target   = scene.accuracy.target;
         if (needs_no_trial(target))
           return;
-        is_coarse = forces_only && !scene.accuracy.is_model_open && faces_behind_reversal(target) <= trial_faces;
+        is_coarse = forces_only && !scene.accuracy.is_model_open && faces_behind_reversal(scene, target) <= trial_faces;
         solve_trial_runs(std::max(width / (is_coarse ? faces_for_forces : trial_faces), (to - from) / most_trial_faces));
         const auto is_too_far = [&]
         {
@@ -213,7 +218,7 @@ namespace sprag
         const auto &requested = scene.accuracy.quantities;
         const double faces    = forces_only ? faces_for_forces : least_faces;
         if (!(target >= loose) || scene.accuracy.is_model_open || scene.mesh.degree != 2 ||
-            faces_behind_reversal(target) > faces || !std::all_of(requested.begin(), requested.end(), is_simple))
+            faces_behind_reversal(scene, target) > faces || !std::all_of(requested.begin(), requested.end(), is_simple))
           return false;
         is_guessed = true;
         face_size  = width / faces;
@@ -221,12 +226,6 @@ namespace sprag
           errors.push_back(is_force_quantity(quantity) ? 0. : contact_mesh_share * loose);
         closed_form_errors.assign(errors.size(), std::numeric_limits<double>::infinity());
         return true;
-      }
-
-      /// Returns the faces in contact that a target needs behind a reversal; infinite without a target.
-      double faces_behind_reversal(const double target) const
-      {
-        return std::sqrt(reversal_error(scene) / (reversal_share * target));
       }
 
       void solve_trial_runs(const double size)
@@ -279,12 +278,12 @@ namespace sprag
         const bool wants_peaks       = is_requested(scene, "P") || is_requested(scene, "Q");
         const bool has_reversal      = wants_peaks && !scene.drive.reversals().empty();
         const double trial_face_size = longest_face(target);
-        const double longest         = std::max(face_size / finest, width / faces_behind_reversal(target));
+        const double longest         = std::max(face_size / finest, width / faces_behind_reversal(scene, target));
         const bool is_shorter        = has_reversal && longest < trial_face_size;
         const double size            = is_shorter ? longest : trial_face_size;
         bool is_short_enough         = true;
         if (has_reversal)
-          choice.error = reversal_error(scene) * std::pow(size / width, 2);
+          choice.error = reversal_share * target * std::pow(size * faces_behind_reversal(scene, target) / width, 2);
         for (std::size_t i = 0; i < errors.size(); ++i)
         {
           const double error = errors[i] * std::pow(size / face_size, convergence_order(scene, requested[i]));
