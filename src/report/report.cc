@@ -216,6 +216,28 @@ namespace sprag
       return {};
     }
 
+    /// Adds the first stick on the way back that passes where a rigid lever locks and ends, of one lever's rows.
+    void add_stick_past_locking(const std::vector<Row> &rows, std::vector<Entry> &entries)
+    {
+      const auto moves_back = [](const Row &row) { return row[Column::v] < 0. && row[Column::P] > 0.; };
+      const Row *begin      = nullptr;
+      bool locks            = false;
+      for (const Row &row : rows)
+        if (moves_back(row) && sticks(row))
+        {
+          begin = begin == nullptr ? &row : begin;
+          locks = locks || std::isnan(row[Column::P_closed_form]);
+        }
+        else if (moves_back(row) && locks)
+          return append<Entry>(
+              entries, { { "stick_past_locking_begin", (*begin)[Column::x] }, { "stick_past_locking_end", row[Column::x] } });
+        else
+        {
+          begin = nullptr;
+          locks = false;
+        }
+    }
+
     /// Element length along the friction face [mm]; 0: none.
     double element_size(const Scene &scene)
     {
@@ -267,6 +289,7 @@ namespace sprag
     const double stored     = stored_energy(last) - stored_energy(rows.front());
     append<Entry>(entries,
                   { { "loop_area", work }, { "friction_work", dissipated }, { "energy_residual", work - dissipated - stored } });
+    add_stick_past_locking(rows, entries);
     add_largest_pressure(rows, entries, scene.mesh.face_size);
     add_slopes(scene, rows, entries);
     const double penetration = largest(rows, Column::penetration);

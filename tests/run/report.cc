@@ -62,6 +62,36 @@ namespace
   }
 } // namespace
 
+// s = mu e = 120.84 mm at l - x = sqrt(s^2 + (R - e)^2): a rigid lever locks with mu = 2.65 from x = 64.21 mm on.
+TEST(Report, StickPastLockingHasItsEnds)
+{
+  Scene scene        = model_a();
+  scene.friction.law = CoulombFriction{ 2.65 };
+  const auto summary = [&](const double slides_at)
+  {
+    std::vector<Row> rows;
+    for (const double x : { 65., 64.9, 64.3, 64.1, 63.7, 63. })
+    {
+      Row row;
+      row[Column::x]                  = x;
+      row[Column::v]                  = -112.;
+      row[Column::P]                  = 500.;
+      row[Column::mu]                 = 2.65;
+      row[Column::normal_resultant]   = 500.;
+      row[Column::friction_resultant] = x > slides_at ? -1200. : -2.65 * 500.;
+      add_closed_form(scene, row);
+      rows.push_back(row);
+    }
+    return make_summary(scene, rows);
+  };
+  const auto passed = summary(63.8);
+  EXPECT_EQ(find_value(passed, "stick_past_locking_begin"), 65.);
+  EXPECT_EQ(find_value(passed, "stick_past_locking_end"), 63.7);
+  EXPECT_EQ(find_value(summary(64.2), "stick_past_locking_end"), 64.1);
+  scene.friction.law = CoulombFriction{ 2.6 };
+  EXPECT_THROW(find_value(summary(63.8), "stick_past_locking_end"), std::out_of_range);
+}
+
 // A table's speed is 0 at its turns, and a row stands there.
 TEST(Report, StickAfterTheTurnsOfATableIsNoDeviation)
 {
