@@ -83,7 +83,7 @@ namespace sprag
         return start_at_rest(drive);
       // Velocity and acceleration from equilibria to both sides; far enough apart to average over single points of a face.
       const double h     = 1e-3 * frame.geometries.front().cylinder_radius;
-      const double ratio = slides.speed_ratio(drive, h);
+      const double ratio = slides.speed_ratio(drive, h).value_or(1.);
       const auto before  = sliding(moved(drive, -h), ratio);
       const auto after   = sliding(moved(drive, h), ratio);
       auto here          = sliding(drive, ratio);
@@ -169,22 +169,24 @@ namespace sprag
       const auto frictionless = slides.solve(drive, 1., ContactFriction::none);
       const auto free_forces  = frictionless == nullptr ? std::vector<SlidingForces>() : last_forces();
       const double nearby     = 1e-3 * frame.geometries.front().cylinder_radius;
-      auto slide              = slide_at(drive, friction, slides.speed_ratio(drive, nearby));
-      if (!slide || !(slide->uniqueness > 0.))
+      const auto usual_ratio  = slides.speed_ratio(drive, nearby);
+      auto slide              = slide_at(drive, friction, usual_ratio.value_or(1.));
+      if (!usual_ratio || !slide || !(slide->uniqueness > 0.))
       {
-        const auto end = grow_friction(drive);
-        if (end.share < 1. && !slide && !end.jams)
-          throw no_equilibrium(drive, end.share);
-        if (end.share < 1.)
-          return slide;
+        if (const auto end = grow_friction(drive, 1.); end.share < 1.)
+          return jammed(drive, slide, end);
         const auto grown   = slides.last;
-        const double ratio = slides.speed_ratio(drive, nearby);
+        const double ratio = slides.speed_ratio(drive, nearby).value_or(1.);
         slides.last        = grown;
         slide              = slide_at(drive, friction, ratio);
-        if (!slide && !end.jams)
-          throw no_equilibrium(drive, 1.);
-        if (!slide)
-          return slide;
+        if (!slide || !(slide->uniqueness > 0.))
+        {
+          const auto end = grow_friction(drive, ratio);
+          if (end.share == 1.)
+            slide = slide_at(drive, friction, ratio);
+          if (!slide || end.share < 1.)
+            return jammed(drive, slide, end);
+        }
       }
       slide->margin = free_forces.empty() ? 0. : free_forces.front().P / slide->forces.P;
       if (slide->second && slide->second->P > 0. && !free_forces.empty())
@@ -195,7 +197,7 @@ namespace sprag
     double largest_friction_share(const DrivePoint &drive, const double resolution) override
     {
       // The last share that was tried and failed is one to two resolutions beyond the last that was found.
-      const double share = grow_friction(drive, resolution).share;
+      const double share = grow_friction(drive, 1., resolution).share;
       return share > 0. && share < 1. ? share + 0.75 * resolution : share;
     }
 
@@ -542,14 +544,26 @@ namespace sprag
           ", and no fold at which the lever would jam. Try another Friction/Factor, Stability/Position or mesh.");
     }
 
-    /// Follows the equilibrium from no friction to the scene's, in steps that are halved where Newton's method fails or has left
-    /// the branch. It jams where the branch ends at a fold, or with a layer pressed too far. Where it ends elsewhere another
-    /// branch crosses it, or the method fails.
-    BranchEnd grow_friction(const DrivePoint &drive, const double smallest_step = 1e-4)
+    /// Returns the slide where its branch ends, if any, as one that jams. Throws where it does not end at a fold.
+    static std::optional<HeldSlide> jammed(const DrivePoint &drive, const std::optional<HeldSlide> &slide, const BranchEnd &end)
+    {
+      if (!slide && !end.jams)
+        throw no_equilibrium(drive, end.share);
+      return slide;
+    }
+
+    /// Follows the equilibrium at a ratio of speeds from no friction to the scene's, in steps that are halved where Newton's
+    /// method fails or has left the branch. It jams where the branch ends at a fold, or with a layer pressed too far. Where it
+    /// ends elsewhere another branch crosses it, or the method fails.
+    BranchEnd grow_friction(const DrivePoint &drive, const double ratio, const double smallest_step = 1e-4)
     {
       constexpr double near_fold = 1e-2; // shares of the friction
-      slides.solve(drive, 1., ContactFriction::none);
-      const double speed   = sliding_speed(frame.geometries.front(), drive.x, drive.v);
+      if (slides.solve(drive, 1., ContactFriction::none) == nullptr)
+      {
+        slides.last = {}; // of another slide, too far off
+        slides.solve(drive, 1., ContactFriction::none);
+      }
+      const double speed   = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
       const auto is_unique = [&](const double share)
       {
         const auto displacements = slides.last.displacements;
@@ -561,7 +575,7 @@ namespace sprag
       {
         const double next      = std::min(1., branch.back().share + step);
         const auto before      = slides.last;
-        const bool is_followed = slides.solve_with_share(drive, next) != nullptr && is_unique(next);
+        const bool is_followed = slides.solve_with_share(drive, ratio, next) != nullptr && is_unique(next);
         const auto positions   = [&](const DofSelection &dofs)
         { return structure->positions(structure->deform(found.forces), dofs); };
         is_pressed_too_far = is_followed && largest_indentation(observed_contacts(positions)) > frame.largest_indentation;

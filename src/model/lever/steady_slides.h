@@ -12,6 +12,7 @@
 #include "scene/closed_form.h"
 
 #include <map>
+#include <optional>
 
 namespace sprag
 {
@@ -71,20 +72,21 @@ namespace sprag
     }
 
     /// Does as solve() with a share of the friction, 0 to 1, from the last equilibrium alone.
-    const InterfaceForces *solve_with_share(const DrivePoint &drive, const double share)
+    const InterfaceForces *solve_with_share(const DrivePoint &drive, const double ratio, const double share)
     {
-      return solve_from_last(drive, 1., ContactFriction::sliding, nullptr, share);
+      return solve_from_last(drive, ratio, ContactFriction::sliding, nullptr, share);
     }
 
     /// Returns the slip speed of the deformable lever over that of the rigid one, slip(x - h to x + h)/(2 h w_rigid), with
-    /// w_rigid the rigid slip speed per drive speed and h in mm. The next equilibrium is sought from the mean of both.
-    double speed_ratio(const DrivePoint &drive, const double h)
+    /// w_rigid the rigid slip speed per drive speed and h in mm; none where there is no slide at one of both. The next
+    /// equilibrium is sought from the mean of both.
+    std::optional<double> speed_ratio(const DrivePoint &drive, const double h)
     {
       const bool before = solve(moved(drive, -h), 1.) != nullptr;
       const auto from   = last;
       const bool after  = solve(moved(drive, h), 1.) != nullptr;
       if (!before || !after)
-        return 1.;
+        return {};
       const double slip = contact.mean_slip(found, from.displacements, drive.x - h, last.displacements, drive.x + h);
       last              = mean(from, last);
       return slip / (2. * h * sliding_speed(frame.geometries.front(), drive.x, 1.));
