@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+import oscillator
 import plot
 from apparatus import make_device
 from arguments import add_output, add_program, make_parser
@@ -167,6 +168,7 @@ FIGURES = {
     # In time.
     "support-a": lambda run: reversal(run("support-a")),
     "stribeck-a": lambda run: forces_over_time([run("stribeck-a")]),
+    "stribeck-orbit-a": lambda run: oscillator.orbits(run("stribeck-a", "stribeck-a, linear contact", oscillator.CHANGES)),
     "reversal-a": lambda run: reversal(run("reversal-a")),
     "energy-a": lambda run: energy(run("reversal-a")),
     "sprag-slip-a": lambda run: reversal(run("sprag-slip-a")),
