@@ -141,7 +141,8 @@ namespace sprag
         if (const auto end = grow_friction(drive, 1.); end.share < 1.)
           return jammed(drive, slide, end);
         const auto grown   = slides.last;
-        const double ratio = slides.speed_ratio(drive, nearby).value_or(1.);
+        const auto grow_at = [&](const DrivePoint &at) { return grow_friction(at, 1.).share == 1.; };
+        const double ratio = slides.speed_ratio(drive, nearby, grow_at).value_or(1.);
         slides.last        = grown;
         slide              = slide_at(drive, friction, ratio);
         if (!slide || !(slide->uniqueness > 0.))

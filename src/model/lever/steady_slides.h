@@ -82,9 +82,16 @@ namespace sprag
     /// equilibrium is sought from the mean of both.
     std::optional<double> speed_ratio(const DrivePoint &drive, const double h)
     {
-      const bool before = solve(moved(drive, -h), 1.) != nullptr;
+      return speed_ratio(drive, h, [this](const DrivePoint &at) { return solve(at, 1.) != nullptr; });
+    }
+
+    /// Does as speed_ratio(), with slides that `find`(at) makes the last ones. It returns false where there is none.
+    template <class Find>
+    std::optional<double> speed_ratio(const DrivePoint &drive, const double h, const Find &find)
+    {
+      const bool before = find(moved(drive, -h));
       const auto from   = last;
-      const bool after  = solve(moved(drive, h), 1.) != nullptr;
+      const bool after  = find(moved(drive, h));
       if (!before || !after)
         return {};
       const double slip = contact.mean_slip(found, from.displacements, drive.x - h, last.displacements, drive.x + h);
