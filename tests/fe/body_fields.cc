@@ -2,12 +2,10 @@
 #include "fe/fields/body_fields.h"
 
 #include "bar.h"
-#include "fe/fields/stress_peaks.h"
 #include "fe/leaf/leaf_body.h"
 #include "leaf_beam.h"
 #include "mpi_environment.h"
 
-#include <deal.II/grid/grid_generator.h>
 #include <deal.II/numerics/vector_tools.h>
 
 #include <cmath>
@@ -142,29 +140,6 @@ TEST(BodyFields, StressIsContinuedFromTheGaussPointsAndMeetsItsNeighbour)
   }
 }
 
-TEST(BodyFields, CurvedCellsHaveTheirNodesOnTheCircle)
-{
-  const double radius = 56., core = 28.;
-  dealii::Triangulation<2> triangulation;
-  dealii::GridGenerator::hyper_shell(triangulation, {}, core, radius, 8);
-  for (const auto &cell : triangulation.active_cell_iterators())
-    cell->set_material_id(material_id::cylinder);
-  BodyProperties properties;
-  properties.curved    = true;
-  properties.constants = { { material_id::cylinder, { 70000., 0.33 } } };
-  const ElasticBody<2> body(triangulation, properties);
-  const BodyFields fields(body);
-  unsigned int outside = 0;
-  for (const auto &node : fields.nodes)
-  {
-    const double distance = node.position.norm();
-    const double nearest  = distance > 50. ? radius : distance > 35. ? 0.5 * (radius + core) : core;
-    outside += nearest == radius ? 1 : 0;
-    EXPECT_NEAR(distance, nearest, 1e-9);
-  }
-  EXPECT_EQ(outside, 8u * 2);
-}
-
 // A guided leaf bends to an arc of the angle by which its hub turns: E t/2 angle/L at its surfaces, whatever the rotation. The
 // stress of the solid differs from that of a beam by about the strain itself. Parabolas in place of the arc stretch by up to
 // beta^2/24, beta the angle over an element, the longest of which is 1.7 times the mean one (the grading of meshes/leaf.geo).
@@ -190,50 +165,4 @@ TEST(BodyFields, StressOfATurnedLeafIsThatOfBending)
       ++found;
     }
   EXPECT_GE(found, 4 * leaf_elements(leaf).along);
-}
-
-TEST(StressPeaks, AreTheLargestOfTheirPartAndSayWhereAndWhen)
-{
-  const StretchedBar stretched;
-  const BodyFields fields(stretched.body);
-  StressPeaks peaks(fields);
-  auto nodal         = fields.at(dealii::Vector<double>(stretched.body.n_dofs()));
-  const auto highest = [&](const dealii::types::material_id part, const bool at_hub)
-  {
-    unsigned int last = 0;
-    for (unsigned int i = 0; i < nodal.size(); ++i)
-      if (fields.nodes[i].part == part && fields.nodes[i].at_hub == at_hub)
-        last = i;
-    return last;
-  };
-  const unsigned int lever = highest(material_id::lever, false), layer = highest(material_id::layer, false),
-                     hub    = highest(material_id::lever, true);
-  nodal[lever].stress[0][0] = 5.;
-  nodal[layer].stress[0][0] = 2.;
-  nodal[hub].stress[0][0]   = 9.;
-  peaks.look_at(nodal, 30., 1, 0);
-  nodal[lever].stress[0][0] = 4.;
-  nodal[layer].stress[0][0] = -3.;
-  peaks.look_at(nodal, 20., -1, 1);
-
-  const auto entries = peaks.entries(2);
-  const auto value   = [&](const std::string &name)
-  {
-    for (const auto &entry : entries)
-      if (entry.name == name)
-        return entry.value;
-    return std::variant<double, std::string>(-1.);
-  };
-  const auto number = [&](const std::string &name) { return std::get<double>(value(name)); };
-  EXPECT_DOUBLE_EQ(number("largest_lever_stress"), 5.);
-  EXPECT_DOUBLE_EQ(number("largest_lever_stress_x"), 30.);
-  EXPECT_EQ(std::get<std::string>(value("largest_lever_stress_direction")), "forward");
-  EXPECT_DOUBLE_EQ(number("largest_lever_stress_lever"), 1.);
-  EXPECT_DOUBLE_EQ(number("largest_lever_stress_xi"), fields.nodes[lever].position[0]);
-  EXPECT_DOUBLE_EQ(number("largest_layer_stress"), 3.);
-  EXPECT_DOUBLE_EQ(number("largest_layer_stress_x"), 20.);
-  EXPECT_EQ(std::get<std::string>(value("largest_layer_stress_direction")), "backward");
-  EXPECT_DOUBLE_EQ(number("largest_layer_stress_lever"), 2.);
-  EXPECT_DOUBLE_EQ(number("largest_layer_stress_eta"), fields.nodes[layer].position[1]);
-  EXPECT_DOUBLE_EQ(number("largest_stress_at_hub"), 9.);
 }

@@ -73,20 +73,6 @@ namespace
   }
 } // namespace
 
-TEST(CellElasticity, WhatLocksIsPlaneStrainWithRatiosAboveTwoFifths)
-{
-  auto properties = soft_solid(2, MaterialModel::linear, 0.41);
-  EXPECT_TRUE(is_nearly_incompressible(properties, material_id::lever));
-  properties.material = MaterialModel::neo_hookean;
-  EXPECT_TRUE(is_nearly_incompressible(properties, material_id::lever));
-  properties.material = MaterialModel::st_venant_kirchhoff;
-  EXPECT_FALSE(is_nearly_incompressible(properties, material_id::lever));
-  properties       = soft_solid(2, MaterialModel::linear, 0.49);
-  properties.plane = PlaneState::stress;
-  EXPECT_FALSE(is_nearly_incompressible(properties, material_id::lever));
-  EXPECT_FALSE(is_nearly_incompressible(soft_solid(2, MaterialModel::linear, 0.4), material_id::lever));
-}
-
 TEST(CellElasticity, EachMaterialHasItsOwnPlane)
 {
   dealii::Triangulation<2> triangulation;
@@ -138,8 +124,8 @@ TEST(CellElasticity, OnlyRigidMotionsCostNothing)
   }
 }
 
-// The test resembles TangentIsTheDerivativeOfTheForcesAtFiniteStrain of ElasticBody and its neighbour. lambda, 3e3 times larger
-// here, is in the derivatives and in the round-off alike. Displacements of 0.01 mm are a thirtieth of the smallest cell.
+// lambda, 3e3 times larger than mu, is in the derivatives and in the round-off alike. Displacements of 0.01 mm are a thirtieth of
+// the smallest cell.
 TEST(CellElasticity, TangentAndForcesAreDerivativesOfTheEnergyAtFiniteStrain)
 {
   dealii::Triangulation<2> triangulation;

@@ -125,40 +125,6 @@ TEST(CondensedBasis, WithAllModesIsTheFiniteElements)
   }
 }
 
-TEST(CondensedBasis, WithFewModesHasTheStaticsOfTheFiniteElements)
-{
-  const MeshedBar bar({});
-  for (const unsigned int modes : { 1u, 3u })
-  {
-    auto whole = sparse_structure(*bar, bar_inertia(1e-3, 1e-7), 2, damped_dynamics(false));
-    ModalStructure condensed(modal_data(make_basis(*bar, make_settings(modes)), damped_dynamics(false)));
-    whole.use_statics();
-    condensed.use_statics();
-    const auto forces   = forces_on(whole.layout());
-    const auto expected = whole.positions(whole.deform(forces));
-    Vector difference   = condensed.positions(condensed.deform(forces));
-    difference -= expected;
-    EXPECT_LE(difference.linfty_norm(), 1e-9 * expected.linfty_norm()) << modes;
-  }
-}
-
-TEST(CondensedBasis, ItsElasticDisplacementIsThatOfTheFiniteElements)
-{
-  const MeshedBar bar({});
-  const auto settings = make_settings(3);
-  const auto basis    = make_basis(*bar, settings);
-  auto whole          = sparse_structure(*bar, bar_inertia(1e-3, 1e-7), 2, damped_dynamics(false));
-  ModalStructure condensed(modal_data(basis, damped_dynamics(false)));
-  whole.use_statics();
-  condensed.use_statics();
-  const auto forces   = forces_on(whole.layout());
-  const auto expected = whole.elastic_displacement(whole.deform(forces));
-  Vector difference =
-      condensed_displacement((*bar).held(), basis, surface_dofs(*bar), make_response(*bar), condensed.deform(forces));
-  difference -= expected;
-  EXPECT_LE(difference.linfty_norm(), 1e-9 * expected.linfty_norm());
-}
-
 // Both begin with the velocities of the first mode.
 TEST(CondensedBasis, ItsLocalErrorIsThatOfTheFiniteElements)
 {
@@ -222,17 +188,6 @@ TEST(CondensedBasis, OfOtherLeversIsAnother)
   softer.spring_stiffness *= 0.99;
   EXPECT_FALSE(condensed_basis(*MeshedBar({}), softer).from_cache);
   EXPECT_TRUE(condensed_basis(*MeshedBar({}), make_settings(3, folder.path)).from_cache);
-}
-
-TEST(CondensedBasis, MadeForAnotherSceneIsAnother)
-{
-  const TemporaryFolder folder;
-  auto settings   = make_settings(3, folder.path);
-  settings.origin = "a scene";
-  condensed_basis(*MeshedBar({}), settings);
-  EXPECT_TRUE(condensed_basis(*MeshedBar({}), settings).from_cache);
-  settings.origin = "another scene";
-  EXPECT_FALSE(condensed_basis(*MeshedBar({}), settings).from_cache);
 }
 
 // A killed process leaves an old file that nobody keeps locked. One that is locked or young is another process's at work.

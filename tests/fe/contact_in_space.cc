@@ -92,39 +92,6 @@ namespace
     for (unsigned int i = 0; i < dofs.size(); ++i)
       forces[i] /= bed.unit_length(dofs[i]);
   }
-
-  /// Compares all entries of the tangent at some displacements with differences of the forces that `evaluated(displacements)`
-  /// finds, each in units of a millimetre on the face. Points at the edge of the contact change their state on the way.
-  template <class Evaluated>
-  void expect_tangent(const Bed &bed, const dealii::Vector<double> &displacements, const Evaluated &evaluated,
-                      const double friction, const double tolerance = 1.5e-4)
-  {
-    const FaceEvaluation<3> found = evaluated(displacements);
-    const auto &dofs              = found.forces.dofs;
-    const auto length             = [&](const unsigned int i)
-    { return dofs[i] == bed.layout.rotation() ? 120. : bed.unit_length(dofs[i]); }; // from the pivot to the contact
-    double largest = 0., error = 0.;
-    for (unsigned int j = 0; j < dofs.size(); ++j)
-    {
-      const double step = 1e-7 / length(j);
-      auto before = displacements, after = displacements;
-      before[dofs[j]] -= step;
-      after[dofs[j]] += step;
-      const FaceEvaluation<3> low = evaluated(before), high = evaluated(after);
-      ASSERT_EQ(low.forces.dofs, dofs);
-      ASSERT_EQ(high.forces.dofs, dofs);
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-      {
-        const double weight = 1. / (length(i) * length(j));
-        const double slope  = weight * found.forces.tangent(i, j);
-        largest             = std::max(largest, std::abs(slope));
-        error = std::max(error, std::abs((high.forces.values[i] - low.forces.values[i]) / (2. * step) * weight - slope));
-      }
-    }
-    std::printf("entries are off by up to %.1e of the largest of %u columns\n", error / largest,
-                static_cast<unsigned int>(dofs.size()));
-    EXPECT_LT(error, tolerance * largest) << friction;
-  }
 } // namespace
 
 /// The parameter says if the axis is free on its shaft.
@@ -133,26 +100,6 @@ class ContactInSpaceOfAnAxis : public testing::TestWithParam<bool>
 };
 
 INSTANTIATE_TEST_SUITE_P(IsFree, ContactInSpaceOfAnAxis, testing::Bool());
-
-// Friction changes with the speed, which follows from the slope of the slip along the face. That makes 1e-5 of the tangent and
-// more; no point changes its state.
-TEST_P(ContactInSpaceOfAnAxis, TheTangentKnowsTheSpeedOfAContactThatTravels)
-{
-  Bed bed(skewed(GetParam()), 12.5, 2);
-  const auto begin = bed.pressed(0.02);
-  auto end         = bed.pressed(0.03);
-  for (unsigned int dof = 0; dof < bed.layout.surface; ++dof)
-    end[dof] += 1e-3 * std::sin(1.3 * dof);
-  const auto history = bed.evaluated(begin, Bed::x - 1.4, begin, 0.4).history();
-  for (const auto &[kinetic, viscous] : { std::pair(0.18, 0.), std::pair(0.9, 1e-2) }) // falls, rises
-  {
-    StaticTerms terms{ { StribeckFriction{ 0.6, kinetic, 100., 1., viscous } }, 6e-3 };
-    terms.travel        = 0.69;
-    const auto evaluate = [&](const dealii::Vector<double> &at)
-    { return bed.evaluated(begin, Bed::x - 0.7, at, Bed::x, history, 0.3, terms); };
-    expect_tangent(bed, end, evaluate, kinetic, 1e-8);
-  }
-}
 
 // Friction changes with the speed. Displacements are those of a slide at rest; points at the edge of the contact change their
 // state on the way.

@@ -22,19 +22,6 @@ namespace
   }
 } // namespace
 
-/// Shear adds E/(kappa G) d^2 / (4 L^2) of a tip deflection, 1e-3 here, and more of deflections near the clamp.
-TEST(EffectiveBending, OfABarIsThatOfItsSection)
-{
-  const Bar bar = slender();
-  const MeshedBar meshed(bar);
-  const auto found = effective_bending(*meshed, 30., 60.);
-  const double EI  = E * bar.width * std::pow(bar.depth, 3) / 12.;
-  EXPECT_NEAR(found.stiffness, EI, 4e-3 * EI);
-  EXPECT_LT(found.stiffness, EI);
-  EXPECT_NEAR(found.neutral_axis_offset, bar.offset + 0.5 * bar.depth, 5e-3 * bar.depth);
-  EXPECT_LT(found.deflection_error, 1e-3);
-}
-
 /// A layer as stiff as the metal is metal.
 TEST(EffectiveBending, CountsALayerThatCarries)
 {

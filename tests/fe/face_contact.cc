@@ -156,3 +156,21 @@ TEST(FaceContact, ForcesOfSlidingAreThoseObserved)
   EXPECT_NEAR(row[Column::friction_resultant], mu * row[Column::normal_resultant], 1e-12 * P);
   EXPECT_DOUBLE_EQ(row[Column::v_rel], 100.);
 }
+
+// A step without movement, all weight on its end, that begins without friction.
+TEST(FaceContact, StuckIsTheTangentOfAStepInStick)
+{
+  const MeshedBar bar(bar_on_cylinder());
+  const auto properties = make_properties(*bar, true, 0.);
+  FaceContact<2> contact((*bar).friction_face(), properties);
+  const PressedStep step(contact, *bar, properties.layout, 1e-3, 1.01);
+  const Vector rest(step.end.size());
+  FaceEvaluation<2> slide, stick;
+  const auto linear = contact.linearise({ step.end, step.to, 100., nullptr, ContactFriction::stuck }, slide);
+  contact.evaluate({ step.to, {}, step.to, { step.end, rest, rest }, step.end, rest, StepWeights{ 1e-5, 0., 0., 0.25, 0.5 } },
+                   stick);
+  ASSERT_EQ(stick.forces.dofs, linear.dofs);
+  auto difference = linear.stiffness();
+  difference.add(-1., stick.forces.tangent);
+  EXPECT_LT(difference.frobenius_norm(), 1e-12 * linear.stiffness().frobenius_norm());
+}

@@ -218,23 +218,6 @@ TEST(LeafSpring, ModesTakePartInWhatTheHubMoves)
   }
 }
 
-TEST(LeafSpring, CoversTheDriveOfItsScene)
-{
-  Scene scene;
-  const auto torsional = prepared_spring(scene);
-  EXPECT_EQ(torsional.stiffness, scene.spring.stiffness);
-  EXPECT_TRUE(torsional.behaviour.modes.empty());
-
-  scene.spring.type    = SpringType::leaf;
-  const auto spring    = prepared_spring(scene);
-  const auto &samples  = spring.behaviour.law.samples();
-  const double largest = kinematics(scene.geometry, scene.drive.maximum()).theta - kinematics(scene.geometry, 0.).theta;
-  EXPECT_EQ(spring.stiffness, spring.behaviour.law.linear_stiffness());
-  EXPECT_NEAR(spring.stiffness, beam_stiffness(scene.spring.leaf), 1e-3 * spring.stiffness);
-  EXPECT_LE(samples.front().turn, -0.02);
-  EXPECT_GE(samples.back().turn, 1.5 * largest);
-}
-
 TEST(LeafSpring, ThePlaneOfTheLeverLeavesItAlone)
 {
   Scene scene          = model_a();
@@ -246,25 +229,6 @@ TEST(LeafSpring, ThePlaneOfTheLeverLeavesItAlone)
   leaf.plane            = PlaneState::strain;
   const double as_plate = prepared_spring(scene).stiffness;
   EXPECT_NEAR(as_plate / as_beam * (1. - leaf.poisson_ratio * leaf.poisson_ratio), 1., 2e-3); // the clamps hinder both
-}
-
-TEST(LeafSpring, RefusesWhatItCannotDo)
-{
-  LeafSpring leaf;
-  leaf.sagitta   = 50.;
-  leaf.thickness = 60.;
-  try
-  {
-    leaf_behaviour(leaf, PlaneState::stress, -0.01, 0.01);
-    FAIL();
-  }
-  catch (const InputError &error)
-  {
-    EXPECT_EQ(error.messages.size(), 2u);
-  }
-  leaf           = LeafSpring();
-  leaf.thickness = 1.9e-4 * leaf.length;
-  EXPECT_THROW(leaf_behaviour(leaf, PlaneState::stress, -0.01, 0.01), InputError);
 }
 
 // The joint of an arch, held along it, moves across. Its moment falls beyond a turn of 0.07 rad, which round-off must not end.

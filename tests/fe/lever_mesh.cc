@@ -189,11 +189,11 @@ namespace
   }
 
   /// Returns the message of make_mesh() about a user's file.
-  std::string complaint(const std::string &text, const std::string &name = "bar.geo")
+  std::string complaint(const std::string &text)
   {
     const TemporaryFolder folder;
     Scene scene     = coarse_scene(45.6, 0.);
-    scene.mesh.file = folder.write(name, text);
+    scene.mesh.file = folder.write("bar.geo", text);
     dealii::Triangulation<2> triangulation;
     try
     {
@@ -215,34 +215,9 @@ namespace
 
 TEST(Mesh, BuiltInLeverHasItsPartsAtFullSize)
 {
-  expect_built_in(45.6, 1.);
-}
-
-TEST(Mesh, BuiltInLeverWithoutOffsetHasNoArm)
-{
-  expect_built_in(0., 1.);
-}
-
-TEST(Mesh, BuiltInLeverWithoutLayerIsBareMetal)
-{
-  expect_built_in(45.6, 0.);
-  expect_built_in(0., 0.);
-}
-
-TEST(Mesh, BuiltInLeverHasTheFaceSizeWhereTheCylinderSweeps)
-{
-  const auto scene = coarse_scene(45.6, 1.);
-  dealii::Triangulation<2> triangulation;
-  make_mesh(scene, triangulation);
-  unsigned int n_fine = 0;
-  for (const auto &face : triangulation.active_face_iterators())
-    if (face->at_boundary() && face->boundary_id() == boundary_id::friction_face && face->center()[0] > 121. &&
-        face->center()[0] < 184.)
-    {
-      EXPECT_LE(face->measure(), 2. + 1e-9);
-      ++n_fine;
-    }
-  EXPECT_GE(n_fine, 31u);
+  for (const double offset : { 0., model_a_offset })
+    for (const double layer : { 0., 1. })
+      expect_built_in(offset, layer);
 }
 
 TEST(Mesh, PlateLiesFreeBeforeTheBar)
@@ -297,17 +272,6 @@ TEST(Mesh, FrameCarriesAPlate)
   }
 }
 
-TEST(Mesh, FrameWithoutWebHasHoles)
-{
-  auto scene      = built(model_a_offset, LeverOutline::frame, PlateType::none);
-  scene.frame.web = 0.;
-  dealii::Triangulation<2> triangulation;
-  make_mesh(scene, triangulation);
-  auto area = areas(triangulation);
-  EXPECT_EQ(area.count(material_id::web), 0u);
-  EXPECT_NEAR(area[material_id::lever], frame_area(scene, model_a_offset + 1.), 0.8);
-}
-
 TEST(Mesh, FrameWithoutPocketsIsSolid)
 {
   auto scene            = built(0., LeverOutline::frame, PlateType::none);
@@ -321,19 +285,6 @@ TEST(Mesh, FrameWithoutPocketsIsSolid)
   EXPECT_EQ(area.count(material_id::web), 0u);
   EXPECT_NEAR(area[material_id::lever], 180. * 4.5 + 40. * 20. - M_PI * 25., 0.8);
   expect_good_cells(scene, triangulation);
-}
-
-TEST(Mesh, UsersGeometryIsMeshed)
-{
-  const TemporaryFolder folder;
-  Scene scene     = coarse_scene(45.6, 0.);
-  scene.mesh.file = folder.write("bar.geo", bar("lever", "friction face", "hub"));
-  dealii::Triangulation<2> triangulation;
-  make_mesh(scene, triangulation);
-  EXPECT_EQ(triangulation.n_active_cells(), 42u * 4u);
-  EXPECT_NEAR(areas(triangulation)[material_id::lever], 4200., 1e-8);
-  EXPECT_NEAR(boundary(triangulation, boundary_id::friction_face).length, 210., 1e-9);
-  EXPECT_NEAR(boundary(triangulation, boundary_id::hub).length, 20., 1e-9);
 }
 
 TEST(Mesh, UsersMeshIsTakenAsItIs)
@@ -393,20 +344,6 @@ TEST(Mesh, PlateThatTheFileLacksIsNamed)
     expect_named(error.what(), "'sensor plate'");
     expect_named(error.what(), "'sensor lever'");
   }
-}
-
-TEST(Mesh, MissingFileIsNamed)
-{
-  Scene scene     = coarse_scene(45.6, 0.);
-  scene.mesh.file = "/nowhere/lever.geo";
-  dealii::Triangulation<2> triangulation;
-  EXPECT_THROW(make_mesh(scene, triangulation), InputError);
-}
-
-TEST(Mesh, FileThatIsNoGeometryIsNamed)
-{
-  EXPECT_NE(complaint("Point(1) = {0, 0\nno geometry;\n"), "");
-  EXPECT_NE(complaint("nothing\n", "bar.msh"), "");
 }
 
 namespace

@@ -107,20 +107,3 @@ TEST(Widths, AsBuiltTheInertiaIsThatOfTheMaterial)
   CompressedRows(matrices.mass).multiply<1>({ { &turned } }, { { &product } });
   EXPECT_NEAR(turned * product, expected, 1e-12 * expected);
 }
-
-TEST(Widths, ScaledDensitiesLeaveTheHubsShare)
-{
-  const WebbedBar bar(0.3);
-  LeverInertia inertia;
-  inertia.densities         = { { material_id::lever, 2.7e-9 }, { material_id::web, 2.7e-9 } };
-  inertia.source            = InertiaSource::as_built;
-  const double built        = InertialMatrices(*bar.body, inertia).moment_of_inertia;
-  inertia.source            = InertiaSource::scaled;
-  inertia.hub               = 0.7 * built;
-  inertia.moment_of_inertia = 2.7 * built;
-  const InertialMatrices matrices(*bar.body, inertia);
-  EXPECT_NEAR(matrices.density_factor, 2., 1e-12);
-  EXPECT_NEAR(matrices.moment_of_inertia, 2.7 * built, 1e-12 * built);
-  inertia.hub = 2.8 * built;
-  EXPECT_THROW(InertialMatrices(*bar.body, inertia), InputError);
-}
