@@ -84,16 +84,6 @@ TEST(Parameters, GivenValuesAreReadWithTheirPlaces)
   EXPECT_EQ(settings.specified.at("Drive/Table").value, "a b/c=d.csv");
 }
 
-TEST(Parameters, OverridesCountMoreThanTheFileAndLaterOnesMost)
-{
-  const auto settings = read("subsection Geometry\n set Pivot height = 1\nend\n",
-                             { "Geometry/Pivot height=2", "Geometry/Pivot height = 3", "Drive/Table=a=b/c" });
-  EXPECT_TRUE(settings.mistakes.empty());
-  EXPECT_EQ(settings.specified.at("Geometry/Pivot height").value, "3");
-  EXPECT_EQ(settings.specified.at("Geometry/Pivot height").place, "--set");
-  EXPECT_EQ(settings.specified.at("Drive/Table").value, "a=b/c");
-}
-
 TEST(Parameters, UnknownNamesAreReportedWithTheNearest)
 {
   EXPECT_EQ(mistakes("subsection Geometry\n set Cylinder radus = 5\n set Nothing like it at all = 5\nend\n"),
@@ -258,12 +248,6 @@ TEST(Parameters, BrokenStructureIsReported)
             (Messages{ "scene.prm:1: include other.prm: other files are not included: write their lines here or use --set" }));
 }
 
-TEST(Parameters, SettingTwiceIsReported)
-{
-  EXPECT_EQ(mistakes("subsection Mesh\n set Degree = 1\nend\nsubsection Mesh\n set Degree = 2\nend\n"),
-            (Messages{ "scene.prm:5: Mesh/Degree = 2: must be set once only, it is at scene.prm:2 already" }));
-}
-
 TEST(Parameters, MistakesInOverridesAreReported)
 {
   EXPECT_EQ(mistakes("", { "Degree=1", "Mesh/Degree", "Mesh/Degre=1", "Mash/Degree=3", "Mesh/Degree=2 nodes" }),
@@ -275,21 +259,6 @@ TEST(Parameters, MistakesInOverridesAreReported)
                        "--set: Mesh/Degree = 2 nodes: must be an integer >= 1 and <= 2: there is no unit 'nodes'" }));
 }
 
-TEST(Parameters, FilesThatCannotBeReadAreReported)
-{
-  EXPECT_EQ(read_settings("/nowhere/scene.prm", {}, declared()).mistakes, (Messages{ "/nowhere/scene.prm: cannot be read" }));
-  const auto folder = testing::TempDir();
-  EXPECT_EQ(read_settings(folder, {}, declared()).mistakes, (Messages{ folder + ": is a folder: must be a file" }));
-  const auto binary = written(std::string("ELF\0\1\n", 6), "program");
-  EXPECT_EQ(read_settings(binary, {}, declared()).mistakes, (Messages{ binary + ": is not a text: must be a parameter file" }));
-}
-
-TEST(Parameters, DoubtIsRememberedForWhatWasMeant)
-{
-  const auto settings = read("subsection Geometry\n set Cylinder radus = 5\nend\nsubsection Mesh\n set Degree = x\nend\n");
-  EXPECT_EQ(settings.invalid, (std::set<std::string>{ "Geometry/Cylinder radius", "Mesh/Degree" }));
-}
-
 TEST(Parameters, LaterMistakesNamePlaceAndValueInUse)
 {
   auto settings = read("subsection Geometry\n set Cylinder radius = 5\nend\n", { "Mesh/Degree=1" });
@@ -299,17 +268,6 @@ TEST(Parameters, LaterMistakesNamePlaceAndValueInUse)
   EXPECT_EQ(settings.mistakes,
             (Messages{ settings.file + ":2: Geometry/Cylinder radius = 5: must be more",
                        settings.file + ": Geometry/Pivot height = 0: must be more", "--set: Mesh/Degree = 1: must be more" }));
-}
-
-TEST(Parameters, OverridesComeOnTopOfValuesReadBefore)
-{
-  const ParameterValues before = { { "Geometry/Cylinder radius", "21.1" }, { "Mesh/Degree", "1" } };
-  const auto settings = override_settings("scene.prm", before, { "Mesh/Degree=2", "Geomtry/Pivot height=7" }, declared());
-  EXPECT_EQ(settings.specified.at("Mesh/Degree").value, "2");
-  EXPECT_EQ(settings.specified.at("Mesh/Degree").place, "--set");
-  EXPECT_EQ(settings.specified.at("Geometry/Cylinder radius").place, "scene.prm");
-  ASSERT_EQ(settings.mistakes.size(), 1u);
-  EXPECT_NE(settings.mistakes[0].find("did you mean 'Geometry'?"), std::string::npos) << settings.mistakes[0];
 }
 
 TEST(Parameters, PrintedTextReadsBackHereAndInDealII)
@@ -348,18 +306,6 @@ TEST(Parameters, AnyTextReadsBackAsItWas)
     EXPECT_EQ(printed.find('\x1b'), std::string::npos);
   }
   EXPECT_EQ(read("subsection Drive\n  set Table = C:\\x.csv # \\x41\nend\n").specified.at("Drive/Table").value, "C:\\x.csv");
-}
-
-TEST(Text, NearestNameToleratesHalfOfItsLetters)
-{
-  EXPECT_EQ(nearest("stifness", { "Strength", "Stiffness" }), "Stiffness");
-  EXPECT_EQ(nearest("Xyzw", { "Strength", "Stiffness" }), std::nullopt);
-}
-
-TEST(Text, NumbersReadBackExactly)
-{
-  for (const double value : { 0.1, 1. / 3., 7.4e4, 2.7e-9, -5., 1e300 })
-    EXPECT_EQ(leading_number(number_text(value))->value, value);
 }
 
 TEST(Csv, ColumnsMayBeSeparatedByCommasOrWhiteSpace)

@@ -34,14 +34,6 @@ namespace
   }
 } // namespace
 
-TEST(Progress, QuietSaysNothing)
-{
-  TimedRun run(ProgressStyle::quiet);
-  run.step(130.);
-  run.progress.finish();
-  EXPECT_EQ(run.stream.str(), "");
-}
-
 TEST(Progress, LogHasALineEveryTenth)
 {
   TimedRun run(ProgressStyle::log);
@@ -53,14 +45,6 @@ TEST(Progress, LogHasALineEveryTenth)
   EXPECT_EQ(count(text, '\r'), 0u);
   EXPECT_EQ(text.find(" 10 %  x   13.000 mm  P   14.639 N  Q  -11.888 N   4 it  0:01 left\n"), 0u) << text;
   EXPECT_NE(text.find("100 %"), std::string::npos);
-}
-
-TEST(Progress, LogSkipsTenthsPassedInOneStep)
-{
-  TimedRun run(ProgressStyle::log);
-  run.step(5.);
-  run.step(65.);
-  EXPECT_EQ(count(run.stream.str(), '\n'), 1u) << run.stream.str();
 }
 
 TEST(Progress, TerminalRedrawsOneLineTenTimesASecond)
@@ -84,33 +68,4 @@ TEST(Progress, NarrowTerminalKeepsShareAndTime)
   narrow.step(65.);
   EXPECT_EQ(middle.stream.str(), "\r[#####.....]  50 %  x   65.000 mm  P   14.639 N  Q  -11.888 N   4 it  0:00 left");
   EXPECT_EQ(narrow.stream.str(), "\r[##########..........]  50 %  0:00 left");
-}
-
-TEST(Progress, TerminalWipesALongerLine)
-{
-  TimedRun run(ProgressStyle::terminal);
-  run.step(10.);
-  run.now += 1.;
-  run.progress.update(20., {});
-  const std::string text = run.stream.str();
-  const std::size_t last = text.rfind('\r');
-  EXPECT_GE(text.size() - last, last - text.find('\r'));
-}
-
-TEST(Progress, LineEndsWhenTheRunIsAbandoned)
-{
-  std::ostringstream stream;
-  {
-    Progress progress(stream, ProgressStyle::terminal, 1.);
-    progress.update(0.5, {});
-  }
-  EXPECT_EQ(stream.str().back(), '\n');
-}
-
-TEST(Progress, TimeLeftInHours)
-{
-  TimedRun run(ProgressStyle::log);
-  run.now += 3600.;
-  run.step(65.);
-  EXPECT_NE(run.stream.str().find("1:00:00 left"), std::string::npos) << run.stream.str();
 }

@@ -258,20 +258,3 @@ TEST(ModeSymmetry, TiedModesAreToldApartByIt)
       }
   }
 }
-
-TEST(ModeSymmetry, ModesThatDoNotTieStayAsTheyAre)
-{
-  const auto a = sum(1., first_moves, 0.4, second_moves);
-  const auto b = sum(0.3, first_moves, -2., second_moves);
-  auto pair    = make_mode_pair(a, b, { -1., 50.001 });
-  separate_ties(pair.modes, pair.displacements, two_levers());
-  EXPECT_TRUE(pair.displacements[0][0] == make_vector(a)[0]);
-  EXPECT_TRUE(pair.displacements[1][1] == make_vector(b)[1]);
-}
-
-TEST(ModeSymmetry, OneModeTwiceStaysAsItIs)
-{
-  auto pair = make_mode_pair(first_moves, sum({ 0., 2. }, first_moves, 0., second_moves));
-  separate_ties(pair.modes, pair.displacements, two_levers());
-  EXPECT_TRUE(pair.displacements[0][0] == make_vector(first_moves)[0]);
-}

@@ -56,23 +56,7 @@ namespace
     spring.add_forces(begin, end, weights, forces);
     return forces;
   }
-
-  void expect_same(const InterfaceForces &found, const InterfaceForces &expected)
-  {
-    EXPECT_EQ(found.dofs, expected.dofs);
-    EXPECT_EQ(found.values, expected.values);
-    EXPECT_EQ(found.tangent, expected.tangent);
-  }
 } // namespace
-
-TEST(HubSpring, ALinearOneAddsNothing)
-{
-  HubSpringExcess spring(layout, { MomentLaw(k) });
-  const auto forces = contact_forces({ 1, 2 });
-  expect_same(with(spring, forces, PerLever{ { 0.03 } }), forces);
-  expect_same(with(spring, forces, PerLever{ { 0.01 } }, PerLever{ { 0.03 } }, generalised_alpha(1., 1e-4)), forces);
-  EXPECT_TRUE(spring.loaded_dofs().empty());
-}
 
 TEST(HubSpring, ActsOnTheRotationBesidesTheContact)
 {

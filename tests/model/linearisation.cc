@@ -219,22 +219,6 @@ TEST(Linearisation, StuckIsTheTangentOfAStepInStick)
   }
 }
 
-TEST(Linearisation, IsNothingOutOfContact)
-{
-  for (const auto &slide : slides(0.05))
-  {
-    const Vector at = slide.position(-penetration);
-    for (const auto friction : { ContactFriction::sliding, ContactFriction::none })
-    {
-      EXPECT_EQ(forces(slide, at, nullptr, friction).values.linfty_norm(), 0.) << slide.name;
-      const auto open = linearised(slide, at, friction);
-      for (const auto *const part : { &open.pressure, &open.friction, &open.pressure_rate, &open.friction_rate })
-        EXPECT_EQ(part->linfty_norm(), 0.) << slide.name;
-      EXPECT_TRUE(open.delays.empty()) << slide.name;
-    }
-  }
-}
-
 TEST(Linearisation, InertiaOfTheCouplingIsTheDerivativeOfItsForcesByAccelerations)
 {
   const InterfaceLayout layout{ 4, true };

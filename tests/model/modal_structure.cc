@@ -152,22 +152,6 @@ TEST(ModalStructure, EnergyDampingAndAlgorithmicWorkMakeUpTheWorkOfTheForces)
     }
 }
 
-TEST(ModalStructure, TellsTheSpringsAndTheSupportsPartOfTheEnergy)
-{
-  auto data    = three_modes(false);
-  data.support = 2;
-  ModalStructure structure(data);
-  structure.use_statics();
-  const Motion motion = structure.deform(forces_on({ 1., -2., 30. }));
-  const auto energy   = structure.stored_energy(motion);
-  const double theta  = structure.positions(motion)[2];
-  EXPECT_NEAR(energy.spring, 0.5 * 50. * theta * theta, 1e-14);
-  EXPECT_NEAR(energy.support, 0.5 * 4e6 * motion.coordinates.position[2] * motion.coordinates.position[2], 1e-14);
-  // All of it is half of the forces' work.
-  const Vector moved = structure.positions(motion);
-  EXPECT_NEAR(total(energy), 0.5 * (moved[0] - 2. * moved[1] + 30. * moved[2]), 1e-12);
-}
-
 // omega dt = 1e6: the limit is reached to 1e-12; it is a triple root, which moves by the cube root of that.
 TEST(ModalStructure, StiffModesDecayByTheSpectralRadiusAskedFor)
 {

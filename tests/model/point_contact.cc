@@ -211,35 +211,6 @@ namespace
   }
 } // namespace
 
-TEST(PointContact, ForceOfTheSpringIsMinusTheDerivativeOfItsEnergy)
-{
-  for (const auto &lever : levers(none))
-  {
-    PointContact contact(lever.properties());
-    PointContact::Evaluation found;
-    const auto energy = [&](const Vector &z)
-    {
-      contact.evaluate_sliding({ z, lever.drive(0.), v }, found);
-      return found.energy();
-    };
-    const Vector at = lever.position(0., lever.penetration_begin);
-    energy(at);
-    const InterfaceForces exact = found.forces;
-    for (unsigned int i = 0; i < exact.dofs.size(); ++i)
-    {
-      // The third derivative of the energy is that of the distance, k delta / R^2 and less: 1e-12 N. Round-off of the energy,
-      // 20 N 2e-14 mm, over h is 1e-7 N.
-      const double h = 4e-6 / arm(lever, exact.dofs[i]);
-      Vector moved   = at;
-      moved[exact.dofs[i]] += h;
-      const double right = energy(moved);
-      moved[exact.dofs[i]] -= 2. * h;
-      const double left = energy(moved);
-      EXPECT_NEAR(exact.values[i], -(right - left) / (2. * h), 1e-6 * arm(lever, exact.dofs[i])) << lever.name << ", dof " << i;
-    }
-  }
-}
-
 // The speed of 1 mm/s, over which friction changes sign, leaves a share of mu p.
 TEST(PointContact, ASlideHasTheMuOfItsLawWhereRegularisationLeavesLessFriction)
 {
@@ -252,24 +223,6 @@ TEST(PointContact, ASlideHasTheMuOfItsLawWhereRegularisationLeavesLessFriction)
   EXPECT_DOUBLE_EQ(row[Column::mu], friction_coefficient(cork, 0.5).coefficient);
   EXPECT_NEAR(row[Column::friction_resultant], row[Column::mu] * row[Column::normal_resultant] * 0.5 / std::hypot(0.5, 1.),
               1e-12);
-}
-
-TEST(PointContact, TangentInSlidingIsTheDerivativeOfTheForce)
-{
-  for (const double direction : { 1., -1. })
-    for (auto lever : levers(cork))
-    {
-      lever.direction = direction;
-      lever.normal    = { 10451., 1.4726 };
-      PointContact contact(lever.properties());
-      PointContact::Evaluation found;
-      const auto evaluate = [&](const Vector &z)
-      {
-        contact.evaluate_sliding({ z, lever.drive(0.), direction * 108. }, found);
-        return found.forces;
-      };
-      expect_tangent(lever, lever.position(0., 0.015), evaluate);
-    }
 }
 
 TEST(PointContact, TangentOfAStepInSlipIsTheDerivativeOfTheForce)
@@ -324,51 +277,6 @@ TEST(PointContact, TangentOfAStepThatOpensOrClosesIsTheDerivativeOfTheForce)
       Stepped stepped(lever);
       expect_tangent(lever, stepped.end, [&](const Vector &z) { return stepped.forces(z); });
     }
-}
-
-TEST(PointContact, CarriesNothingWhileOpen)
-{
-  Case lever              = full_case();
-  lever.penetration_begin = -0.01;
-  lever.penetration_end   = -0.02;
-  lever.history           = {};
-  Stepped stepped(lever);
-  EXPECT_EQ(stepped.forces(stepped.end).values.linfty_norm(), 0.);
-  EXPECT_EQ(stepped.found.energy(), 0.);
-  EXPECT_EQ(stepped.found.penetration(), 0.);
-}
-
-TEST(PointContact, ForcesAreContinuousWhereTheContactCrossesNodesAndMiddlesOfElements)
-{
-  // The contact is where the circle's centre is along the lever but for micrometres: the same bisection from 1e-3 mm
-  // before to 1e-3 mm behind it crosses. Over 2e-9 mm forces change by k times that, moments by the arms.
-  for (const double place : { 105., 118.125, 131.25, 144.375 })
-  {
-    Case lever      = levers(cork)[10];
-    const Vector at = lever.position(0., 0.01);
-    PointContact contact(lever.properties());
-    PointContact::Evaluation found;
-    const auto evaluate = [&](const double x)
-    {
-      contact.evaluate_sliding({ at, { 0., x, v, 0. }, 108. }, found);
-      return on_all_dofs(lever, found.forces);
-    };
-    double low  = 30.;
-    double high = 90.;
-    for (unsigned int i = 0; i < 60; ++i)
-    {
-      const double middle         = 0.5 * (low + high);
-      const auto c                = cylinder_centre(geometry, middle - at[lever.layout().support()],
-                                                    lever.properties().rest_inclination + at[lever.layout().rotation()]);
-      (c.xi > place ? low : high) = middle;
-    }
-    const Vector before = evaluate(low - 1e-9);
-    const Vector after  = evaluate(low + 1e-9);
-    Vector change       = after;
-    change -= before;
-    for (unsigned int i = 0; i < change.size(); ++i)
-      EXPECT_NEAR(change[i], 0., 1e-5 * arm(lever, i)) << "at " << place << ", dof " << i;
-  }
 }
 
 /// There the curvature jumps, so that the closest point stays at the node for a while: over micrometres of x and less.

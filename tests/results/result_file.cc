@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "results/result_file.h"
 
-#include "base/errors.h"
 #include "support/make_row.h"
 #include "support/temporary_folder.h"
 
 #include <array>
-#include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 using namespace sprag;
 
@@ -127,12 +120,6 @@ TEST_F(ResultFileTest, EachWarningIsADatasetOfItsName)
             "['second', 'first'] It is 2. Q is off. Halve it.\n");
 }
 
-TEST_F(ResultFileTest, WithoutWarningsTheirGroupIsEmpty)
-{
-  ResultFile(path(), "", {}).finish({}, {});
-  EXPECT_EQ(h5py("print(len(f[\"warnings\"]))"), "0\n");
-}
-
 TEST_F(ResultFileTest, EveryDatasetHasUnitAndDescription)
 {
   ResultFile file(path(), "", three_points);
@@ -154,50 +141,4 @@ TEST_F(ResultFileTest, UnfinishedFileKeepsItsRows)
     write_rows(file, 3);
   }
   EXPECT_EQ(h5py("print(len(f[\"table/time\"]), \"summary\" in f)"), "3 False\n");
-}
-
-TEST_F(ResultFileTest, ColumnsOfItsOwn)
-{
-  ResultFile file(path(), "", {}, { { "mu", "1", "friction coefficient" }, { "slope_forward", "N/mm", "C_Q" } });
-  file.append(std::vector<double>{ 0.73, 0.08 });
-  file.finish({}, {});
-  EXPECT_EQ(h5py("print(sorted(f[\"table\"]), f[\"table/slope_forward\"][:], \"face\" in f)"),
-            "['mu', 'slope_forward'] [0.08] False\n");
-}
-
-TEST_F(ResultFileTest, UnwritablePathIsTheUsersMistake)
-{
-  for (const std::string place : { "/missing/result.h5", "/file/result.h5", "" })
-  {
-    std::ofstream(folder / "file") << "";
-    try
-    {
-      ResultFile(folder.string() + place, "", {});
-      FAIL() << place;
-    }
-    catch (const InputError &error)
-    {
-      EXPECT_NE(std::string(error.what()).find(folder.string() + place), std::string::npos) << error.what();
-    }
-  }
-}
-
-TEST_F(ResultFileTest, NoMoreDiskThanNeeded)
-{
-  ResultFile file(path(), "", three_points);
-  write_rows(file, 3);
-  file.finish({}, {});
-  struct stat status = {};
-  ASSERT_EQ(stat(path().c_str(), &status), 0);
-  EXPECT_LT(status.st_blocks * 512, status.st_size + 65536);
-}
-
-TEST_F(ResultFileTest, ManyRows)
-{
-  constexpr int n_rows = 100000;
-  ResultFile file(path(), "", {});
-  for (int i = 0; i < n_rows; ++i)
-    file.append(row(i));
-  file.finish({}, {});
-  EXPECT_EQ(h5py("print(len(f[\"table/Q\"]), f[\"table/Q\"][-1])"), "100000 -199998.0\n");
 }

@@ -12,13 +12,6 @@ namespace
   const Warning soft = { "soft", "found", "effect", "remedy" };
 }
 
-TEST(WarningText, CountsAndNames)
-{
-  EXPECT_EQ(count_text({}), "no warnings");
-  EXPECT_EQ(count_text({ soft }), "1 warning: soft");
-  EXPECT_EQ(count_text({ soft, { "narrow", "", "", "" } }), "2 warnings: soft, narrow");
-}
-
 TEST(WarningsPage, HoldsTextsThatTakeTheValuesInTurn)
 {
   const auto vibration = make_warning("hidden_vibration", { "5 mm", "4*", "2", "0.2", "0.1", "3", "0.1" });
@@ -35,11 +28,6 @@ TEST(WarningsPage, UnknownNamesAndOtherNumbersOfValuesAreErrors)
   EXPECT_THROW(make_warning("no_such_warning"), std::logic_error);
   EXPECT_THROW(make_warning("hidden_vibration", { "3" }), std::logic_error);
   EXPECT_THROW(make_warning("locks", { "1", "2", "3", "4", "5" }), std::logic_error);
-}
-
-TEST(WarningText, NothingWithoutWarnings)
-{
-  EXPECT_EQ(to_text({}), "");
 }
 
 TEST(WarningText, HoldsAllPartsWithTheirLabels)

@@ -215,18 +215,6 @@ TEST(SlideWarnings, OfThePairsSecondLever)
   EXPECT_EQ(slide_warnings(scene, { 0., 30., 10., 0. }, { 5., 5. }, 0.).size(), 1u);
 }
 
-TEST(RowWarnings, StrengthOfCorkAlone)
-{
-  FrictionLayer layer;
-  EXPECT_DOUBLE_EQ(layer_strength(layer).value(), 0.8);
-  layer.poisson_ratio = 0.3;
-  EXPECT_FALSE(layer_strength(layer));
-  layer.strength = 5.;
-  EXPECT_DOUBLE_EQ(layer_strength(layer).value(), 5.);
-  layer.thickness = 0.;
-  EXPECT_FALSE(layer_strength(layer));
-}
-
 // Largest pressures of a rigid cylinder of R = 56 mm under 0.895 N/mm on a bonded layer in plane strain, by collocation with the
 // kernel of the layer, outside of this program. The last one is Hertz's.
 TEST(RowWarnings, PressureOfALayer)
@@ -282,15 +270,6 @@ TEST(SceneWarnings, DefaultsInAnotherDevice)
   EXPECT_EQ(names(scene_warnings(scene)), Names{});
 }
 
-TEST(SceneWarnings, AVariationOfModelAIsNoOtherDevice)
-{
-  Scene scene                    = model_a();
-  scene.geometry.cylinder_radius = 58.;
-  EXPECT_EQ(names(scene_warnings(scene)), Names{});
-  scene.geometry.pivot_distance = 190.;
-  EXPECT_EQ(names(scene_warnings(scene)), Names{ "defaults_of_model_a" });
-}
-
 TEST(SceneWarnings, AnotherLeverIsNotScaledToTheInertiaOfModelA)
 {
   Scene scene          = model_a();
@@ -309,18 +288,6 @@ TEST(SceneWarnings, AnotherLeverIsNotScaledToTheInertiaOfModelA)
   at_rest.analysis.type = AnalysisType::quasi_static;
   EXPECT_EQ(names(scene_warnings(at_rest)), Names{});
   scene.specified = { "Lever/Moment of inertia" };
-  EXPECT_EQ(names(scene_warnings(scene)), Names{});
-}
-
-TEST(SceneWarnings, WhatAMapVariesIsGiven)
-{
-  Scene scene          = model_b();
-  scene.analysis.type  = AnalysisType::map;
-  scene.analysis.model = ModelType::rigid;
-  scene.specified      = { "Geometry/Cylinder radius", "Geometry/Interface offset", "Geometry/Pivot distance",
-                           "Rotational spring/Stiffness", "Lever/Moment of inertia" };
-  EXPECT_EQ(names(scene_warnings(scene)), Names{ "defaults_of_model_a" });
-  scene.map.second.name = "Contact/Stiffness";
   EXPECT_EQ(names(scene_warnings(scene)), Names{});
 }
 
@@ -377,45 +344,6 @@ TEST(SceneWarnings, LockingOfModelsThatCanBend)
     held.stability.position  = 64.;
     EXPECT_FALSE(locks(scene_warnings(held)));
   }
-}
-
-TEST(TargetWarnings, WhereATargetIsMissed)
-{
-  AccuracySettings asked;
-  asked.target                               = 0.01;
-  asked.quantities                           = { "P", "overshoot" };
-  const std::vector<ErrorEstimate> estimates = { { "P", "its peak", { { "mesh", 0.009, "" } }, {} },
-                                                 { "frequency", "it", { { "mesh", 0.1, "" } }, {} },
-                                                 { "decay", "", {}, "No estimate." } };
-  EXPECT_TRUE(target_warnings(asked, estimates).empty());
-  auto missed = estimates;
-  missed.push_back({ "overshoot", "it", { { "mesh", 0.008, "Finer." }, { "step", 0.007, "" } }, {} });
-  const auto warnings = target_warnings(asked, missed);
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_EQ(warnings[0].name, "target_missed");
-  EXPECT_EQ(warnings[0].remedy, "Finer.");
-  asked.quantities   = { "P", "decay" };
-  const auto unknown = target_warnings(asked, missed);
-  ASSERT_EQ(unknown.size(), 1u);
-  EXPECT_EQ(unknown[0].remedy, "No estimate.");
-  asked.target = 0.;
-  EXPECT_TRUE(target_warnings(asked, missed).empty());
-}
-
-TEST(SceneWarnings, NearLockingTellsTheSensitivityOfTheClosedForm)
-{
-  const Scene scene = near_locking(0.1);
-  const double x    = scene.drive.maximum();
-  const auto P      = [&](const double factor)
-  {
-    Scene changed = scene;
-    changed.friction.factor *= factor;
-    return closed_form(changed, x, -112.).P;
-  };
-  const double expected = (P(1. + 1e-6) - P(1. - 1e-6)) / (2e-6 * P(1.));
-  const auto found      = scene_warnings(scene).at(0).found;
-  const auto begin      = found.find("mu e/(s - mu e) = ") + 18;
-  EXPECT_NEAR(std::stod(found.substr(begin)), expected, 1e-4 * expected) << found;
 }
 
 // Each number is that of model A in another unit.
@@ -550,22 +478,4 @@ TEST(RowWarnings, SpeedsBeyondATableOfFriction)
   scene.friction.speed = FrictionSpeed::drive;
   EXPECT_EQ(names_with(Column::v_rel, -121., scene), Names{});
   EXPECT_EQ(names_with(Column::v, -121., scene), Names{ "speed_beyond_table" });
-}
-
-TEST(SceneWarnings, ACylinderThatHardlyOpensTheLever)
-{
-  Scene scene     = model_a();
-  const double R  = scene.geometry.cylinder_radius;
-  const auto near = [&](const double gap)
-  {
-    scene.geometry.interface_offset = R - gap;
-    return names(scene_warnings(scene));
-  };
-  scene.mesh.face_size = 0.25;
-  EXPECT_EQ(near(1e-3), Names{});
-  EXPECT_EQ(near(1e-5), Names{ "contact_between_points" });
-  scene.mesh.face_size = 0.025;
-  EXPECT_EQ(near(1e-5), Names{});
-  scene.analysis.model = ModelType::closed_form;
-  EXPECT_EQ(near(1e-9), Names{});
 }

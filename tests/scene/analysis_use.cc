@@ -42,14 +42,6 @@ TEST(Accuracy, NamesAreThoseOfTheAnalysis)
   EXPECT_EQ(refusal({ "Accuracy/Target=0.01", "Accuracy/Quantity=P, largest_pressure", "Analysis/Model=auto" }), "");
 }
 
-TEST(Accuracy, AutoAndWhatIsNotGivenAreOpen)
-{
-  const Scene scene = read_scene(scene_file("model-a"), { "Mesh/Face size=auto", "Analysis/Step=1" });
-  EXPECT_TRUE(is_open(scene, "Mesh/Face size"));
-  EXPECT_TRUE(is_open(scene, "Mesh/Faces in contact"));
-  EXPECT_FALSE(is_open(scene, "Analysis/Step"));
-}
-
 TEST(Accuracy, ContactIsEnforcedByMultipliersWhereThatIsCheap)
 {
   const auto enforcement = [](const std::vector<std::string> &overrides)

@@ -4,8 +4,6 @@
 #include "scene/scene.h"
 #include "support/written.h"
 
-#include <set>
-
 using namespace sprag;
 
 namespace
@@ -108,17 +106,4 @@ TEST(ReadDesign, QuantitiesOfTheTableNeedLevers)
   EXPECT_EQ(ends("1.1"), Messages());
   ASSERT_EQ(ends("0.9").size(), 1u);
   EXPECT_NE(ends("0.9").front().find("must be more than the 1 s of Base table"), std::string::npos) << ends("0.9").front();
-}
-
-TEST(ReadDesign, EveryQuantityHasOneName)
-{
-  std::set<std::string> names;
-  for (const auto &info : design_quantities())
-  {
-    EXPECT_TRUE(names.insert(info.name).second) << info.name;
-    EXPECT_EQ(find_design_quantity(info.name), info.quantity);
-    EXPECT_EQ(design_quantity_info(info.quantity).name, info.name);
-    EXPECT_FALSE(info.unit.empty() || info.definition.empty()) << info.name;
-  }
-  EXPECT_EQ(names.size(), static_cast<std::size_t>(DesignQuantity::parameter));
 }

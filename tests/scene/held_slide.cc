@@ -10,49 +10,11 @@
 
 using namespace sprag;
 
-TEST(HeldDrive, IsTheDrivesLargestXUnlessGiven)
-{
-  Scene scene = model_a();
-  EXPECT_DOUBLE_EQ(held_drive(scene).x, 65.);
-  EXPECT_DOUBLE_EQ(held_drive(scene).v, -112.);
-  scene.stability.position  = 30.;
-  scene.stability.direction = Direction::forward;
-  EXPECT_DOUBLE_EQ(held_drive(scene).x, 30.);
-  EXPECT_DOUBLE_EQ(held_drive(scene).v, 112.);
-}
-
 TEST(HeldScene, FrictionByTheDrivesSpeedIsAConstant)
 {
   const auto held = held_scene(with_friction_by_drive_speed(model_a()));
   EXPECT_NEAR(friction_coefficient(held.friction, 5.).coefficient, 0.72852016, 1e-8);
   EXPECT_DOUBLE_EQ(friction_coefficient(held.friction, 500.).derivative, 0.);
-}
-
-TEST(HeldScene, WithoutDampingNothingIsLeftOfIt)
-{
-  Scene scene             = model_a();
-  scene.stability.damping = false;
-  const auto held         = held_scene(scene);
-  EXPECT_EQ(held.lever.modal_damping, 0.);
-  EXPECT_EQ(held.contact.damping, 0.);
-  EXPECT_EQ(held.support.damping, 0.);
-}
-
-TEST(CriticalSearches, NamesMayHoldBlanks)
-{
-  Scene scene              = model_a();
-  scene.stability.critical = "Friction/Factor 0 2; Rotational spring/Stiffness 1e4 2.5e5";
-  const auto searches      = critical_searches(scene);
-  ASSERT_TRUE(searches);
-  ASSERT_EQ(searches->size(), 2u);
-  EXPECT_EQ(searches->at(1).name, "Rotational spring/Stiffness");
-  EXPECT_DOUBLE_EQ(searches->at(1).from, 1e4);
-  EXPECT_DOUBLE_EQ(searches->at(1).to, 2.5e5);
-  for (const std::string text : { "Lever/Depth", "Lever/Depth 3", "Lever/Depth 3 mm", "3 25", ";" })
-  {
-    scene.stability.critical = text;
-    EXPECT_FALSE(critical_searches(scene)) << text;
-  }
 }
 
 TEST(CriticalSearches, AutomaticRangesHoldTheScenesOwnValues)
@@ -78,14 +40,4 @@ TEST(CriticalSearches, AutomaticRangesHoldTheScenesOwnValues)
   scene.lever.depth             = 0.9;
   EXPECT_DOUBLE_EQ(range("Lever/Depth").first, 0.15);
   EXPECT_DOUBLE_EQ(range("Lever/Depth").second, 2.25);
-}
-
-TEST(FrictionFactor, MultipliesEveryLaw)
-{
-  FrictionLaw law;
-  const auto plain = friction_coefficient(law, 112.);
-  law.factor       = 1.5;
-  const auto more  = friction_coefficient(law, 112.);
-  EXPECT_DOUBLE_EQ(more.coefficient, 1.5 * plain.coefficient);
-  EXPECT_DOUBLE_EQ(more.derivative, 1.5 * plain.derivative);
 }

@@ -58,6 +58,15 @@ namespace
       return "none";
     }
 
+    /// Thirty rows whose first column begins at 0 and grows by `step`.
+    static std::string steady(const double step)
+    {
+      std::string text;
+      for (int i = 0; i < 30; ++i)
+        text += number_text(step * i) + ", 1\n";
+      return text;
+    }
+
     void expect_mistake(const std::string &part, const std::string &text, const Messages &more = {}) const
     {
       const auto found = mistake(text, more);
@@ -87,12 +96,6 @@ TEST_F(ReadIdentification, TakesColumnsByNameInTheirUnits)
   EXPECT_NEAR(measured.channels[0].values[0], 1., 1e-12);
 }
 
-TEST_F(ReadIdentification, TakesTheModelOfTheClosedFormUnlessOneIsGiven)
-{
-  EXPECT_EQ(scene(header + rows()).analysis.model, ModelType::closed_form);
-  EXPECT_EQ(scene(header + rows(), { "Analysis/Model=beam" }).analysis.model, ModelType::beam);
-}
-
 TEST_F(ReadIdentification, SumsSensorsAndChoosesForces)
 {
   std::string text = "x [mm], sensor_1 [N], sensor_2 [N], P [N]\n";
@@ -119,39 +122,11 @@ TEST_F(ReadIdentification, TellsWhatIsWrongWithTheTable)
   expect_mistake("stroke.csv:3: has 3 cells, the header 4", header + "0, 0, 0, 0\n1, 2, 3\n");
   expect_mistake("numbers need a decimal point: 1.5", "x [mm]; P [N]\n1,5; 2\n");
   expect_mistake("must be a number", "x [mm], P [N]\nnine, 2\n");
-  expect_mistake(
-      "row 2: time must not be less", "time [s], P [N]\n" +
-                                          []
-                                          {
-                                            std::string text;
-                                            for (int i = 0; i < 30; ++i)
-                                              text += number_text(-i) + ", 1\n";
-                                            return text;
-                                          }());
-  expect_mistake("where the cylinder reaches the pivot",
-                 []
-                 {
-                   std::string text = "x [mm], P [N]\n";
-                   for (int i = 0; i < 30; ++i)
-                     text += number_text(10. * i) + ", 1\n";
-                   return text;
-                 }());
+  expect_mistake("row 2: time must not be less", "time [s], P [N]\n" + steady(-1.));
+  expect_mistake("where the cylinder reaches the pivot", "x [mm], P [N]\n" + steady(10.));
   expect_mistake("x must be >= 0, it is negative in 29 of 30 rows, down to -29 mm in row 30: give x the other sign",
-                 []
-                 {
-                   std::string text = "x [mm], P [N]\n";
-                   for (int i = 0; i < 30; ++i)
-                     text += number_text(-i) + ", 1\n";
-                   return text;
-                 }());
-  expect_mistake("the drive ends at",
-                 []
-                 {
-                   std::string text = "time [s], P [N]\n";
-                   for (int i = 0; i < 30; ++i)
-                     text += number_text(i) + ", 1\n";
-                   return text;
-                 }());
+                 "x [mm], P [N]\n" + steady(-1.));
+  expect_mistake("the drive ends at", "time [s], P [N]\n" + steady(1.));
 }
 
 TEST_F(ReadIdentification, TellsWhatIsWrongWithTheUnknowns)
@@ -161,16 +136,7 @@ TEST_F(ReadIdentification, TellsWhatIsWrongWithTheUnknowns)
   expect_wrong("mu, stifness", "'stifness' is no unknown");
   expect_wrong("mu, mu", "names 'mu' twice");
   expect_wrong("mu, friction factor", "can have one of mu, mu polynomial");
-  expect_mistake("lag needs a column time",
-                 "x [mm], P [N]\n" +
-                     []
-                     {
-                       std::string text;
-                       for (int i = 0; i < 30; ++i)
-                         text += number_text(i) + ", 1\n";
-                       return text;
-                     }(),
-                 { "Identification/Unknowns=mu, lag" });
+  expect_mistake("lag needs a column time", "x [mm], P [N]\n" + steady(1.), { "Identification/Unknowns=mu, lag" });
   expect_mistake("must be at least 4 speeds that increase", header + rows(),
                  { "Identification/Unknowns=mu table", "Identification/Friction speeds=10, 5, 20, 30" });
 }

@@ -290,19 +290,6 @@ TEST(IsolationInput, ARecordInHdf5HasTheUnitOfItsDataset)
   EXPECT_NE(read_with_units("mm", "m/s^2").find("'mm' has the dimension m, s has the dimension s"), std::string::npos);
 }
 
-TEST(IsolationScene, LeversAreThoseOfTheClosedFormUnlessAnotherModelIsGiven)
-{
-  const auto model = [](const Messages &overrides) { return make_scene(overrides).analysis.model; };
-  EXPECT_EQ(model({ "Analysis/Type=isolation" }), ModelType::closed_form);
-  EXPECT_EQ(model({ "Analysis/Type=isolation", "Analysis/Model=beam" }), ModelType::beam);
-  EXPECT_EQ(model({ "Analysis/Type=study", "Study/Type=isolation", "Study/Vary=Isolation/Mass = 0.1, 0.2" }),
-            ModelType::closed_form);
-  EXPECT_EQ(model({ "Analysis/Type=transient", "Analysis/Model=beam" }), ModelType::beam);
-  const auto text = parameters_text(make_scene({ "Analysis/Type=isolation" }));
-  EXPECT_NE(text.find("set Model"), std::string::npos);
-  EXPECT_EQ(text.find("= finite element"), std::string::npos);
-}
-
 TEST(IsolationInput, TablesThatCannotBeAreRefused)
 {
   const auto says = [](const std::string &said, const std::string &part)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "input/read.h"
-#include "base/text.h"
 #include "laws/friction_law.h"
 
 #include "scene/messages.h"
@@ -8,8 +7,6 @@
 #include "support/params_folder.h"
 
 #include <array>
-#include <cmath>
-#include <functional>
 #include <hdf5.h>
 
 using namespace sprag;
@@ -39,46 +36,6 @@ namespace
     return params_folder();
   }
 } // namespace
-
-TEST(ReadScene, EmptyFileIsModelA)
-{
-  const Scene scene = read_scene(written(""));
-  const Scene defaults;
-  EXPECT_EQ(scene.geometry.interface_offset, defaults.geometry.interface_offset);
-  EXPECT_EQ(scene.spring.stiffness, 7.4e4);
-  EXPECT_EQ(scene.drive.duration(), Drive().duration());
-  EXPECT_TRUE(std::holds_alternative<CorkOnAluminium>(scene.friction.law));
-  EXPECT_FALSE(scene.contact.penalty);
-  EXPECT_DOUBLE_EQ(scene.slope.maximum_inclination, defaults.slope.maximum_inclination);
-  EXPECT_EQ(scene.slope.offset_ratios, defaults.slope.offset_ratios);
-  EXPECT_EQ(scene.name, "scene");
-}
-
-TEST(ReadScene, EverySectionReachesTheScene)
-{
-  const Scene scene = read_scene(
-      written(""), { "Analysis/Model=closed form", "Geometry/Pivot height=1.5", "Drive/Profile=harmonic", "Drive/Stroke=40",
-                     "Friction/Law=Coulomb", "Friction/Coefficient=0.5", "Friction/Speed=drive", "Lever/Young's modulus=210000",
-                     "Friction layer/Thickness=0", "Rotational spring/Stiffness=1e4", "Contact/Enforcement=augmented Lagrangian",
-                     "Contact/Penalty=1234", "Mesh/Degree=1", "Output/Fields=none", "Slope/Sweep=inclination",
-                     "Slope/Maximum inclination=45", "Slope/Offset ratios=0.1, 0.3" });
-  EXPECT_EQ(scene.analysis.model, ModelType::closed_form);
-  EXPECT_EQ(scene.geometry.pivot_height, 1.5);
-  EXPECT_EQ(scene.drive.profile(), DriveProfile::harmonic);
-  EXPECT_EQ(scene.drive.maximum(), 40.);
-  EXPECT_EQ(std::get<CoulombFriction>(scene.friction.law).coefficient, 0.5);
-  EXPECT_EQ(scene.friction.speed, FrictionSpeed::drive);
-  EXPECT_EQ(scene.lever.young_modulus, 210000.);
-  EXPECT_EQ(scene.layer.thickness, 0.);
-  EXPECT_EQ(scene.spring.stiffness, 1e4);
-  EXPECT_EQ(scene.contact.enforcement, Enforcement::augmented_lagrangian);
-  EXPECT_EQ(scene.contact.penalty, 1234.);
-  EXPECT_EQ(scene.mesh.degree, 1u);
-  EXPECT_EQ(scene.output.fields, FieldOutput::none);
-  EXPECT_EQ(scene.slope.sweep, SlopeSweep::inclination);
-  EXPECT_DOUBLE_EQ(scene.slope.maximum_inclination, std::atan(1.));
-  EXPECT_EQ(scene.slope.offset_ratios, (std::vector<double>{ 0.1, 0.3 }));
-}
 
 TEST(ReadScene, TablesAndMeshesLieRelativeToTheFile)
 {
@@ -127,50 +84,6 @@ TEST(ReadScene, PrintedParametersKeepTheTimeSteps)
   EXPECT_EQ(parameters_text(read_scene(written(default_parameters_text()))), default_parameters_text());
 }
 
-TEST(ReadScene, WhatATransientAnalysisNeedsReachesTheScene)
-{
-  struct Number
-  {
-    std::string name;
-    double value;
-    std::function<double(const Scene &)> read;
-  };
-  const std::vector<Number> numbers = {
-    { "Analysis/Maximum energy residual", 0.1, [](const Scene &s) { return s.analysis.maximum_residual; } },
-    { "Lever/Moment of inertia", 7., [](const Scene &s) { return s.lever.moment_of_inertia; } },
-    { "Lever/Tip mass", 1e-5, [](const Scene &s) { return s.lever.tip_mass; } },
-    { "Lever/Neutral axis offset", 0., [](const Scene &s) { return s.lever.neutral_axis_offset.value(); } },
-    { "Lever/Modal damping", 0.03, [](const Scene &s) { return s.lever.modal_damping; } },
-    { "Lever/Mass damping", 4., [](const Scene &s) { return s.lever.mass_damping; } },
-    { "Lever/Stiffness damping", 1e-6, [](const Scene &s) { return s.lever.stiffness_damping; } },
-    { "Friction layer/Density", 3e-10, [](const Scene &s) { return s.layer.density; } },
-    { "Contact/Stiffness", 3000., [](const Scene &s) { return s.contact.stiffness; } },
-    { "Contact/Exponent", 1.5, [](const Scene &s) { return s.contact.exponent; } },
-    { "Contact/Damping", 0.1, [](const Scene &s) { return s.contact.damping; } },
-    { "Contact/Tangential stiffness", 900., [](const Scene &s) { return s.contact.tangential_stiffness.value(); } },
-    { "Support/Mass", 1e-3, [](const Scene &s) { return s.support.mass; } },
-    { "Support/Stiffness", 6000., [](const Scene &s) { return s.support.stiffness; } },
-    { "Support/Damping", 0.05, [](const Scene &s) { return s.support.damping; } },
-    { "Time/Step", 1e-5, [](const Scene &s) { return s.time.step; } },
-    { "Time/Tolerance", 1e-4, [](const Scene &s) { return s.time.tolerance; } },
-    { "Time/Spectral radius", 1., [](const Scene &s) { return s.time.spectral_radius; } },
-    { "Condensed/Modes", 7., [](const Scene &s) { return static_cast<double>(s.condensed.modes); } },
-    { "Friction/Regularisation speed", 0.5, [](const Scene &s) { return s.friction.regularisation_speed; } },
-    { "Drive/Reversal duration", 0.01, [](const Scene &s) { return s.drive.reversal_duration(); } }
-  };
-  Messages overrides = { "Analysis/Type=transient", "Analysis/Model=beam", "Support/Type=sprung", "Condensed/Cache=bases" };
-  for (const auto &number : numbers)
-    overrides.push_back(number.name + "=" + number_text(number.value));
-  const Scene scene = make_scene(overrides);
-  for (const auto &number : numbers)
-    EXPECT_EQ(number.read(scene), number.value) << number.name;
-  EXPECT_EQ(scene.analysis.type, AnalysisType::transient);
-  EXPECT_EQ(scene.analysis.model, ModelType::beam);
-  EXPECT_EQ(scene.support.type, SupportType::sprung);
-  EXPECT_EQ(scene.condensed.cache, (folder() / "bases").string());
-  EXPECT_EQ(parameters_text(read_scene(written(parameters_text(scene)))), parameters_text(scene));
-}
-
 TEST(ReadScene, ReversalsTakeTimeInTransientAnalysesOnly)
 {
   EXPECT_EQ(make_scene({ "Analysis/Type=transient" }).drive.reversal_duration(), 5e-3);
@@ -183,18 +96,6 @@ TEST(ReadScene, ReversalsTakeTimeInTransientAnalysesOnly)
                        "fit into the shortest stroke" }));
   EXPECT_TRUE(find_mistakes({ "Analysis/Type=transient", "Drive/Stroke=0.4", "Drive/Reversal duration=0.00423278" }).empty());
   EXPECT_TRUE(find_mistakes({ "Drive/Stroke=0.4" }).empty());
-}
-
-TEST(ReadScene, ScenesOfTheProgramAreFaultless)
-{
-  unsigned int n_scenes = 0;
-  for (const auto &entry : std::filesystem::directory_iterator(scenes()))
-    if (entry.path().extension() == ".prm")
-    {
-      ++n_scenes;
-      EXPECT_NO_THROW(read_scene(entry.path().string())) << entry.path();
-    }
-  EXPECT_GE(n_scenes, 12u);
 }
 
 TEST(ReadScene, AllMistakesAreFoundAtOnce)
@@ -217,14 +118,6 @@ TEST(ReadScene, AllMistakesAreFoundAtOnce)
                  "scene.prm:6: Rotational spring/Stifness = 1: no such parameter; did you mean 'Stiffness'?",
                  "scene.prm: Drive/Stroke = 65: must be more than Start = 70 mm",
                  "--set: Lever/Material = neo-Hookean: neo-Hookean needs Analysis/Plane = strain or Analysis/Dimension = 3" }));
-}
-
-TEST(ReadScene, DriveMustMoveForward)
-{
-  EXPECT_EQ(find_mistakes({ "Drive/Stroke=0" }), (Messages{ "--set: Drive/Stroke = 0: must be a number > 0 [mm]" }));
-  EXPECT_EQ(find_mistakes({ "Drive/Start=-1" }), (Messages{ "--set: Drive/Start = -1: must be a number >= 0 [mm]" }));
-  EXPECT_EQ(find_mistakes({ "Drive/Start=20", "Drive/Stroke=10" }),
-            (Messages{ "--set: Drive/Stroke = 10: must be more than Start = 20 mm" }));
 }
 
 TEST(ReadScene, TablesMustBeReadable)
