@@ -55,26 +55,6 @@ namespace
   }
 } // namespace
 
-TEST(ClosedFormRows, StepsAreNoLongerThanAskedAndEndExactly)
-{
-  for (const double step : { 1., 0.3, 7. })
-    for (Scene scene : scenes())
-    {
-      scene.analysis.step = step;
-      const auto rows     = compute_rows(scene);
-      for (std::size_t i = 1; i < rows.size(); ++i)
-      {
-        EXPECT_GE(rows[i][Column::time], rows[i - 1][Column::time]);
-        // The drive takes a remainder of 1e-3 of a step along.
-        EXPECT_LE(std::abs(rows[i][Column::step]), 1.001 * step + 1e-12);
-        EXPECT_EQ(rows[i][Column::step], rows[i][Column::x] - rows[i - 1][Column::x]);
-      }
-      EXPECT_EQ(rows.front()[Column::time], 0.);
-      EXPECT_EQ(rows.back()[Column::time], scene.drive.duration());
-      EXPECT_EQ(rows.back()[Column::x], 0.);
-    }
-}
-
 TEST(ClosedFormRows, EveryReversalHasARowBeforeAndOneAfterIt)
 {
   for (const Scene &scene : scenes())
@@ -99,16 +79,6 @@ TEST(ClosedFormRows, EveryReversalHasARowBeforeAndOneAfterIt)
   }
 }
 
-TEST(ClosedFormRows, SmoothDriveAtRestKeepsTheDirectionItComesFromOrGoesTo)
-{
-  const auto rows   = compute_rows(driven(model_a(), Drive(DriveProfile::harmonic, 0., 65., 112., 1.)));
-  const auto second = second_rows(rows).at(0);
-  EXPECT_GT(rows[second - 1][Column::F], 0.);
-  EXPECT_LT(rows[second][Column::F], 0.);
-  EXPECT_NEAR(rows[second][Column::v], 0., 1e-12);
-  EXPECT_NEAR(rows[second][Column::mu], 0.3491, 1e-12);
-}
-
 // P of eq. 5 with mu of an exponential: largest where a harmonic drive is nearly at rest and friction rises within half a
 // millimetre. Rows 1 mm apart missed it by 0.45 %.
 TEST(ClosedFormRows, FollowFrictionWhereAHarmonicDriveTurns)
@@ -127,23 +97,6 @@ TEST(ClosedFormRows, FollowFrictionWhereAHarmonicDriveTurns)
     expected        = std::max(expected, scene.spring.stiffness * (theta(x) - theta(0.)) / (s + mu * g.interface_offset));
   }
   EXPECT_NEAR(largest(compute_rows(scene), Column::P), expected, 2e-4 * expected);
-}
-
-// Round-off gives the speed at a turn either sign.
-TEST(ClosedFormRows, RowsOfATurnKeepTheirPlacesInEveryCycle)
-{
-  const auto rows    = compute_rows(driven(model_a(), Drive(DriveProfile::harmonic, 0., 65., 112., 5.)));
-  const auto seconds = second_rows(rows);
-  ASSERT_EQ(seconds.size(), 9u);
-  for (std::size_t i = 0; i < seconds.size(); i += 2)
-  {
-    const Row &before = rows[seconds[i] - 1];
-    const Row &after  = rows[seconds[i]];
-    EXPECT_EQ(before[Column::x], 65.);
-    EXPECT_NEAR(before[Column::Q], 7.163, 5e-4);
-    EXPECT_NEAR(after[Column::Q], -5.634, 5e-4);
-    EXPECT_EQ(before[Column::mu], 0.3491);
-  }
 }
 
 TEST(ClosedFormRows, EnergyBalancesInEveryRow)

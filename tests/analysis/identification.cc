@@ -129,11 +129,6 @@ namespace
     return stroke;
   }
 
-  double inclination(const Scene &scene)
-  {
-    return kinematics(scene.geometry, 0.).theta;
-  }
-
   bool contains(const std::vector<std::string> &sentences, const std::string &part)
   {
     return std::any_of(sentences.begin(), sentences.end(),
@@ -152,19 +147,6 @@ TEST(Identification, FindsTheRestAngleOfASpring)
   EXPECT_NEAR(number(found, "mu").value, 0.73, 1e-7);
   EXPECT_NEAR(number(found, "k").value, 7.4e4, 1e-2);
   EXPECT_NEAR(number(found, "rest").value, -0.01, 1e-8);
-}
-
-TEST(Identification, IntervalsHoldTheTruthUnderWhiteNoise)
-{
-  const Scene truth = device();
-  const auto rows   = compute_rows(truth);
-  const auto all    = { Unknown::friction_constant, Unknown::stiffness, Unknown::interface_offset, Unknown::inclination };
-  expect_honest(
-      guess(truth, all), { { "mu", 0.73 }, { "k", 7.4e4 }, { "e", 45.6 }, { "th0", inclination(truth) } },
-      [&](const unsigned int seed) {
-        return measured(rows, { 0.2, 0. }, seed);
-      },
-      seeds / 2);
 }
 
 TEST(Identification, IntervalsHoldTheTruthUnderCorrelatedNoise)
@@ -280,37 +262,6 @@ TEST(Identification, HubersLossBearsOutliers)
   EXPECT_NEAR(number(found, "mu").value, 0.73, 5e-3);
   EXPECT_LT(number(found, "mu").deviation, by_squares / 1.5);
   EXPECT_NEAR(found.noise[1].deviation, 0.2, 0.03);
-}
-
-TEST(Identification, HubersLossIsLeastWhereTheFitEnds)
-{
-  const Scene truth             = device();
-  Scene scene                   = guess(truth, { Unknown::friction_constant, Unknown::stiffness });
-  scene.identification.measured = spoilt(compute_rows(truth), 1);
-  scene.identification.loss     = IdentificationLoss::Huber;
-  const MeasuredMotion motion(scene);
-  const LeverUnknowns unknowns(scene, motion);
-  const auto found = identify(scene, motion, unknowns);
-  const StrokeFit fit(scene, motion, unknowns);
-  std::vector<double> scaled, deviations;
-  for (const auto &one : found.found)
-    scaled.push_back(one.value / one.number.scale);
-  for (const auto &channel : found.noise)
-    deviations.push_back(channel.deviation);
-  const auto residuals = [&](const auto &at) { return fit.residuals(at, found.used, deviations, found.correction); };
-  const auto at_end    = residuals(scaled);
-  const auto slopes    = jacobian(residuals, scaled);
-  for (std::size_t j = 0; j < scaled.size(); ++j)
-  {
-    double slope = 0., size = 0.;
-    for (std::size_t i = 0; i < at_end.size(); ++i)
-    {
-      const double share = influence(IdentificationLoss::Huber, at_end[i]) * slopes[i * scaled.size() + j];
-      slope += share;
-      size += std::abs(share);
-    }
-    EXPECT_NEAR(slope, 0., 1e-3 * size) << found.found[j].number.name;
-  }
 }
 
 /// A beam in time, whose reversal leaves a vibration.

@@ -199,22 +199,6 @@ TEST(Isolation, StopsUnderAHarmonicBaseAreThoseOfExactPieces)
   }
 }
 
-TEST(Isolation, RowsDoNotMoveEvents)
-{
-  Scene scene                    = shaken(DamperType::constant_friction, 0.21);
-  scene.isolation.end            = IsolationEnd::duration;
-  scene.isolation.friction_force = 0.6 * scene.isolation.stiffness * scene.isolation.base_amplitude * 0.21 * 0.21;
-  scene.isolation.duration       = 30.;
-  scene.isolation.output_step    = 30.;
-  const auto coarse              = find_turns(scene);
-  scene.isolation.output_step    = 1e-3;
-  const auto fine                = find_turns(scene);
-  ASSERT_EQ(coarse.size(), fine.size());
-  ASSERT_GT(coarse.size(), 10u);
-  for (std::size_t i = 0; i < fine.size(); ++i)
-    EXPECT_NEAR(coarse[i].time, fine[i].time, 1e-9);
-}
-
 TEST(Isolation, ViscousDampingHasTheTransmissibilityOfTheBooks)
 {
   for (const double r : { 0.5, 1., 1.8 })
@@ -249,40 +233,6 @@ TEST(Isolation, HarmonicBalanceOfLinearFrictionIsThatOfALossFactor)
   }
 }
 
-TEST(Isolation, HarmonicBalanceTakesASpringInTheDamperAsOneBesideIt)
-{
-  Scene scene                    = shaken(DamperType::linear_friction, 1.8);
-  const double k                 = 0.3 * scene.isolation.stiffness;
-  scene.isolation.friction_slope = 0.4 * scene.isolation.stiffness;
-  auto system                    = isolation_system(scene);
-  const auto motions  = [&] { return harmonic_balance(system, scene.isolation.base_amplitude, base_frequency(scene)); };
-  const auto expected = motions();
-  system.stiffness -= k;
-  system.damper.resistance = [k, friction = system.damper.resistance](const double y, const double speed, const int away)
-  {
-    auto result = friction(y, speed, away);
-    result.force += k * y;
-    return result;
-  };
-  const auto found = motions();
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_NEAR(found.front().amplitude, expected.front().amplitude, 1e-9 * expected.front().amplitude);
-  EXPECT_NEAR(found.front().transmissibility, expected.front().transmissibility, 1e-9);
-}
-
-TEST(Isolation, HarmonicBalanceTellsWhereFrictionHoldsTheTable)
-{
-  Scene scene        = shaken(DamperType::constant_friction, 2.);
-  const double limit = 0.25 * M_PI * scene.isolation.stiffness * scene.isolation.base_amplitude * 4.;
-  const auto motions = [&](const double force)
-  {
-    scene.isolation.friction_force = force;
-    return harmonic_balance(isolation_system(scene), scene.isolation.base_amplitude, base_frequency(scene));
-  };
-  EXPECT_EQ(motions(1.01 * limit).front().amplitude, 0.);
-  EXPECT_GT(motions(0.99 * limit).front().amplitude, 0.);
-}
-
 TEST(Isolation, LeversMeetTheLinearLawWhereZIsSmall)
 {
   Scene scene            = isolated(DamperType::lever);
@@ -304,17 +254,6 @@ TEST(Isolation, LeversMeetTheLinearLawWhereZIsSmall)
   ASSERT_GT(turns.size(), 5u);
   EXPECT_NEAR(turns[0].z / -1e-4, ratio, 1e-5);
   EXPECT_NEAR(turns[1].z / turns[0].z, -ratio, 1e-5);
-}
-
-TEST(Isolation, LeversKeepTheLedgerOfSpringAndFriction)
-{
-  Scene scene                        = shaken(DamperType::lever, 1.);
-  scene.isolation.base_amplitude     = 3.;
-  scene.isolation.periodic_tolerance = 1e-9;
-  const auto found                   = compute_findings(scene);
-  EXPECT_TRUE(found.is_steady);
-  EXPECT_GT(found.dissipated, 1.);
-  EXPECT_LT(found.energy_residual, 1e-9);
 }
 
 // Constant mu: the force depends on z and its direction alone, so that work gives each turn from the one before.
@@ -458,15 +397,6 @@ TEST(Isolation, LeversThatEndOrLockStopTheRunAndKeepWhatWasFound)
   IsolationFindings locked;
   EXPECT_THROW(run_isolation(scene, locked, {}), AnalysisError);
   EXPECT_GT(locked.largest_displacement, 110.);
-}
-
-TEST(Isolation, PeriodsOfLeversInTimeRepeatWithinTheErrorOfTheirSteps)
-{
-  Scene scene          = shaken(DamperType::lever, 1.);
-  scene.time.tolerance = 5e-3;
-  EXPECT_EQ(periodic_tolerance(scene), 1e-11);
-  scene.analysis.model = ModelType::rigid;
-  EXPECT_NEAR(periodic_tolerance(scene), 1e-3, 1e-12);
 }
 
 // Rows every hundredth of the natural period, 10 ms, would fold the upper half of a record of 500 Hz onto the lower one.

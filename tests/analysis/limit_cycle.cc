@@ -38,20 +38,6 @@ TEST(Envelope, FollowsExponentialGrowth)
     }
 }
 
-TEST(Envelope, HasOneExtremumAHalfPeriodBetweenTheFirstAndTheLastChangeOfSign)
-{
-  // Changes of sign at 1/4, 3/4 ... 39 3/4 periods.
-  EXPECT_EQ(crossings(growing(50, 0., 20. / frequency)).size(), 40u);
-  EXPECT_EQ(compute_envelope(growing(50, 0., 20. / frequency)).size(), 39u);
-}
-
-// A straight line misses the change of sign by h^2 / 8 g / w of a sample at most.
-TEST(Envelope, FrequencyDoesNotDependOnGrowth)
-{
-  for (const unsigned int n : { 16u, 128u })
-    EXPECT_NEAR(fit_frequency(crossings(growing(n, 0.4))), frequency, frequency * 1e-3 / n);
-}
-
 TEST(Envelope, ScatterTellsAnythingButAnExponential)
 {
   std::vector<Sample> sizes;

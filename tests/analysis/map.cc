@@ -151,20 +151,6 @@ TEST(MapGrid, BoundaryThroughASideOfTheGridWhoseEndIsNoMultiple)
   EXPECT_LT(found.on_grid, 600u);
 }
 
-TEST(MapGrid, EveryPointWhereTheCoarsestIsOne)
-{
-  const auto found = find({ { 7, 5 } }, 1, 0, disc(3., 2., 1.5), nothing);
-  EXPECT_EQ(found.on_grid, 35u);
-}
-
-TEST(MapGrid, GridSmallerThanACoarseQuad)
-{
-  const auto found = find(
-      { { 2, 3 } }, 64, 0, [](const double first, const double) { return first > 0.5 ? 1u : 0u; }, nothing);
-  EXPECT_EQ(found.on_grid, 6u);
-  EXPECT_EQ(found.boundary.size(), 3u);
-}
-
 TEST(MapGrid, InterpolatesBilinearFunctionsExactly)
 {
   const auto found = find({ { 21, 14 } }, 4, 0, disc(6., 6., 2.), nothing);
@@ -182,14 +168,4 @@ TEST(MapGrid, InterpolatesBilinearFunctionsExactly)
   for (unsigned int i = 0; i < 21; ++i)
     for (unsigned int j = 0; j < 14; ++j)
       EXPECT_NEAR(all[i * 14 + j], plane(i, j), 1e-13 * plane(20, 13));
-}
-
-TEST(MapGrid, WhatIsNotJudgedYetIsNoNumber)
-{
-  MapGrid grid(9, 9, 4);
-  grid.learn({ { { 0., 0. }, { { 0, 0 } } } });
-  const auto all = grid.interpolated(std::vector<double>(81, 1.));
-  EXPECT_EQ(all[0], 1.);
-  EXPECT_TRUE(std::isnan(all[1]));
-  EXPECT_TRUE(std::isnan(all[80]));
 }

@@ -24,25 +24,6 @@ namespace
   }
 } // namespace
 
-TEST(Newton, SolvesALinearEquilibriumAtOnce)
-{
-  ToyModel model;
-  const auto [result, q] = solve(model, 5., 2.);
-  EXPECT_TRUE(result.converged);
-  EXPECT_EQ(result.iterations, 1u); // no residual is left to correct
-  EXPECT_DOUBLE_EQ(q, 2.);
-}
-
-TEST(Newton, EndsAtRoundOff)
-{
-  ToyModel model;
-  model.equation         = [](const double q, const double x) { return ToyModel::Value{ x - q * q * q, -3. * q * q }; };
-  const auto [result, q] = solve(model, 1., 8.);
-  EXPECT_TRUE(result.converged);
-  // A last correction below 1e-9 of the penetration, 1 here, is left out.
-  EXPECT_NEAR(q, 2., 1e-13);
-}
-
 // Newton's method for atan q = 0 runs away from any guess beyond 1.3917 unless its corrections are cut.
 TEST(Newton, CutsCorrectionsThatOvershoot)
 {

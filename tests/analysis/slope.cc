@@ -32,14 +32,6 @@ namespace
     backward_over_theta0
   };
 
-  std::vector<std::string> names(const Sweep &sweep)
-  {
-    std::vector<std::string> result;
-    for (const auto &column : sweep.columns)
-      result.push_back(column.name);
-    return result;
-  }
-
   /// Fig. 11: the mean mu of the experiments.
   Sweep over_inclination(const double maximum_inclination = pi / 3.)
   {
@@ -74,21 +66,6 @@ TEST(SlopeOverCoefficient, PassesThroughTheReferenceSlopes)
   EXPECT_NEAR(b[backward], -0.0073919573, 5e-11);
 }
 
-TEST(SlopeOverInclination, HasACurveForEachOffsetRatio)
-{
-  const auto sweep = over_inclination();
-  EXPECT_EQ(names(sweep),
-            (std::vector<std::string>{ "theta0", "offset_ratio", "dimensionless_forward", "dimensionless_backward" }));
-  for (const double ratio : { 0., 0.2, 0.4, 0.6, 0.8 })
-  {
-    const auto rows = curve(sweep, ratio);
-    ASSERT_EQ(rows.size(), 121u);
-    EXPECT_GT(rows.front()[theta0], 0.);
-    for (std::size_t i = 1; i < rows.size(); ++i)
-      EXPECT_GT(rows[i][theta0], rows[i - 1][theta0]);
-  }
-}
-
 TEST(SlopeOverInclination, BreaksOffWhereTheCylinderReachesThePivot)
 {
   const auto sweep = over_inclination();
@@ -114,15 +91,6 @@ TEST(SlopeOverInclination, RisesForwardAndTurnsBackwardNear25Degrees)
     for (std::size_t i = 1; i < rows.size(); ++i)
       EXPECT_GT(rows[i][forward_over_theta0], rows[i - 1][forward_over_theta0]);
   }
-}
-
-TEST(SlopeOverInclination, TakesItsCoefficientAtThePeakSpeedOfTheDrive)
-{
-  Scene scene       = model_a();
-  scene.slope.sweep = SlopeSweep::inclination;
-  const auto rows   = slope_sweep(scene).rows;
-  scene             = with_coulomb(scene, 0.72852016);
-  EXPECT_NEAR(rows.at(60)[forward_over_theta0], slope_sweep(scene).rows.at(60)[forward_over_theta0], 1e-15);
 }
 
 TEST(SlopeOverInclination, MeetsBothModelsAtTheirInclination)

@@ -15,23 +15,6 @@ namespace
 {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-  const Messages study = { "Analysis/Type=study", "Study/Type=transient", "Analysis/Model=beam" };
-
-  std::vector<Messages> varied_values(const Messages &overrides)
-  {
-    const Scene scene = make_scene(overrides);
-    std::vector<Messages> values;
-    for (const auto &point : make_study_points(scene.study))
-      values.push_back(values_at(scene.study, point));
-    return values;
-  }
-
-  Messages with(Messages settings, const std::string &more)
-  {
-    settings.push_back(more);
-    return settings;
-  }
-
   Entry number(const std::string &name, const double value)
   {
     return { name, value, "N mm", "a number" };
@@ -58,43 +41,6 @@ namespace
   }
 } // namespace
 
-TEST(StudyPoints, OfAGridTheLastParameterRunsFastest)
-{
-  EXPECT_EQ(varied_values(with(study, "Study/Vary=Lever/Depth = 10, 20; Contact/Exponent = 1, 1.5")),
-            (std::vector<Messages>{ { "10", "1" }, { "10", "1.5" }, { "20", "1" }, { "20", "1.5" } }));
-}
-
-TEST(StudyPoints, OfAListAllRunTogether)
-{
-  const auto list = with(study, "Study/Combine=list");
-  EXPECT_EQ(varied_values(with(list, "Study/Vary=Lever/Depth = 10, 20; Contact/Exponent = 1, 1.5")),
-            (std::vector<Messages>{ { "10", "1" }, { "20", "1.5" } }));
-}
-
-TEST(StudyPoints, ARunIsTheSceneWithItsValues)
-{
-  const Scene scene = make_scene(with(study, "Study/Vary=Lever/Depth = 10, 20; Drive/Speed = 50"));
-  const Scene run   = scene_at(scene, { 1, 0 });
-  EXPECT_EQ(run.analysis.type, AnalysisType::transient);
-  EXPECT_EQ(run.lever.depth, 20.);
-  EXPECT_EQ(run.drive.peak_speed(), 50.);
-  EXPECT_EQ(run.output.fields, FieldOutput::none);
-}
-
-TEST(StudyPoints, ASceneThatIsRefusedSaysWhy)
-{
-  const Scene scene = make_scene(with(study, "Study/Vary=Lever/Length = 210, 100"));
-  EXPECT_NO_THROW(scene_at(scene, { 0 }));
-  EXPECT_THROW(scene_at(scene, { 1 }), InputError);
-}
-
-TEST(StudyPoints, TheReferenceHasTheSceneAndItsOwnSettings)
-{
-  const Scene scene = make_scene(with(with(study, "Study/Vary=Lever/Depth = 10"), "Study/Reference=Contact/Exponent = 1.5"));
-  EXPECT_EQ(reference_scene(scene).contact.exponent, 1.5);
-  EXPECT_EQ(reference_scene(scene).lever.depth, 20.);
-}
-
 TEST(Trade, OnTheFrontNobodyCheaperIsAsExact)
 {
   const std::vector<double> costs  = { 1., 2., 3., 4., none, 3., 0.5 };
@@ -110,12 +56,6 @@ TEST(Trade, RecommendsTheCheapestThatIsExactEnough)
   EXPECT_EQ(cheapest_within(0.01, costs, errors), 1u);
   EXPECT_EQ(cheapest_within(0.0045, costs, errors), 2u);
   EXPECT_FALSE(cheapest_within(0.001, costs, errors));
-}
-
-TEST(Trade, FindsAnOrder)
-{
-  EXPECT_NEAR(observed_order({ 1., 2., 4., none, 8. }, { 3., 12., 48., 1., 0. }), 2., 1e-12);
-  EXPECT_TRUE(std::isnan(observed_order({ 1., 2., 2. }, { 3., 12., 13. })));
 }
 
 TEST(StrokeErrors, CompareAtTheSamePlacesOfTheSameStroke)

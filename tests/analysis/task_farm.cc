@@ -128,24 +128,6 @@ TEST_F(ResultsLogTest, DropsALineOfAnotherScenesLog)
   EXPECT_EQ(results_log.damaged_lines(), 1u);
 }
 
-TEST_F(ResultsLogTest, SurvivesATornHeader)
-{
-  std::ofstream(path) << "sprag";
-  write(some_cells());
-  expect_same_bits(cells_in(ResultsLog(path, "map", "a scene")), some_cells());
-}
-
-TEST_F(ResultsLogTest, BelongsToOneRun)
-{
-  const ResultsLog held(path, "map", "a scene");
-  EXPECT_THROW(ResultsLog(path, "map", "a scene"), InputError);
-}
-
-TEST_F(ResultsLogTest, RefusesAFolderThatIsNotThere)
-{
-  EXPECT_THROW(ResultsLog(folder.path / "none" / "map.journal", "map", "a scene"), InputError);
-}
-
 TEST(TaskFarm, NodesShareAllGroupsByTheirRanks)
 {
   PieceGroups groups;

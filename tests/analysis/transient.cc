@@ -323,24 +323,6 @@ TEST(RejectedStep, LeavesTheRunWhereTheAcceptedStepsAloneLead)
   }
 }
 
-// At rest friction has the sign of the motion before, -0 after one back; a preload presses at x = 0, too.
-TEST(SlidesAtRest, AreThoseOfTheClosedForm)
-{
-  for (const auto type : { ModelType::rigid, ModelType::beam })
-  {
-    Scene scene             = in_time(with_coulomb(model_a(), 0.7), type);
-    scene.spring.rest_angle = -0.05;
-    const auto model        = make_reduced_lever(scene);
-    for (const auto &[x, v] : { std::pair(0., 0.), std::pair(50., 0.), std::pair(50., -0.), std::pair(0., -0.) })
-    {
-      const auto found    = model->sliding_forces({ 0., x, v, 0. }).front();
-      const auto expected = closed_form(scene, x, v);
-      EXPECT_NEAR(found.P, expected.P, 0.015 * expected.P) << x << ' ' << v;
-      EXPECT_NEAR(found.Q, expected.Q, 0.015 * std::abs(expected.Q)) << x << ' ' << v;
-    }
-  }
-}
-
 TEST(Transient, GivesUpWhereHalvingDoesNotHelpAndTellsWhere)
 {
   class Stuck : public Wrapped

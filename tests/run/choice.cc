@@ -79,13 +79,6 @@ TEST(Choice, TrialRunsAreOfMuchLongerFacesThanTheRun)
   EXPECT_TRUE(tried.empty());
 }
 
-TEST(Choice, WhatIsGivenIsKept)
-{
-  const auto choice = choose_settings(asked("model-a", { "Accuracy/Target=1e-3", "Mesh/Face size=0.5", "Analysis/Step=2" }));
-  EXPECT_EQ(chosen(choice, "Mesh/Face size"), "");
-  EXPECT_EQ(chosen(choice, "Analysis/Step"), "");
-}
-
 // The machine may be busier from one estimate to the next. The trial runs are part of what is paid.
 TEST(Choice, BudgetIsKept)
 {
@@ -135,16 +128,6 @@ TEST(ExpectedCost, ModesOfABasisCount)
     EXPECT_GT(usual, 1.2 * few);
     EXPECT_NEAR((many - usual) / (usual - few), 20. / 15., 1e-6);
   }
-}
-
-// A cell of a map over the position holds slides at that place, as one with a place given does; the scene itself has none.
-TEST(ExpectedCost, MapsOverThePositionHoldOnePlace)
-{
-  const double along = expected_cost(asked("map-friction-position-a", {})).cpu_seconds;
-  const double other = expected_cost(asked("map-friction-position-a", { "Map/Second parameter=Lever/Depth", "Map/Second from=3",
-                                                                        "Map/Second to=12", "Stability/Position=65" }))
-                           .cpu_seconds;
-  EXPECT_NEAR(along / other, 1., 1e-6);
 }
 
 // A search looks at 5 slides of each value where the ends of its ranges flutter, else at 33. The limits of stability with the

@@ -26,17 +26,6 @@ namespace
   const std::vector<Row> rows = { row(0., 112., 0., 0.), row(65., 112., 0.2, 2.), row(64., -112., 0.3, 2.4) };
 } // namespace
 
-TEST(PeakReport, TellsTheLargestPressureAndWhereItIs)
-{
-  std::vector<Entry> entries;
-  add_largest_pressure(rows, entries);
-  ASSERT_EQ(entries.size(), 4u);
-  EXPECT_EQ(find_value(entries, "largest_pressure"), 0.3);
-  EXPECT_EQ(find_value(entries, "largest_pressure_x"), 64.);
-  EXPECT_EQ(find_value(entries, "largest_pressure_xi"), 121.);
-  EXPECT_EQ(std::get<std::string>(entries[2].value), "backward");
-}
-
 // Behind a reversal, while friction turns, the pressure stands out where the slip begins.
 TEST(PeakReport, LooksWhereFrictionHasTurned)
 {
@@ -52,23 +41,6 @@ TEST(PeakReport, LooksWhereFrictionHasTurned)
   std::vector<Entry> entries;
   add_largest_pressure(all, entries);
   EXPECT_EQ(find_value(entries, "largest_pressure"), 0.31);
-}
-
-TEST(PeakReport, WarnsOfAContactOfFewElements)
-{
-  Scene scene          = model_a();
-  scene.mesh.face_size = 0.5; // 4.8 elements, 0.7 % expected
-  EXPECT_TRUE(coarse_contact_warnings(scene, rows).empty());
-  scene.mesh.face_size = 1.2; // two elements, 10 %
-  const auto warnings  = coarse_contact_warnings(scene, rows);
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].found.find("2 times"), std::string::npos) << warnings[0].found;
-  EXPECT_NE(warnings[0].effect.find("10 %; P, Q and theta are not"), std::string::npos) << warnings[0].effect;
-  scene.analysis.type = AnalysisType::transient;
-  EXPECT_NE(coarse_contact_warnings(scene, rows)[0].effect.find("10 %, and so may P behind"), std::string::npos);
-  scene.mesh.face_size = 0.55;
-  scene.mesh.degree    = 1; // 4.4 elements, 6 % expected
-  EXPECT_EQ(coarse_contact_warnings(scene, rows).size(), 1u);
 }
 
 // Model A's contact at x = 65 mm is 2.4 mm wide, and none at x = 0. Modes out of contact do not need it.

@@ -130,36 +130,6 @@ TEST(Report, TellsTheLargestForcesOfASecondLever)
     EXPECT_NEAR(find_value(pair, "second_" + name), 1.25 * find_value(summary, name), 1e-9) << name;
 }
 
-// Without friction the tangential force is that of the lever's tilt and points one way on both strokes.
-TEST(Report, WarnsFarFromTheClosedForm)
-{
-  const auto found = [](const double P, const double Q)
-  {
-    const auto warnings = deviation_warnings({ { "deviation_theta_forward", 1. },
-                                               { "deviation_P_forward", P },
-                                               { "deviation_Q_backward", Q },
-                                               { "status", "completed" } });
-    return warnings.empty() ? std::string() : warnings.front().found;
-  };
-  EXPECT_EQ(found(0.19, 0.19), "");
-  EXPECT_EQ(found(NAN, 0.), "") << "strokes too short to tell";
-  EXPECT_EQ(found(0.3, 0.21), "P moving forward is 30 % of its peak off the closed form.");
-  EXPECT_EQ(found(0.3, 0.41), "Q moving backward is 41 % of its peak off the closed form.");
-}
-
-TEST(Report, PeaksWithoutFriction)
-{
-  const Scene scene = moved_by(Drive(DriveProfile::triangle, 0., 65., 112., 1.));
-  auto rows         = rows_with_stick(scene, 1.);
-  for (Row &row : rows)
-  {
-    row[Column::F]                  = 0.01 * row[Column::P];
-    row[Column::friction_resultant] = 0.;
-  }
-  const auto summary = make_summary(scene, rows);
-  EXPECT_GT(find_value(summary, "peak_P_backward"), find_value(summary, "peak_P_forward"));
-}
-
 TEST(Report, SlopeIsToldWhereMuStaysAlone)
 {
   const auto slope = [](const Drive &drive, const std::string &way)
@@ -225,46 +195,6 @@ TEST(Report, ASuddenFallLeavesThePeakAtItsRow)
     rows.push_back(row);
   }
   EXPECT_EQ(find_value(transient_summary(model_a(), rows), "peak_P_forward"), 13.);
-}
-
-TEST(SummaryLines, RoundToEitherSide)
-{
-  for (const auto &[value, down, up] : std::vector<std::array<double, 3>>{ { 9.14440261, 9.144, 9.145 },
-                                                                           { 0.51475337, 0.5147, 0.5148 },
-                                                                           { 9.145, 9.145, 9.145 },
-                                                                           { -123456., -123500., -123400. },
-                                                                           { 9.9996, 9.999, 10. },
-                                                                           { 0., 0., 0. } })
-  {
-    EXPECT_DOUBLE_EQ(rounded_to(value, false), down);
-    EXPECT_DOUBLE_EQ(rounded_to(value, true), up);
-  }
-}
-
-TEST(SummaryTable, FindsTheRowWhoseStarStandsForLeast)
-{
-  const auto unit = [](const AnalysisType type, const std::string &entry) { return summary_row(type, entry).value().unit; };
-  EXPECT_EQ(unit(AnalysisType::transient, "reversal_12_frequency"), "Hz");
-  EXPECT_EQ(unit(AnalysisType::transient, "energy_residual"), "N mm");
-  EXPECT_EQ(unit(AnalysisType::isolation, "energy_residual"), "1");
-  EXPECT_EQ(unit(AnalysisType::calibration, "free_frequency_1_deviation"), "1");
-  EXPECT_EQ(unit(AnalysisType::stability, "critical_lever_depth_values"), "1");
-  EXPECT_EQ(unit(AnalysisType::stability, "critical_lever_depth_2"), "");
-  EXPECT_FALSE(summary_row(AnalysisType::quasi_static, "reversal_1_frequency"));
-  std::vector<Entry> entries = { { "peak_P_forward", 2. }, { "critical_x_1", 3., "mm", "own" }, { "own", 1., "s", "own" } };
-  describe_entries("entry", "stability", entries);
-  EXPECT_EQ(entries[0].description, "");
-  EXPECT_EQ(entries[1].unit + entries[1].description,
-            "mmvalue at which the verdict changes along the parameter, on the better side; own");
-  EXPECT_EQ(entries[2].unit + entries[2].description, "sown");
-
-  // Headlines are what `!` marks and what an analysis describes itself.
-  entries = { { "growth_rate", 1. }, { "x", 65. }, { "critical_x_1", 3., "mm", "own" }, { "critical_x_spacing", 1. } };
-  describe_entries("entry", "stability", entries);
-  std::string headlines;
-  for (const auto &entry : entries)
-    headlines += entry.attributes.empty() ? '0' : '1';
-  EXPECT_EQ(headlines, "1010");
 }
 
 TEST(SummaryTable, PrintsEntriesOfALineTogetherAndNothingThatDoesNotApply)
