@@ -5,10 +5,8 @@
     tests/mutants.py [NAME ...]           # tries these, or all
     tests/mutants.py --list               # tells all with what is wrong in each
     tests/mutants.py --check              # only whether each text occurs exactly once in its file
-    tests/mutants.py --all-quick          # shows what its own tests do not see to all quick tests as well
     tests/mutants.py --build DIR          # where copy and build are kept, build-mutants by default
     tests/mutants.py --jobs 2             # compiles so many files at once
-    tests/mutants.py --write FILE         # also writes which cases see each mutant, for times.py
 
 The sources are copied, and only the copy is changed. Its build stays from one mutant to the next, so that each costs the files that it
 changes. The exit status is 1 if no test sees a mutant or one does not compile, 2 if the unchanged program fails or an entry is wrong.
@@ -16,7 +14,6 @@ changes. The exit status is 1 if no test sees a mutant or one does not compile, 
 
 import argparse
 import functools
-import json
 import os
 import re
 import shutil
@@ -33,7 +30,6 @@ FIELDS = {"file", "text", "becomes", "wrong", "tests"}
 FOLDERS = ("base", "laws", "scene", "results", "model", "fe", "levers", "analysis", "run", "verification")
 OUTSIDE = ("robustness", "postprocess")  # their tests start the program
 REDUCED = ("-LE", "thorough")  # those that ./test runs
-UNNAMED = r"^(structure|presets)\."  # these see that a text has changed, or build other trees
 
 
 def mutants_listed():
@@ -92,33 +88,6 @@ def copy_sources(to):
             path.unlink()
 
 
-def is_paused(session):
-    """Tells if a process of a session is stopped, as by somebody who measures beside it."""
-    for path in Path("/proc").glob("[0-9]*/stat"):
-        try:
-            state, _, _, its_session = path.read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()[:4]
-        except (OSError, ValueError):
-            continue  # has just ended
-        if state == "T" and int(its_session) == session:
-            return True
-    return False
-
-
-def read_output(process, limit):
-    """Returns what a process that leads a session writes and its exit status. None, and the session is killed, where it takes more
-    than `limit` seconds, pauses not counted."""
-    taken = 0
-    while True:
-        try:
-            output, _ = process.communicate(timeout=5)
-            return output, process.returncode
-        except subprocess.TimeoutExpired:
-            taken += 0 if is_paused(process.pid) else 5
-        if limit is not None and taken > limit:
-            os.killpg(process.pid, signal.SIGKILL)
-            return process.communicate()[0], None
-
-
 class Tree:
     """The copy and its build."""
 
@@ -145,10 +114,12 @@ class Tree:
             start_new_session=True,
         ) as process:
             try:
-                output, status = read_output(process, limit)
-            except KeyboardInterrupt:
+                output, status = process.communicate(timeout=limit)[0], process.returncode
+            except (KeyboardInterrupt, subprocess.TimeoutExpired) as error:
                 os.killpg(process.pid, signal.SIGKILL)
-                raise
+                if isinstance(error, KeyboardInterrupt):
+                    raise
+                output, status = process.communicate()[0], None
         with open(self.logs / f"{log}.txt", "a", encoding="utf-8") as file:
             file.write(output)
         return status, output
@@ -212,7 +183,7 @@ def check_unchanged(tree, mutants):
     return [f"the unchanged program fails {failure}" for failure in tree.test(tree.selection("|".join(tests)), "build")]
 
 
-def find_verdict(tree, name, mutant, all_quick):
+def find_verdict(tree, name, mutant):
     """Applies a mutant and returns how it ended and what saw it. The source is whole again afterwards."""
     path = tree.source / mutant["file"]
     whole = path.read_text(encoding="utf-8")
@@ -223,11 +194,6 @@ def find_verdict(tree, name, mutant, all_quick):
             return "did not compile", []
         usual = sum(seconds for test, seconds in tree.seconds.items() if holds(test, mutant["tests"]))
         seen = tree.test(tree.selection(mutant["tests"]), name, 60 + 20 * usual)
-        if not seen and all_quick:
-            if not tree.compile(["all"], name):
-                return "did not compile", []
-            seen = tree.test(["-L", "quick", "-E", UNNAMED], name)
-            return ("caught by others" if seen else "survived"), seen
         return ("caught" if seen else "survived"), seen
     finally:
         path.write_text(whole, encoding="utf-8")
@@ -259,12 +225,9 @@ def try_all(mutants, options):
     results = {}
     for name, mutant in mutants.items():
         begin = time.monotonic()
-        verdict, seen = find_verdict(tree, name, mutant, options.all_quick)
+        verdict, seen = find_verdict(tree, name, mutant)
         results[name] = (verdict, seen, time.monotonic() - begin)
         print(f"{name}: {verdict}{' by ' if seen else ''}{short(seen)}", flush=True)
-        if options.write:
-            found = {mutant: seen for mutant, (_, seen, _) in results.items()}
-            options.write.write_text(json.dumps(found, indent=1), encoding="utf-8")
     return int(tell(mutants, results))
 
 
@@ -275,8 +238,6 @@ def main():
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--check", action="store_true")
-    parser.add_argument("--all-quick", action="store_true")
-    parser.add_argument("--write", type=Path, metavar="FILE")
     options = parser.parse_args()
 
     mutants = mutants_listed()

@@ -3,15 +3,14 @@
 leaks and undefined behaviour) and runs short scenes with both: none may abort, fail or be reported on. Run with /usr/bin/python3;
 environment: SPRAG_SOURCE, the sources.
 
-    tests/presets.py                        # both presets, every analysis and model
-    tests/presets.py --all                  # more of their parameters and every scene of params/ as well
-    tests/presets.py --all sanitize leaf    # one preset, runs with `leaf` in their name
+    tests/presets.py                  # both presets, every analysis and model
+    tests/presets.py sanitize pair    # one preset, runs with `pair` in their name
 
 By ctest, for which each run is a case (tests/presets.cmake.in):
 
-    tests/presets.py --list                 # the names of the runs, nothing else
-    tests/presets.py --build sanitize       # no run
-    tests/presets.py --run map sanitize     # the run of this name, without a build
+    tests/presets.py --list              # the names of the runs, nothing else
+    tests/presets.py --build sanitize    # no run
+    tests/presets.py --run map sanitize  # the run of this name, without a build
 """
 
 import argparse
@@ -39,7 +38,6 @@ FEW_STEPS = ("Drive/Stroke=45.2", "Time/Step=2e-4", "Time/Tolerance=0")
 MAP = ("Map/First points=3", "Map/Second points=2", "Map/Coarsest=1", "Map/Bisections=1", "Condensed/Modes=2")
 ONSET = ("Sprag slip/Continuation=0", "Sprag slip/Settling time=0.02", "Sprag slip/Initial amplitude=1e-4", "Sprag slip/Steps per period=32")
 STUDY = ("Study/Vary=Mesh/Degree = 1, 2; Mesh/Face size = 4, 300", "Study/Reference=Mesh/Face size = 3")
-NO_SEARCH = ("Stability/Critical=none", "Stability/Roles=off")
 
 # Name: scene and what is changed in it.
 RUNS = {
@@ -69,66 +67,6 @@ RUNS = {
     "full pair": ("pair-a", SLIDE),
     "full pair, reversal": ("pair-reversal-a", (*REVERSAL, *FEW_STEPS)),
 }
-
-# The other scenes and models.
-FURTHER = {
-    "modal, beam": ("modal-a", ("Analysis/Model=beam",)),
-    "modal, finite elements": ("modal-a", ("Analysis/Model=finite element", "Stability/Contact=stuck")),
-    "modal, open": ("modal-a", ("Stability/Contact=open",)),
-    "modal of a beam, open": ("modal-a", ("Analysis/Model=beam", "Stability/Contact=open")),
-    "modal, finite elements, open": ("modal-a", ("Analysis/Model=finite element", "Stability/Contact=open")),
-    "modal of a pair, beam": ("pair-stability-a", ("Analysis/Type=modal",)),
-    "modal of a pair, finite elements": ("pair-modal-a", ("Analysis/Model=finite element",)),
-    "stability, rigid": ("stability-a", ("Analysis/Model=rigid",)),
-    "stability, condensed": ("stability-a", ("Analysis/Model=condensed", *NO_SEARCH)),
-    "stability, finite elements": ("stability-a", ("Analysis/Model=finite element", *NO_SEARCH)),
-    "map, rigid": ("map-friction-depth-a", (*MAP, "Analysis/Model=rigid")),
-    "continuation": ("onset-a", (*ONSET, "Sprag slip/Continuation=1", "Sprag slip/Turn=64")),
-    "ideal contact, rigid": ("reversal-a", (*REVERSAL, "Contact/Type=ideal", "Analysis/Model=rigid")),
-    "regularised friction": ("reversal-a", (*REVERSAL, "Friction/Regularisation speed=5")),
-    "support, rigid": ("support-a", (*REVERSAL, "Analysis/Model=rigid")),
-    "support, condensed": ("support-a", (*REVERSAL, "Analysis/Model=condensed")),
-    "support, finite elements": ("support-a", (*REVERSAL, "Analysis/Model=finite element", *FEW_STEPS)),
-    "pair, rigid in time": ("pair-reversal-a", (*REVERSAL, "Analysis/Model=rigid", "Rotational spring/Type=torsional", "Mirrored pair/Joint mass=0")),
-    "pair, beam in time": ("pair-reversal-a", (*REVERSAL, "Analysis/Model=beam", "Rotational spring/Type=torsional", "Mirrored pair/Joint mass=0")),
-    "cylinder, condensed in time": ("cylinder-a", (*REVERSAL, *IN_TIME, "Analysis/Model=condensed")),
-    "cylinder, finite elements in time": ("cylinder-a", (*REVERSAL, *IN_TIME, *FEW_STEPS)),
-    "leaf, finite elements in time": ("leaf-a", (*REVERSAL, *IN_TIME, *FEW_STEPS)),
-    "plate, finite elements in time": ("plate-a", (*REVERSAL, *IN_TIME, *FEW_STEPS)),
-    "stability of a pair, condensed": ("pair-reversal-a", ("Analysis/Type=stability", *NO_SEARCH)),
-    "stability of a cylinder": ("cylinder-a", ("Analysis/Type=stability", "Analysis/Model=condensed", *NO_SEARCH)),
-    "degree 1": ("model-a", (*SLIDE, "Mesh/Degree=1")),
-    "fields at intervals": ("model-a", (*SLIDE, "Output/Fields=interval", "Output/Field interval=5")),
-    "general solution": ("model-a", (*SLIDE, "Analysis/Solution=general")),
-    "no friction layer": ("model-a", (*SLIDE, "Friction layer/Thickness=0")),
-}
-BY_SCENE = {
-    "study-reversal-": (*REVERSAL, *STUDY),
-    "study-growth-": STUDY,
-    "study-pressure-": STUDY,
-    "study-": (*SLIDE, *STUDY),
-    "fig": ("Slope/Number of points=5",),
-    "map-": MAP,
-    "onset-": ONSET,
-    "harmonic-": ("Drive/Stroke=2",),
-    "reversal-": REVERSAL,
-    "pair-reversal-": REVERSAL,
-    "plate-reversal-": REVERSAL,
-    "support-": REVERSAL,
-    "sprag-slip-": REVERSAL,
-    "stability-": ("Stability/Modes=3",),
-    "pair-stability-": ("Stability/Modes=3", *NO_SEARCH),
-    "modal-": (),
-    "pair-modal-": (),
-    "contact-law-": (),
-    "calibration-": (),
-}
-
-
-def every_scene():
-    for path in sorted((SOURCE / "params").glob("*.prm")):
-        changes = next((changes for begin, changes in BY_SCENE.items() if path.stem.startswith(begin)), SLIDE)
-        yield path.stem, (path.stem, changes)
 
 
 def build(preset):
@@ -164,7 +102,6 @@ def runs_cpu_time():
 
 def parsed(arguments):
     parser = argparse.ArgumentParser(usage=__doc__)
-    parser.add_argument("--all", action="store_true")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--build", action="store_true")
     parser.add_argument("--run")
@@ -174,7 +111,7 @@ def parsed(arguments):
 
 def main(arguments):
     options = parsed(arguments)
-    runs = {**RUNS, **FURTHER, **dict(every_scene())} if options.all else RUNS
+    runs = RUNS
     presets = [preset for preset in PRESETS if preset in options.words] or PRESETS
     words = [word for word in options.words if word not in PRESETS]
     if options.run:

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-only
-"""Prints what runs cost, group by group: without inertia, parts of the apparatus, in time, maps, eigenvalues. Ratios are those of CPU
+"""Prints what runs cost, group by group: without inertia, parts of the apparatus, in time, maps, eigenvalues, a table, three dimensions. Ratios are those of CPU
 time to the first run of a group. Run it on a machine that does nothing else; see without-inertia.md, parts.md and in-time.md."""
 
 import argparse
@@ -41,6 +41,9 @@ GROUPS = [
     ("map", "map-friction-depth-a", {"beam, every cell": EVERY_CELL, "beam, refined": {}}),
     ("condensed map", "map-friction-depth-a",
      {"every cell": {"Analysis/Model": "condensed", **EVERY_CELL}, "refined": {"Analysis/Model": "condensed"}}),
+    ("table", "isolation-ground-a", {"60 s of motion": {"Analysis/Model": "condensed", "Isolation/Duration": 60}}),
+    ("three dimensions", "solid-tilted-a",
+     {name: {"Mesh/Face size": size, "Mesh/Elements across": across} for name, size, across in (("63k", 2, 4), ("248k", 1, 10), ("400k", 1, 16))}),
     ("eigenvalues", "stability-a", {model: {"Analysis/Model": model, **ALONE} for model in MODELS[:3]}),
 ]
 

@@ -13,12 +13,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
 from pictures import PictureTest, draw  # noqa: E402
 import comparison  # noqa: E402
-import forces  # noqa: E402
 import overlays  # noqa: E402
 from sprag import parameters  # noqa: E402
 import several  # noqa: E402
-from sprag.results import NotAResult, read_result  # noqa: E402
-from style import plt  # noqa: E402
+from sprag.results import read_result  # noqa: E402
 from real_results import run_once  # noqa: E402
 
 LISTING = """# Listing of Parameters
@@ -96,42 +94,6 @@ class TellingApart(SeveralTest):
         self.assertEqual(figure.axes[0].get_xlabel().replace("\n", " "), "friction layer Young's modulus [mm]")
         self.expect_layout(figure)
 
-    def test_too_many(self):
-        with self.assertRaisesRegex(NotAResult, "21 results"):
-            several.distinguish(self.depths(21))
-
-    def test_words_and_folders_where_the_same_word_comes_twice(self):
-        results = [self.write_run(name, model=model) for name, model in (("a", "rigid"), ("b", "beam"), ("c", "beam"))]
-        naming = several.distinguish(results)
-        self.assertEqual(naming.names, ["rigid", "beam (b)", "beam (c)"])
-        self.assertTrue(naming.is_numerical)
-
-    def test_nothing_differs(self):
-        naming = several.distinguish([self.write_run("a"), self.write_run("b")])
-        self.assertEqual((naming.parameter, naming.names), (None, ["a", "b"]))
-
-    def test_the_parameter_with_most_values_and_how_many_others(self):
-        results = [self.write_run(str(i), depth=str(5 + i), mu="0.5" if i else "0.7") for i in range(3)]
-        naming = several.distinguish(results)
-        self.assertEqual((naming.parameter, naming.others), ("Lever/Depth", 1))
-
-    def test_the_device_rather_than_the_method(self):
-        results = [self.write_run(str(i), depth=str(5 + i), model=model) for i, model in enumerate(("rigid", "beam"))]
-        self.assertEqual(several.distinguish(results).parameter, "Lever/Depth")
-
-    def test_labels_keep_their_distance_and_order(self):
-        places = several.spread([0.5, 0.51, 0.52, 0.9, 0.0], 0.1)
-        self.assertGreater(np.diff(np.sort(places)).min(), 0.099)
-        np.testing.assert_array_equal(np.argsort(places), [4, 0, 1, 2, 3])
-        self.assertTrue(((places >= -1e-9) & (places <= 1 + 1e-9)).all())
-
-    def test_a_loop_is_named_where_it_turns_back(self):
-        _, axes = plt.subplots()
-        (line,) = axes.plot((0, 5, 10, 10, 5, 0), (0, 1, 2, -4, -2, 0), label="a")
-        self.assertEqual(several.last_point(axes, line), (10, -4))
-        axes.set_xlim(0, 6)
-        self.assertEqual(several.last_point(axes, line), (5, -2))
-
 
 class Pictures(SeveralTest):
     def test_few_devices_have_labels_at_their_curves(self):
@@ -149,18 +111,6 @@ class Pictures(SeveralTest):
         self.assertEqual(len(figure.axes[0].lines), 21)  # and the line of zero
         self.assertEqual(figure.axes[1].texts[:], [])
         self.expect_layout(figure)
-
-    def test_many_words_have_a_legend(self):
-        results = [self.write_run(f"a run {i}", 1 + i, model=f"model {i}") for i in range(12)]
-        figure = comparison.comparison(results)
-        self.assertEqual(len(figure.legends[0].get_texts()), 12)
-        self.expect_layout(figure)
-
-    def test_forces_of_many(self):
-        results = self.depths(12)
-        for figure in (forces.forces_over_x(results), forces.forces_over_time(results)):
-            self.assertEqual(figure.axes[-1].get_ylabel(), "lever depth [mm]")
-            self.expect_layout(figure)
 
     def test_levels_have_deviations_from_the_finest(self):
         results = [self.write_run(model, 1 + 0.01 * i, model=model) for i, model in enumerate(("rigid", "finite element", "beam"))]

@@ -60,13 +60,6 @@ class ExportTest(PictureTest):
         unknown = [name for name, value in result.summary.items() if isinstance(value, float) and np.isnan(value)]
         self.assertTrue(all(rows[name][0] == "" and entries["summary"][name]["value"] is None for name in unknown))
 
-    def test_face(self):
-        result, folder = self.export("model-b", "--only", "face", "--format", "csv")
-        header, *rows = read_rows(folder / "face.csv")
-        self.assertEqual(header, ["time [s]", "x [mm]", "xi [mm]", "pressure [MPa]", "traction [MPa]"])
-        pressure = np.array([result.friction_face.pressure[row] for row in range(len(result.friction_face.time))])
-        np.testing.assert_array_equal(sorted(value for value in numbers(rows, 3) if value > 0), np.sort(pressure[pressure > 0]))
-
     def test_study_has_words_for_words(self):
         _, folder = self.export("refused in part")
         header, first, last = read_rows(folder / "table.csv")
@@ -92,11 +85,6 @@ class ExportTest(PictureTest):
         header, *rows = read_rows(folder / "mode-shapes.csv")
         first = [row for row in rows if row[0] == "1"]
         np.testing.assert_array_equal(numbers(first, header.index("across_real [mm]")), modes["across_real"][0])
-
-    def test_several_results_have_folders_of_their_own(self):
-        done = draw("export.py", run_once("closed-form-a"), run_once("refused in part"), "-o", self.pictures)
-        folders = {Path(line).parent for line in done.stdout.splitlines()}
-        self.assertEqual(folders, {self.pictures / "closed-form-a", self.pictures / "refused in part"})
 
     def test_refusals(self):
         self.expect_refusal(draw("export.py", run_once("closed-form-a"), "--only", "map"), "no map", "table, answer, summary")

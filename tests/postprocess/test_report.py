@@ -104,11 +104,6 @@ class ReportTest(PictureTest):
         self.assertRegex(words, "critical_lever_depth_1 .*5.60535 \N{PLUS-MINUS SIGN} 0.18 mm mm")
         self.assertNotIn("critical_lever_depth_1_error", words)
 
-    def test_of_a_study(self):
-        _, words = self.report(run_once("study of many"))
-        for said in ("Lever/Depth [mm] Geometry/Pivot height [mm] Friction/Factor peak_P_forward [N]", "10 0 1 14.68", "and 24 more"):
-            self.assertIn(said, words)
-
     def test_a_lever_that_does_not_isolate_is_not_drawn(self):
         result = read_result(self.result("a"))
         known = {name: parameters.Parameter(text, "1") for name, text in DEVICE.items()}
@@ -153,11 +148,6 @@ class ReportTest(PictureTest):
         drawing = sketch.drawn(Geometry(56.0, 45.6, np.array((185.5, 0.0)), 65.0, 0.0), 210.0, 20.0, 1.0, found)
         lines = re.findall(r'class="verdict" x1="([\d.]+)" x2="([\d.]+)" y1="(-?[\d.]+)"', drawing)
         self.assertEqual([(float(a), float(b), float(y) > 0) for a, b, y in lines], [(3.25, 65, False), *((*line[:2], True) for line in found["backward"])])
-
-    def test_scene_names_a_table_as_it_was_written(self):
-        for comment, expected in ((" # given as rubber.csv; default: ", "rubber.csv"), (" # default: ", "/home/me/rubber.csv")):
-            listing = f"subsection Friction\n  # A file of mu.\n  set Table = /home/me/rubber.csv{comment}\nend\n"
-            self.assertEqual(parameters.scene_text(parameters.parse(listing)), f"subsection Friction\n  set Table = {expected}\nend\n")
 
     def test_a_run_that_goes_on(self):
         self.result("a")

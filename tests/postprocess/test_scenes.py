@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Draws all pictures of scenes of params/ that run in a second or so: their layout, what their curves are, and that the pages name all
-that the results hold. contact_sheet.py looks at the pictures of every scene. Run with /usr/bin/python3."""
+that the results hold. Run with /usr/bin/python3."""
 
 import re
 import shutil

@@ -41,34 +41,11 @@ class Vibration(PictureTest):
                 name = "mirroring" if share > 0 else "swinging"
                 self.assertTrue(vibration.mode_name(modes, mode).endswith(f", {name}"), vibration.mode_name(modes, mode))
 
-    def test_growing_modes_are_always_shown(self):
-        modes = named_modes(-110 + 4467j, -300 + 7700j, -400 + 15000j, 5 + 90000j)
-        self.assertEqual(vibration.shown_modes(modes, 2), [0, 3])
-        self.assertEqual(vibration.shown_modes(modes, 10), [0, 1, 2, 3])
-
     def test_names_of_modes(self):
         modes = named_modes(-1234 + 2000j * np.pi, 0.5 + 200j * np.pi, 40 + 0j)
         names = [vibration.mode_name(modes, mode) for mode in range(3)]
         minus = "\N{MINUS SIGN}"
         self.assertEqual(names, [f"1000 Hz, {minus}1234 1/s", "100 Hz, +0.5 1/s, flutter", "0 Hz, +40 1/s, divergence"])
-
-    def test_bars_of_roles(self):
-        """Growth as bars, in the order given; without a rate the verdict alone."""
-        roles = {"damping": ("flutter", 87.0), "flexure": ("stable", -81.0), "inertia": ("stable", np.nan)}
-        summary = {"verdict": "flutter", "growth_rate": 78.0}
-        for name, (verdict, rate) in roles.items():
-            summary |= {f"without_{name}_verdict": verdict, f"without_{name}_growth_rate": rate, f"without_{name}_frequency": np.nan}
-        _, axes = plt.subplots()
-        vibration.draw_roles(axes, summary)
-        self.assertEqual([bar.get_width() for bar in axes.patches], [78, 87, -81])
-        self.assertEqual([text.get_text() for text in axes.texts], ["stable"])
-
-    def test_divergence_is_on_the_axis(self):
-        _, axes = plt.subplots()
-        vibration.draw_eigenvalues(axes, named_modes(40 + 0j, -10 + 600j))
-        low, high = axes.get_ylim()
-        self.assertLessEqual(low, 0)
-        self.assertGreater(high, 600 / (2 * np.pi))
 
     def test_branches_jump(self):
         """From slide to vibration no line is drawn but dots."""

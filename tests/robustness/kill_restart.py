@@ -290,25 +290,6 @@ class Checkpoints(RunTest):
         self.assertEqual(taken_over(self.output), last)
         self.expect_as_uninterrupted()
 
-    def test_overwrite_begins_anew(self):
-        self.killed()
-        done = self.completed("--overwrite")
-        self.assertNotIn("Goes on", done.stdout)
-        self.assertEqual(taken_over(self.output), 0)
-
-    def test_unfinished_result_of_another_scene_is_refused(self):
-        self.killed()
-        before = {path.name: path.read_bytes() for path in self.output.iterdir()}
-        other = {"Drive/Stroke": "20"}
-        done = sprag(*self.command(other))
-        self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
-        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
-        self.assertIn("unfinished result of a run with other parameters", done.stderr)
-        self.assertIn("--overwrite", done.stderr)
-        self.assertEqual({path.name: path.read_bytes() for path in self.output.iterdir()}, before)
-        self.completed("--overwrite", changes=other)
-        self.expect_as_uninterrupted(other)
-
     def test_damaged_checkpoints_begin_anew(self):
         self.killed()
         kept = self.folder / "kept"
