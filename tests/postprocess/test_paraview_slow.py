@@ -30,6 +30,7 @@ RUNS = {
               "Cylinder/Length=30", "Cylinder/Position=4", "Output/Fields=interval"),
     "reversal": ("Analysis/Dimension=3", "Mesh/Faces in contact=0", "Mesh/Elements across=2", "Cylinder/Tilt=1e-3",
                  "Analysis/Type=transient", "Analysis/Model=condensed", "Condensed/Modes=6", "Drive/Start=38"),
+    "half": ("Analysis/Dimension=3", "Mesh/Faces in contact=0", "Mesh/Elements across=2", "Drive/Cycles=0.5"),
 }  # fmt: skip
 LEVER, LAYER, HUB, LEAF = 1, 2, 3, 7
 FIRST_READER, SECOND_READER = "XDMFReader", "Xdmf3ReaderT"  # "Xdmf3 Reader S" joins both grids and drops what one lacks
@@ -264,6 +265,23 @@ class ParaViewTest(unittest.TestCase):
                 # Pressure is shown along the lever's normal; the cylinder's is off by the centre's offset over R.
                 self.assertAlmostEqual(force[0], row["Q"], delta=2 * (1e-3 + abs(row["centre_offset"]) / RADIUS) * abs(row["Q"]))
                 self.assertAlmostEqual(force[2], row["F_across"], delta=1e-4 * row["P"])
+
+    def test_half_that_is_solved_is_there_with_its_mirror_image(self):
+        for index, names in (("fields", ("displacement [mm]", "stress [MPa]", "von_mises_stress [MPa]")), ("face", ("displacement [mm]", "traction [MPa]"))):
+            seen = Seen(self.folder / "half", index)
+            last = len(seen.times) - 1
+            first, second = np.array_split(np.flatnonzero(seen.values_at(last, "lever") == 1), 2)
+            mirror = np.array((1, 1, -1))
+            points = seen.rest_in_space(last)
+            np.testing.assert_allclose(points[second], points[first] * mirror, atol=1e-4)
+            self.assertGreater(points[first, 2].max(), 0.4 * WIDTH)
+            self.assertGreater(points[first, 2].min(), -1e-4)
+            for name in names:
+                values = seen.values_at(last, name)
+                signs = {1: 1, 3: mirror, 9: np.outer(mirror, mirror).ravel()}[1 if values.ndim == 1 else values.shape[1]]
+                self.assertGreater(np.abs(values[first]).max(), 1e-3, name)
+                np.testing.assert_allclose(values[second], values[first] * signs, atol=1e-6 * np.abs(values).max(), err_msg=name)
+            self.assertAlmostEqual(np.abs(seen.values_at(last, names[0])[first][:, 2]).max(), 0, delta=0.1)
 
     @unittest.skipIf(shutil.which("xvfb-run") is None, "without xvfb-run there is no screen")
     def test_opens_with_rigid_parts_grey_and_stress_in_colour(self):

@@ -119,21 +119,6 @@ TEST(Growth, OfACondensedLeverIsThatOfItsEigenvalue)
   expect_as_predicted(checked, compute_growth(checked), 4e-4);
 }
 
-// A start excites modes of 10 kHz, which 64 steps a period of the slow one cannot resolve: they ring from step to step, for 15
-// periods, half as large as the mode that grows. Its growth was 29 % off.
-TEST(Growth, IsThatOfTheModeWhateverTheStartExcites)
-{
-  JudgedSlide checked(read_scene((params_folder() / "stability-a.prm").string(),
-                                 { "Analysis/Type=sprag slip", "Analysis/Model=condensed", "Lever/Depth=20",
-                                   "Stability/Direction=forward", "Friction/Factor=1.2", "Contact/Damping=0.004",
-                                   "Sprag slip/Steps per period=64", "Sprag slip/Longest growth=0.08" }));
-  const auto growth   = compute_growth(checked);
-  const auto expected = in_steps(growth.eigenvalue, checked.step());
-  EXPECT_NEAR(growth.envelope.rate, expected.real(), 0.02 * expected.real());
-  EXPECT_NEAR(growth.frequency, expected.imag() / (2. * M_PI), 1e-4 * growth.frequency);
-  EXPECT_LT(growth.envelope.scatter, 1e-3);
-}
-
 TEST(Growth, OfAStableSlideIsItsDecay)
 {
   for (const auto type : { ModelType::rigid, ModelType::beam })

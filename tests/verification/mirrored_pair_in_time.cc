@@ -101,26 +101,6 @@ TEST(MirroredPairInTime, LedgerClosesForLeversThatDiffer)
     }
 }
 
-// On a held joint each lever does what a single one does on its spring. Damping and stick, which follow from the largest P of the
-// first lever, are left out and given. The modes of a condensed lever are those on the first spring.
-TEST(MirroredPairInTime, LeversOnUnequalSpringsDoWhatEachDoesAlone)
-{
-  constexpr double ratio = 1.3;
-  for (const auto model : { ModelType::beam, ModelType::condensed })
-  {
-    SCOPED_TRACE(testing::Message() << "model " << static_cast<int>(model));
-    auto soft                         = with_fixed_step(undamped(around_a_reversal(in_time(model_a(), model))), 5e-5);
-    soft.contact.tangential_stiffness = 1000.;
-    auto stiff                        = soft;
-    stiff.spring.stiffness *= ratio;
-    auto both              = paired(soft, SpringJoint::held);
-    both.pair.spring_ratio = ratio;
-    const auto pair        = run_any_in_time(both).rows;
-    const auto second      = run_any_in_time(stiff).rows;
-    expect_second_lever(pair, second, 1e-4);
-  }
-}
-
 // The same of contacts: the damping and the stiffness in stick of each follow from its own stiffness. The run starts with the
 // slip of the first lever.
 TEST(MirroredPairInTime, LeversOnUnequalContactsDoWhatEachDoesAlone)
@@ -187,21 +167,6 @@ TEST(MirroredPairInTime, SwingingLeafIsACantileverWithHalfTheJoint)
   EXPECT_NEAR(behaviour.inertia, straight, 1e-4 * straight); // thickness: (h/L)^2/4
   EXPECT_NEAR(behaviour.mass, m + M, 1e-12);
   EXPECT_NEAR(std::abs(behaviour.momentum[1]), m * 0.5 * (c + end) + M * end, 1e-7 * M * end); // statics of a thin leaf
-}
-
-// Table 1's J holds for levers that mirror each other; swinging has what leaf and joint weigh then besides, and the metal is the
-// same.
-TEST(MirroredPairInTime, SwingingChangesTheInertiaOfLeafAndJointAlone)
-{
-  auto scene            = paired(in_time(model_a(), ModelType::beam), SpringJoint::free);
-  scene.spring.type     = SpringType::leaf;
-  scene.pair.joint_mass = 1e-4;
-  auto prepared         = scene;
-  prepared.spring       = prepared_spring(scene);
-  const auto swinging   = swinging_device(prepared);
-  EXPECT_NEAR(mass_per_length(swinging), mass_per_length(prepared), 1e-12 * mass_per_length(prepared));
-  EXPECT_GT(moment_of_inertia(swinging) - moment_of_inertia(prepared), 0.5 * 1e-4 * 1e4);
-  EXPECT_EQ(moment_of_inertia(prepared), 6.45);
 }
 
 // Beam against condensed lever: a lever's joint that swings on its leaf, out of step with the mirror motion.

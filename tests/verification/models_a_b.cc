@@ -108,27 +108,6 @@ TEST(ModelsAAndB, FrictionIsMuTimesTheNormalForceInFullSliding)
     }
 }
 
-// A point at r = R - penetration feels its friction times R / r, as the slip is counted along the circle: at most mu penetration
-// / R more. The contact's half-width, 0.02 R (A) to 0.04 R (B), turns the mean of the normals from the centre's by 1e-3 of offset
-// / R.
-TEST(ModelsAAndB, LeverAxesDifferFromTheContactOnlyByTheCentreOffset)
-{
-  for (const auto &[name, scene] : models())
-  {
-    SCOPED_TRACE(name);
-    const double R  = scene.geometry.cylinder_radius;
-    const auto rows = settled(run_scene(with_step(scene, 2.)));
-    EXPECT_GE(rows.size(), 60u);
-    for (const Row &row : rows)
-    {
-      const double angle     = std::copysign(std::atan(mu), row[Column::v]) - row[Column::centre_offset] / R;
-      const double tolerance = mu * row[Column::penetration] / R + 1e-3 * std::abs(row[Column::centre_offset]) / R;
-      EXPECT_NEAR(row[Column::F] / row[Column::P], std::tan(angle), tolerance);
-      EXPECT_LT(tolerance, 1e-4); // small against the offset's own share, 2e-3 (A) and 5e-3 (B)
-    }
-  }
-}
-
 namespace
 {
   void expect_turn_over(const Scene &model, const double coefficient)
@@ -220,30 +199,10 @@ TEST(ModelsAAndB, NodesThatPassUnderTheContactHardlyRippleTheForceSlow)
 
 namespace
 {
-  /// Returns the row at x = 30 on the way back.
-  Row back_at_30(const Scene &scene)
-  {
-    const Row row = run_scene(with_drive(with_face_size(scene, 2.), turning_at_65(30.))).back();
-    EXPECT_EQ(row[Column::x], 30.);
-    EXPECT_LT(row[Column::v], 0.);
-    return row;
-  }
-
   // Full sliding remembers nothing of the steps that led there but where on the face shear was left by the last of them: the
   // friction traction under the contact is mu p whatever the step, so P agrees to the tolerance of the solver.
   constexpr double step_difference = 1e-4;
 } // namespace
-
-TEST(ModelsAAndB, CoarseStepsPassTheReversalToTheSameForce)
-{
-  for (const auto &[name, model] : models())
-    for (const Scene &scene : { model, with_augmented_lagrangian(model), with_coulomb(model, 1.2) })
-    {
-      SCOPED_TRACE(name);
-      const double P = back_at_30(scene)[Column::P];
-      EXPECT_NEAR(back_at_30(with_step(scene, 10.))[Column::P] / P, 1., step_difference);
-    }
-}
 
 // The friction of a step is that of its mean speed, the closed form's that of the speed at its end. A step changes the speed by
 // no more than 2 % of its peak, so mu(v) lags by 1 %: 1.8 mm/s times 0.0044 s/mm = 0.008, and P = k (th - th0)/(s - mu e) moves
@@ -255,28 +214,6 @@ TEST(Drives, HarmonicDriveMeetsTheClosedFormToItsResolutionOfTheSpeed)
   const double off = find_value(make_summary(scene, run_scene(scene)), "deviation_P_backward");
   std::printf("harmonic drive, deviation of P: %.2e\n", off);
   EXPECT_LT(off, 4e-3);
-}
-
-TEST(Drives, StartingFurtherOnIsAsReachedBySliding)
-{
-  for (const auto &[name, model] : models())
-  {
-    SCOPED_TRACE(name);
-    const auto whole   = run_scene(with_drive(model, Drive(DriveProfile::triangle, 0., 65., 112., 0.5)));
-    const auto partial = run_scene(with_drive(model, Drive(DriveProfile::triangle, 20., 65., 112., 0.5)));
-    EXPECT_EQ(partial.front()[Column::x], 20.);
-    EXPECT_EQ(partial.front()[Column::time], 0.);
-    EXPECT_GE(partial.size(), 45u);
-    // The mesh is fine from there on only, which moves P by its discretisation error.
-    for (const Row &row : partial)
-    {
-      const auto same = std::find_if(whole.begin(), whole.end(),
-                                     [&](const Row &other) { return std::abs(other[Column::x] - row[Column::x]) < 1e-9; });
-      ASSERT_NE(same, whole.end());
-      EXPECT_NEAR(row[Column::P] / (*same)[Column::P], 1., 1e-3);
-      EXPECT_NEAR(row[Column::Q] / (*same)[Column::Q], 1., 2e-3);
-    }
-  }
 }
 
 // With weak friction Q is larger all the way through the turn of friction than ever behind it: what counts is friction that has

@@ -52,16 +52,6 @@ namespace
   {
     return with_lever(in_time(scene, ModelType::beam), 20., 7767., 1.426);
   }
-
-  Scene thin_lever()
-  {
-    return with_lever(in_time(model_a(), ModelType::beam), 6., 10451., 1.4726);
-  }
-
-  Oscillation compute_oscillation(const Scene &scene)
-  {
-    return oscillations(run_in_time(scene).rows, scene.drive).at(0);
-  }
 } // namespace
 
 // Problem 15. The contact yields by delta = P/k, as if e were less by it: that takes the share k_theta/(s (s + sigma mu e))/k, at
@@ -119,36 +109,6 @@ TEST(Beam, TendsToTheRigidLeverInProportionToItsFlexibility)
     }
     before = P_error;
     RecordProperty("P_at_" + std::to_string(factor), std::to_string(P_error * factor) + "/factor");
-  }
-}
-
-TEST(ReversalOfModelA, VibratesWithAThinLever)
-{
-  const Scene scene = around_the_reversal(thin_lever());
-  const auto rows   = run_in_time(scene).rows;
-  EXPECT_EQ(oscillations(rows, scene.drive).at(0).verdict, Verdict::vibrates);
-
-  // Contact is lost and regained, time and again.
-  unsigned int lost   = 0;
-  unsigned int closed = 0;
-  for (std::size_t i = 1; i < rows.size(); ++i)
-  {
-    EXPECT_GE(rows[i][Column::P], 0.);
-    lost += rows[i][Column::P] == 0. && rows[i - 1][Column::P] > 0. ? 1 : 0;
-    closed += rows[i][Column::P] > 0. && rows[i - 1][Column::P] == 0. ? 1 : 0;
-  }
-  EXPECT_GT(lost, 5u);
-  EXPECT_GE(closed + 1, lost);
-}
-
-TEST(Reversal, OnlyRingsAndDecaysWithAThickLever)
-{
-  for (const auto &paper : { model_a(), model_b() })
-  {
-    const auto found = compute_oscillation(around_the_reversal(aluminium_lever(paper)));
-    EXPECT_EQ(found.verdict, Verdict::decays);
-    EXPECT_EQ(found.open_share, 0.);
-    EXPECT_LT(found.growth_rate, 0.);
   }
 }
 
