@@ -305,3 +305,34 @@ TEST_F(IdentificationInTime, FindsTheWindowFromTheData)
   beam.identification.window = 0.;
   EXPECT_GT(identified(beam).noise[0].deviation, 1.5 * found.noise[0].deviation);
 }
+
+TEST(Identification, HubersLossIsLeastWhereTheFitEnds)
+{
+  const Scene truth             = device();
+  Scene scene                   = guess(truth, { Unknown::friction_constant, Unknown::stiffness });
+  scene.identification.measured = spoilt(compute_rows(truth), 1);
+  scene.identification.loss     = IdentificationLoss::Huber;
+  const MeasuredMotion motion(scene);
+  const LeverUnknowns unknowns(scene, motion);
+  const auto found = identify(scene, motion, unknowns);
+  const StrokeFit fit(scene, motion, unknowns);
+  std::vector<double> scaled, deviations;
+  for (const auto &one : found.found)
+    scaled.push_back(one.value / one.number.scale);
+  for (const auto &channel : found.noise)
+    deviations.push_back(channel.deviation);
+  const auto residuals = [&](const auto &at) { return fit.residuals(at, found.used, deviations, found.correction); };
+  const auto at_end    = residuals(scaled);
+  const auto slopes    = jacobian(residuals, scaled);
+  for (std::size_t j = 0; j < scaled.size(); ++j)
+  {
+    double slope = 0., size = 0.;
+    for (std::size_t i = 0; i < at_end.size(); ++i)
+    {
+      const double share = influence(IdentificationLoss::Huber, at_end[i]) * slopes[i * scaled.size() + j];
+      slope += share;
+      size += std::abs(share);
+    }
+    EXPECT_NEAR(slope, 0., 1e-3 * size) << found.found[j].number.name;
+  }
+}

@@ -233,6 +233,27 @@ TEST(Isolation, HarmonicBalanceOfLinearFrictionIsThatOfALossFactor)
   }
 }
 
+TEST(Isolation, HarmonicBalanceTakesASpringInTheDamperAsOneBesideIt)
+{
+  Scene scene                    = shaken(DamperType::linear_friction, 1.8);
+  const double k                 = 0.3 * scene.isolation.stiffness;
+  scene.isolation.friction_slope = 0.4 * scene.isolation.stiffness;
+  auto system                    = isolation_system(scene);
+  const auto motions  = [&] { return harmonic_balance(system, scene.isolation.base_amplitude, base_frequency(scene)); };
+  const auto expected = motions();
+  system.stiffness -= k;
+  system.damper.resistance = [k, friction = system.damper.resistance](const double y, const double speed, const int away)
+  {
+    auto result = friction(y, speed, away);
+    result.force += k * y;
+    return result;
+  };
+  const auto found = motions();
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found.front().amplitude, expected.front().amplitude, 1e-9 * expected.front().amplitude);
+  EXPECT_NEAR(found.front().transmissibility, expected.front().transmissibility, 1e-9);
+}
+
 TEST(Isolation, LeversMeetTheLinearLawWhereZIsSmall)
 {
   Scene scene            = isolated(DamperType::lever);

@@ -154,23 +154,6 @@ TEST(Oscillation, FrequencyAndGrowthFromUnequalSteps)
     }
 }
 
-TEST(Oscillation, KeepsContactAndSupportApart)
-{
-  auto rows         = rows_with(sinusoid(8., 290., -20.));
-  const double turn = there_and_back().reversals().front() + duration / 2.;
-  for (auto &row : rows)
-    if (row[Column::time] > turn)
-      row[Column::Q_support] = quasi_static_Q + sinusoid(3., 150., -20.)(row[Column::time] - turn);
-  const auto found = find_oscillation(rows);
-  EXPECT_NEAR(found.frequency_Q, 290., 0.29);
-  EXPECT_NEAR(found.frequency_Q_support, 150., 0.15);
-  EXPECT_NEAR(found.overshoot_P, 8. * std::exp(-20. * (1. - 0.3 / 2. / pi) / 290.) / quasi_static_P, 1e-3);
-  EXPECT_NEAR(found.overshoot_Q, 0.5 * found.overshoot_P * quasi_static_P / -quasi_static_Q, 1e-9);
-  EXPECT_LT(found.overshoot_Q_support, 3. / -quasi_static_Q);
-  EXPECT_GT(found.overshoot_Q_support, 2.7 / -quasi_static_Q);
-  EXPECT_NEAR(found.rms_Q, found.rms / 2., 1e-9);
-}
-
 // It vibrates 15 times in 0.375 s, P as well, but for 0.1 s that rings more at 290 Hz.
 TEST(Oscillation, FollowsASlowSupportForAsManyPeriods)
 {

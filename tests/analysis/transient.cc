@@ -199,21 +199,6 @@ TEST(StepClock, EndsAStepOnEveryKink)
   EXPECT_TRUE(std::is_sorted(ends.begin(), ends.end()));
 }
 
-TEST(StepClock, DividesEverySegmentEquallyIntoStepsNoLongerThanAsked)
-{
-  const Drive drive(DriveProfile::triangle, 0., 65., 112., 1., 5e-3);
-  for (const double step : { 5e-5, 3.3e-4, 1. })
-    for (StepClock clock(drive, step, 0); !clock.finished(); clock.advance())
-    {
-      EXPECT_LE(clock.duration(), step * (1. + 1e-6));
-      const auto kink = std::upper_bound(drive.kinks().begin(), drive.kinks().end(), clock.step_end() - 1e-12);
-      const double to = kink == drive.kinks().end() ? drive.duration() : *kink;
-      // A whole number of steps to the next kink, to the round-off of times.
-      const double left = (to - clock.step_end()) / clock.duration();
-      EXPECT_NEAR(left, std::round(left), 1e-9 * std::max(1., left));
-    }
-}
-
 TEST(StepClock, HalvesWithoutMovingWhatIsBehindAndDoublesOnlyInStepWithTheWholeSteps)
 {
   const Drive drive(DriveProfile::harmonic, 0., 10., 100., 0.5);

@@ -27,20 +27,6 @@ namespace
     return scene;
   }
 
-  double cylinder_area(const ElasticBody<2> &body)
-  {
-    dealii::FEValues<2> values(body.cell_mapping(), body.dofs().get_fe(), dealii::QGauss<2>(4), dealii::update_JxW_values);
-    double area = 0.;
-    for (const auto &cell : body.dofs().active_cell_iterators())
-      if (cell->material_id() == material_id::cylinder)
-      {
-        values.reinit(cell);
-        for (const unsigned int q : values.quadrature_point_indices())
-          area += values.JxW(q);
-      }
-    return area;
-  }
-
   double product(const dealii::PETScWrappers::SparseMatrix &matrix, const dealii::Vector<double> &v)
   {
     dealii::Vector<double> result(v.size());
@@ -49,40 +35,6 @@ namespace
     return v * result;
   }
 } // namespace
-
-// Nodes lie on the circle; between them edges of an angle 2 a are off by R a^4/32.
-TEST(CylinderMesh, FollowsTheCircleFinelyWhereItTouches)
-{
-  for (const auto &[R, inner, size] : { std::tuple{ 56., 28., 0.25 }, { 21.1, 2., 0.25 }, { 21.1, 19., 0.1 } })
-  {
-    dealii::Triangulation<2> triangulation;
-    make_bar({}, triangulation);
-    const unsigned int n_bar_cells = triangulation.n_active_cells();
-    const auto scene               = make_scene(R, inner, size);
-    add_cylinder(scene, triangulation);
-    auto properties                             = bar_properties({}, 0.3);
-    properties.curved                           = true;
-    properties.constants[material_id::cylinder] = { 70000., 0.3 };
-    const ElasticBody<2> body(triangulation, properties);
-    const auto &face  = body.cylinder_face();
-    const double half = 0.1 * R + scene.layer.thickness;
-    ASSERT_EQ(face.nodes.size(), 2 * face.edges.size() + 1);
-    EXPECT_EQ(face.edges.size(), static_cast<unsigned int>(std::ceil(2. * half / size - 1e-6)));
-    for (const auto &node : face.nodes)
-      EXPECT_NEAR(node.position.norm(), R, 1e-11);
-    const double first = std::atan2(face.edges.front().nodes.front().position[0], face.edges.front().nodes.front().position[1]);
-    const double last  = std::atan2(face.edges.back().nodes.back().position[0], face.edges.back().nodes.back().position[1]);
-    EXPECT_NEAR(first, -half / R, 1e-9);
-    EXPECT_NEAR(last, half / R, 1e-9);
-    // The coarsest edges, of pi/12, take pi/12^4/32 of the outer radius off.
-    EXPECT_NEAR(cylinder_area(body), M_PI * (R * R - inner * inner), 1e-3 * R * R);
-    unsigned int n_lever = 0;
-    for (const auto &cell : triangulation.active_cell_iterators())
-      n_lever += material_id::turns(cell->material_id()) ? 1 : 0;
-    EXPECT_EQ(n_lever, n_bar_cells);
-    EXPECT_EQ(body.friction_face().edges.size(), Bar().n);
-  }
-}
 
 TEST(CylinderMesh, RefusesFacetsAndACoreThatLeavesNothing)
 {

@@ -135,28 +135,6 @@ TEST(FaceContact, FindsAllPointsInReach)
     }
 }
 
-TEST(FaceContact, ForcesOfSlidingAreThoseObserved)
-{
-  const MeshedBar bar(bar_on_cylinder());
-  const auto properties = make_properties(*bar, false, 0.);
-  FaceContact<2> contact((*bar).friction_face(), properties);
-  const PressedStep step(contact, *bar, properties.layout, 1e-3, 1.01);
-  FaceEvaluation<2> found;
-  contact.evaluate_sliding({ step.end, step.to, 100. }, found);
-  Row row;
-  contact.observe(found, row);
-  double P = 0., F = 0.;
-  for (unsigned int a = 0; a + 1 < found.forces.dofs.size(); ++a)
-    (found.forces.dofs[a] % 2 == 0 ? F : P) += found.forces.values[a];
-  EXPECT_NEAR(row[Column::P], P, 1e-12 * P);
-  EXPECT_NEAR(row[Column::F], -F, 1e-12 * P);
-  const double theta = rest_inclination + step.end[properties.layout.rotation()];
-  EXPECT_NEAR(row[Column::Q], P * std::sin(theta) - F * std::cos(theta), 1e-12 * P);
-  const double mu = friction_coefficient(properties.friction, 100.).coefficient;
-  EXPECT_NEAR(row[Column::friction_resultant], mu * row[Column::normal_resultant], 1e-12 * P);
-  EXPECT_DOUBLE_EQ(row[Column::v_rel], 100.);
-}
-
 // A step without movement, all weight on its end, that begins without friction.
 TEST(FaceContact, StuckIsTheTangentOfAStepInStick)
 {

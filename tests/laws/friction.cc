@@ -27,16 +27,6 @@ namespace
   const TabulatedFriction measured({ 10., 100., 200., 400., 800. }, { 0.3, 0.7, 0.7, 0.9, 1.0 });
 } // namespace
 
-TEST(Friction, CoulombIsTheSameAtEverySpeed)
-{
-  const auto law = make_law(CoulombFriction{ 0.73 });
-  for (const double speed : { 0., 1., 112., 1e4 })
-  {
-    EXPECT_EQ(friction_coefficient(law, speed).coefficient, 0.73);
-    EXPECT_EQ(friction_coefficient(law, speed).derivative, 0.);
-  }
-}
-
 TEST(Friction, CorkOnAluminiumHasThePapersValues)
 {
   const auto law = make_law(CorkOnAluminium{});

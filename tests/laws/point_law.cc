@@ -147,12 +147,3 @@ TEST(FrictionTraction, DerivativesAgreeWithFiniteDifferencesOverThreeDecades)
   for (const double speed : { 5., 40., 90., 250. })
     expect_derivatives(compute_trial(speed, 0.8, table, 500., 0.01), 0.8, table, 500., 0.01);
 }
-
-TEST(FrictionTraction, DerivativesAreSignedWithTheTrial)
-{
-  const auto forward  = friction_traction(3., 0.8, cork, 500., 0.01);
-  const auto backward = friction_traction(-3., 0.8, cork, 500., 0.01);
-  EXPECT_EQ(forward.traction, -backward.traction);
-  EXPECT_EQ(forward.d_trial, backward.d_trial);
-  EXPECT_EQ(forward.d_pressure, -backward.d_pressure);
-}

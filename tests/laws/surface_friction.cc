@@ -113,24 +113,6 @@ TEST(SurfaceFriction, TurnsWithTheSlipOnTheConeAndDissipates)
   }
 }
 
-TEST(SurfaceFriction, TangentIsTheDerivativeWhereSlipTurns)
-{
-  const History histories[] = { {}, { along(0.3, 14.), along(0.2, 110.), dt }, { along(2., 3.), along(1.9, 60.), 2. * dt } };
-  for (const auto &law : { coulomb, cork, creeping })
-    for (const auto &history : histories)
-      for (const Two &slip : { along(0.3, 1e-3), along(0.8, 7e-3), along(1.5, 0.03), along(3., 0.03) })
-      {
-        const auto friction = [&](const Two &s, const double p) { return test::end_friction(history, stiffness, s, p, law, dt); };
-        const auto exact    = friction(slip, pressure);
-        const double h      = 1e-7;
-        const auto divided  = differences([&](const Two &s) { return friction(s, pressure).traction; }, slip, h);
-        EXPECT_NEAR((exact.d_slip - divided).norm(), 0., 1e-5 * exact.d_slip.norm() + 1e-6 * stiffness) << slip;
-        const double dp = 1e-5;
-        const auto by_p = (friction(slip, pressure + dp).traction - friction(slip, pressure - dp).traction) / (2. * dp);
-        EXPECT_NEAR((exact.d_pressure - by_p).norm(), 0., 1e-8) << slip;
-      }
-}
-
 TEST(SurfaceFriction, ShiftCountsAsFarAsItGoesAlongTheTraction)
 {
   const Two trial({ 0.3, 0.4 });

@@ -58,25 +58,6 @@ namespace
   }
 } // namespace
 
-TEST(HubSpring, ActsOnTheRotationBesidesTheContact)
-{
-  HubSpringExcess spring(layout, { hardening() });
-  const double turn  = 0.023;
-  const double force = -c * std::pow(turn, 3);
-  const auto apart   = with(spring, contact_forces({ 1, 2 }), PerLever{ { turn } });
-  EXPECT_EQ(apart.dofs, (std::vector<unsigned int>{ 1, 2, 4 }));
-  EXPECT_EQ(apart.values[1], 2.);
-  EXPECT_EQ(apart.tangent(1, 0), 10.);
-  EXPECT_EQ(apart.tangent(2, 0), 0.);
-  EXPECT_NEAR(apart.values[2], force, 1e-12 * k);
-  EXPECT_NEAR(apart.tangent(2, 2), -3. * c * turn * turn, 1e-12 * k);
-
-  const auto together = with(spring, contact_forces({ 1, 4 }), PerLever{ { turn } });
-  EXPECT_EQ(together.dofs, (std::vector<unsigned int>{ 1, 4 }));
-  EXPECT_NEAR(together.values[1], 2. + force, 1e-12 * k);
-  EXPECT_NEAR(together.tangent(1, 1), 11. - 3. * c * turn * turn, 1e-12 * k);
-}
-
 /// A rigid lever with a leaf spring of one vibration: two degrees of freedom by hand.
 TEST(HubSpring, ALeafsVibrationCouplesWithTheRotation)
 {

@@ -176,27 +176,6 @@ TEST(Linearisation, PressureAndFrictionAreTheDerivativeOfTheForcesByDisplacement
   }
 }
 
-TEST(Linearisation, PartsByPressureAreSymmetricAndFrictionIsNot)
-{
-  for (const auto &slide : slides(0.05))
-  {
-    const auto linear           = linearised(slide, slide.position(penetration));
-    const auto compute_skewness = [&](const Full &matrix)
-    {
-      Full skew = matrix;
-      skew.Tadd(-1., matrix);
-      return skew.frobenius_norm() / matrix.frobenius_norm();
-    };
-    EXPECT_LT(compute_skewness(linear.pressure), 1e-14) << slide.name;
-    EXPECT_LT(compute_skewness(linear.pressure_rate), 1e-14) << slide.name;
-    // A rigid lever on a rigid support has one dof. With the axis at the pivot bending and rotation slip as little.
-    if (slide.contact.layout.size() > 1)
-    {
-      EXPECT_GT(compute_skewness(linear.friction), 1e-3) << slide.name;
-    }
-  }
-}
-
 // A step without movement, all weight on its end, that begins without friction.
 TEST(Linearisation, StuckIsTheTangentOfAStepInStick)
 {

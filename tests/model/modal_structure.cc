@@ -94,34 +94,6 @@ namespace
   }
 } // namespace
 
-TEST(ModalStructure, ComplianceOfAStepIsTheChangeOfItsEndByUnitForces)
-{
-  for (const bool with_statics : { false, true })
-    for (const double radius : { 1., 0.8, 0. })
-      for (const double dt : { 1e-2, 1e-4 })
-      {
-        ModalStructure structure(three_modes(with_statics));
-        structure.use_statics();
-        Motion motion                      = structure.deform(forces_on({ 1., -2., 30. }));
-        motion.coordinates.velocity[0]     = 3.;
-        motion.coordinates.acceleration[1] = -7.;
-        const auto weights                 = generalised_alpha(radius, dt);
-        structure.use_step(weights);
-        const Vector free = structure.free_displacements(motion, all_dofs(3));
-        const Vector none = structure.positions(structure.advance(motion, InterfaceForces(), {}));
-        for (unsigned int b = 0; b < 3; ++b)
-          EXPECT_NEAR(free[b], none[b], 1e-13);
-        for (unsigned int a = 0; a < 3; ++a)
-        {
-          std::vector<double> unit(3, 0.);
-          unit[a]             = 1.;
-          const Vector loaded = structure.positions(structure.advance(motion, forces_on(unit), {}));
-          for (unsigned int b = 0; b < 3; ++b)
-            EXPECT_NEAR(structure.compliance()(b, a), loaded[b] - free[b], 1e-13) << a << b;
-        }
-      }
-}
-
 TEST(ModalStructure, EnergyDampingAndAlgorithmicWorkMakeUpTheWorkOfTheForces)
 {
   for (const bool with_statics : { false, true })

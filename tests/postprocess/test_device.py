@@ -14,7 +14,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from pictures import SOURCE, PictureTest, draw  # noqa: E402
 import apparatus  # noqa: E402
 import device  # noqa: E402
-import drafting  # noqa: E402
 import plot  # noqa: E402
 from sprag import program  # noqa: E402
 from sprag.results import NotAResult, read_result  # noqa: E402
@@ -187,17 +186,6 @@ def distance_to_segments(point, ends, begins):
     along = ends - begins
     share = np.clip(((point - begins) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-30), 0, 1)
     return np.hypot(*(begins + share[:, None] * along - point).T).min()
-
-
-class OutlineTest(unittest.TestCase):
-    def test_a_hole_is_a_loop_of_its_own(self):
-        """Two squares around one another, each in pieces in disorder."""
-        outer = np.array([(0, 0), (4, 0), (4, 4), (0, 4)], dtype=float)
-        inner = np.array([(1, 1), (1, 2), (2, 2), (2, 1)], dtype=float)
-        points = np.concatenate((outer, inner))
-        edges = [(2, 3), (0, 1), (6, 7), (1, 2), (4, 5), (3, 0), (5, 6), (7, 4)]
-        loops = sorted(sorted(loop) for loop in drafting.find_loops(edges, points))
-        self.assertEqual(loops, [[0, 1, 2, 3], [4, 5, 6, 7]])
 
 
 if __name__ == "__main__":

@@ -12,6 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
 from pictures import PictureTest, draw  # noqa: E402
 from real_results import real_result, run_once  # noqa: E402
+from strip import MESH_22, MESH_41  # noqa: E402
 import fields  # noqa: E402
 import frames  # noqa: E402
 import mesh  # noqa: E402
@@ -21,68 +22,6 @@ from sprag.results import NotAResult, read_fields  # noqa: E402
 RADIUS, OFFSET = 56, 45.6  # of model A
 LEVER, APPARATUS, SOLID = "lever with frames", "apparatus with frames", "solid with frames"
 PARTS = {"lever", "layer", "web", "plate", "cylinder", "leaf"}  # of the apparatus
-
-# Two quadrilaterals side by side, a plate and a lever, with the plate's lower side and the lever's right one named.
-NAMES = """$PhysicalNames
-4
-1 1 "sensor plate"
-1 2 "joint"
-2 3 "plate"
-2 4 "lever"
-$EndPhysicalNames
-"""
-VERSION_2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + NAMES + """$Nodes
-6
-1 0 0 0
-2 1 0 0
-3 2 0 0
-4 0 1 0
-5 1 1 0
-6 2 1 0
-$EndNodes
-$Elements
-4
-1 1 2 1 1 1 2
-2 1 2 2 2 3 6
-3 3 2 3 1 1 2 5 4
-4 3 2 4 2 2 3 6 5
-$EndElements
-"""
-VERSION_4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" + NAMES + """$Entities
-0 2 2 0
-1 0 0 0 1 0 0 1 1 0
-2 2 0 0 2 1 0 1 2 0
-1 0 0 0 1 1 0 1 3 0
-2 1 0 0 2 1 0 1 4 0
-$EndEntities
-$Nodes
-1 6 1 6
-2 1 0 6
-1
-2
-3
-4
-5
-6
-0 0 0
-1 0 0
-2 0 0
-0 1 0
-1 1 0
-2 1 0
-$EndNodes
-$Elements
-4 4 1 4
-1 1 1 1
-1 1 2
-1 2 1 1
-2 3 6
-2 1 3 1
-3 1 2 5 4
-2 2 3 1
-4 2 3 6 5
-$EndElements
-"""
 
 
 def scenery(name, x=30, way="forward", part="all"):
@@ -215,16 +154,15 @@ class DrawTest(PictureTest):
 
 class MeshTest(PictureTest):
     def test_parts_and_curves_of_a_file(self):
-        for text in (VERSION_2, VERSION_4):
-            path = self.folder / "own.msh"
+        path = self.folder / "own.msh"
+        for text in (MESH_22, MESH_41):
             path.write_text(text)
             found = mesh.read_msh(path)
-            self.assertEqual(found.parts["plate"].tolist(), [[[0, 0], [1, 0], [1, 1], [0, 1]]])
-            self.assertEqual(found.parts["lever"].tolist(), [[[1, 0], [2, 0], [2, 1], [1, 1]]])
-            self.assertEqual(found.curves["sensor plate"].tolist(), [[[0, 0], [1, 0]]])
-            self.assertEqual(found.curves["joint"].tolist(), [[[2, 0], [2, 1]]])
-            self.assertEqual(tuple(found.look), (2, 0.5))
-        path.write_text(VERSION_2.replace("2.2 0 8", "2.2 1 8"))
+            self.assertEqual(found.parts["lever"].shape, (52 * 4, 4, 2))
+            np.testing.assert_allclose(found.parts["lever"][0], [[0, OFFSET], [210 / 52, OFFSET], [210 / 52, OFFSET + 5], [0, OFFSET + 5]], rtol=1e-5)
+            np.testing.assert_allclose(found.curves["hub"], [[[0, OFFSET + 5 * y], [0, OFFSET + 5 * (y + 1)]] for y in range(4)])
+            self.assertEqual(len(found.curves["friction face"]), 52)
+        path.write_text(MESH_22.replace("2.2 0 8", "2.2 1 8"))
         with self.assertRaisesRegex(NotAResult, "ASCII"):
             mesh.read_msh(path)
 
@@ -243,7 +181,7 @@ class MeshTest(PictureTest):
 
     def test_pictures(self):
         folder = shutil.copytree(run_once(APPARATUS), self.folder / "a")
-        (self.folder / "own.msh").write_text(VERSION_2)
+        (self.folder / "own.msh").write_text(MESH_22)
         done = draw("mesh.py", folder, self.folder / "own.msh")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(done.stdout.splitlines(), [str(folder / "mesh.png"), str(self.folder / "own.png")])

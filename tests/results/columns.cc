@@ -4,7 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <map>
-#include <set>
+
 #include <string>
 #include <vector>
 
@@ -56,36 +56,4 @@ TEST(Columns, OfAPairTellWhatTheSecondLeverHasAndWhatIsLeftBetweenThem)
   EXPECT_EQ(first[Column::P], 10.);
   EXPECT_EQ(first[Column::spring_energy], 4.);
   EXPECT_EQ(first[Column::penetration], 3e-3);
-}
-
-TEST(Columns, OfAPairOnSensorsComeInOrder)
-{
-  FrictionPlate plate;
-  plate.type = PlateType::on_sensors;
-  MirroredPair pair;
-  pair.type          = PairType::full;
-  const auto columns = table_columns(plate, pair);
-  std::set<std::string> names;
-  for (const auto &column : columns)
-    EXPECT_TRUE(names.insert(column.name).second) << column.name;
-  EXPECT_EQ(columns.size(), n_columns + 2 * 5 + lever_columns().size() + 3);
-  EXPECT_EQ(columns[n_columns + 4].name, "sensor_sum");
-  EXPECT_EQ(columns[n_columns + 5].name, "theta_2");
-  EXPECT_EQ(columns[columns.size() - 4].name, "sensor_sum_2");
-  EXPECT_EQ(columns.back().name, "lateral_force");
-}
-
-TEST(Columns, OfAnAxisThatYieldsComeBeforeThoseOfSensors)
-{
-  FrictionPlate plate;
-  plate.type = PlateType::on_sensors;
-  Cylinder cylinder;
-  EXPECT_EQ(table_columns(plate, {}, 3, cylinder).size(), n_columns + 5 + columns_across().size() + 8);
-  cylinder.skew_stiffness = 1e5;
-  const auto columns      = table_columns(plate, {}, 3, cylinder);
-  const std::size_t tilt  = n_columns + 5 + columns_across().size();
-  EXPECT_EQ(columns[tilt].name, "tilt");
-  EXPECT_EQ(columns[tilt + 1].name, "skew");
-  EXPECT_EQ(columns[tilt + 2].name, "sensor_1_left");
-  EXPECT_EQ(table_columns(plate, {}, 2, cylinder).size(), n_columns + 5);
 }

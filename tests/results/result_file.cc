@@ -120,20 +120,6 @@ TEST_F(ResultFileTest, EachWarningIsADatasetOfItsName)
             "['second', 'first'] It is 2. Q is off. Halve it.\n");
 }
 
-TEST_F(ResultFileTest, EveryDatasetHasUnitAndDescription)
-{
-  ResultFile file(path(), "", three_points);
-  file.finish({ { "loop_area", 1., "N mm", "area of the loop" } }, { { "version", std::string("1"), "", "of sprag" } },
-              { { "some_warning", "found", "effect", "remedy" } });
-
-  EXPECT_EQ(h5py("f.visititems(lambda name, o: isinstance(o, h5py.Dataset) and not "
-                 "(isinstance(o.attrs[\"unit\"], str) and o.attrs[\"description\"]) and print(name))"),
-            "");
-  EXPECT_EQ(h5py("print(*(f[n].attrs[\"unit\"] for n in "
-                 "(\"table/theta\", \"table/Q\", \"face/weight\", \"summary/loop_area\", \"table/mu\")))"),
-            "rad N mm^2 N mm 1\n");
-}
-
 TEST_F(ResultFileTest, UnfinishedFileKeepsItsRows)
 {
   {

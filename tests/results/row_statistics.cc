@@ -30,14 +30,6 @@ TEST(RowStatistics, PassOverWhatIsNoNumber)
   EXPECT_EQ(find_largest_row(rows, Q), &rows[4]);
 }
 
-TEST(RowStatistics, OfNoNumbersAreZero)
-{
-  const auto rows = make_rows({ no_number });
-  EXPECT_EQ(largest(rows, Column::Q), 0.);
-  EXPECT_EQ(sum(rows, Column::Q), 0.);
-  EXPECT_EQ(find_largest_row(rows, [](const Row &row) { return row[Column::Q]; }), nullptr);
-}
-
 TEST(RowStatistics, TakeARowOfAnInfiniteValueForNone)
 {
   const auto rows = make_rows({ 1., std::numeric_limits<double>::infinity() });

@@ -23,18 +23,6 @@ TEST(WarningsPage, HoldsTextsThatTakeTheValuesInTurn)
   EXPECT_EQ(vibration.remedy, "Leave Time/Step out, so that steps adapt, or give one of 0.1 s or less.");
 }
 
-TEST(WarningsPage, UnknownNamesAndOtherNumbersOfValuesAreErrors)
-{
-  EXPECT_THROW(make_warning("no_such_warning"), std::logic_error);
-  EXPECT_THROW(make_warning("hidden_vibration", { "3" }), std::logic_error);
-  EXPECT_THROW(make_warning("locks", { "1", "2", "3", "4", "5" }), std::logic_error);
-}
-
-TEST(WarningText, HoldsAllPartsWithTheirLabels)
-{
-  EXPECT_EQ(to_text({ soft }), "\nWarning: soft\n  found:  found\n  effect: effect\n  remedy: remedy\n\n");
-}
-
 TEST(WarningText, LongSentencesAreWrappedWithoutLosingAWord)
 {
   std::string sentence;

@@ -53,12 +53,6 @@ class SlowRanks(RanksTest):
         self.assertEqual(done.stderr.count("process 1 of mpirun: cannot write output/fields-mesh.h5: No such file"), 1, done.stderr)
         self.assertEqual(list(places[1].iterdir()), [])
 
-    def test_are_told_where_one_is_enough(self):
-        chosen = {"Analysis/Dimension": "auto", "Accuracy/Quantity": "P", "Mesh/Face size": "3", "Mesh/Faces in contact": "0"}
-        in_plane = run(2, self.folder / "plane", {**chosen, "Drive/Stroke": "15"})
-        self.assertEqual(in_plane.returncode, 0, in_plane.stderr)
-        self.assertIn("Processes:    2, of which a lever in a plane needs the first alone", in_plane.stdout)
-
     def test_of_another_program_are_refused(self):
         program = Path(SPRAG).resolve().with_name("sprag-models")
         other = self.folder / "sprag-models"

@@ -247,11 +247,6 @@ class ScenesTest(RunTest):
             self.assertEqual(list(numbers_without_unit(lines)), [])
         self.assertNotRegex(text, r"\bnan\b|\binf\b")
 
-    def test_a_number_without_unit_is_seen(self):
-        table = ["  growth [1/s]  frequency [Hz]", "  as it is  77.39  186.1", "  cost  2 s of CPU time", "  as it is 1 2"]
-        self.assertEqual(list(numbers_without_unit(["  margin  0.743", "  P = 3 N, Q = 4"])), ["  margin  0.743", "  P = 3 N, Q = 4"])
-        self.assertEqual(list(numbers_without_unit(table)), table[-1:])
-
     def test_all_run(self):
         for scene in sorted(TWINS if ONLY_TWINS else set(SCENES) - TWINS):
             with self.subTest(scene=scene.stem):

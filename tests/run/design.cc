@@ -101,28 +101,6 @@ TEST(RunDesign, WithoutALeverTheNearestIsKept)
   EXPECT_NO_THROW(read_scene(read_output(folder) + "/design-nearest.prm"));
 }
 
-TEST(RunDesign, TheRoundThatMissesLeastIsTheNearest)
-{
-  const auto make_check = [](const unsigned int round, const double force, const std::string &failure = {})
-  {
-    ModelCheck check;
-    check.round                                = round;
-    check.found                                = {};
-    check.found[DesignQuantity::largest_force] = force;
-    check.failure                              = failure;
-    check.lever.parameters                     = { static_cast<double>(round) };
-    return check;
-  };
-  const std::vector<Demand> demands = { { { DesignQuantity::largest_force, 0 }, DemandKind::at_most, 10., 0., "" } };
-  const auto first = make_check(1, 10.5), second = make_check(2, 10.1), third = make_check(3, 10.2);
-  EXPECT_EQ(nearest_check({ first, second, third }, demands).round, 2u);
-  EXPECT_EQ(nearest_check({ first, third, make_check(4, 0., "it jams") }, demands).round, 3u);
-  EXPECT_EQ(nearest_check({ make_check(1, 0., "it jams") }, demands).round, 1u);
-  auto beam        = first;
-  beam.check_model = CheckModel::condensed;
-  EXPECT_EQ(nearest_check({ second, beam }, demands).round, 1u);
-}
-
 TEST(RunDesign, ALeverThatFailsItsJudgesIsThatOfTheNearestRound)
 {
   const TemporaryFolder folder;
@@ -173,29 +151,6 @@ TEST(RunDesign, AJudgeCorrectsTheClosedFormAtEachTolerance)
   const double worst = std::min(damping("0"), damping("-0.002"));
   EXPECT_GE(worst, 0.1 * (1. - 5e-3));
   EXPECT_LE(worst, 0.1 * (1. + 0.01));
-}
-
-TEST(RunDesign, AJudgeCorrectsTheClosedForm)
-{
-  const TemporaryFolder folder;
-  // A thin lever bends, so that it damps less than the closed form says.
-  const auto warnings = run_in(folder, design(folder, { "Lever/Depth=6", "Design/Free=Rotational spring/Stiffness = 1e4 ... 2e5",
-                                                        "Design/Judges=beam", "Design/Demands=largest force >= 20",
-                                                        "Design/Aim=minimise largest force", "Design/Judge in time=off" }));
-  // The beam has the moment of inertia of model A. At a tenth of the speed the cork takes less force.
-  EXPECT_EQ(count_text(warnings), "2 warnings: mu_of_one_speed, defaults_of_model_a");
-  std::ifstream file(read_output(folder) + "/design-best.prm");
-  std::string first_line;
-  std::getline(file, first_line);
-  EXPECT_EQ(first_line,
-            "# By the closed form: sprag design-best.prm; by the judge beam with --set 'Analysis/Type=stability' --set "
-            "'Analysis/Model=beam' --set 'Stability/Position=auto' --set 'Stability/Critical=none'");
-  const Scene best = best_scene(folder, { "Analysis/Type=stability", "Analysis/Model=beam" });
-  EXPECT_GT(lever_quantities(best)[DesignQuantity::largest_force], 20.2);
-  DynamicsMaker maker(false);
-  const double Q = slide_at(best, 65., "backward", maker).slide->forces.Q;
-  EXPECT_GE(std::abs(Q), 20.);
-  EXPECT_LT(std::abs(Q), 20.1);
 }
 
 // A base of 1 mm moves this table at some 25 mm/s, where the cork has four fifths of its mu at the drive's 112 mm/s.

@@ -148,13 +148,6 @@ TEST(VibrationAccuracy, InThreeDimensionsToldErrorsHoldTheChangeToAFinerMeshSlow
   }
 }
 
-TEST(VibrationAccuracy, LeversWithoutAMeshTellNone)
-{
-  Scene scene          = slide(0.5);
-  scene.analysis.model = ModelType::beam;
-  EXPECT_TRUE(estimated(scene).empty());
-}
-
 TEST(TransientAccuracy, ToldErrorsAreThoseOfShorterSteps)
 {
   // With fixed steps; and with those that the tolerance chooses, which become longer as the ringing dies out.

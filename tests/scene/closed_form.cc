@@ -225,13 +225,6 @@ TEST(ClosedForm, LockingIsFoundWhereTheBackwardStrokeBegins)
   EXPECT_FALSE(locking(driven_to(with_coulomb(model_a(), 1.3), 125.314)));
 }
 
-TEST(ClosedForm, LockingOnTheWayForwardDoesNotExist)
-{
-  Scene scene = with_coulomb(model_a(), 1.3);
-  scene.drive = Drive(DriveProfile::triangle, 0., 128., 112., 0.5);
-  EXPECT_FALSE(locking(scene));
-}
-
 TEST(ClosedForm, LockingIsFoundInTheMiddleOfAStrokeThatSpeedsUp)
 {
   // Almost no lever arm, e/R = 0.964, and a drive that passes 750 mm/s soon after its reversal: mu = 1.076 finds s < mu e at

@@ -10,6 +10,17 @@
 
 using namespace sprag;
 
+TEST(HeldDrive, IsTheDrivesLargestXUnlessGiven)
+{
+  Scene scene = model_a();
+  EXPECT_DOUBLE_EQ(held_drive(scene).x, 65.);
+  EXPECT_DOUBLE_EQ(held_drive(scene).v, -112.);
+  scene.stability.position  = 30.;
+  scene.stability.direction = Direction::forward;
+  EXPECT_DOUBLE_EQ(held_drive(scene).x, 30.);
+  EXPECT_DOUBLE_EQ(held_drive(scene).v, 112.);
+}
+
 TEST(HeldScene, FrictionByTheDrivesSpeedIsAConstant)
 {
   const auto held = held_scene(with_friction_by_drive_speed(model_a()));

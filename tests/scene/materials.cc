@@ -87,23 +87,6 @@ TEST(Materials, OfTheCommandLineOrAStudyReplaceThoseOfTheFile)
   }
 }
 
-TEST(Materials, FillTheirOwnSectionAlone)
-{
-  const std::array<std::string, 5> sections = { "Lever", "Friction layer", "Friction plate", "Leaf spring", "Cylinder" };
-  const auto defaults                       = read_scene(written("")).parameters;
-  for (const auto &section : sections)
-  {
-    const auto filled = read_scene(written("subsection " + section + "\nset Made of = brass\nend\n")).parameters;
-    for (const auto &other : sections)
-    {
-      const std::string modulus = other + "/Young's modulus";
-      EXPECT_EQ(std::stod(filled->at(modulus)) == 1e5, other == section)
-          << section << ", " << other << ": " << filled->at(modulus);
-      EXPECT_EQ(filled->at(modulus) == defaults->at(modulus), other != section) << section << ", " << other;
-    }
-  }
-}
-
 TEST(Materials, UnknownOrWithoutEffectAreMistakes)
 {
   const auto unknown = find_mistakes({ "Lever/Made of=stell" });

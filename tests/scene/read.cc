@@ -98,6 +98,18 @@ TEST(ReadScene, ReversalsTakeTimeInTransientAnalysesOnly)
   EXPECT_TRUE(find_mistakes({ "Drive/Stroke=0.4" }).empty());
 }
 
+TEST(ReadScene, ScenesOfTheProgramAreFaultless)
+{
+  unsigned int n_scenes = 0;
+  for (const auto &entry : std::filesystem::directory_iterator(scenes()))
+    if (entry.path().extension() == ".prm")
+    {
+      ++n_scenes;
+      EXPECT_NO_THROW(read_scene(entry.path().string())) << entry.path();
+    }
+  EXPECT_GE(n_scenes, 12u);
+}
+
 TEST(ReadScene, AllMistakesAreFoundAtOnce)
 {
   EXPECT_EQ(

@@ -100,25 +100,6 @@ TEST(PreloadedSpring, MovesPAsTheClosedFormSays)
   expect_rigid_lever(scene, MomentLaw(scene.spring.stiffness).at_rest_at(-0.01), std::numeric_limits<double>::infinity());
 }
 
-// P = k (turn - rest) / (s + sigma mu e); the lever gives so little that what is left is 1e-3.
-TEST(PreloadedSpring, PressesAtEveryFidelity)
-{
-  for (const auto model : { ModelType::rigid, ModelType::beam, ModelType::condensed })
-    for (const double x : { 0.5, 40. })
-    {
-      Scene scene              = with_stiffness(with_coulomb(in_time(model_a(), model), mu), 1000.);
-      scene.stability.position = x;
-      scene.spring.rest_angle  = -0.01;
-      scene.contact.stiffness  = 1e7;
-      scene.contact.exponent   = 1.;
-      const auto at            = kinematics(scene.geometry, x);
-      const double moment      = scene.spring.stiffness * (at.theta - kinematics(scene.geometry, 0.).theta + 0.01);
-      DynamicsMaker maker;
-      const auto checked = check_slide(scene, maker);
-      EXPECT_NEAR(checked.slide->forces.P, moment / (at.s - mu * scene.geometry.interface_offset), 2e-3 * 20.) << x;
-    }
-}
-
 // One stroke, at the end of which the support holds 2 to 5 % of the work: the ledger closes to a tenth of that with it.
 TEST(SprungSupport, ItsEnergyClosesTheLedger)
 {

@@ -101,34 +101,6 @@ TEST(SolidPair, ATiltedAxisPressesTheOtherSideOfTheSecondLever)
     EXPECT_LT(apart(rows, across(column), rows, across(column, 1), -1.), 1e-5) << columns_across()[column].name;
 }
 
-// Held springs on a rigid support: a lever feels nothing of the other. One stroke: steps behind a turn follow the stick of both.
-TEST(SolidPair, LeversThatNothingJoinsAreAsAlone)
-{
-  for (const auto material : { MaterialModel::linear, MaterialModel::neo_hookean })
-  {
-    SCOPED_TRACE(static_cast<int>(material));
-    Scene scene                = paired(tilted(solid_model_a(0.3), 2e-4, 1e-3), SpringJoint::held, 0., 0.85);
-    scene.lever.material       = material;
-    scene.layer.young_modulus  = 1.;
-    scene.mesh.degree          = 1;
-    scene.mesh.elements_across = 2;
-    scene.drive                = Drive(DriveProfile::triangle, 0., 3., 112., 0.5);
-    const SolidRun pair(scene);
-    for (const unsigned int lever : { 0u, 1u })
-    {
-      Scene alone                  = scene;
-      static_cast<Device &>(alone) = lever_device(scene, lever);
-      alone.pair.type              = PairType::half;
-      const SolidRun single(alone);
-      const auto pair_value = [&](const Column column) { return lever == 0 ? first_value(column) : second_value(column); };
-      for (const Column column : { Column::P, Column::Q, Column::theta, Column::largest_pressure })
-        EXPECT_LT(apart(single.rows, first_value(column), pair.rows, pair_value(column)), 2e-6) << column_info(column).name;
-      for (const std::size_t column : { twisting_moment, turning_moment })
-        EXPECT_LT(apart(single.rows, across(column), pair.rows, across(column, lever)), 1e-5) << columns_across()[column].name;
-    }
-  }
-}
-
 TEST(SolidPair, InTimeItIsThatOfThePlane)
 {
   const auto plane = first_steps(in_time(2)), solid = first_steps(in_time(3));

@@ -132,28 +132,6 @@ TEST(SolidPartsInTime, MassAndMomentOfInertiaAreThePlanes)
       }
 }
 
-// A hub that is as good as held lets the leaf vibrate as a beam clamped at both ends, beta L = 4.7300; shear and rotary inertia
-// lower that by (beta t)^2/24 (1 + E/(kappa G)), 4e-4.
-TEST(SolidPartsInTime, ALeafVibratesAtItsOwnFrequency)
-{
-  Scene scene                   = in_space(AnalysisType::transient);
-  scene.spring.type             = SpringType::leaf;
-  scene.spring.leaf.thickness   = 1.;
-  scene                         = with_face_size(scene, 4.);
-  scene.spring                  = prepared_spring(scene);
-  scene.lever.hub_inertia       = 1e3;
-  scene.lever.moment_of_inertia = 1.01e3;
-  const auto &leaf              = scene.spring.leaf;
-  const double wave             = 4.7300407 / leaf.length;
-  const double beam             = wave * wave * leaf.thickness * std::sqrt(leaf.young_modulus / (12. * leaf.density));
-  DynamicsMaker maker(false);
-  const auto found         = maker.make(scene).solid->modes;
-  const auto frequency_off = [&](const double stiffness) { return std::sqrt(stiffness) / beam - 1.; };
-  const auto is_closer = [&](const double a, const double b) { return std::abs(frequency_off(a)) < std::abs(frequency_off(b)); };
-  const double closest = *std::min_element(found.stiffness.begin(), found.stiffness.end(), is_closer);
-  EXPECT_LT(std::abs(frequency_off(closest)), 1e-3);
-}
-
 namespace
 {
   /// Ringing that dies away, so that what the compliance of the face leaves out does not add up from one oscillation to the next.
