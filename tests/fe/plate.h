@@ -90,14 +90,6 @@ namespace sprag
     return properties;
   }
 
-  inline LeverInertia plate_inertia()
-  {
-    LeverInertia inertia;
-    inertia.densities = { { material_id::lever, 2.7e-9 }, { material_id::plate, 7.8e-9 }, { material_id::layer, 2e-10 } };
-    inertia.source    = InertiaSource::as_built;
-    return inertia;
-  }
-
   /// With its mesh and degrees of freedom.
   class MeshedPlate
   {

@@ -155,16 +155,6 @@ class PackageTest(FolderTest):
         ranked = [RankedDamper("viscous", 1.0, "N s/mm", 0.9, 5.0)]
         self.assertIn("lever: none of the strengths tried serves", tell_ranking(ranked, []))
 
-    def test_dampers_that_are_not_steady_are_ranked_last(self):
-        # Without friction enough the motion at resonance grows for long: the dampers are given four times the 8 s.
-        changes = {"Isolation/Base frequency": 0.75, "Isolation/Base amplitude": 5, "Isolation/Duration": 8, "Isolation/End": "duration"}
-        dampers, (without, lever) = sprag.rank_dampers(SCENES / "isolation-a.prm", changes, jobs=1)
-        self.assertFalse(without.is_steady)
-        self.assertEqual([each.is_steady for each in dampers], sorted((each.is_steady for each in dampers), reverse=True))
-        self.assertTrue(lever.is_steady and dampers[0].is_steady)
-        late = RankedDamper("lever", 1.0, "N mm/rad", 0.1, 5.0, is_steady=False)
-        self.assertRegex(tell_ranking([*dampers[1:], late], []), "5 mm, not steady\n(.*\n)*.*they are ranked last")
-
     def test_parameter_gui_opens_the_xml(self):
         # Its reader takes sections of parameters with these five elements, and numbers by their patterns.
         scene, parts = SCENES / "design-machine.prm", ["value", "default_value", "documentation", "pattern", "pattern_description"]

@@ -11,7 +11,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
-from pictures import PictureTest, draw  # noqa: E402
+from pictures import PictureTest  # noqa: E402
 from real_results import real_result, run_once  # noqa: E402
 import forces  # noqa: E402
 import isolation  # noqa: E402

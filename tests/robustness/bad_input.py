@@ -59,7 +59,6 @@ class ProgramTest(RunTest):
         return done.stderr.splitlines()
 
 
-
 class BadScene(ProgramTest):
     """Mistakes that reading the scene finds."""
 
@@ -158,7 +157,6 @@ class BadOutput(ProgramTest):
                     self.assertEqual(tree(self.folder), before)
 
 
-
 class FailedRun(ProgramTest):
     """Exit 1, and every finished step can be read."""
 
@@ -195,15 +193,6 @@ class FailedRun(ProgramTest):
         self.assertIn("half of Young's modulus there", done.stderr)
         with h5py.File(self.output / "result.h5", "r") as file:
             self.assertIn("half of Young's modulus there", file["summary/status"].asstr()[()])
-
-    def test_deviation_too_large(self):
-        scene = self.write("")
-        options = ("--set", "Analysis/Maximum deviation=1e-9", "--output", self.output)
-        done = sprag(scene, *COARSE, *options)
-        self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("Analysis/Maximum deviation", done.stderr)
-        table, status = self.finished_steps()
-        self.assertEqual((table["x"].max(), table["x"][-1], status), (65, 0, "completed"))
 
 
 class RunGoingOn(ProgramTest):

@@ -8,8 +8,7 @@ import subprocess
 import unittest
 from pathlib import Path
 
-import numpy as np
-from ranks import ALONE, HELD, SETTINGS, SOURCE, SPRAG, TIMEOUT, RanksTest, command, finished, read_fields, run
+from ranks import ALONE, SETTINGS, SOURCE, SPRAG, TIMEOUT, RanksTest, command, finished, read_fields, run
 
 OFTEN = {**ALONE, "SPRAG_CHECKPOINT_SECONDS": "0.02"}
 
@@ -66,17 +65,6 @@ class SlowRanks(RanksTest):
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertEqual(done.stderr.count("process 1 of mpirun runs another program"), 1, done.stderr)
         self.assertFalse(self.output.exists())
-
-    def test_do_not_change_fields_of_modes(self):
-        changes = {**HELD, "Analysis/Type": "modal", "Stability/Modes": "2", "Output/Fields": "turning points"}
-        alone, shared = ({}, {})
-        for ranks, fields in ((1, alone), (2, shared)):
-            folder = self.folder / str(ranks)
-            done = run(ranks, folder, changes)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            fields.update(read_fields(folder))
-        self.assertGreater(np.abs(alone["mode-02.h5 frame-0023/mode-02/displacement"]).max(), 1)
-        self.expect_alike(shared, alone)
 
     def test_go_on_after_one_was_killed(self):
         whole = self.folder / "whole"

@@ -3,12 +3,8 @@
 end. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 
 import os
-import random
 import shutil
-import signal
-import subprocess
 import sys
-import time
 import unittest
 from pathlib import Path
 
@@ -16,7 +12,7 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, SPRAG, RunTest, sets, sprag  # noqa: E402
+from runs import SOURCE, RunTest, sets, sprag  # noqa: E402
 from strip import MESH_22, SCRIPT  # noqa: E402
 from system_calls import CAN_FILTER, without_confinement, without_landlock  # noqa: E402
 
@@ -172,29 +168,6 @@ class Results(StrangerTest):
         (self.output / "map.journal").write_text("sprag 0 map, scene 0123456789abcdef\n")
         self.assertEqual(self.run_scene("--overwrite").returncode, 0)
         self.assertFalse((self.output / "fields.xdmf").exists())
-
-    def test_of_killed_runs_can_be_read(self):
-        chance = random.Random(1)
-        begin = time.monotonic()
-        self.assertEqual(self.run_scene().returncode, 0)
-        duration = time.monotonic() - begin
-        found = 0
-        for _ in range(40):
-            self.result.unlink(missing_ok=True)
-            process = subprocess.Popen(
-                [SPRAG, str(self.folder / "scene.prm"), "--output", str(self.output), "--overwrite", "--quiet"],
-                stderr=subprocess.DEVNULL, start_new_session=True)  # fmt: skip
-            time.sleep(duration * chance.uniform(0.2, 1.0))
-            try:
-                os.killpg(process.pid, signal.SIGKILL)
-            except ProcessLookupError:
-                pass
-            process.wait()
-            if self.result.exists():
-                found += 1
-                with h5py.File(self.result, "r", swmr=True) as file:
-                    self.assertIn("table", file)
-        self.assertGreater(found, 5)
 
     def test_earlier_fields_go_with_their_result(self):
         coarse = sets(("Mesh/Face size=4", "Analysis/Step=5", "Drive/Stroke=20"))
