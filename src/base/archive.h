@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -98,6 +99,18 @@ namespace sprag
     {
       item(both.first);
       item(both.second);
+    }
+
+    /// Copies what several pointers share.
+    template <class Item>
+    void item(std::shared_ptr<Item> &pointer)
+    {
+      bool is_set = pointer != nullptr;
+      auto copy   = is_set ? *pointer : std::remove_const_t<Item>();
+      item(is_set);
+      item(copy);
+      if (reading)
+        pointer = is_set ? std::make_shared<Item>(std::move(copy)) : nullptr;
     }
 
     template <class Key, class Value>

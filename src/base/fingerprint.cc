@@ -7,7 +7,6 @@
 
 #include <cstring>
 #include <filesystem>
-#include <optional>
 #include <set>
 #include <sstream>
 
@@ -17,31 +16,26 @@ namespace sprag
   {
     namespace fs = std::filesystem;
 
-    std::optional<std::string> read_content(const fs::path &file)
+    /// Returns whether the file can be read.
+    bool add_file(const fs::path &file, Fingerprint &key, std::set<fs::path> &seen)
     {
+      std::string content, part;
       try
       {
-        return read_whole_file(file, largest_mesh);
+        content = read_whole_file(file, largest_mesh);
       }
       catch (const InputError &)
       {
-        return {};
+        return false;
       }
-    }
-
-    void add_file(const fs::path &file, Fingerprint &key, std::set<fs::path> &seen)
-    {
-      const auto content = read_content(file);
-      if (!content || !seen.insert(fs::absolute(file).lexically_normal()).second)
-        return;
-      key.add(*content);
-      if (file.extension() != ".geo")
-        return;
-      std::istringstream parts(*content);
-      std::string part;
+      if (!seen.insert(fs::absolute(file).lexically_normal()).second)
+        return true;
+      key.add(content);
+      std::istringstream parts(file.extension() == ".geo" ? content : "");
       for (bool quoted = false; std::getline(parts, part, '"'); quoted = !quoted)
         if (quoted && !part.empty())
           add_file(file.parent_path() / part, key, seen);
+      return true;
     }
   } // namespace
 
@@ -79,12 +73,9 @@ namespace sprag
 
   std::string content_fingerprint(const std::string &file)
   {
-    if (!read_content(file))
-      return "unreadable";
     Fingerprint key;
     std::set<fs::path> seen;
-    add_file(file, key, seen);
-    return key.text();
+    return add_file(file, key, seen) ? key.text() : "unreadable";
   }
 
   const std::string &program_fingerprint()

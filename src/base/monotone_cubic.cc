@@ -88,39 +88,32 @@ namespace sprag
     }
   } // namespace
 
-  struct MonotoneCubic::Interpolant
-  {
-    std::function<double(double)> value, slope;
-
-    template <class Cubic>
-    explicit Interpolant(const std::shared_ptr<const Cubic> &cubic)
-        : value([cubic](const double x) { return (*cubic)(x); })
-        , slope([cubic](const double x) { return cubic->prime(x); })
-    {
-    }
-  };
-
   MonotoneCubic::MonotoneCubic(const std::vector<double> &x, const std::vector<double> &y, const Slopes slopes)
   {
     using Smooth = boost::math::interpolators::cubic_hermite<std::vector<double>>;
     using Pchip  = boost::math::interpolators::pchip<std::vector<double>>;
     using Values = std::vector<double>;
     check_points(x, y);
-    first = x.front();
-    last  = x.back();
+    first          = x.front();
+    last           = x.back();
+    const auto use = [this](const auto &cubic)
+    {
+      value_inside = [cubic](const double at) { return cubic(at); };
+      slope_inside = [cubic](const double at) { return cubic.prime(at); };
+    };
     if (slopes == Slopes::smooth)
-      interpolant = std::make_shared<Interpolant>(std::make_shared<const Smooth>(Values(x), Values(y), smooth_slopes(x, y)));
+      use(Smooth(Values(x), Values(y), smooth_slopes(x, y)));
     else
-      interpolant = std::make_shared<Interpolant>(std::make_shared<const Pchip>(Values(x), Values(y)));
+      use(Pchip(Values(x), Values(y)));
   }
 
   double MonotoneCubic::value(const double x) const
   {
-    return interpolant->value(std::clamp(x, first, last));
+    return value_inside(std::clamp(x, first, last));
   }
 
   double MonotoneCubic::derivative(const double x) const
   {
-    return x < first || x > last ? 0. : interpolant->slope(x);
+    return x < first || x > last ? 0. : slope_inside(x);
   }
 } // namespace sprag

@@ -27,8 +27,7 @@ namespace sprag
     double derivative(double x) const;
 
   private:
-    struct Interpolant;
-    std::shared_ptr<const Interpolant> interpolant;
+    std::function<double(double)> value_inside, slope_inside;
     double first;
     double last;
   };

@@ -94,13 +94,6 @@ namespace sprag
       return kept && !parts.empty() ? std::nullopt : std::make_optional("must be " + description(rule));
     }
 
-    std::optional<std::string> choice_violation(const Rule &rule, const std::string &value)
-    {
-      if (contains(rule.choices, value))
-        return std::nullopt;
-      return "must be " + description(rule) + did_you_mean(nearest(value, rule.choices));
-    }
-
     constexpr std::size_t comment_width = 74;
 
     /// An entry as it is printed.
@@ -112,19 +105,14 @@ namespace sprag
       bool is_open;        ///< whether the line is a comment
     };
 
-    template <class Length>
-    int longest(const std::vector<Entry> &entries, const Length &length)
-    {
-      std::size_t result = 0;
-      for (const auto &entry : entries)
-        result = std::max(result, length(entry));
-      return static_cast<int>(result);
-    }
-
     void print(std::ostream &text, const std::string &section, const std::vector<Entry> &entries)
     {
-      const int name  = longest(entries, [](const Entry &entry) { return entry.parameter.name.size(); });
-      const int value = longest(entries, [](const Entry &entry) { return entry.value.size(); });
+      int name = 0, value = 0;
+      for (const auto &entry : entries)
+      {
+        name  = std::max(name, static_cast<int>(entry.parameter.name.size()));
+        value = std::max(value, static_cast<int>(entry.value.size()));
+      }
       text << "subsection " << section << '\n' << std::left;
       for (const auto &entry : entries)
       {
@@ -198,18 +186,6 @@ namespace sprag
         settings.mistakes.push_back(place + ": " + what + ": " + rule);
       }
 
-      void unusable(const std::string &rule)
-      {
-        settings.mistakes.push_back(settings.file + ": " + rule);
-        invalidate_all();
-      }
-
-      void invalidate_all()
-      {
-        for (const auto &parameter : declared)
-          settings.invalid.insert(full_name(parameter));
-      }
-
       void read_file()
       {
         try
@@ -220,7 +196,8 @@ namespace sprag
         catch (const InputError &error)
         {
           settings.mistakes.push_back(error.what());
-          invalidate_all();
+          for (const auto &parameter : declared)
+            settings.invalid.insert(full_name(parameter));
         }
       }
 
@@ -228,7 +205,7 @@ namespace sprag
       {
         const std::vector<Statement> all = statements(input);
         if (std::any_of(all.begin(), all.end(), [](const auto &s) { return s.text.find('\0') != std::string::npos; }))
-          return unusable("is not a text: must be a parameter file");
+          throw InputError(settings.file + ": is not a text: must be a parameter file");
 
         for (const auto &statement : all)
           read(settings.file + ":" + std::to_string(statement.line), statement.text);
@@ -414,7 +391,9 @@ namespace sprag
     case Rule::Kind::numbers:
       return list_violation(rule, value);
     case Rule::Kind::choice:
-      return choice_violation(rule, value);
+      if (contains(rule.choices, value))
+        return std::nullopt;
+      return "must be " + description(rule) + did_you_mean(nearest(value, rule.choices));
     case Rule::Kind::text:
     case Rule::Kind::file:
       break;
@@ -460,11 +439,6 @@ namespace sprag
   std::vector<double> parse_numbers(const std::string &value)
   {
     return mapped(split(value, ','), [](const auto &part) { return leading_number(part)->value; });
-  }
-
-  std::string full_name(const Parameter &parameter)
-  {
-    return parameter.section + "/" + parameter.name;
   }
 
   const Parameter *find_parameter(const std::vector<Parameter> &declared, const std::string &name)

@@ -108,7 +108,10 @@ namespace sprag
   };
 
   /// Returns "Section/Name".
-  std::string full_name(const Parameter &parameter);
+  inline std::string full_name(const Parameter &parameter)
+  {
+    return parameter.section + "/" + parameter.name;
+  }
 
   /// Returns the parameter with this full name, null where none is declared.
   const Parameter *find_parameter(const std::vector<Parameter> &declared, const std::string &name);

@@ -58,7 +58,6 @@ namespace sprag
       , style(chosen_style)
       , total(whole)
       , clock(std::move(time_source))
-      , start(clock())
       , columns(terminal_columns > 0 ? static_cast<int>(terminal_columns) : std::numeric_limits<int>::max())
   {
   }

@@ -74,7 +74,7 @@ namespace sprag
     const ProgressStyle style;
     const double total;
     const Clock clock;
-    const double start;
+    const double start = clock();
     const int columns;
     double first      = 0.; ///< share that was done before
     double last_drawn = -std::numeric_limits<double>::infinity();

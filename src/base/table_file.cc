@@ -154,7 +154,6 @@ namespace sprag
       bool has_rows                    = false;
       bool decimal_commas              = false;
       std::vector<NamedColumn> columns = {};
-      std::vector<char> is_read        = {}; ///< of each column
       ChosenColumns chosen             = {};
       Names mistakes                   = {};
       std::vector<Comment> comments    = {}; ///< before the rows, but for one that is the header
@@ -252,10 +251,6 @@ namespace sprag
             mistakes.push_back(file + ": the header '" + (comment.empty() ? line : comment) + "' " + message);
           throw InputError(mistakes);
         }
-        is_read.resize(columns.size(), 0);
-        for (const auto &index : chosen)
-          if (index)
-            is_read[*index] = 1;
         return is_header;
       }
 
@@ -266,7 +261,7 @@ namespace sprag
           return report_width(cells, line);
         for (std::size_t i = 0; i < cells.size(); ++i)
         {
-          if (is_read[i] == 0)
+          if (!contains(chosen, i))
             continue;
           const auto value = number_alone(cells[i]);
           if (!value && !(named && is_missing(cells[i])))

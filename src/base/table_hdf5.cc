@@ -8,7 +8,7 @@
 #include "base/system/confinement.h"
 #include "base/system/file_content.h"
 
-#include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -24,11 +24,6 @@ namespace sprag
   namespace
   {
     using hdf5::Handle;
-
-    std::string lower_case(const std::string &text)
-    {
-      return boost::algorithm::to_lower_copy(text);
-    }
 
     bool holds_numbers(const Handle &dataset)
     {
@@ -72,7 +67,7 @@ namespace sprag
       if (*rows > 0 && H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, column.values.data()) < 0)
         throw InputError(what + "cannot be read");
       for (const auto &attribute : hdf5::attribute_names(dataset))
-        if (lower_case(attribute) == "unit" || lower_case(attribute) == "units")
+        if (boost::iequals(attribute, "unit") || boost::iequals(attribute, "units"))
         {
           const auto unit = hdf5::text_attribute(dataset, attribute);
           if (!unit)

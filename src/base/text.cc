@@ -99,16 +99,6 @@ namespace sprag
     return std::string(buffer.data(), result.ptr);
   }
 
-  std::string rounded_text(const double value)
-  {
-    return formatted("%.6g", value);
-  }
-
-  std::string mm(const double length)
-  {
-    return rounded_text(length) + " mm";
-  }
-
   std::optional<LeadingNumber> leading_number(const std::string &text)
   {
     const std::string all = trim(text);
@@ -174,16 +164,6 @@ namespace sprag
       }
     }
     return best;
-  }
-
-  std::string row_label(const std::size_t index)
-  {
-    return "row " + std::to_string(index + 1) + ": ";
-  }
-
-  std::string did_you_mean(const std::optional<std::string> &candidate)
-  {
-    return candidate ? "; did you mean '" + *candidate + "'?" : "";
   }
 
   std::vector<std::string> split_lines(const std::string &text, const std::size_t width)

@@ -33,13 +33,22 @@ namespace sprag
   std::string number_text(double value);
 
   /// Writes a number with at most six significant digits, for a reader's eye.
-  std::string rounded_text(double value);
+  inline std::string rounded_text(const double value)
+  {
+    return formatted("%.6g", value);
+  }
 
   /// Writes a length as "12.5 mm", rounded.
-  std::string mm(double length);
+  inline std::string mm(const double length)
+  {
+    return rounded_text(length) + " mm";
+  }
 
   /// Returns "row 1: " for index 0, the beginning of a message about a row of a table.
-  std::string row_label(std::size_t index);
+  inline std::string row_label(const std::size_t index)
+  {
+    return "row " + std::to_string(index + 1) + ": ";
+  }
 
   /// A number at the beginning of a text, and the rest.
   struct LeadingNumber
@@ -69,7 +78,10 @@ namespace sprag
   std::optional<std::string> nearest(const std::string &name, const std::vector<std::string> &candidates);
 
   /// Returns "; did you mean 'X'?", or an empty text without a candidate.
-  std::string did_you_mean(const std::optional<std::string> &candidate);
+  inline std::string did_you_mean(const std::optional<std::string> &candidate)
+  {
+    return candidate ? "; did you mean '" + *candidate + "'?" : "";
+  }
 
   /// Breaks a text between words into lines of at most `width` characters; a longer word has a line of its own.
   std::vector<std::string> split_lines(const std::string &text, std::size_t width);

@@ -100,12 +100,14 @@ namespace sprag
   double FieldRecorder::moment_at_hub(const Row &row) const
   {
     const double drive_force_arm = hub_section[1] - scene.geometry.interface_offset;
-    const auto moment            = [&](const double P, const double s, const double F)
-    { return P > 0. ? std::abs(P * (s - hub_section[0]) - F * drive_force_arm) : 0.; };
-    const double first = moment(row[Column::P], row[Column::s], row[Column::F]);
-    return row.second_lever().empty()
-               ? first
-               : std::max(first, moment(row.second_value(Column::P), row.second_value(Column::s), row.second_value(Column::F)));
+    const auto moment            = [&](const unsigned int lever)
+    {
+      const auto value = [&](const Column column) { return row.lever_value(column, lever); };
+      return value(Column::P) > 0.
+                 ? std::abs(value(Column::P) * (value(Column::s) - hub_section[0]) - value(Column::F) * drive_force_arm)
+                 : 0.;
+    };
+    return std::max(moment(0), moment(1));
   }
 
   bool FieldRecorder::slides_back(const Row &row) const
@@ -171,24 +173,9 @@ namespace sprag
 
   SPRAG_SERIALISE(FieldRecorder::Kept, row, face, direction, source)
 
-  void serialise(Archive &archive, FieldRecorder::Waiting &waiting)
-  {
-    if (archive.reads())
-      waiting.state = std::make_shared<FieldRecorder::Kept>();
-    archive(*waiting.state, waiting.frame);
-  }
+  SPRAG_SERIALISE(FieldRecorder::Waiting, state, frame)
 
-  void serialise(Archive &archive, FieldRecorder::Best &best)
-  {
-    auto &[value, state] = best;
-    bool has_state       = state != nullptr;
-    archive(value, has_state);
-    if (!has_state)
-      return;
-    if (archive.reads())
-      state = std::make_shared<FieldRecorder::Kept>();
-    archive(*state);
-  }
+  SPRAG_SERIALISE(FieldRecorder::Best, value, state)
 
   void FieldRecorder::serialise_progress(Archive &archive)
   {

@@ -63,7 +63,6 @@ namespace sprag
 
   TerminalLines::TerminalLines(std::ostream &stream_, const int descriptor)
       : stream(stream_)
-      , terminal(stream.rdbuf())
       , width(terminal_width(descriptor))
   {
     // A terminal of a few columns would hold a word a line.

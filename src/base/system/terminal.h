@@ -43,7 +43,7 @@ namespace sprag
 
   private:
     std::ostream &stream;
-    std::streambuf *const terminal;
+    std::streambuf *const terminal = stream.rdbuf();
     const std::size_t width;
     std::string line;           ///< that has not ended
     bool drawn_over    = false; ///< since a carriage return

@@ -7,14 +7,7 @@ namespace sprag
 {
   using namespace dealii;
 
-  void serialise(Archive &archive, std::shared_ptr<const StoredJacobian> &jacobian)
-  {
-    bool is_stored = jacobian != nullptr;
-    auto copy      = is_stored ? *jacobian : StoredJacobian();
-    archive(is_stored, copy.dofs, copy.matrix);
-    if (archive.reads())
-      jacobian = is_stored ? std::make_shared<const StoredJacobian>(std::move(copy)) : nullptr;
-  }
+  SPRAG_SERIALISE(StoredJacobian, dofs, matrix)
 
   bool JacobianFactors::use(std::shared_ptr<const StoredJacobian> jacobian, const InterfaceCompliance &compliance,
                             const StepWeights &weights)

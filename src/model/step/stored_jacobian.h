@@ -19,7 +19,7 @@ namespace sprag
     dealii::FullMatrix<double> matrix;
   };
 
-  void serialise(Archive &archive, std::shared_ptr<const StoredJacobian> &jacobian);
+  void serialise(Archive &archive, StoredJacobian &jacobian);
 
   /// Factors of 1 - G A, with the stored Jacobian A and the compliance G of steps of one duration.
   class JacobianFactors
