@@ -90,13 +90,6 @@ namespace sprag
       };
     }
 
-    Advance make_advance(const Scene &scene)
-    {
-      if (count_levers(scene) == 2)
-        return pair_advance(scene);
-      return scene.support.type == SupportType::sprung ? on_sprung_support(scene) : on_rigid_support(scene);
-    }
-
     /// Computes rows of a rigid lever with inertia that always touches the cylinder.
     struct IdealContact
     {
@@ -228,7 +221,10 @@ namespace sprag
   void run_closed_form(const Scene &scene, const std::function<void(const Row &)> &sink)
   {
     const auto &drive  = scene.drive;
-    const auto advance = make_advance(scene);
+    const bool sprung  = scene.support.type == SupportType::sprung;
+    const auto advance = count_levers(scene) == 2 ? pair_advance(scene)
+                         : sprung                 ? on_sprung_support(scene)
+                                                  : on_rigid_support(scene);
     const auto hand_on = [&](const DrivePoint &from, const DrivePoint &to)
     {
       Row row           = advance(from, to);

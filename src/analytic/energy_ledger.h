@@ -32,7 +32,6 @@ namespace sprag
   public:
     explicit EnergyLedger(const StoredEnergy &at_start = {})
         : start(at_start)
-        , now(at_start)
     {
     }
 
@@ -52,13 +51,11 @@ namespace sprag
     friend void serialise(Archive &archive, EnergyLedger &ledger);
 
     StoredEnergy start;
-    StoredEnergy now;
+    StoredEnergy now = start;
     StepWork sum;
     double largest_change = 0.;
     LedgerReport found;
   };
-
-  void serialise(Archive &archive, EnergyLedger &ledger);
 
   /// Counts the steps of a run in time and holds its energy ledger.
   struct TransientReport

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/ranges.h"
+#include "base/unknown.h"
+
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -25,12 +30,22 @@ namespace sprag
   };
 
   /// Returns the sum of the parts, an upper estimate as parts may cancel; NaN without parts.
-  double total_error(const ErrorEstimate &estimate);
+  inline double total_error(const ErrorEstimate &estimate)
+  {
+    return estimate.parts.empty() ? unknown : sum_over(estimate.parts, [](const ErrorPart &part) { return part.value; });
+  }
 
   /// Returns the largest part; there must be one.
-  const ErrorPart &largest_part(const ErrorEstimate &estimate);
+  inline const ErrorPart &largest_part(const ErrorEstimate &estimate)
+  {
+    return *std::max_element(estimate.parts.begin(), estimate.parts.end(),
+                             [](const ErrorPart &a, const ErrorPart &b) { return a.value < b.value; });
+  }
 
   /// Returns (error of the finer result)/(coarse - fine) = 1/(ratio^order - 1), for an error proportional to size^order, order
   /// > 0, and sizes `ratio` > 1 apart (Richardson).
-  double finer_share(double ratio, double order);
+  inline double finer_share(const double ratio, const double order)
+  {
+    return 1. / (std::pow(ratio, order) - 1.);
+  }
 } // namespace sprag

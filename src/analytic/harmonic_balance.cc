@@ -11,15 +11,9 @@ namespace sprag
 {
   namespace
   {
-    /// Parts of the damper's force in phase with the displacement and with the speed [N].
-    struct FirstHarmonic
-    {
-      double elastic, damping;
-    };
-
     /// Returns a = 1/pi int D sin phi dphi and b = 1/pi int D cos phi dphi of the damper's force D over a cycle z = A sin phi,
     /// as twice the integrals over the quarters on which z > 0 grows and shrinks: the other half cycle is symmetric.
-    FirstHarmonic first_harmonic(const Damper &damper, const double amplitude, const double w)
+    std::pair<double, double> first_harmonic(const Damper &damper, const double amplitude, const double w)
     {
       const auto force = [&](const double angle, const int away)
       { return damper.resistance(amplitude * std::sin(angle), amplitude * w * std::cos(angle), away).force; };

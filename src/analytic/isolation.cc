@@ -3,6 +3,7 @@
 
 #include "base/archive.h"
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "base/system/interrupt.h"
 #include "base/text.h"
 #include "scene/analysis_use.h"
@@ -95,7 +96,7 @@ namespace sprag
       const std::size_t parts = (ends.size() - 1) / sections;
       const auto &first = ends.front(), &last = ends[parts * sections];
       std::vector<double> without;
-      double mean = 0., squares = 0.;
+      double mean = 0.;
       for (std::size_t i = 0; i < parts; ++i)
       {
         const auto &before = ends[i * sections], &end = ends[(i + 1) * sections];
@@ -104,17 +105,10 @@ namespace sprag
         without.push_back(std::sqrt(square / base_square));
         mean += without.back() / static_cast<double>(parts);
       }
-      for (const double ratio : without)
-        squares += std::pow(ratio - mean, 2);
+      const double squares  = sum_over(without, [mean](const double ratio) { return std::pow(ratio - mean, 2); });
       const auto n          = static_cast<double>(parts);
       const double quantile = boost::math::quantile(boost::math::students_t(n - 1.), 0.975);
       return quantile * std::sqrt((n - 1.) / n * squares);
-    }
-
-    /// Returns the largest of those by single sections, which are many, and by pairs and triples, which hang together less.
-    double half_interval(const std::vector<Section> &ends)
-    {
-      return std::max({ half_interval(ends, 1), half_interval(ends, 2), half_interval(ends, 3) });
     }
 
     /// State from which an interrupted run resumes, beside its findings and the table.
@@ -206,7 +200,8 @@ namespace sprag
           found.rms            = std::sqrt((state.square - start.square) / (state.base_square - start.base_square));
           if (sections.size() == random_sections)
           {
-            const double half = half_interval(sections);
+            // Single sections are many, pairs and triples hang together less.
+            const double half = std::max({ half_interval(sections, 1), half_interval(sections, 2), half_interval(sections, 3) });
             found.rms_low     = std::max(0., found.rms - half);
             found.rms_high    = found.rms + half;
           }

@@ -66,7 +66,7 @@ namespace sprag
     {
       const auto state = closed_form(device, point.x, point.v);
       const double s = state.contact.s, mu = state.mu;
-      const JammingMargin here{ point.x, point.v, s, mu, mu * e, e > 0. ? s / e : std::numeric_limits<double>::infinity() };
+      const JammingMargin here{ point.x, point.v, s, mu * e, e > 0. ? s / e : std::numeric_limits<double>::infinity() };
       if (begins || rank(here) < rank(margin))
         margin = here;
       begins = false;

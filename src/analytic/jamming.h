@@ -17,7 +17,6 @@ namespace sprag
     double x    = 0.; ///< of the drive, where the margin is least [mm]
     double v    = 0.; ///< there [mm/s], of a zero the sign counts
     double s    = 0.; ///< there [mm]
-    double mu   = 0.;
     double mu_e = 0.; ///< [mm]
 
     /// s / e: mu at which a rigid lever locks there; infinite for e = 0.

@@ -72,30 +72,7 @@ namespace sprag
       }
       return peak > 0. ? largest / peak : unknown;
     }
-  } // namespace
 
-  StrokeErrors stroke_errors(const StrokeCurve &curve, const StrokeCurve &reference)
-  {
-    const auto found = split_strokes(curve), expected = split_strokes(reference);
-    if (found.empty() || found.size() != expected.size() || found.front().forward != expected.front().forward)
-      return { unknown, unknown };
-    StrokeErrors errors{ 0., 0. };
-    const double left_out = left_out_behind_reversal * largest(reference, [](const auto &point) { return point.x; });
-    for (std::size_t i = 0; i < found.size(); ++i)
-    {
-      const auto join = [&](double &error, double StrokePoint::*force)
-      {
-        const double more = compute_error(found[i], expected[i], force, left_out);
-        error             = std::isnan(more) || std::isnan(error) ? unknown : std::max(error, more);
-      };
-      join(errors.P, &StrokePoint::P);
-      join(errors.Q, &StrokePoint::Q);
-    }
-    return errors;
-  }
-
-  namespace
-  {
     /// A quantity that stands in one or several entries of a summary.
     struct Compared
     {
@@ -137,10 +114,9 @@ namespace sprag
 
     std::optional<double> find_number(const std::vector<Entry> &summary, const std::string &name)
     {
-      for (const auto &entry : summary)
-        if (const double *number = std::get_if<double>(&entry.value); number != nullptr && entry.name == name)
-          return std::isfinite(*number) ? std::make_optional(*number) : std::nullopt;
-      return {};
+      const auto *const entry    = find_by(summary, &Entry::name, name);
+      const double *const number = entry != nullptr ? std::get_if<double>(&entry->value) : nullptr;
+      return number != nullptr && std::isfinite(*number) ? std::make_optional(*number) : std::nullopt;
     }
 
     /// The entries of a quantity that have a number to compare with.
@@ -170,6 +146,26 @@ namespace sprag
       return largest;
     }
   } // namespace
+
+  StrokeErrors stroke_errors(const StrokeCurve &curve, const StrokeCurve &reference)
+  {
+    const auto found = split_strokes(curve), expected = split_strokes(reference);
+    if (found.empty() || found.size() != expected.size() || found.front().forward != expected.front().forward)
+      return { unknown, unknown };
+    StrokeErrors errors{ 0., 0. };
+    const double left_out = left_out_behind_reversal * largest(reference, [](const auto &point) { return point.x; });
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      const auto join = [&](double &error, double StrokePoint::*force)
+      {
+        const double more = compute_error(found[i], expected[i], force, left_out);
+        error             = std::isnan(more) || std::isnan(error) ? unknown : std::max(error, more);
+      };
+      join(errors.P, &StrokePoint::P);
+      join(errors.Q, &StrokePoint::Q);
+    }
+    return errors;
+  }
 
   std::vector<Measure> make_measures(const AnalysisType type, const Comparable &reference)
   {

@@ -327,11 +327,6 @@ namespace sprag
       distance  = rms(window);
     }
 
-    bool moves_support(const std::vector<Row> &rows)
-    {
-      return largest(rows, Column::support_displacement) > 0.;
-    }
-
     unsigned int rank(const Verdict verdict)
     {
       constexpr std::array<Verdict, 7> by_rank = { { Verdict::unknown, Verdict::decays, Verdict::rings, Verdict::elements_pass,
@@ -362,7 +357,9 @@ namespace sprag
       };
       const auto window      = [&](const double until) { return up_to(later_than(after, result.window_begin), until); };
       result.window_end      = window_end(Column::P, Column::P_quasi_static);
-      double support_end     = moves_support(rows) ? window_end(Column::Q_support, Column::Q_quasi_static) : result.window_end;
+      double support_end     = largest(rows, Column::support_displacement) > 0.
+                                   ? window_end(Column::Q_support, Column::Q_quasi_static)
+                                   : result.window_end;
       support_end            = std::max(support_end, result.window_end);
       auto ringing           = detect_ringing(window(result.window_end));
       result.first_frequency = ringing.frequency;

@@ -2,6 +2,7 @@
 #include "analytic/ringing.h"
 
 #include "base/least_squares.h"
+#include "base/ranges.h"
 #include "base/unknown.h"
 
 #include <boost/numeric/ublas/lu.hpp>
@@ -179,14 +180,9 @@ namespace sprag
       }
     };
 
-    struct Refined
-    {
-      double frequency;
-      Signal wave; ///< the signal without its drift
-    };
-
-    /// Frequency by the fit, or the spectrum's if the fit leaves it by more than the spectrum's resolution.
-    Refined refined(const Signal &signal, const double frequency, const double growth)
+    /// Frequency by the fit, or the spectrum's if the fit leaves it by more than the spectrum's resolution, and the signal
+    /// without its drift.
+    std::pair<double, Signal> refined(const Signal &signal, const double frequency, const double growth)
     {
       const double length = static_cast<double>(signal.values.size()) * signal.step;
       const double start  = 2. * M_PI * frequency * length;
@@ -210,9 +206,7 @@ namespace sprag
     const auto &values     = signal.values;
     const std::size_t n    = values.size();
     const double mean      = std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(n);
-    double square          = 0.;
-    for (const double value : values)
-      square += (value - mean) * (value - mean) / static_cast<double>(n);
+    const double square    = sum_over(values, [=](const double v) { return (v - mean) * (v - mean) / static_cast<double>(n); });
 
     struct Shifted
     {

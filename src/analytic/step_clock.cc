@@ -25,11 +25,6 @@ namespace sprag
         count = (count + unit - 1) / unit * unit;
   }
 
-  double StepClock::step_end() const
-  {
-    return passed + 1 == count ? ends[segment] : begin + static_cast<double>(passed + 1) * duration();
-  }
-
   bool StepClock::grow()
   {
     if (nominal_step >= 0.99 * largest || count % 2 != 0 || passed % 2 != 0 || count - passed < 2)

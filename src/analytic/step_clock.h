@@ -27,7 +27,10 @@ namespace sprag
     }
 
     /// Returns the end of the present step [s].
-    double step_end() const;
+    double step_end() const
+    {
+      return passed + 1 == count ? ends[segment] : begin + static_cast<double>(passed + 1) * duration();
+    }
 
     bool finished() const
     {
@@ -59,6 +62,4 @@ namespace sprag
     unsigned long count  = 1; ///< steps of the segment
     unsigned long passed = 0;
   };
-
-  void serialise(Archive &archive, StepClock &clock);
 } // namespace sprag

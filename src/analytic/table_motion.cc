@@ -108,8 +108,7 @@ namespace sprag
     {
       std::vector<double> result = { 0. };
       if (polynomial.size() > 2)
-        for (const double turn : sign_changes(differentiate(polynomial)))
-          result.push_back(turn);
+        append(result, sign_changes(differentiate(polynomial)));
       result.push_back(1.);
       return result;
     }
@@ -155,7 +154,6 @@ namespace sprag
           : system(std::move(system_))
           , tolerance(error)
           , longest_step(std::min(2. * M_PI / system.natural_frequency(), system.base.shortest_period) / steps_a_period)
-          , next_step(0.1 * longest_step)
       {
         now.z     = z;
         now.rate  = rate;
@@ -210,18 +208,14 @@ namespace sprag
 
     private:
       using Values = std::array<double, 8>;
-      struct Range
-      {
-        double low, high;
-      };
 
       const IsolationSystem system;
       const double tolerance;
       const double longest_step;
-      std::size_t piece = 0; ///< of the base's motion
-      int side          = 1; ///< sign of z
-      int direction     = 0; ///< of z'; 0: the table rests
-      double next_step;
+      std::size_t piece           = 0; ///< of the base's motion
+      int side                    = 1; ///< sign of z
+      int direction               = 0; ///< of z'; 0: the table rests
+      double next_step            = 0.1 * longest_step;
       double last_force           = 0.;
       unsigned int events_at_once = 0;
 
@@ -240,12 +234,13 @@ namespace sprag
         return -system.mass * base.a - system.stiffness * now.z;
       }
 
-      Range friction_at_rest() const
+      /// The smallest and the largest force that friction holds.
+      std::pair<double, double> friction_at_rest() const
       {
         const double y    = std::abs(now.z);
         const double away = system.damper.resistance(y, 0., 1).force;
         const double back = now.z == 0. ? -away : system.damper.resistance(y, 0., -1).force;
-        return side > 0 || now.z == 0. ? Range{ back, away } : Range{ -away, -back };
+        return side > 0 || now.z == 0. ? std::pair(back, away) : std::pair(-away, -back);
       }
 
       /// Holding force beyond the limit of friction at rest [N]. The error of a step is subtracted, so that it alone moves no
@@ -514,11 +509,6 @@ namespace sprag
       }
     };
   } // namespace
-
-  double IsolationSystem::natural_frequency() const
-  {
-    return std::sqrt(stiffness / mass);
-  }
 
   IsolationSystem isolation_system(const Scene &scene)
   {

@@ -4,6 +4,7 @@
 #include "analytic/isolated_table.h"
 #include "scene/damper.h"
 
+#include <cmath>
 #include <memory>
 
 namespace sprag
@@ -18,7 +19,11 @@ namespace sprag
     Damper damper;
     BaseMotion base;
 
-    double natural_frequency() const; ///< of the table on its spring alone [1/s]
+    /// Returns that of the table on its spring alone [1/s].
+    double natural_frequency() const
+    {
+      return std::sqrt(stiffness / mass);
+    }
   };
 
   IsolationSystem isolation_system(const Scene &scene);

@@ -291,9 +291,9 @@ namespace sprag
 
   std::vector<double> StrokeFit::in_units(const std::vector<double> &scaled) const
   {
-    std::vector<double> result;
-    for (std::size_t i = 0; i < scaled.size(); ++i)
-      result.push_back(unknowns.numbers()[i].scale * scaled[i]);
+    auto result = scaled;
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i] *= unknowns.numbers()[i].scale;
     return result;
   }
 

@@ -206,6 +206,4 @@ namespace sprag
     void add_integrals(double h, const Accelerations &before, const Accelerations &behind);
     std::string stroke_exceeded() const;
   };
-
-  void serialise(Archive &archive, LeverTable &table);
 } // namespace sprag

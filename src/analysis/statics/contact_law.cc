@@ -86,13 +86,9 @@ namespace sprag
     return largest(points, [&](const Indentation &point) { return fit.exponent * point.penetration / point.local(); });
   }
 
-  FittedContact indent(const Scene &scene)
+  FittedContact indent(const Scene &scene, const std::optional<double> bending_stiffness)
   {
-    return indent(scene, bar_stiffness(scene));
-  }
-
-  FittedContact indent(const Scene &scene, const double bending_stiffness)
-  {
+    const double EI      = bending_stiffness.value_or(bar_stiffness(scene));
     const auto reference = contact_reference(scene);
     const Scene pressed  = indentation_scene(scene, reference);
     const auto lever     = make_lever_in_hard_contact(pressed);
@@ -104,7 +100,7 @@ namespace sprag
                      [&](const State &, const Row &row, const Evaluation &)
                      {
                        if (row[Column::P] >= from)
-                         result.points.push_back(indentation(pressed, bending_stiffness, row));
+                         result.points.push_back(indentation(pressed, EI, row));
                      });
     result.fit = fit_contact_law(result.points);
     return result;

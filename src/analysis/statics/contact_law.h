@@ -3,6 +3,7 @@
 
 #include "results/result_file.h"
 
+#include <optional>
 #include <vector>
 
 namespace sprag
@@ -45,9 +46,7 @@ namespace sprag
 
   /// Indents the meshed lever by a cylinder that moves along the drive without friction. The rotational spring is scaled for a
   /// largest P of 1.2 times that of the run; points with less than 5 % of the run's P are left out. The faces are half as long
-  /// as the scene's and an automatic penalty is that of hard contact.
-  FittedContact indent(const Scene &scene);
-
-  /// Does the same with the bending stiffness EI [N mm^2] in place of that of the scene's bar.
-  FittedContact indent(const Scene &scene, double bending_stiffness);
+  /// as the scene's and an automatic penalty is that of hard contact. The bending stiffness E I [N mm^2] is that of the scene's
+  /// bar if none is given.
+  FittedContact indent(const Scene &scene, std::optional<double> bending_stiffness = {});
 } // namespace sprag

@@ -45,20 +45,12 @@ namespace sprag
     return points;
   }
 
-  std::vector<std::string> values_at(const StudySettings &study, const StudyPoint &point)
-  {
-    std::vector<std::string> values;
-    for (std::size_t i = 0; i < point.size(); ++i)
-      values.push_back(study.varied[i].values[point[i]]);
-    return values;
-  }
-
   Scene scene_at(const Scene &study, const StudyPoint &point)
   {
-    const auto values = values_at(study.study, point);
+    const auto &varied = study.study.varied;
     std::vector<std::string> settings;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      settings.push_back(study.study.varied[i].name + "=" + values[i]);
+    for (std::size_t i = 0; i < point.size(); ++i)
+      settings.push_back(varied[i].name + "=" + varied[i].values[point[i]]);
     return make_run_scene(study, settings);
   }
 

@@ -3,7 +3,6 @@
 
 #include "scene/study_settings.h"
 
-#include <string>
 #include <vector>
 
 namespace sprag
@@ -15,9 +14,6 @@ namespace sprag
 
   /// Lists the runs of a study; of a grid those of the last parameter follow each other.
   std::vector<StudyPoint> make_study_points(const StudySettings &study);
-
-  /// Returns the values that the varied parameters have at a point, in their order.
-  std::vector<std::string> values_at(const StudySettings &study, const StudyPoint &point);
 
   /// Returns the scene of a run. Throws InputError where it is refused.
   Scene scene_at(const Scene &study, const StudyPoint &point);

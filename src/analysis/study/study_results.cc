@@ -5,6 +5,8 @@
 #include "base/text.h"
 #include "base/unknown.h"
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,9 +25,8 @@ namespace sprag
     /// Sizes of elements and steps, and tolerances of steps: what makes results exact by being small.
     bool is_size(const std::string &parameter)
     {
-      const auto ends_with = [&](const std::string &end)
-      { return parameter.size() > end.size() && parameter.compare(parameter.size() - end.size(), end.size(), end) == 0; };
-      return ends_with("/Face size") || ends_with("/Step") || ends_with("/Tolerance");
+      using boost::algorithm::ends_with;
+      return ends_with(parameter, "/Face size") || ends_with(parameter, "/Step") || ends_with(parameter, "/Tolerance");
     }
 
     /// NaN where one of them is.
