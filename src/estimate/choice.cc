@@ -90,12 +90,8 @@ namespace sprag
     constexpr unsigned int across   = 6;   ///< elements of a trial run
     constexpr const char *pressure  = "largest_pressure";
 
-    /// Error of the plane model in a quantity, relative to three dimensions.
-    struct Off
-    {
-      std::string quantity;
-      double error;
-    };
+    /// Error of the plane model in quantities, relative to three dimensions.
+    using ErrorsOfPlane = std::vector<std::pair<std::string, double>>;
 
     Scene with_trial_mesh(Scene scene)
     {
@@ -108,7 +104,7 @@ namespace sprag
       return scene;
     }
 
-    std::vector<Off> off_along_drive(const Scene &scene)
+    ErrorsOfPlane off_along_drive(const Scene &scene)
     {
       const Scene solid = with_trial_mesh(scene);
       const Scene plane = to_plane(solid);
@@ -126,9 +122,7 @@ namespace sprag
       if (!is_requested(scene, pressure))
         quantities.push_back(pressure); // is told, too
       return mapped(quantities,
-                    [&](const auto &quantity) {
-                      return Off{ quantity, relative_change(quantity, rows, plane_rows) };
-                    });
+                    [&](const auto &quantity) { return std::pair(quantity, relative_change(quantity, rows, plane_rows)); });
     }
 
     SlideStability find_slide(Scene scene)
@@ -139,15 +133,15 @@ namespace sprag
       return check_slide(held_scene(scene), maker);
     }
 
-    std::vector<Off> off_in_slide(const Scene &scene)
+    ErrorsOfPlane off_in_slide(const Scene &scene)
     {
       const Scene solid   = with_trial_mesh(scene);
       const auto in_space = find_slide(solid);
       const auto in_plane = find_slide(to_plane(solid));
-      std::vector<Off> result{ { "frequency", std::abs(in_plane.frequency() / in_space.frequency() - 1.) } };
+      ErrorsOfPlane result{ { "frequency", std::abs(in_plane.frequency() / in_space.frequency() - 1.) } };
       if (scene.analysis.type == AnalysisType::stability)
         result.push_back({ "growth_rate", std::abs(in_plane.growth_rate() / in_space.growth_rate() - 1.) });
-      if (!std::isfinite(result.front().error))
+      if (!std::isfinite(result.front().second))
         throw AnalysisError("Analysis/Dimension: the slide of a probe has no vibration to choose by. Give 2 or 3 instead");
       return result;
     }

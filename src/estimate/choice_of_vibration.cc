@@ -24,11 +24,8 @@ namespace sprag
   namespace
   {
     // Shares of the target that the causes of an error may use up.
-    constexpr double slide_mesh_share    = 0.3;
-    constexpr double slide_penalty_share = 0.2;
-    constexpr double slide_mode_share    = 0.1;
-    constexpr double slide_step_share    = 0.4;
-    constexpr double slide_model_share   = 0.8;
+    constexpr double slide_mesh_share = 0.3, slide_penalty_share = 0.2, slide_mode_share = 0.1, slide_step_share = 0.4,
+                     slide_model_share = 0.8;
 
     constexpr double stiffest          = 0.5; ///< penalty over the stiffest that a mesh takes
     constexpr double slide_trial_faces = 3.;  ///< across the contact where P is largest

@@ -27,10 +27,8 @@ namespace sprag
   namespace
   {
     // Shares of the target that the causes of an error may use up.
-    constexpr double mesh_share         = 0.35;
+    constexpr double mesh_share = 0.35, row_share = 0.3, model_share = 0.7;
     constexpr double contact_mesh_share = 0.6; ///< of pressure and width, which rows hardly change
-    constexpr double row_share          = 0.3;
-    constexpr double model_share        = 0.7;
 
     constexpr double reversal_share = 0.6; ///< of P and Q behind a reversal
 

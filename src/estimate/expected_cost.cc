@@ -5,6 +5,7 @@
 #include "analysis/study/study_points.h"
 #include "analysis/transient/transient.h"
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "input/read.h"
 #include "program/recorder.h"
 #include "program/resources.h"
@@ -61,13 +62,12 @@ namespace sprag
     /// Without inertia. What a run takes once are model, stresses and told errors, in space the basis of the face and its checks.
     Times times_without_inertia(const Scene &scene)
     {
-      const double N       = expected_size(scene).displacements;
-      const bool is_linear = scene.lever.material == MaterialModel::linear;
-      const double share   = scene.output.errors ? 1. : without_errors;
+      const double N     = expected_size(scene).displacements;
+      const double share = scene.output.errors ? 1. : without_errors;
       if (scene.analysis.dimension == 3)
-        return { share * 2.8e-7 * std::pow(N, 1.45), is_linear ? 1.05e-9 * std::pow(N, 1.4) : 4e-6 * std::pow(N, 1.1) };
-      const bool is_factorised_once = is_linear && scene.analysis.solution == Solution::automatic;
-      return { share * 1.35e-5 * N, is_factorised_once ? 1.3e-3 + 3.5e-10 * std::pow(N, 1.45) : 2.3e-5 * N };
+        return { share * 2.8e-7 * std::pow(N, 1.45),
+                 is_factorised_once(scene) ? 1.05e-9 * std::pow(N, 1.4) : 4e-6 * std::pow(N, 1.1) };
+      return { share * 1.35e-5 * N, is_factorised_once(scene) ? 1.3e-3 + 3.5e-10 * std::pow(N, 1.45) : 2.3e-5 * N };
     }
 
     /// CPU time of the basis over that with 20 modes: factors and static shapes take as long as two modes.
@@ -273,14 +273,13 @@ namespace sprag
 
   double counted_work(const Scene &scene, const std::vector<Entry> &summary)
   {
-    const auto found =
-        std::find_if(summary.begin(), summary.end(), [](const Entry &entry) { return entry.name == "iterations"; });
-    const bool is_file = needs_mesh(scene) && !scene.mesh.file.empty();
+    const auto *const found = find_by(summary, &Entry::name, "iterations");
+    const bool is_file      = needs_mesh(scene) && !scene.mesh.file.empty();
     if (follows_formulas(scene) || is_file)
       return std::numeric_limits<double>::quiet_NaN();
     const bool in_time = scene.analysis.type == AnalysisType::transient;
     StepsTaken taken;
-    if (found != summary.end())
+    if (found != nullptr)
       taken = std::get<double>(found->value) / (in_time ? transient_step_iterations : static_step_iterations);
     return estimate_seconds(scene, true, taken);
   }

@@ -182,10 +182,8 @@ namespace sprag
     ErrorEstimate estimate_across(const Scene &scene, const TrialRuns &trial_runs, const std::string &quantity)
     {
       const auto &columns = columns_across();
-      const auto index    = static_cast<std::size_t>(
-          std::find_if(columns.begin(), columns.end(), [&](const ColumnInfo &column) { return column.name == quantity; }) -
-          columns.begin());
-      const double peak = largest(trial_runs.run.slides, [&](const Row &row) { return row.across.at(index); });
+      const auto index    = static_cast<std::size_t>(find_by(columns, &ColumnInfo::name, quantity) - columns.data());
+      const double peak   = largest(trial_runs.run.slides, [&](const Row &row) { return row.across.at(index); });
       if (!(peak > least_across * scene.lever.width))
         return { quantity, "", {}, "No estimate: the contact is the same on both sides." };
       const auto change = [&](const std::vector<Row> &other)
@@ -394,16 +392,12 @@ namespace sprag
     return estimates_or_reason(scene, quantities, estimate_all);
   }
 
-  namespace
-  {
-    constexpr double contact_middle = 0.4; ///< on both sides of the largest pressure, over the width of the contact
-  }
-
   void look_at(const BodyFields &fields, const std::vector<NodalField> &nodal, const Row &row, StressSample &sample)
   {
-    const double middle = row[Column::largest_pressure_xi];
-    const double reach  = contact_middle * row[Column::contact_width];
-    sample.time         = row[Column::time];
+    constexpr double contact_middle = 0.4; // on both sides of the largest pressure, over the width of the contact
+    const double middle             = row[Column::largest_pressure_xi];
+    const double reach              = contact_middle * row[Column::contact_width];
+    sample.time                     = row[Column::time];
     for (std::size_t i = 0; i < nodal.size(); ++i)
     {
       const auto &node  = fields.nodes[i];

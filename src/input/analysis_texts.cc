@@ -6,6 +6,7 @@
 #include "base/ranges.h"
 #include "base/table_file.h"
 #include "base/text.h"
+#include "base/units.h"
 #include "base/unknown.h"
 #include "scene/design.h"
 #include "scene/scene.h"
@@ -229,8 +230,6 @@ namespace sprag
       }
     };
 
-    constexpr double standard_gravity = 9806.65; ///< [mm/s^2]
-
     const char *const loop_parameter = "Isolation/Loop table";
     const char *const base_parameter = "Isolation/Base table";
 
@@ -281,20 +280,11 @@ namespace sprag
                          " N mm a round and dissipates nothing");
     }
 
-    double in_mm_s2(const AccelerationUnit unit)
-    {
-      static const std::map<AccelerationUnit, double> all = { { AccelerationUnit::mm_s2, 1. },
-                                                              { AccelerationUnit::cm_s2, 10. },
-                                                              { AccelerationUnit::m_s2, 1000. },
-                                                              { AccelerationUnit::g, standard_gravity } };
-      return all.at(unit);
-    }
-
     /// Factor to mm/s^2, of a spectrum to its square per Hz. What the file says must not contradict the scene.
-    double acceleration_factor(const AccelerationUnit chosen_unit, const NamedColumn &column, const bool is_spectrum)
+    double acceleration_factor(const std::string &chosen_unit, const NamedColumn &column, const bool is_spectrum)
     {
-      const bool is_set         = chosen_unit != AccelerationUnit::from_file;
-      const double acceleration = is_set ? in_mm_s2(chosen_unit) : 1.;
+      const bool is_set         = !chosen_unit.empty();
+      const double acceleration = is_set ? unit_factor(chosen_unit, "mm/s2") : 1.;
       const double scene_factor = is_spectrum ? acceleration * acceleration : acceleration;
       if (column.unit.empty() && !is_set)
         throw InputError(

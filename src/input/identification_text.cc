@@ -87,15 +87,7 @@ namespace sprag
       }
 
       // Places of the columns in the table.
-      enum Place : std::size_t
-      {
-        time,
-        position,
-        normal,
-        drive,
-        sensor_sum,
-        first_sensor
-      };
+      static constexpr std::size_t time = 0, position = 1, normal = 2, drive = 3, sensor_sum = 4, first_sensor = 5;
       static constexpr unsigned int most_sensors = 16;
 
       static std::vector<ColumnNames> known_columns()

@@ -34,9 +34,7 @@ namespace sprag
     /// Returns the words from `begin` on, without those that `end` and what follows are.
     std::string joined_words(const std::vector<std::string> &words, const std::size_t begin, const std::size_t end)
     {
-      return boost::algorithm::join(std::vector<std::string>(words.begin() + static_cast<std::ptrdiff_t>(begin),
-                                                             words.begin() + static_cast<std::ptrdiff_t>(end)),
-                                    " ");
+      return boost::algorithm::join(boost::make_iterator_range(&words[begin], &words[0] + end), " ");
     }
 
     bool begins_number(const std::string &word)

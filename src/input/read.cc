@@ -39,10 +39,8 @@ namespace sprag
     /// Augmentations are cheap where the lever is factorised once. Chords of degree 1 need soft contact to follow a circle.
     Enforcement automatic_enforcement(const Scene &scene)
     {
-      const bool is_cheap = scene.analysis.type == AnalysisType::quasi_static && scene.lever.material == MaterialModel::linear &&
-                            scene.analysis.solution == Solution::automatic;
-      return is_cheap && scene.mesh.degree == 2 && !scene.contact.penalty ? Enforcement::augmented_lagrangian
-                                                                          : Enforcement::penalty;
+      return is_factorised_once(scene) && scene.mesh.degree == 2 && !scene.contact.penalty ? Enforcement::augmented_lagrangian
+                                                                                           : Enforcement::penalty;
     }
 
     /// Sets the face size, the number of faces in contact and the enforcement of contact of the scene that are read from its
@@ -57,8 +55,6 @@ namespace sprag
       scene.mesh.faces_in_contact = settings.faces_in_contact.value_or(is_static ? enough : 0.);
       scene.contact.enforcement   = settings.enforcement.value_or(automatic_enforcement(scene));
     }
-
-    const char *const time_tolerance = "Time/Tolerance";
 
     /// Returns the parameters that were given or chosen, without those left at their defaults.
     ParameterValues set_values(const Scene &scene)
@@ -128,25 +124,27 @@ namespace sprag
         return result;
       }
 
+      std::string setting_value(const std::string &name) const
+      {
+        const auto found = settings.specified.find(name);
+        return found != settings.specified.end() ? found->second.value : find_parameter(parameters, name)->default_value;
+      }
+
       /// Until all was read, some units are not known.
       void convert_own_units()
       {
-        const auto setting_value = [&](const std::string &name)
-        {
-          const auto found = settings.specified.find(name);
-          return found != settings.specified.end() ? found->second.value : find_parameter(parameters, name)->default_value;
-        };
+        const auto look_up = [this](const std::string &name) { return setting_value(name); };
         for (const auto &parameter : parameters)
           if (depends_on_others(parameter.rule))
             convert(parameter,
                     [&](const std::string &text)
                     {
-                      const auto number = number_text(in_own_unit(parameters, parameter, text, setting_value));
+                      const auto number = number_text(in_own_unit(parameters, parameter, text, look_up));
                       return kept_value(parameter.rule, number);
                     });
         for (const std::string name : { "Stability/Critical", "Stability/Ranges" })
           convert(*find_parameter(parameters, name),
-                  [&](const std::string &text) { return ranges_in_own_units(parameters, text, setting_value); });
+                  [&](const std::string &text) { return ranges_in_own_units(parameters, text, look_up); });
       }
 
       void convert(const Parameter &parameter, const std::function<std::string(const std::string &)> &converted)
@@ -278,9 +276,9 @@ namespace sprag
       /// The printed parameters give a step, so that they must give the tolerance too.
       void make_time_tolerance()
       {
-        const double by_step                     = settings.specified.count("Time/Step") > 0 ? 0. : input.scene.time.tolerance;
-        input.scene.time.tolerance               = input.time_tolerance.value_or(by_step);
-        settings.specified[time_tolerance].value = number_text(input.scene.time.tolerance);
+        const double by_step                       = settings.specified.count("Time/Step") > 0 ? 0. : input.scene.time.tolerance;
+        input.scene.time.tolerance                 = input.time_tolerance.value_or(by_step);
+        settings.specified["Time/Tolerance"].value = number_text(input.scene.time.tolerance);
       }
 
       void make_drive()
@@ -457,10 +455,7 @@ namespace sprag
       {
         if (parameter.choice.empty() || is_invalid(parameter.choice))
           return true;
-        const auto chosen = settings.specified.find(parameter.choice);
-        const auto &value = chosen != settings.specified.end() ? chosen->second.value
-                                                               : find_parameter(parameters, parameter.choice)->default_value;
-        return value == parameter.chosen;
+        return setting_value(parameter.choice) == parameter.chosen;
       }
 
       /// 0 wherever it does not count or does not fit.

@@ -13,18 +13,10 @@ namespace sprag
 {
   namespace
   {
-    std::string value_as_read(const std::string &name, const Scene &scene)
-    {
-      if (!scene.parameters)
-        return {};
-      const auto found = scene.parameters->find(name);
-      return found == scene.parameters->end() ? std::string() : found->second;
-    }
-
     /// Value as read and as it is now: the declared default of a parameter bound to the scene is its value in the scene.
     std::string setting_value(const Parameter &parameter, const Scene &scene)
     {
-      const auto as_read = value_as_read(full_name(parameter), scene);
+      const auto as_read = scene.parameters ? scene.parameters->at(full_name(parameter)) : "";
       const auto &as_is  = parameter.default_value;
       if (parameter.rule.kind != Rule::Kind::file)
         return as_read + " | " + as_is;

@@ -112,10 +112,4 @@ namespace sprag
     section.number("Density", part.density, above(0.), "t/mm3");
   }
 
-  /// Adds the choice of plane stress or strain of a part.
-  template <class Part>
-  void add_plane(Section &section, Part &part)
-  {
-    section.choice("Plane", part.plane);
-  }
 } // namespace sprag

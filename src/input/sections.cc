@@ -28,7 +28,7 @@ namespace sprag
         models.push_back(model);
       section.choice("Model", input.model, models);
       section.choice("Dimension", input.dimension, { { "auto", std::nullopt }, { "2", 2u }, { "3", 3u } });
-      add_plane(section, settings);
+      section.choice("Plane", settings.plane);
       section.choice("Solution", settings.solution);
       section.length("Step", settings.step);
       section.length("Minimum step", settings.minimum_step);
@@ -99,7 +99,7 @@ namespace sprag
     {
       section.number("Thickness", settings.thickness, at_least(0.), "mm");
       add_material(section, settings);
-      add_plane(section, settings);
+      section.choice("Plane", settings.plane);
       section.number_or_auto("Strength", settings.strength, above(0.), "MPa");
     }
 
@@ -237,7 +237,7 @@ namespace sprag
       section.length("Thickness", settings.thickness);
       section.length("Width", settings.width);
       add_material(section, settings);
-      add_plane(section, settings);
+      section.choice("Plane", settings.plane);
       section.choice("Joint", settings.end,
                      { { "clamped", LeafEnd::clamped }, { "pinned", LeafEnd::pinned }, { "guided", LeafEnd::guided } });
       section.choice("Axial", settings.axial);
@@ -278,7 +278,7 @@ namespace sprag
       section.choice("Type", settings.type);
       section.length("Inner radius", settings.inner_radius);
       add_material(section, settings);
-      add_plane(section, settings);
+      section.choice("Plane", settings.plane);
       section.length("Face size", settings.face_size);
       section.number("Length", settings.length, at_least(0.), "mm");
       section.number("Position", settings.position, any_number(), "mm");
@@ -340,12 +340,10 @@ namespace sprag
       section.number_or_auto("Spectrum lines", settings.spectrum_lines, { 1., 1e5 });
       section.integer("Seed", settings.seed, { 0., 4294967295. });
       section.text("Base table", settings.base_file, Rule::Kind::file);
-      section.choice("Base unit", settings.unit,
-                     { { "from file", AccelerationUnit::from_file },
-                       { "mm/s2", AccelerationUnit::mm_s2 },
-                       { "cm/s2", AccelerationUnit::cm_s2 },
-                       { "m/s2", AccelerationUnit::m_s2 },
-                       { "g", AccelerationUnit::g } });
+      const Choices<std::string> units = {
+        { "from file", "" }, { "mm/s2", "mm/s2" }, { "cm/s2", "cm/s2" }, { "m/s2", "m/s2" }, { "g", "g" }
+      };
+      section.choice("Base unit", settings.unit, units);
       section.choice("Drift correction", settings.corrects_drift, { { "off", false }, { "on", true } });
     }
 

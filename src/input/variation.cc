@@ -229,7 +229,8 @@ namespace sprag
           const auto kept = kept_value(parameter.rule, value);
           if (const auto broken = violation(parameter.rule, kept))
             throw InputError(*broken); // a unit that depends on other parameters
-          varied.values.push_back(parameter.rule.kind == Rule::Kind::file && !value.empty() ? resolve_path(value) : kept);
+          const bool is_path = parameter.rule.kind == Rule::Kind::file && !value.empty();
+          varied.values.push_back(is_path ? (std::filesystem::path(folder) / value).lexically_normal().string() : kept);
           return true;
         }
         catch (const InputError &broken)
@@ -237,11 +238,6 @@ namespace sprag
           mistake(varied.name + " = " + value + " " + broken.what());
           return false;
         }
-      }
-
-      std::string resolve_path(const std::string &file) const
-      {
-        return (std::filesystem::path(folder) / file).lexically_normal().string();
       }
     };
 

@@ -155,21 +155,9 @@ namespace sprag
                        (is_table ? " or a shorter duration" : ", fewer cycles or a faster drive"));
     }
 
-    /// Bytes a displacement, and copies of the face's square matrices that there are at the peak.
-    struct Cost
-    {
-      double a_displacement, copies;
-    };
-
-    /// Linear levers without inertia, which share their factors.
-    bool is_factorised_once(const Scene &scene)
-    {
-      return scene.analysis.type == AnalysisType::quasi_static && scene.lever.material == MaterialModel::linear &&
-             scene.analysis.solution != Solution::general;
-    }
-
-    /// Measured, see tests/run/resources.cc: within 1.3 times what those runs have.
-    Cost compute_cost(const Scene &scene)
+    /// Returns bytes a displacement, and copies of the face's square matrices that there are at the peak. Measured, see
+    /// tests/run/resources.cc: within 1.3 times what those runs have.
+    std::pair<double, double> compute_cost(const Scene &scene)
     {
       if (scene.analysis.type != AnalysisType::quasi_static)
       {
@@ -178,7 +166,7 @@ namespace sprag
         const bool is_table = scene.analysis.type == AnalysisType::isolation; // two levers, which keep steps of some durations
         return { 2.5e3, scene.analysis.type == AnalysisType::modal ? 5.5 : is_table ? 24. : 17. };
       }
-      return is_factorised_once(scene) ? Cost{ 2e3, 0. } : Cost{ 5e3, 0. };
+      return { is_factorised_once(scene) ? 2e3 : 5e3, 0. };
     }
 
     /// Matrices that processes share over those of one.

@@ -66,6 +66,12 @@ namespace sprag
     return type == AnalysisType::slope || (type == AnalysisType::isolation && !isolates_by_model(scene)) || is_closed || is_ideal;
   }
 
+  bool is_factorised_once(const Scene &scene)
+  {
+    return scene.analysis.type == AnalysisType::quasi_static && scene.lever.material == MaterialModel::linear &&
+           scene.analysis.solution == Solution::automatic;
+  }
+
   Scene with_condensed_lever(Scene scene)
   {
     if (scene.analysis.model == ModelType::finite_element)
@@ -102,9 +108,6 @@ namespace sprag
 
   bool is_open(const Scene &scene, const std::string &parameter)
   {
-    if (scene.specified.count(parameter) == 0)
-      return true;
-    const auto value = scene.parameters->find(parameter);
-    return value != scene.parameters->end() && value->second == "auto";
+    return scene.specified.count(parameter) == 0 || scene.parameters->at(parameter) == "auto";
   }
 } // namespace sprag

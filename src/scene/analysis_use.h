@@ -38,6 +38,9 @@ namespace sprag
   /// levers of a model, and a rigid lever in ideal contact in time.
   bool follows_formulas(const Scene &scene);
 
+  /// Returns whether levers are linear and without inertia, so that they share their factors.
+  bool is_factorised_once(const Scene &scene);
+
   /// Returns the scene with the condensed lever of its mesh in place of finite elements: a slide's growth is that of
   /// stability-a within 5e-5 and takes a hundredth of the time.
   Scene with_condensed_lever(Scene scene);

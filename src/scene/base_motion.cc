@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/base_motion.h"
 
+#include "base/ranges.h"
+
 #include <gsl/gsl_fft_complex.h>
 
 #include <algorithm>
@@ -335,14 +337,8 @@ namespace sprag
 
   RecordedTravel recorded_travel(const Samples &record)
   {
-    const auto largest = [](const Samples &samples)
-    {
-      double most = 0.;
-      for (const double x : integrated(samples).x)
-        most = std::max(most, std::abs(x));
-      return most;
-    };
-    return { largest(record), largest(without_drift(record)) };
+    const auto travel = [](const Samples &samples) { return largest(integrated(samples).x, [](const double x) { return x; }); };
+    return { travel(record), travel(without_drift(record)) };
   }
 
   double kanai_tajimi(const double frequency, const double ground_frequency, const double ground_damping)

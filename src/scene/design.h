@@ -35,13 +35,8 @@ namespace sprag
     std::size_t parameter   = 0; ///< index of the free parameter, for DesignQuantity::parameter
   };
 
-  /// Compares a value with the target of a demand.
-  enum class DemandKind
-  {
-    at_most,
-    at_least,
-    equal ///< within a tolerance
-  };
+  /// Compares a value with the target of a demand; `equal` within a tolerance.
+  SPRAG_ENUMERATION(DemandKind, at_most, at_least, equal)
 
   /// Constrains a quantity of the designed lever.
   struct Demand

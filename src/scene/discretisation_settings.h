@@ -15,11 +15,7 @@ namespace sprag
   SPRAG_ENUMERATION(DampingLaw, dashpot, loss_factor)
 
   /// Selects how the contact of meshed levers is enforced.
-  enum class Enforcement
-  {
-    penalty,
-    augmented_lagrangian
-  };
+  SPRAG_ENUMERATION(Enforcement, penalty, augmented_lagrangian)
 
   /// Holds the section Contact: enforcement for meshed levers, contact law for reduced ones.
   struct ContactSettings

@@ -28,21 +28,7 @@ namespace sprag
   SPRAG_ENUMERATION(ShockForm, half_sine, step)
 
   /// Selects the spectrum of a random base motion.
-  enum class BaseSpectrum
-  {
-    kanai_tajimi,
-    table
-  };
-
-  /// Unit of an acceleration in a file.
-  enum class AccelerationUnit
-  {
-    from_file, ///< as the header says
-    mm_s2,
-    cm_s2,
-    m_s2,
-    g
-  };
+  SPRAG_ENUMERATION(BaseSpectrum, kanai_tajimi, table)
 
   /// Says when a run ends: after its duration, or earlier once periods repeat.
   SPRAG_ENUMERATION(IsolationEnd, duration, steady_state)
@@ -91,8 +77,8 @@ namespace sprag
     std::optional<double> spectrum_lines; ///< whole; none: dense enough for the duration
     unsigned int seed = 1;
     std::string base_file;
-    AccelerationUnit unit = AccelerationUnit::from_file;
-    bool corrects_drift   = false;
+    std::string unit; ///< of a recorded acceleration; empty: as the file says
+    bool corrects_drift = false;
 
     double initial_displacement = 0.;  ///< z [mm]
     double initial_velocity     = 0.;  ///< z' [mm/s]

@@ -15,7 +15,6 @@ namespace sprag
     /// Begins without a state. `scene` must outlive the object.
     explicit SprungClosedForm(const Device &the_scene)
         : device(the_scene)
-        , stiffness(the_scene.support.stiffness)
     {
     }
 
@@ -43,9 +42,9 @@ namespace sprag
     void set(double x, double relative, const ClosedFormState &lever);
 
     const Device &device;
-    const double stiffness; ///< k_f [N/mm]
-    double relative = 0.;   ///< x - u
-    double speed    = 0.;
+    const double stiffness = device.support.stiffness; ///< k_f [N/mm]
+    double relative        = 0.;                       ///< x - u
+    double speed           = 0.;
     State state;
   };
 } // namespace sprag
