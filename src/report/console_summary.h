@@ -12,8 +12,6 @@
 
 namespace sprag
 {
-  struct AccuracySettings;
-
   /// Returns the entries of /accuracy: of each quantity its estimated relative error, NaN where none holds, with the attributes
   /// largest_part and remedy, or why there is none; and of each of its parts one called <quantity>_<part>.
   std::vector<Entry> accuracy_entries(const std::vector<ErrorEstimate> &estimates);

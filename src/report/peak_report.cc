@@ -26,11 +26,11 @@ namespace sprag
     /// Row, lever and place of the largest value of a quantity.
     struct Peak
     {
-      const Row *row = nullptr;
-      double value   = 0.;
-      double place   = 0.;
-      double width   = 0.; ///< of the contact
-      bool is_second = false;
+      const Row *row     = nullptr;
+      double value       = 0.;
+      double place       = 0.;
+      double width       = 0.; ///< of the contact
+      unsigned int lever = 0;
     };
 
     constexpr double admitted_error  = 0.05;
@@ -43,21 +43,14 @@ namespace sprag
     {
       const auto counts = friction_has_turned(rows);
       Peak result;
-      const auto look_at = [&](const Row &row, const double value, const double at, const double width, const bool is_second)
-      {
-        if (value > result.value)
-          result = { &row, value, at, width, is_second };
-      };
       for (std::size_t i = 0; i < rows.size(); ++i)
-      {
-        const Row &row = rows[i];
-        if (!counts[i])
-          continue;
-        look_at(row, row[Column::largest_pressure], row[Column::largest_pressure_xi], row[Column::contact_width], false);
-        if (!row.second_lever().empty())
-          look_at(row, row.second_value(Column::largest_pressure), row.second_value(Column::largest_pressure_xi),
-                  row.second_value(Column::contact_width), true);
-      }
+        for (const unsigned int lever : { 0u, 1u })
+        {
+          const auto value = [&](const Column column) { return rows[i].lever_value(column, lever); };
+          if (counts[i] && value(Column::largest_pressure) > result.value)
+            result = { &rows[i], value(Column::largest_pressure), value(Column::largest_pressure_xi),
+                       value(Column::contact_width), lever };
+        }
       return result;
     }
 
@@ -99,11 +92,6 @@ namespace sprag
              (scene.mesh.degree == 1 ? " or Mesh/Degree = 2." : ".");
     }
 
-    std::string direction(const Row &row)
-    {
-      return drive_direction(row[Column::v]) > 0 ? "forward" : "backward";
-    }
-
     constexpr std::size_t reach = 3; ///< of the regression to both sides, in means
 
     struct Mean
@@ -142,9 +130,8 @@ namespace sprag
     const auto peak = largest_pressure(rows);
     if (!peak.row)
       return {};
-    const auto pressure_at = [&](const std::size_t i)
-    { return peak.is_second ? rows[i].second_value(Column::largest_pressure) : rows[i][Column::largest_pressure]; };
-    const auto near_by = settled_stroke(rows, static_cast<std::size_t>(peak.row - rows.data()));
+    const auto pressure_at = [&](const std::size_t i) { return rows[i].lever_value(Column::largest_pressure, peak.lever); };
+    const auto near_by     = settled_stroke(rows, static_cast<std::size_t>(peak.row - rows.data()));
     if (near_by.empty())
       return { peak.value, 0. };
     double bin = face_size;
@@ -180,10 +167,11 @@ namespace sprag
     if (!peak.row)
       return;
     const double value = face_size > 0. ? smoothed_largest_pressure(rows, face_size).value : peak.value;
-    append<Entry>(entries, { { "largest_pressure", value },
-                             { "largest_pressure_x", (*peak.row)[Column::x] },
-                             { "largest_pressure_direction", direction(*peak.row) },
-                             { "largest_pressure_xi", peak.place } });
+    append<Entry>(entries,
+                  { { "largest_pressure", value },
+                    { "largest_pressure_x", (*peak.row)[Column::x] },
+                    { "largest_pressure_direction", drive_direction((*peak.row)[Column::v]) > 0 ? "forward" : "backward" },
+                    { "largest_pressure_xi", peak.place } });
   }
 
   double expected_pressure_error(const double elements, const unsigned int degree)

@@ -22,7 +22,6 @@
 #include <iomanip>
 #include <limits>
 #include <ostream>
-#include <stdexcept>
 
 namespace sprag
 {
@@ -307,7 +306,7 @@ namespace sprag
 
   void add_pair(const std::vector<Row> &rows, std::vector<Entry> &entries)
   {
-    if (rows.empty() || rows.front().second_lever().empty())
+    if (count_levers(rows) == 1)
       return;
     auto second = rows;
     for (Row &row : second)
@@ -321,14 +320,6 @@ namespace sprag
     append<Entry>(entries, { { "peak_lateral_force", signed_peak(rows, [](const Row &row) { return row.lateral_force(); }) },
                              { "peak_swing", signed_peak(rows, [](const Row &row) { return row.swing(); }) },
                              { "peak_difference_P", signed_peak(rows, difference) } });
-  }
-
-  double find_value(const std::vector<Entry> &entries, const std::string &name)
-  {
-    const auto *const entry = find_by(entries, &Entry::name, name);
-    if (entry == nullptr)
-      throw std::out_of_range("no entry '" + name + "'");
-    return std::get<double>(entry->value);
   }
 
   void print_summary(std::ostream &stream, const std::vector<Entry> &summary)

@@ -25,9 +25,6 @@ namespace sprag
   /// Adds what the levers of a full pair do differently, and their force across the path; nothing for a single lever.
   void add_pair(const std::vector<Row> &rows, std::vector<Entry> &entries);
 
-  /// Returns the value of the entry of this name; throws std::out_of_range if there is none.
-  double find_value(const std::vector<Entry> &entries, const std::string &name);
-
   /// Prints the entries as a table for people.
   void print_summary(std::ostream &stream, const std::vector<Entry> &summary);
 

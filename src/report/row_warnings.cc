@@ -195,9 +195,8 @@ namespace sprag
     /// errors.
     void add_energy(const Scene &scene, const std::vector<Row> &rows, Warnings &warnings)
     {
-      if (is_chosen(scene, "Analysis/Step"))
-        return;
-      if (scene.analysis.type != AnalysisType::quasi_static || scene.analysis.model != ModelType::finite_element)
+      if (is_chosen(scene, "Analysis/Step") || scene.analysis.type != AnalysisType::quasi_static ||
+          scene.analysis.model != ModelType::finite_element)
         return;
       const Row &last     = rows.back();
       const double stored = last[Column::spring_energy] + last[Column::elastic_energy] - rows.front()[Column::spring_energy] -
@@ -267,23 +266,7 @@ namespace sprag
         warnings.push_back(make_warning(
             "runaway_slip", { place(*worst), rounded_text(1e3 * shear(*worst)), rounded_text(1e3 * memory(*worst)) }));
     }
-  } // namespace
 
-  std::optional<double> layer_strength(const FrictionLayer &layer)
-  {
-    constexpr double buckling_strain = 0.04;
-    constexpr double largest_ratio   = 0.2; // cork has 0 to 0.1 across the rings, 0.25 to 0.5 along them
-    if (layer.thickness == 0.)
-      return {};
-    if (layer.strength)
-      return layer.strength;
-    if (layer.poisson_ratio > largest_ratio)
-      return {};
-    return buckling_strain * layer.young_modulus;
-  }
-
-  namespace
-  {
     /// Returns the warnings that follow from rows of one lever.
     Warnings lever_warnings(const Scene &scene, const std::vector<Row> &rows)
     {
@@ -325,6 +308,19 @@ namespace sprag
       return warnings;
     }
   } // namespace
+
+  std::optional<double> layer_strength(const FrictionLayer &layer)
+  {
+    constexpr double buckling_strain = 0.04;
+    constexpr double largest_ratio   = 0.2; // cork has 0 to 0.1 across the rings, 0.25 to 0.5 along them
+    if (layer.thickness == 0.)
+      return {};
+    if (layer.strength)
+      return layer.strength;
+    if (layer.poisson_ratio > largest_ratio)
+      return {};
+    return buckling_strain * layer.young_modulus;
+  }
 
   Warnings row_warnings(const Scene &scene, const std::vector<Row> &rows)
   {

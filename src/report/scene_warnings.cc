@@ -205,14 +205,8 @@ namespace sprag
             is_estimated ? ": such a layer has about " + text(estimate.stiffness, estimate.exponent) : std::string() }));
     }
 
-    /// Parameter by its full name, and whether the scene uses it.
-    struct Dependent
-    {
-      std::string name;
-      bool counts;
-    };
-
-    std::vector<Dependent> dependents(const Scene &scene)
+    /// Parameters by their full names, and whether the scene uses each.
+    std::vector<std::pair<std::string, bool>> dependents(const Scene &scene)
     {
       const auto &analysis   = scene.analysis;
       const bool deformable  = analysis.type != AnalysisType::slope && (has_mesh(scene) || analysis.model == ModelType::beam);
@@ -506,17 +500,11 @@ namespace sprag
       warnings.back().remedy.insert(0, remedy);
     }
 
-    /// A part that a scene has with one choice alone; by default it has none.
-    struct OptionalPart
-    {
-      std::string parameters; ///< beginning of their full names
-      std::string choice, word;
-    };
-
-    /// Warns of parameters of parts that nothing says to be there. Where the choice is given, they may stand for another run.
+    /// Warns of parameters of parts that nothing says to be there, by the beginnings of their names, the choice and its word.
+    /// Where the choice is given, they may stand for another run.
     void add_absent_parts(const Scene &scene, Warnings &warnings)
     {
-      static const std::vector<OptionalPart> parts = {
+      static const std::vector<std::array<std::string, 3>> parts = {
         { "Leaf spring/", "Rotational spring/Type", "leaf" }, { "Friction plate/", "Friction plate/Type", "on sensors" },
         { "Lever frame/", "Lever/Outline", "frame" },         { "Support/", "Support/Type", "sprung" },
         { "Cylinder/Made of", "Cylinder/Type", "solid" },     { "Cylinder/Young's modulus", "Cylinder/Type", "solid" }

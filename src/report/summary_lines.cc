@@ -19,11 +19,6 @@ namespace sprag
     return width < 0 ? text + blanks : blanks + text;
   }
 
-  std::string four_digits(const double value)
-  {
-    return formatted("%.4g", value);
-  }
-
   double rounded_to(const double value, const bool upward)
   {
     constexpr double slack = 1e-6; // of the last digit, for numbers that have four already

@@ -14,7 +14,10 @@ namespace sprag
   std::string padded(const std::string &text, int width);
 
   /// Returns "23.67".
-  std::string four_digits(double value);
+  inline std::string four_digits(const double value)
+  {
+    return formatted("%.4g", value);
+  }
 
   /// Returns the next number of four digits that is not less, or with `upward` = false not more.
   double rounded_to(double value, bool upward);

@@ -35,14 +35,6 @@ namespace sprag
         columns.push_back({ name + "_2", unit, "of the pair's second lever, in its mirrored axes: " + description });
     }
 
-    void add_pair(const FrictionPlate &plate, std::vector<ColumnInfo> &columns)
-    {
-      auto second_infos = mapped(lever_columns(), column_info);
-      add_sensors(plate, second_infos);
-      add_as_second(second_infos, columns);
-      append(columns, page_columns("", "swing Q_pair lateral_force"));
-    }
-
     /// Columns of each lever in three dimensions.
     std::vector<ColumnInfo> across_a_lever(const FrictionPlate &plate, const Cylinder &cylinder)
     {
@@ -54,6 +46,12 @@ namespace sprag
           for (const std::string side : { "_left", "_right" })
             append(columns, page_columns("", "sensor_" + std::to_string(i) + side));
       return columns;
+    }
+
+    std::size_t find_place(const Column column)
+    {
+      const auto &per_lever = lever_columns();
+      return static_cast<std::size_t>(std::find(per_lever.begin(), per_lever.end(), column) - per_lever.begin());
     }
   } // namespace
 
@@ -82,11 +80,16 @@ namespace sprag
     std::vector<ColumnInfo> result = all_columns();
     add_sensors(plate, result);
     if (pair.type == PairType::full)
-      add_pair(plate, result);
+    {
+      auto second_infos = mapped(lever_columns(), column_info);
+      add_sensors(plate, second_infos);
+      add_as_second(second_infos, result);
+      append(result, page_columns("", "swing Q_pair lateral_force"));
+    }
     if (dimension == 3)
     {
       const auto across_columns = across_a_lever(plate, cylinder);
-      result.insert(result.end(), across_columns.begin(), across_columns.end());
+      append(result, across_columns);
       if (pair.type == PairType::full)
         add_as_second(across_columns, result);
     }
@@ -115,15 +118,6 @@ namespace sprag
     for (const Column column : { Column::penetration, Column::indentation, Column::cone_violation, Column::elastic_slip })
       (*this)[column] = std::max((*this)[column], second[column]);
   }
-
-  namespace
-  {
-    std::size_t find_place(const Column column)
-    {
-      const auto &per_lever = lever_columns();
-      return static_cast<std::size_t>(std::find(per_lever.begin(), per_lever.end(), column) - per_lever.begin());
-    }
-  } // namespace
 
   double Row::second_value(const Column column) const
   {

@@ -44,11 +44,6 @@ namespace sprag::hdf5
       return Handle(checked("storage", H5Pcreate(H5P_DATASET_CREATE)), H5Pclose);
     }
 
-    void set_chunk(const Handle &storage, const std::vector<hsize_t> &chunk)
-    {
-      checked("chunks", H5Pset_chunk(storage.id(), static_cast<int>(chunk.size()), chunk.data()));
-    }
-
     void write_attribute(const Handle &object, const std::string &name, const hid_t type, const void *data)
     {
       const Handle space = scalar_space();
@@ -100,7 +95,7 @@ namespace sprag::hdf5
                          const std::vector<hsize_t> &row)
     {
       const Handle chunks = storage();
-      set_chunk(chunks, with_rows(chunk, row));
+      checked("chunks", H5Pset_chunk(chunks.id(), static_cast<int>(row.size() + 1), with_rows(chunk, row).data()));
       checked("fill value", H5Pset_fill_value(chunks.id(), H5T_NATIVE_DOUBLE, &unknown));
       if (!row.empty())
         checked("compression", H5Pset_deflate(chunks.id(), 1));
@@ -137,11 +132,6 @@ namespace sprag::hdf5
     if (file < 0)
       file = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.id());
     return Handle(checked("opening " + path, file), H5Fclose);
-  }
-
-  bool has(const Handle &location, const std::string &name)
-  {
-    return H5Lexists(location.id(), name.c_str(), H5P_DEFAULT) > 0;
   }
 
   std::string read_text(const Handle &location, const std::string &name)
@@ -205,7 +195,6 @@ namespace sprag::hdf5
     return write_dataset(location, name, H5T_NATIVE_DOUBLE, simple_space(extent, extent), values.data());
   }
 
-  /// Bytes are sorted before they are compressed.
   Handle create_rows(const Handle &location, const std::string &name, const hid_t type, const std::size_t rows,
                      const std::size_t width)
   {

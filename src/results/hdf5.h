@@ -26,7 +26,10 @@ namespace sprag::hdf5
   Handle open_to_read(const std::string &path);
 
   /// Returns whether there is such an object in a file or group.
-  bool has(const Handle &location, const std::string &name);
+  inline bool has(const Handle &location, const std::string &name)
+  {
+    return H5Lexists(location.id(), name.c_str(), H5P_DEFAULT) > 0;
+  }
 
   /// Reads a scalar text.
   std::string read_text(const Handle &location, const std::string &name);

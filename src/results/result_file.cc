@@ -116,7 +116,6 @@ namespace sprag
     public:
       Copy(const std::string &file_path, const bool is_needed)
           : path(file_path)
-          , begun(path + result_begun_ending)
       {
         std::error_code error;
         is_made = is_needed && std::filesystem::copy_file(path, begun, std::filesystem::copy_options::overwrite_existing, error);
@@ -136,7 +135,7 @@ namespace sprag
       }
 
     private:
-      const std::string path, begun;
+      const std::string path, begun = path + result_begun_ending;
       bool is_made = false;
     };
 

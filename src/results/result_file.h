@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/archive.h"
+#include "base/ranges.h"
 #include "results/columns.h"
 #include "results/warning.h"
 
@@ -35,10 +36,7 @@ namespace sprag
   template <class Items, class Value>
   Dataset make_dataset(const Items &items, const ColumnInfo &info, const Value &value)
   {
-    Dataset result{ info, {}, {} };
-    for (const auto &item : items)
-      result.values.push_back(value(item));
-    return result;
+    return { info, mapped(items, value), {} };
   }
 
   /// Texts of one dimension.
@@ -53,10 +51,7 @@ namespace sprag
   template <class Items, class Value>
   TextDataset make_texts(const Items &items, const std::string &name, const std::string &description, const Value &value)
   {
-    TextDataset result{ name, description, {} };
-    for (const auto &item : items)
-      result.values.push_back(value(item));
-    return result;
+    return { name, description, mapped(items, value) };
   }
 
   /// A named group of datasets.
@@ -133,6 +128,5 @@ namespace sprag
     std::unique_ptr<Writer> writer; ///< null once the file is finished
   };
 
-  void serialise(Archive &archive, Row &row);
   void serialise(Archive &archive, FaceState &face);
 } // namespace sprag

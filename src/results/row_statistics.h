@@ -45,11 +45,7 @@ namespace sprag
   template <class Rows>
   double sum(const Rows &rows, const Column column)
   {
-    double result = 0.;
-    for (const Row &row : rows)
-      if (!std::isnan(row[column]))
-        result += row[column];
-    return result;
+    return sum_over(rows, [column](const Row &row) { return std::isnan(row[column]) ? 0. : row[column]; });
   }
 
   /// Returns the row with the largest finite value; null where no value is positive.

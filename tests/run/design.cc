@@ -10,6 +10,7 @@
 #include "run/design_checks.h"
 #include "run/run.h"
 #include "scene/scene.h"
+#include "support/find_value.h"
 #include "support/temporary_folder.h"
 
 #include <filesystem>

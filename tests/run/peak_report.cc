@@ -3,6 +3,7 @@
 #include "report/report.h"
 #include "scene/scene.h"
 #include "scenes.h"
+#include "support/find_value.h"
 
 #include <gtest/gtest.h>
 

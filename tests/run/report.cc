@@ -7,6 +7,7 @@
 #include "scene/closed_form.h"
 #include "scene/scene.h"
 #include "scenes.h"
+#include "support/find_value.h"
 
 #include <algorithm>
 #include <array>

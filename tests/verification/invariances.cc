@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/closed_form.h"
 #include "scene/scene.h"
+#include "support/find_value.h"
 #include "verification/run_scene.h"
 
 #include <cstdio>

@@ -3,6 +3,7 @@
 #include "results/row_statistics.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
+#include "support/find_value.h"
 #include "verification/run_scene.h"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include "analysis/stability/stability.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
+#include "support/find_value.h"
 #include "support/scene_parts.h"
 #include "verification/run_scene.h"
 #include "verification/run_transient.h"

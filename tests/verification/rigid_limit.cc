@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/scene.h"
+#include "support/find_value.h"
 #include "verification/run_scene.h"
 
 #include <gtest/gtest.h>
