@@ -78,12 +78,6 @@ namespace sprag
       return ended_itself && !unfinished ? analysis_failed : report_error(fate);
     }
 
-    /// A map or a study is carried out by several processes. A folder that cannot serve is for the run itself to refuse.
-    bool is_for_all_cores(const Arguments &arguments, const Scene &scene, const unsigned int processes)
-    {
-      return is_run(arguments) && works_in_parallel(scene.analysis.type) && works_on_all_cores(processes);
-    }
-
     /// Cells of a map or runs of a study.
     std::size_t count_pieces(const Scene &scene)
     {
@@ -112,12 +106,6 @@ namespace sprag
       return tells_nothing ? needs_mesh(scene) : !follows_formulas(scene);
     }
 
-    /// The arguments and the file are read again there.
-    [[noreturn]] void become_models(char **argv)
-    {
-      execute_beside("sprag-models", argv);
-    }
-
     void do_without_models(const Arguments &arguments, const Scene &scene, RunLog &log)
     {
       if (arguments.validate)
@@ -130,10 +118,8 @@ namespace sprag
       const std::string folder = result_folder(arguments, scene);
       claim_folder(folder, scene, arguments.overwrite);
       require_memory(scene);
-      RunOptions options{ folder, arguments.quiet };
-      options.verbose = arguments.verbose;
-      options.log     = &log;
-      run_by_formulas(scene, options);
+      const RunOptions options{ folder, arguments.quiet, arguments.verbose, &log };
+      run_from_margin_to_warnings(scene, options, run_formulas);
     }
 
     int run_looked_after(const Arguments &arguments, const std::timespec &since, const int argc, char **argv)
@@ -141,19 +127,20 @@ namespace sprag
       if (!arguments.print_parameters.empty())
       {
         if (arguments.print_parameters != "prm")
-          become_models(argv);
+          execute_beside("sprag-models", argv); // which reads them again
         std::cout << printed_parameters(arguments);
         return success;
       }
       const Scene scene            = load_scene(arguments);
       const unsigned int processes = processes_for(arguments, scene);
-      const bool on_all_cores      = is_for_all_cores(arguments, scene, processes);
+      // A map or a study is carried out by several processes. A folder that cannot serve is for the run itself to refuse.
+      const bool on_all_cores = is_run(arguments) && works_in_parallel(scene.analysis.type) && works_on_all_cores(processes);
       if (const auto end = on_all_cores ? supervise(SIGTERM, process_grace) : supervise(SIGKILL, grace))
         return conclude(*end, arguments, scene, since);
       if (on_all_cores)
         become_mpirun(argv, processes);
       if (needs_models(arguments, scene))
-        become_models(argv);
+        execute_beside("sprag-models", argv);
       hdf5::silence();
       catch_interrupts();
       RunLog log(argc, argv);

@@ -16,7 +16,6 @@
 #include "program/output_folder.h"
 #include "program/resources.h"
 #include "program/run_log.h"
-#include "run/error_text.h"
 #include "run/run.h"
 #include "scene/analysis_use.h"
 #include "scene/scene.h"
@@ -51,32 +50,27 @@ namespace sprag
               " of mpirun runs another program or scene than process 0, or to another --output: start the same on all machines");
     }
 
-    unsigned int count_processes(const Rank &rank)
-    {
-      return rank.is_alone ? 1 : MPI::n_mpi_processes(MPI_COMM_WORLD);
-    }
-
     void execute(const Arguments &arguments, const Scene &scene, const Rank &rank, RunLog &log)
     {
-      require_useful_processes(scene, count_processes(rank));
+      const unsigned int processes = rank.is_alone ? 1 : MPI::n_mpi_processes(MPI_COMM_WORLD);
+      require_useful_processes(scene, processes);
+      const std::string folder = result_folder(arguments, scene);
       if (arguments.validate)
       {
-        const std::string folder = result_folder(arguments, scene);
-        require_memory(scene, count_processes(rank), folder);
+        require_memory(scene, processes, folder);
         const auto warnings = validate(scene);
         if (!rank.is_first)
           return;
         if (!arguments.quiet)
-          print_expectations(scene, count_processes(rank), folder);
+          print_expectations(scene, processes, folder);
         return tell_validity(arguments, scene, warnings);
       }
-      const std::string folder = result_folder(arguments, scene);
       if (!rank.is_alone)
         require_equal_arguments(scene, folder);
       const auto claim = [&]
       {
         claim_folder(folder, scene, arguments.overwrite);
-        require_memory(scene, count_processes(rank), folder);
+        require_memory(scene, processes, folder);
       };
       if (rank.is_alone)
         claim();
@@ -84,10 +78,7 @@ namespace sprag
         on_first_rank(claim);
       if (!rank.is_first && shares_body(scene))
         return help_first_rank(MPI_COMM_WORLD);
-      RunOptions options{ folder, arguments.quiet, rank.is_first };
-      options.processes = count_processes(rank);
-      options.verbose   = arguments.verbose;
-      options.log       = rank.is_first ? &log : nullptr;
+      const RunOptions options{ folder, arguments.quiet || !rank.is_first, arguments.verbose, &log, processes };
       std::optional<RanksAtHand> others;
       if (shares_body(scene))
         others.emplace(MPI_COMM_WORLD);

@@ -176,13 +176,9 @@ namespace sprag
     }
 
     /// Words before a name, by the kinds of tables on pages that help_text() searches.
-    const std::map<std::string, std::string> &kinds_in_words()
-    {
-      static const std::map<std::string, std::string> words = {
-        { "entry", "/summary/" }, { "column", "column " }, { "fact", "/meta/" }, { "warning", "warning " }
-      };
-      return words;
-    }
+    const std::map<std::string, std::string> kinds_in_words = {
+      { "entry", "/summary/" }, { "column", "column " }, { "fact", "/meta/" }, { "warning", "warning " }
+    };
 
     /// Returns a cell in words: where a line of the console summary is printed, `!` marks headlines and `?` hides 0.
     std::string cell_in_words(std::string text)
@@ -199,8 +195,8 @@ namespace sprag
       std::string text;
       for (const auto &[kind, heading, row] : page_places(name))
       {
-        const auto words = kinds_in_words().find(kind);
-        if (words == kinds_in_words().end())
+        const auto words = kinds_in_words.find(kind);
+        if (words == kinds_in_words.end())
           continue;
         const auto unit = row.cells.find("unit");
         text += words->second + name + (unit == row.cells.end() || unit->second.empty() ? "" : " [" + unit->second + ']') + '\n';
@@ -240,7 +236,7 @@ namespace sprag
       if (!found.empty())
         return parameters_text(found, { { "Time/Tolerance", number_text(defaults.scene.time.tolerance) } });
       for (const auto &table : page_tables())
-        if (kinds_in_words().count(table.kind) > 0)
+        if (kinds_in_words.count(table.kind) > 0)
           for (const auto &[row, cells] : table.rows)
             names.push_back(row);
       throw InputError("--help " + name + ": there is no such section, parameter, result or warning" +

@@ -8,12 +8,7 @@
 namespace sprag
 {
   /// The program's exit status.
-  enum ExitStatus
-  {
-    success         = 0,
-    analysis_failed = 1,
-    bad_input       = 2
-  };
+  constexpr int success = 0, analysis_failed = 1, bad_input = 2;
 
   /// Options of the command line.
   struct Arguments

@@ -187,7 +187,7 @@ namespace sprag
       const auto drop = [&](const std::string &reason)
       {
         std::cerr << path << ": " << reason << ": the run begins anew" << std::endl;
-        remove();
+        remove_checkpoint(folder);
       };
       auto content = content_in(path);
       if (!content)
@@ -202,7 +202,7 @@ namespace sprag
       is_resumed     = true;
     }
     else
-      remove(); // what a run left that was killed before its first one
+      remove_checkpoint(folder); // what a run left that was killed before its first one
     if (const auto earlier = earlier_result(folder + "/result.h5");
         !is_resumed && !quiet && earlier && earlier->status != "completed")
       std::cout << "Begins anew:  the result in the folder is unfinished and has no checkpoint\n" << std::flush;
@@ -269,13 +269,7 @@ namespace sprag
 
   void Checkpoint::finish(const std::string &status) const
   {
-    if (status != interruption && !is_needed)
-      remove();
-  }
-
-  void Checkpoint::remove() const
-  {
-    if (is_kept)
+    if (is_kept && status != interruption && !is_needed)
       remove_checkpoint(folder);
   }
 } // namespace sprag

@@ -144,7 +144,6 @@ namespace sprag
 
     std::string key() const;
     void find();
-    void remove() const;
     void serialise_all(const ProgressSerialiser &progress, Archive &archive) const;
     void try_to(const std::function<void()> &write);
     void write(const ProgressSerialiser &progress);

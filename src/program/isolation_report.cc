@@ -80,12 +80,11 @@ namespace sprag
     }
   } // namespace
 
-  const std::vector<ColumnInfo> &isolation_columns()
+  std::vector<ColumnInfo> isolation_columns()
   {
-    static const auto columns = page_columns(
-        "isolation", "time x_base z z_rate table_acceleration damper_force base_acceleration kinetic_energy spring_energy "
-                     "damper_energy dissipated_energy base_work energy_residual rests");
-    return columns;
+    return page_columns("isolation",
+                        "time x_base z z_rate table_acceleration damper_force base_acceleration kinetic_energy spring_energy "
+                        "damper_energy dissipated_energy base_work energy_residual rests");
   }
 
   std::vector<double> isolation_row(const IsolationSettings &settings, const IsolatedTable &motion, const bool is_before)

@@ -13,7 +13,7 @@ namespace sprag
   struct Scene;
 
   /// Lists the columns of the table of an isolation system.
-  const std::vector<ColumnInfo> &isolation_columns();
+  std::vector<ColumnInfo> isolation_columns();
 
   /// Returns the values of these columns; `is_before`: with the force just before a turn.
   std::vector<double> isolation_row(const IsolationSettings &settings, const IsolatedTable &motion, bool is_before);

@@ -3,13 +3,13 @@
 
 #include "base/errors.h"
 #include "base/fingerprint.h"
+#include "base/pattern.h"
 #include "base/system/open_file.h"
 #include "base/version.h"
 #include "input/read.h"
 #include "input/scene_key.h"
 #include "program/checkpoint.h"
 #include "program/run_log.h"
-#include "results/earlier_fields.h"
 #include "results/earlier_result.h"
 #include "scene/scene.h"
 
@@ -23,6 +23,7 @@
 #include <sstream>
 #include <unistd.h>
 #include <utility>
+#include <vector>
 
 namespace sprag
 {
@@ -160,7 +161,7 @@ namespace sprag
       refuse_other_result(folder, scene); // of a run that began at the same time
     static std::string begun;
     const bool is_begun = std::exchange(begun, folder) == folder;
-    if (options.is_first && !is_begun && !has_progress(folder, scene))
+    if (!is_begun && !has_progress(folder, scene))
       remove_files(folder, is_field_file);
     if (options.log != nullptr)
       options.log->open(folder, scene);
@@ -200,5 +201,20 @@ namespace sprag
   {
     for (const char *name : { checkpoint_name, next_checkpoint_name, row_log_name })
       ::unlink((folder + '/' + name).c_str());
+  }
+
+  bool is_field_file(const std::string &name)
+  {
+    return matches(name, R"((fields|face|leaf|mode-\d+)(-\d+\.h5|-mesh\.h5|\.h5|\.xdmf))");
+  }
+
+  void remove_files(const std::string &folder, const std::function<bool(const std::string &)> &is_named_so)
+  {
+    std::vector<fs::path> found;
+    for (const auto &entry : fs::directory_iterator(folder))
+      if (is_named_so(entry.path().filename().string()))
+        found.push_back(entry.path());
+    for (const auto &path : found)
+      fs::remove(path);
   }
 } // namespace sprag

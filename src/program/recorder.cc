@@ -29,12 +29,12 @@ namespace sprag
     return length + std::abs(drive.at(drive.duration()).x - x);
   }
 
-  Recorder::Recorder(const Scene &scene_, const RunOptions &options, PhaseTimer &timer, const FacePoints &points,
+  Recorder::Recorder(const Scene &scene_, const RunOptions &options, const PhaseTimer *const timer, const FacePoints &points,
                      Checkpoint *const checkpoint_)
       : stress(no_stress_peaks("the model has no mesh"))
       , scene(scene_)
       , quiet(options.quiet)
-      , writer(scene, options, timer, table_columns(scene.plate, scene.pair, scene.analysis.dimension, scene.cylinder), points)
+      , writer(scene, options, table_columns(scene.plate, scene.pair, scene.analysis.dimension, scene.cylinder), timer, points)
       , progress(std::cerr, progress_style(quiet), path_length(scene.drive))
       , checkpoint(checkpoint_)
   {
@@ -99,6 +99,7 @@ namespace sprag
   std::vector<Entry> Recorder::finish(const std::string &status, std::vector<Entry> meta, Warnings &warnings)
   {
     progress.finish();
+    const auto ending  = status == "completed" && interrupted() ? interruption : status; // behind the last step
     const bool in_time = scene.analysis.type == AnalysisType::transient;
     auto summary       = in_time ? transient_summary(scene, rows) : make_summary(scene, rows);
     add_pair(rows, summary);
@@ -107,13 +108,15 @@ namespace sprag
     append(warnings, in_time ? transient_warnings(scene, rows) : deviation_warnings(summary));
     if (checkpoint != nullptr)
       meta.push_back({ "steps_taken_over", static_cast<double>(taken_over) });
-    const auto end = writer.finish(status, { summary, meta, {}, accuracy }, warnings);
+    const auto end = writer.finish(ending, { summary, meta, {}, accuracy }, warnings);
     if (checkpoint != nullptr)
-      checkpoint->finish(status);
-    if (status != "completed" && !quiet && !rows.empty())
+      checkpoint->finish(ending);
+    if (ending != "completed" && !quiet && !rows.empty())
       summary_line(std::cout, "ended early",
                    "at x = " + mm(rows.back()[Column::x]) + ", t = " + rounded_text(rows.back()[Column::time]) + " s, after " +
                        formatted("%.0f", 100. * travel / path_length(scene.drive)) + " % of the way");
+    if (ending != status)
+      throw AnalysisError(ending);
     return end.summary;
   }
 
@@ -137,10 +140,7 @@ namespace sprag
           complete();
           const double taken = static_cast<double>(report.steps) - static_cast<double>(recorder.steps_taken_over());
           const double rate  = seconds > 0. ? std::max(0., taken) / seconds : 0.;
-          const auto ending  = status_at_end(status);
-          recorder.finish(ending, joined(facts, { { "steps_per_cpu_second", rate } }), warnings);
-          if (ending != status)
-            throw AnalysisError(ending);
+          recorder.finish(status, joined(facts, { { "steps_per_cpu_second", rate } }), warnings);
         });
   }
 

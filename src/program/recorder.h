@@ -20,7 +20,7 @@ namespace sprag
   public:
     /// Makes the folder and result file. Throws InputError if they cannot be written. With a checkpoint what is recorded goes
     /// there, too, and a run that goes on from it begins with what it holds.
-    Recorder(const Scene &scene, const RunOptions &options, PhaseTimer &timer, const FacePoints &points,
+    Recorder(const Scene &scene, const RunOptions &options, const PhaseTimer *timer = nullptr, const FacePoints &points = {},
              Checkpoint *checkpoint = nullptr);
 
     void record(const Row &row);

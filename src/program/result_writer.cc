@@ -26,14 +26,13 @@ namespace sprag
   namespace
   {
     /// Returns the versions of program and libraries, and the time [s] and memory that the process has used.
-    std::vector<Entry> process_entries(PhaseTimer &timer)
+    std::vector<Entry> process_entries(const PhaseTimer &timer)
     {
-      std::vector<Entry> entries;
-      entries.push_back({ "version", version() });
-      entries.push_back({ "deal.II", std::string(SPRAG_DEAL_II_VERSION) });
-      entries.push_back({ "PETSc", std::to_string(PETSC_VERSION_MAJOR) + "." + std::to_string(PETSC_VERSION_MINOR) + "." +
-                                       std::to_string(PETSC_VERSION_SUBMINOR) });
-      entries.push_back({ "gmsh", std::string(GMSH_API_VERSION) });
+      std::vector<Entry> entries = { { "version", version() },
+                                     { "deal.II", SPRAG_DEAL_II_VERSION },
+                                     { "PETSc", std::to_string(PETSC_VERSION_MAJOR) + "." + std::to_string(PETSC_VERSION_MINOR) +
+                                                    "." + std::to_string(PETSC_VERSION_SUBMINOR) },
+                                     { "gmsh", GMSH_API_VERSION } };
       for (const auto &[name, phase] : timer.phases())
         entries.push_back({ "wall_time_" + name, phase.wall });
       for (const auto &[name, phase] : timer.phases())
@@ -44,11 +43,6 @@ namespace sprag
     }
   } // namespace
 
-  std::string status_at_end(const std::string &status)
-  {
-    return status == "completed" && interrupted() ? interruption : status;
-  }
-
   void write_file(const std::string &path, const std::string &text)
   {
     std::ofstream stream(path);
@@ -58,8 +52,8 @@ namespace sprag
       throw AnalysisError(path + " cannot be written");
   }
 
-  ResultWriter::ResultWriter(const Scene &scene_, const RunOptions &options_, PhaseTimer &timer_,
-                             const std::vector<ColumnInfo> &columns, const FacePoints &points)
+  ResultWriter::ResultWriter(const Scene &scene_, const RunOptions &options_, const std::vector<ColumnInfo> &columns,
+                             const PhaseTimer *const timer_, const FacePoints &points)
       : scene(scene_)
       , options(options_)
       , timer(timer_)
@@ -91,7 +85,7 @@ namespace sprag
     end.summary.push_back(status_entry(status));
     if (!options.chosen.empty())
       end.meta.push_back({ "chosen_settings", options.chosen });
-    sprag::append(end.meta, process_entries(timer));
+    sprag::append(end.meta, process_entries(timer != nullptr ? *timer : PhaseTimer()));
     describe_entries("fact", "", end.meta);
     const auto answer = answer_lines(scene.analysis.type, end.summary, end.answer);
     end.groups.push_back(answer);

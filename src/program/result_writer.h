@@ -32,9 +32,9 @@ namespace sprag
   {
   public:
     /// Makes the folder and the file, which has /face where there are points. Throws InputError if they cannot be written. The
-    /// timer is read at the end.
-    ResultWriter(const Scene &scene, const RunOptions &options, PhaseTimer &timer, const std::vector<ColumnInfo> &columns,
-                 const FacePoints &points = {});
+    /// timer, of a run whose phases are timed, is read at the end.
+    ResultWriter(const Scene &scene, const RunOptions &options, const std::vector<ColumnInfo> &columns,
+                 const PhaseTimer *timer = nullptr, const FacePoints &points = {});
 
     /// Appends a Row, a FaceState or the values of the columns.
     template <class Appended>
@@ -54,7 +54,7 @@ namespace sprag
   private:
     const Scene &scene;
     const RunOptions options;
-    PhaseTimer &timer;
+    const PhaseTimer *const timer;
     std::optional<ResultFile> file;
 
     void keep(const Row &row);
@@ -68,10 +68,6 @@ namespace sprag
 
   /// Writes a text that a run leaves beside its results. Throws AnalysisError where that fails.
   void write_file(const std::string &path, const std::string &text);
-
-  /// Returns `status` or, if the run was interrupted behind its last step, that of an interrupted run. The caller throws the
-  /// latter.
-  std::string status_at_end(const std::string &status);
 
   /// Runs `steps`, then always calls finish(status): with "completed", or with the message of an AnalysisError, which
   /// is thrown again.

@@ -49,14 +49,13 @@ namespace sprag
       if (options.quiet || with_margin.count(scene.analysis.type) == 0)
         return;
       require_writable(options.folder);
-      if (options.is_first)
-        std::cout << least_margin(scene) << '\n' << std::flush;
+      std::cout << least_margin(scene) << '\n' << std::flush;
     }
 
     /// Warnings and, in the last line, their number.
     void print_end(const std::string &end, const Warnings &warnings, const RunOptions &options)
     {
-      if (!options.quiet && options.is_first)
+      if (!options.quiet)
         std::cout << to_text(warnings) << end << count_text(warnings) << std::endl;
     }
 
@@ -71,9 +70,8 @@ namespace sprag
 
     void run_slope(const Scene &scene, const RunOptions &options, Warnings &warnings)
     {
-      PhaseTimer timer;
       const auto sweep = slope_sweep(scene);
-      ResultWriter writer(scene, options, timer, sweep.columns);
+      ResultWriter writer(scene, options, sweep.columns);
       for (const auto &row : sweep.rows)
         writer.append(row);
       const double mu = friction_coefficient(scene.friction, scene.drive.peak_speed()).coefficient;
@@ -84,8 +82,7 @@ namespace sprag
     /// Analysis/Maximum energy residual.
     void run_isolation_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
     {
-      PhaseTimer timer;
-      ResultWriter writer(scene, options, timer, isolation_columns());
+      ResultWriter writer(scene, options, isolation_columns());
       RecordTable record;
       if (options.in_memory == nullptr)
         record = [&](const IsolatedTable &table, const bool is_before)
@@ -97,8 +94,7 @@ namespace sprag
 
     void run_without_inertia(const Scene &scene, const RunOptions &options, Warnings &warnings)
     {
-      PhaseTimer timer;
-      Recorder recorder(scene, options, timer, {});
+      Recorder recorder(scene, options);
       std::vector<Entry> summary;
       finish_in_any_case([&] { run_closed_form(scene, record_until_interrupted(recorder)); },
                          [&](const std::string &status) { summary = recorder.finish(status, {}, warnings); });
@@ -109,7 +105,7 @@ namespace sprag
     {
       PhaseTimer timer;
       const double inertia = scene.analysis.model == ModelType::rigid ? moment_of_inertia(scene) : 0.;
-      Recorder recorder(scene, options, timer, {});
+      Recorder recorder(scene, options, &timer);
       announce_model(scene, options);
       record_steps(scene, recorder, timer, warnings, {},
                    [&] { return run_ideal_contact(scene, inertia, record_until_interrupted(recorder)); });
@@ -131,11 +127,6 @@ namespace sprag
     }
     print_end("completed, ", warnings, options);
     check_warnings(scene, warnings);
-  }
-
-  void run_by_formulas(const Scene &scene, const RunOptions &options)
-  {
-    run_from_margin_to_warnings(scene, options, run_formulas);
   }
 
   void run_formulas(const Scene &scene, const RunOptions &options, Warnings &warnings)

@@ -8,7 +8,6 @@
 
 namespace sprag
 {
-  struct Device;
   struct Scene;
 
   /// A function that carries out an analysis.
@@ -19,8 +18,5 @@ namespace sprag
   void run_from_margin_to_warnings(const Scene &scene, const RunOptions &options, const Run &analysis);
 
   /// Carries out the analysis of a scene that follows_formulas() and has no leaf spring. It throws what run() throws.
-  void run_by_formulas(const Scene &scene, const RunOptions &options);
-
-  /// Does what formulas do: see follows_formulas().
   void run_formulas(const Scene &scene, const RunOptions &options, Warnings &warnings);
 } // namespace sprag

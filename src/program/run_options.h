@@ -26,11 +26,10 @@ namespace sprag
   {
     std::string folder; ///< for results; made if it does not exist
     bool quiet             = false;
-    bool is_first          = true;    ///< of several processes that run the scene together: it prints
-    InMemory *in_memory    = nullptr; ///< for a run that writes no files and estimates no errors, in place of a folder; else null
-    unsigned int processes = 1;       ///< that run the scene together
     bool verbose           = false;   ///< prints all of a summary
     RunLog *log            = nullptr; ///< begins in the folder once that is made; null: none
+    unsigned int processes = 1;       ///< that run the scene together
+    InMemory *in_memory    = nullptr; ///< for a run that writes no files and estimates no errors, in place of a folder; else null
     std::string chosen     = {};      ///< settings that follow from the scene's Accuracy, "Section/Name = VALUE; ..."
   };
 } // namespace sprag

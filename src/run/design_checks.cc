@@ -186,11 +186,6 @@ namespace sprag
     return found == checks.rend() ? nullptr : &*found;
   }
 
-  DesignChecks::DesignChecks(const Scene &scene_)
-      : design(scene_)
-  {
-  }
-
   Scene DesignChecks::make_scene(const ModelCheck &check) const
   {
     const std::vector<std::string> without_fields = { "Output/Fields=none" };

@@ -10,8 +10,6 @@
 
 namespace sprag
 {
-  struct Scene;
-
   /// Result of a check of a proposed lever by a more expensive model.
   struct ModelCheck
   {
@@ -52,7 +50,10 @@ namespace sprag
   class DesignChecks
   {
   public:
-    explicit DesignChecks(const Scene &scene_);
+    explicit DesignChecks(const Scene &scene)
+        : design(scene)
+    {
+    }
 
     ModelCheck check(CheckModel by, const Proposal &lever, bool in_time);
 

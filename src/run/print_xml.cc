@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "base/errors.h"
 #include "input/sections.h"
-#include "run/error_text.h"
 #include "run/run.h"
 
 #include <deal.II/base/parameter_handler.h>

@@ -16,9 +16,12 @@
 #include "scene/analysis_use.h"
 #include "scene/scene.h"
 
+#include <deal.II/base/exceptions.h>
+
 #include <iostream>
 #include <map>
 #include <ostream>
+#include <sstream>
 
 namespace sprag
 {
@@ -142,22 +145,31 @@ namespace sprag
   {
     if (original.accuracy.leaves_open() || !original.mesh.file.empty())
       require_writable(options.folder);
-    const bool is_quiet        = options.quiet || !options.is_first;
     const double since         = PhaseTimer::cpu_seconds();
-    const auto [scene, choice] = is_quiet ? resolved(original) : resolved(original, print_trial);
+    const auto [scene, choice] = options.quiet ? resolved(original) : resolved(original, print_trial);
     RunOptions telling         = options;
     if (choice)
     {
       telling.chosen = to_text(choice->settings);
-      if (!is_quiet)
+      if (!options.quiet)
       {
         print_choice(std::cout, original, *choice);
         print_cost(std::cout, cost_with_trials(scene, since));
       }
       require_memory(scene, options.processes, options.in_memory == nullptr ? options.folder : "");
     }
-    if (!is_quiet)
+    if (!options.quiet)
       print_processes(std::cout, scene, options.processes);
     run_from_margin_to_warnings(scene, telling, carry_out);
+  }
+
+  std::string error_message(const std::exception &error)
+  {
+    const auto *dealii_error = dynamic_cast<const dealii::ExceptionBase *>(&error);
+    if (dealii_error == nullptr)
+      return error.what();
+    std::ostringstream text;
+    dealii_error->print_info(text);
+    return single_spaced(text.str());
   }
 } // namespace sprag

@@ -3,6 +3,8 @@
 
 #include "program/run_by_formulas.h"
 #include "program/run_options.h"
+#include <exception>
+#include <string>
 
 namespace sprag
 {
@@ -77,4 +79,7 @@ namespace sprag
 
   /// Makes parts that have the target k and J and finds the constants of the reduced models for them.
   void run_calibration(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
+  /// Returns a library's message in one line, without what it says about its sources.
+  std::string error_message(const std::exception &error);
 } // namespace sprag

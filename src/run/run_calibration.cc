@@ -62,14 +62,13 @@ namespace sprag
 
   void run_calibration(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    PhaseTimer timer;
     const auto parts      = calibrate_parts(scene);
     const auto reduced    = reduced_constants(parts.scene);
     const auto calibrated = variant(scene, joined(parts.overrides, { in_time, "Analysis/Model=condensed" }));
     const auto beam       = variant(scene, joined(joined(parts.overrides, reduced.overrides), { in_time }));
     const auto found      = compare(prepared(calibrated), prepared(beam));
 
-    ResultWriter writer(scene, options, timer, page_columns("calibration", "x direction P P_beam Q Q_beam"));
+    ResultWriter writer(scene, options, page_columns("calibration", "x direction P P_beam Q Q_beam"));
     if (options.in_memory == nullptr)
     {
       write_file(options.folder + "/calibrated.prm", "# Calibrated parts, in time, condensed\n" + parameters_text(calibrated));

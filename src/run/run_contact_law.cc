@@ -22,9 +22,8 @@ namespace sprag
 
   void run_contact_law(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    PhaseTimer timer;
     const auto law = indent(scene);
-    ResultWriter writer(scene, options, timer, page_columns("contact law", "P approach bending local P_fitted"));
+    ResultWriter writer(scene, options, page_columns("contact law", "P approach bending local P_fitted"));
     for (const auto &point : law.points)
       writer.append(std::vector<double>{ point.P, point.approach, point.bending, point.local(),
                                          law.fit.stiffness * std::pow(point.local(), law.fit.exponent) });

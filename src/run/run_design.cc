@@ -7,9 +7,9 @@
 #include "base/text.h"
 #include "base/unknown.h"
 #include "input/read.h"
+#include "program/output_folder.h"
 #include "program/result_writer.h"
 #include "report/summary_lines.h"
-#include "results/earlier_fields.h"
 #include "results/page_tables.h"
 #include "results/result_file.h"
 #include "run/design_checks.h"
@@ -423,7 +423,8 @@ namespace sprag
             throw AnalysisError(findings.unmet);
           }
           learn(check);
-          propose_again();
+          search([&] { findings.found = problem.expensive_model ? best_stable_lever() : best_lever(problem); });
+          require_lever();
         }
       }
 
@@ -477,12 +478,6 @@ namespace sprag
         }
         problem.expensive_model = [this](const Scene &lever, DesignQuantities &quantities)
         { quantities[DesignQuantity::growth_rate] = checks.beam_growth(lever); };
-      }
-
-      void propose_again()
-      {
-        search([&] { findings.found = problem.expensive_model ? best_stable_lever() : best_lever(problem); });
-        require_lever();
       }
 
       /// Returns the best lever of the closed form if it is stable. Otherwise searches with the growth rates of a beam, first
@@ -563,10 +558,9 @@ namespace sprag
 
   void run_design(const Scene &input, const RunOptions &options, Warnings &warnings)
   {
-    PhaseTimer timer;
     const Scene scene  = at_table_speed(input);
     const auto &design = scene.design;
-    ResultWriter writer(scene, options, timer, design_columns(design));
+    ResultWriter writer(scene, options, design_columns(design));
     remove_files(options.folder, [](const std::string &name) // of an earlier run
                  { return boost::starts_with(name, "design-") && boost::ends_with(name, ".prm"); });
     DesignFindings findings;

@@ -36,12 +36,6 @@ namespace sprag
       return word_for(force_words(), channel.force);
     }
 
-    /// An interval's half-width to two digits.
-    std::string half_width(const FoundNumber &found)
-    {
-      return formatted("%.2g", found.high - found.value);
-    }
-
     /// Least share of independent values in residuals that are noise of sensors.
     constexpr double least_independent = 0.3;
     constexpr double least_deviation   = 1e-3; ///< smaller residuals, over the largest force, are round-off
@@ -210,7 +204,7 @@ namespace sprag
     {
       std::vector<AnswerLine> lines;
       for (const auto &one : found.found)
-        lines.push_back({ one.number.name, with_unit(one.value, "") + " +- " + half_width(one) +
+        lines.push_back({ one.number.name, with_unit(one.value, "") + " +- " + formatted("%.2g", one.high - one.value) +
                                                (one.number.unit == "1" ? "" : " " + one.number.unit) });
       const auto &channels = scene.identification.measured.channels;
       for (std::size_t i = 0; i < channels.size(); ++i)
@@ -268,12 +262,11 @@ namespace sprag
 
   void run_identification(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    PhaseTimer timer;
     const MeasuredMotion motion(scene);
     const LeverUnknowns unknowns(scene, motion);
     const StrokeFit fit(scene, motion, unknowns);
     const auto &measured = scene.identification.measured;
-    ResultWriter writer(scene, options, timer, identification_columns(measured));
+    ResultWriter writer(scene, options, identification_columns(measured));
     Identification found;
     std::string no_scene;
     finish_in_any_case(

@@ -51,7 +51,7 @@ namespace sprag
     const auto outward = maker->make(scene);
     const auto inward  = maker->make(scene);
     Checkpoint checkpoint(scene, options);
-    ResultWriter writer(scene, options, maker->timer(), isolation_columns());
+    ResultWriter writer(scene, options, isolation_columns(), &maker->timer());
     Progress progress(std::cerr, progress_style(options.quiet || options.in_memory != nullptr), scene.isolation.duration);
     if (checkpoint.resumes())
       take_over(checkpoint, writer, progress, options.quiet);

@@ -98,8 +98,8 @@ namespace sprag
 
     const Dataset &find_dataset(const Group &map, const std::string &name)
     {
-      return *std::find_if(map.datasets.begin(), map.datasets.end(),
-                           [&](const Dataset &candidate) { return candidate.info.name == name; });
+      return *find_by(
+          map.datasets, [](const Dataset &dataset) { return dataset.info.name; }, name);
     }
 
     /// Returns for each point of the grid whether its growth rate, by which it grows or dies out, is smaller than its error.
@@ -166,7 +166,7 @@ namespace sprag
                    const std::string &status, const std::vector<Entry> &meta, Warnings &warnings)
     {
       const Group group = map_group(scene, map.grid, farm.cells());
-      ResultWriter writer(scene, options, farm.timer(), boundary_columns(scene.map));
+      ResultWriter writer(scene, options, boundary_columns(scene.map), &farm.timer());
       for (const auto &point : map.boundary)
         writer.append(boundary_row(scene.map, point));
       append(warnings, left_out_modes(scene, farm.cells()));
@@ -176,7 +176,7 @@ namespace sprag
 
   void run_map(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    FarmProgress progress{ progress_style(options.quiet || !is_first_rank()) };
+    FarmProgress progress{ progress_style(options.quiet) };
     MapFarm farm(scene, options, progress);
     StabilityMap map{ MapGrid(scene.map.first.points, scene.map.second.points, scene.map.coarsest) };
     finish_in_any_case([&] { check_all(scene, farm, progress, map); },

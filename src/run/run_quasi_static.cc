@@ -88,22 +88,17 @@ namespace sprag
       }
     };
 
-    void serialise(Archive &archive, Samples &samples)
-    {
-      archive(samples.next, samples.travel, samples.last_x, samples.face_samples);
-    }
-
     /// Runs a lever or a pair. `make_trial_runs`(rows, settings, stresses) makes the trial runs of its accuracy.
     template <class Lever, class MakeTrialRuns>
     void drive_levers(const Scene &scene, const RunOptions &options, PhaseTimer &timer, Lever &levers,
                       const MakeTrialRuns &make_trial_runs, Warnings &warnings)
     {
       Checkpoint checkpoint(scene, options);
-      Recorder recorder(scene, options, timer, levers.face_points(), &checkpoint);
+      Recorder recorder(scene, options, &timer, levers.face_points(), &checkpoint);
       if (!options.quiet)
         print_model(scene, levers);
       Samples samples{ path_length(scene.drive) / states_checked };
-      checkpoint.add_part([&](Archive &archive) { serialise(archive, samples); });
+      checkpoint.add_part([&](Archive &archive) { archive(samples.next, samples.travel, samples.last_x, samples.face_samples); });
       const bool has_frames    = scene.output.fields != FieldOutput::none;
       const auto displacements = [&levers](const std::vector<FieldSource> &sources)
       { return levers.body_displacements(mapped(sources, to_static_state)); };
@@ -150,10 +145,7 @@ namespace sprag
               recorder.accuracy     = quasi_static_accuracy(scene, recorder.recorded(), trial_runs);
             }
             meta.push_back({ "stick_stiffness", stick });
-            const auto ending = status_at_end(status);
-            summary           = recorder.finish(ending, meta, warnings);
-            if (ending != status)
-              throw AnalysisError(ending);
+            summary = recorder.finish(status, meta, warnings);
           });
       check_deviation(scene, summary);
     }

@@ -291,18 +291,17 @@ namespace sprag
 
   void run_sprag_slip(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    const auto shared   = dynamics_maker(options);
-    auto &maker         = *shared;
+    const auto maker    = dynamics_maker(options);
     const Scene held    = held_scene(scene);
-    const auto dynamics = maker.make(held);
-    ResultWriter writer(scene, options, maker.timer(),
-                        table_columns(scene.plate, scene.pair, scene.analysis.dimension, scene.cylinder));
+    const auto dynamics = maker->make(held);
+    ResultWriter writer(scene, options, table_columns(scene.plate, scene.pair, scene.analysis.dimension, scene.cylinder),
+                        &maker->timer());
     Progress progress(std::cerr, progress_style(options.quiet), count_parts(scene.sprag_slip));
     SpragSlip found;
     finish_in_any_case(
         [&]
         {
-          const PhaseTimer::Scope scope(maker.timer(), "steps_and_output");
+          const PhaseTimer::Scope scope(maker->timer(), "steps_and_output");
           const auto drive = held_drive(scene);
           found.slide      = check_slide(dynamics.model(), drive, with_shapes(checked_modes(scene)));
           require_slide(found, drive.x);

@@ -422,11 +422,9 @@ namespace sprag
         for (const auto &name : record.warnings)
           ++counts[name];
       }
-      std::vector<std::string> texts;
-      for (const auto &[name, count] : counts)
-        texts.push_back(name + " in " + std::to_string(count));
-      if (texts.empty())
+      if (counts.empty())
         return {};
+      const auto texts = mapped(counts, [](const auto &count) { return count.first + " in " + std::to_string(count.second); });
       return { make_warning("runs_with_warnings",
                             { std::to_string(warned), std::to_string(records.size()), boost::algorithm::join(texts, ", ") }) };
     }
@@ -436,8 +434,7 @@ namespace sprag
     {
       const auto findings = make_findings(scene.study, runs.points(), records);
       const auto table    = study_table(findings);
-      PhaseTimer timer;
-      ResultWriter writer(scene, options, timer, mapped(table.datasets, &Dataset::info));
+      ResultWriter writer(scene, options, mapped(table.datasets, &Dataset::info));
       for (std::size_t row = 0; row < table.datasets.front().values.size(); ++row)
         writer.append(mapped(table.datasets, [row](const Dataset &column) { return column.values[row]; }));
       std::vector<Group> groups = {
@@ -458,7 +455,7 @@ namespace sprag
 
   void run_study(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    FarmProgress progress{ progress_style(options.quiet || !is_first_rank()) };
+    FarmProgress progress{ progress_style(options.quiet) };
     StudyRuns runs(scene);
     on_first_rank([&] { require_possible_runs(scene); });
     TaskFarm farm(scene, options, { "study", "runs", "made again" }, progress);

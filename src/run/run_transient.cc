@@ -9,6 +9,7 @@
 #include "run/field_recorder.h"
 #include "run/in_memory.h"
 #include "run/run.h"
+#include "scene/analysis_use.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"
 
@@ -21,15 +22,6 @@ namespace sprag
 {
   namespace
   {
-    /// Finds the growing modes about the slides of the run. It uses a model of its own, condensed for finite elements, which
-    /// find the lowest vibrations alone.
-    std::vector<GrowingMode> find_growing_modes(Scene scene, DynamicsMaker &maker)
-    {
-      if (scene.analysis.model == ModelType::finite_element)
-        scene.analysis.model = ModelType::condensed;
-      return growing_modes(maker.make(scene).model(), scene.drive);
-    }
-
     void announce(const std::vector<GrowingMode> &modes, const Scene &scene, const RunOptions &options)
     {
       if (options.quiet || modes.empty())
@@ -92,15 +84,15 @@ namespace sprag
 
   void run_transient_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    const auto shared   = dynamics_maker(options);
-    auto &maker         = *shared;
-    auto &timer         = maker.timer();
-    const auto dynamics = maker.make(scene);
+    const auto maker    = dynamics_maker(options);
+    auto &timer         = maker->timer();
+    const auto dynamics = maker->make(scene);
     auto &model         = dynamics.model();
     const Body *body    = dynamics.lever ? dynamics.lever->body.get() : nullptr;
-    const auto growing  = find_growing_modes(scene, maker);
+    // A model of its own finds them, condensed for finite elements, which find the lowest vibrations alone.
+    const auto growing = growing_modes(maker->make(with_condensed_lever(scene)).model(), scene.drive);
     Checkpoint checkpoint(scene, options);
-    Recorder recorder(scene, options, timer, model.face_points(), &checkpoint);
+    Recorder recorder(scene, options, &timer, model.face_points(), &checkpoint);
     announce_model(scene, options);
     if (body != nullptr)
       announce(dynamics.meshed, *body, scene, options);
@@ -149,7 +141,7 @@ namespace sprag
           if (is_complete && estimates_errors(scene, options))
           {
             const PhaseTimer::Scope scope(timer, "accuracy");
-            recorder.accuracy = transient_accuracy(scene, dynamics.meshed, recorder.recorded(), maker);
+            recorder.accuracy = transient_accuracy(scene, dynamics.meshed, recorder.recorded(), *maker);
           }
           if (fields)
             recorder.stress = fields->finish();

@@ -97,10 +97,8 @@ namespace sprag
         const auto search = expected_work(scene, range);
         return range.name == "Stability/Position" ? search.values : search.slides;
       };
-      double expected = 0.;
-      for (const auto &range : ranges)
-        expected += work(range);
-      Progress progress(std::cerr, progress_style(quiet || is_reduced(scene.analysis.model)), std::max(1., expected));
+      Progress progress(std::cerr, progress_style(quiet || is_reduced(scene.analysis.model)),
+                        std::max(1., sum_over(ranges, work)));
       double begun         = 0.;
       const bool has_error = is_meshed(scene.analysis.model) || scene.analysis.model == ModelType::beam;
       std::vector<CriticalSearch> result;
@@ -365,10 +363,9 @@ namespace sprag
 
   void run_vibrations(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    const auto shared   = dynamics_maker(options);
-    auto &maker         = *shared;
+    const auto maker    = dynamics_maker(options);
     const bool undamped = scene.analysis.type == AnalysisType::modal;
-    const auto end      = undamped ? modal(scene, maker, options) : stability(scene, maker, options, warnings);
-    ResultWriter(scene, options, maker.timer(), {}).finish("completed", end, warnings);
+    const auto end      = undamped ? modal(scene, *maker, options) : stability(scene, *maker, options, warnings);
+    ResultWriter(scene, options, {}, &maker->timer()).finish("completed", end, warnings);
   }
 } // namespace sprag

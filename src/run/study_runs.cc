@@ -11,7 +11,6 @@
 #include "input/scene_key.h"
 #include "program/resources.h"
 #include "report/warnings.h"
-#include "run/error_text.h"
 #include "run/run.h"
 #include "scene/analysis_use.h"
 #include "scene/scene.h"
@@ -53,13 +52,6 @@ namespace sprag
         first = first.empty() ? describe_error(error) : first;
       }
     throw InputError(study.name + ".prm: Study/Vary: every run is refused, the first one because of " + first);
-  }
-
-  StudyRuns::StudyRuns(const Scene &study_)
-      : study(study_)
-      , all_points(make_study_points(study.study))
-      , has_reference(!study.study.reference_values.empty())
-  {
   }
 
   Scene StudyRuns::make_scene(const std::size_t index) const

@@ -10,8 +10,6 @@
 
 namespace sprag
 {
-  struct Scene;
-
   /// Throws InputError where no run of a study is possible, or not its reference.
   void require_possible_runs(const Scene &study);
 
@@ -19,7 +17,10 @@ namespace sprag
   class StudyRuns
   {
   public:
-    explicit StudyRuns(const Scene &study);
+    explicit StudyRuns(const Scene &scene)
+        : study(scene)
+    {
+    }
 
     /// Lists the points of the study, which are its runs; the reference, where there is one, comes behind them.
     const std::vector<StudyPoint> &points() const
@@ -42,9 +43,9 @@ namespace sprag
 
   private:
     const Scene study;
-    const std::vector<StudyPoint> all_points;
-    const bool has_reference;
-    InMemory in_memory = run_in_memory();
+    const std::vector<StudyPoint> all_points = make_study_points(study.study);
+    const bool has_reference                 = !study.study.reference_values.empty();
+    InMemory in_memory                       = run_in_memory();
 
     Scene make_scene(std::size_t index) const;
     void carry_out_run(std::size_t index, StudyRecord &record);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/fields/field_files.h"
 
-#include "results/earlier_fields.h"
+#include "program/output_folder.h"
 
 #include "mpi_environment.h"
 #include "support/temporary_folder.h"

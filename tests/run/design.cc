@@ -8,6 +8,7 @@
 #include "mpi_environment.h"
 #include "report/report.h"
 #include "run/design_checks.h"
+#include "run/in_memory.h"
 #include "run/run.h"
 #include "scene/scene.h"
 #include "support/find_value.h"
@@ -54,7 +55,7 @@ namespace
   {
     InMemory in_memory = run_in_memory();
     Warnings warnings;
-    carry_out(prepared(lever), { {}, true, true, &in_memory }, warnings);
+    carry_out(prepared(lever), make_options(in_memory), warnings);
     return in_memory.found.summary;
   }
 } // namespace
