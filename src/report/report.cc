@@ -308,14 +308,11 @@ namespace sprag
   {
     if (count_levers(rows) == 1)
       return;
-    auto second = rows;
-    for (Row &row : second)
-      for (const Column column : { Column::P, Column::Q })
-        row[column] = row.second_value(column);
+    const auto second = lever_rows(rows, 1);
     for (const Column column : { Column::P, Column::Q })
       for (const auto &[direction, name] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
         entries.push_back({ "second_peak_" + column_info(column).name + "_" + name,
-                            peak_between_rows(second, column, moves_with_friction(rows, direction, column)) });
+                            peak_between_rows(second, column, moves_with_friction(second, direction, column)) });
     const auto difference = [](const Row &row) { return row[Column::P] - row.second_value(Column::P); };
     append<Entry>(entries, { { "peak_lateral_force", signed_peak(rows, [](const Row &row) { return row.lateral_force(); }) },
                              { "peak_swing", signed_peak(rows, [](const Row &row) { return row.swing(); }) },

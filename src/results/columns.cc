@@ -59,7 +59,8 @@ namespace sprag
   {
     static const std::vector<Column> columns = {
       // Motion and forces of the lever.
-      Column::theta, Column::theta_rate, Column::s, Column::P, Column::F, Column::Q, Column::v_rel, Column::mu,
+      Column::theta, Column::theta_rate, Column::s, Column::P, Column::F, Column::Q, Column::normal_resultant,
+      Column::friction_resultant, Column::v_rel, Column::mu,
       // Shape of its contact.
       Column::centre_offset, Column::contact_width, Column::largest_pressure, Column::largest_pressure_xi,
       // References.

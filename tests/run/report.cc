@@ -63,6 +63,33 @@ namespace
   }
 } // namespace
 
+// The second lever's friction has turned in the first row behind the reversal, where its P is largest, the first one's has not.
+TEST(Report, PeaksOfThePairsSecondLeverCountByItsOwnFriction)
+{
+  std::vector<Row> rows;
+  for (const auto &[x, friction, P] :
+       { std::array{ 65., 9., 18. }, { 64.9, 2., 21.5 }, { 64.8, -10., 21.4 }, { 64., -10., 21. } })
+  {
+    Row row, second;
+    row[Column::time] = 65. - x;
+    row[Column::x]    = x;
+    row[Column::v]    = x < 65. ? -112. : 112.;
+    for (Row *const lever : { &row, &second })
+    {
+      (*lever)[Column::normal_resultant]   = 20.;
+      (*lever)[Column::mu]                 = lever == &row ? 0.5 : 0.25;
+      (*lever)[Column::friction_resultant] = friction;
+      (*lever)[Column::P]                  = P;
+    }
+    second[Column::friction_resultant] = x < 65. ? -5. : 5.;
+    row.add_second_lever(second);
+    rows.push_back(row);
+  }
+  std::vector<Entry> entries;
+  add_pair(rows, entries);
+  EXPECT_EQ(find_value(entries, "second_peak_P_backward"), 21.5);
+}
+
 // s = mu e = 120.84 mm at l - x = sqrt(s^2 + (R - e)^2): a rigid lever locks with mu = 2.65 from x = 64.21 mm on.
 TEST(Report, StickPastLockingHasItsEnds)
 {
