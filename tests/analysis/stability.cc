@@ -352,7 +352,7 @@ TEST(LossFactor, IsThatOfADashpotAtTheOwnFrequency)
   }
 }
 
-// The contact comes to a node of a thin beam at 6.62 times the friction, where its curvature jumps; beyond it slides are found.
+// No equilibrium of a thin beam is found at 6.62 times the friction; beyond it slides are found.
 TEST(CriticalValues, AreToldAcrossValuesThatCannotBeChecked)
 {
   DynamicsMaker maker;
