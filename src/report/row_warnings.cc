@@ -49,6 +49,10 @@ namespace sprag
     constexpr double incompressible                        = 0.4;
     constexpr double admitted_peak_share                   = 0.02; ///< of the rows, and least P that counts, over the largest
 
+    // Drives that come to one x from further out differ in P, where friction rises with speed, by 5 to 20 % of P with the slip
+    // speed's share at this bound, and by none below a quarter of it.
+    constexpr double largest_own_speed_share = 0.05;
+
     std::string per_cent(const double share)
     {
       return rounded_text(std::round(1000. * share) / 10.) + " %";
@@ -332,27 +336,25 @@ namespace sprag
     return warnings;
   }
 
-  Warnings slide_warnings(const Scene &scene, const DrivePoint &drive, const std::vector<double> &P, const double indentation)
+  Warnings slide_warnings(const Scene &scene, Row slide, const double own_speed_share)
   {
-    Row row;
-    row[Column::x]           = drive.x;
-    row[Column::v]           = drive.v;
-    row[Column::v_rel]       = sliding_speed(scene.geometry, drive.x, drive.v);
-    row[Column::P]           = P.front();
-    row[Column::indentation] = indentation;
-    if (P.size() == 2)
+    const auto judge = [](const Scene &own, std::vector<Row> rows)
     {
-      Row second        = row;
-      second[Column::P] = P.back();
-      row.add_second_lever(second);
-    }
-    return each_lever(scene, { row },
-                      [](const Scene &own, const std::vector<Row> &rows)
-                      {
-                        auto warnings = lever_warnings(own, rows);
-                        add_falling_friction(own, rows, warnings);
-                        return warnings;
-                      });
+      for (Row &row : rows)
+      {
+        const auto ideal               = kinematics(own.geometry, row[Column::x]);
+        row[Column::s]                 = ideal.s;
+        row[Column::theta_closed_form] = ideal.theta;
+      }
+      auto warnings = lever_warnings(own, rows);
+      add_falling_friction(own, rows, warnings);
+      return warnings;
+    };
+    auto warnings = each_lever(scene, { slide }, judge);
+    if (own_speed_share > largest_own_speed_share)
+      warnings.push_back(
+          make_warning("path_dependent_slide", { place(slide), per_cent(own_speed_share), per_cent(largest_own_speed_share) }));
+    return warnings;
   }
 
   Warnings beam_warnings(const Scene &scene, const double frequency, const double growth_rate)

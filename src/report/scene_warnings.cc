@@ -501,7 +501,7 @@ namespace sprag
     }
 
     /// Warns of parameters of parts that nothing says to be there, by the beginnings of their names, the choice and its word.
-    /// Where the choice is given, they may stand for another run.
+    /// They are admitted where the file gives the choice itself, be it another: it may serve several runs.
     void add_absent_parts(const Scene &scene, Warnings &warnings)
     {
       static const std::vector<std::array<std::string, 3>> parts = {

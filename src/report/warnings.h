@@ -3,7 +3,6 @@
 
 #include "results/columns.h"
 #include "results/warning.h"
-#include "scene/drive.h"
 #include "scene/lever.h"
 
 #include <optional>
@@ -23,8 +22,9 @@ namespace sprag
   /// Throws AnalysisError where there are warnings and Analysis/Warnings = error; the message quotes the first of them.
   void check_warnings(const Scene &scene, const Warnings &warnings);
 
-  /// Returns the warnings for a steady slide under P of each lever [N] with this compression of the layer [mm].
-  Warnings slide_warnings(const Scene &scene, const DrivePoint &drive, const std::vector<double> &P, double indentation);
+  /// Returns the warnings for a steady slide, by its row of x, v, v_rel, theta, P and indentation. `own_speed_share`: see
+  /// HeldSlide.
+  Warnings slide_warnings(const Scene &scene, Row slide, double own_speed_share);
 
   /// Warns of a growing vibration of a beam whose waves are too short for it, see highest_beam_frequency().
   /// `frequency` and `growth_rate` are its own [Hz, 1/s].

@@ -17,6 +17,7 @@
 #include "run/run.h"
 #include "run/vibration_report.h"
 #include "scene/analysis_use.h"
+#include "scene/closed_form.h"
 #include "scene/contact_estimates.h"
 #include "scene/held_slide.h"
 #include "scene/mirrored_pair.h"
@@ -118,14 +119,15 @@ namespace sprag
       return result;
     }
 
-    /// Returns the loss factor that a dashpot of some Contact/Damping has at the frequency of a slide.
+    /// Returns the loss factor that a dashpot of some Contact/Damping has at the frequency of a slide; NaN where it diverges.
     double dashpot_loss_factor(Scene scene, const CheckedSlide &slide, const double damping)
     {
       scene.contact.damping  = damping;
       const auto reference   = contact_reference(scene);
       const bool has_law     = is_reduced(scene.analysis.model); // the dashpot stays where it is softer under a smaller P
       const double stiffness = has_law ? std::pow(reference.P / slide.P, 1. - 1. / scene.contact.exponent) : 1.;
-      return 2. * M_PI * slide.frequency * reference.relaxation * stiffness;
+      const double omega     = slide.frequency == 0. ? std::nan("") : 2. * M_PI * slide.frequency;
+      return omega * reference.relaxation * stiffness;
     }
 
     /// Finds over which Contact/Damping the verdict stays what it is, where a search from the scene's own to none and to a large
@@ -234,6 +236,28 @@ namespace sprag
       return pose;
     }
 
+    /// Returns the row of a slide for slide_warnings().
+    Row slide_row(const Scene &scene, const DynamicModel &model, const HeldSlide &slide)
+    {
+      Row observed;
+      model.observe(slide.motion, observed);
+      Row row;
+      row[Column::x]           = slide.drive.x;
+      row[Column::v]           = slide.drive.v;
+      row[Column::v_rel]       = sliding_speed(scene.geometry, slide.drive.x, slide.drive.v);
+      row[Column::theta]       = observed[Column::theta];
+      row[Column::P]           = slide.forces.P;
+      row[Column::indentation] = slide.indentation;
+      if (slide.second)
+      {
+        Row second            = row;
+        second[Column::theta] = observed.lever_value(Column::theta, 1);
+        second[Column::P]     = slide.second->P;
+        row.add_second_lever(second);
+      }
+      return row;
+    }
+
     /// The modes as fields for ParaView, mode-01.xdmf, ...
     void write_fields(const Scene &scene, const Dynamics &dynamics, const DevicePose &held, const std::vector<Eigenmode> &modes,
                       const RunOptions &options)
@@ -311,10 +335,8 @@ namespace sprag
         if (found.slide)
         {
           write_fields(scene, dynamics, slide_pose(scene, dynamics.model(), *found.slide), modes, options);
-          std::vector<double> P = { found.slide->forces.P };
-          if (found.slide->second)
-            P.push_back(found.slide->second->P);
-          append(warnings, slide_warnings(scene, found.slide->drive, P, found.slide->indentation));
+          const auto row = slide_row(scene, dynamics.model(), *found.slide);
+          append(warnings, slide_warnings(scene, row, found.slide->own_speed_share));
           if (found.beyond)
             append(warnings, beam_warnings(scene, mode_frequency(*found.beyond), found.beyond->mode.eigenvalue.real()));
         }

@@ -14,6 +14,7 @@ from runs import SOURCE, RunTest, counted, run_scene  # noqa: E402
 
 FORWARD = ("Drive/Cycles=0.5", "Output/Fields=none", "Analysis/Step=2")
 BEAM = ("Analysis/Model=beam", "Stability/Critical=none", "Stability/Roles=off")
+RISING = ("Friction/Law=Stribeck", "Friction/Static coefficient=0.4", "Friction/Kinetic coefficient=0.4", "Friction/Viscous coefficient=0.004")
 FALLING = ("Friction/Law=Stribeck", "Friction/Stribeck speed=10", "Drive/Speed=10")
 COARSE = ("Drive/Cycles=0.5", "Output/Fields=none", "Analysis/Step=13")
 OTHER_DEVICE = ("Geometry/Cylinder radius=50", "Geometry/Pivot distance=180")
@@ -30,6 +31,7 @@ PROVOKED = {
     "map of beams without modal damping": ("map-friction-depth-a", ("Lever/Modal damping=0", "Map/First points=2", "Map/Second points=2", "Map/Coarsest=1", "Map/Bisections=0"), ["beyond_the_beam"]),
     "layer under a beam": ("stability-a", (*BEAM, "Friction layer/Young's modulus=40"), ["foreign_contact_law"]),
     "falling friction of a beam": ("stability-a", (*BEAM, *FALLING), []),
+    "friction that rises close to locking": ("stability-a", (*BEAM, *RISING, "Lever/Depth=8", "Stability/Position=60", "Stability/Direction=backward", "Drive/Speed=560"), ["pressure_beyond_strength", "path_dependent_slide"]),
     "friction that falls at once": ("stability-a", (*BEAM, *FALLING, "Friction/Memory length=1e-3"), ["runaway_slip"]),
     "friction that falls at once, in time": ("stribeck-a", ("Support/Type=rigid", "Drive/Start=53", "Friction/Memory length=1e-4"), ["runaway_slip"]),
     "slides of a harmonic drive": ("stability-a", (*BEAM, "Drive/Profile=harmonic", "Stability/Position=auto"), ["largest_speed_alone"]),
@@ -40,7 +42,7 @@ PROVOKED = {
 # Numbers, places and names of the run in the texts of a warning.
 NUMBERS = {
     "defaults_of_model_a": 2, "foreign_contact_law": 5, "judged_another_lever": 2, "mu_of_one_speed": 6, "table_beyond_stroke": 2, "absent_part": 1, "near_locking": 6, "leaf_beyond_yield": 7, "locks": 4, "beyond_the_beam": 3, "plane_stress_of_layer": 5, "contact_between_points": 5,
-    "implausible_values": 1, "unused_columns": 1, "shaking_drive": 3, "drifting_record": 2, "sensor_in_tension": 2, "runaway_slip": 3, "largest_speed_alone": 1, "without_effect": 1,
+    "implausible_values": 1, "unused_columns": 1, "shaking_drive": 3, "drifting_record": 2, "sensor_in_tension": 2, "runaway_slip": 3, "path_dependent_slide": 3, "largest_speed_alone": 1, "without_effect": 1,
     "speed_beyond_table": 3, "overlap_of_layer": 4, "soft_penalty": 4, "coarse_contact": 3, "stiff_penalty": 6, "soft_tangential_penalty": 5, "large_deflection": 4,
     "far_from_closed_form": 2, "large_strain": 4, "pressure_beyond_strength": 5, "long_steps": 3, "target_missed": 2, "hidden_vibration": 7, "no_steady_state": 2, "runs_with_warnings": 3,
     "element_passing": 4, "indistinct_unknowns": 1, "model_does_not_follow": 1, "not_converged": 1,
@@ -83,6 +85,7 @@ ADVISED = {
     "contact_between_points": ("model-a", ROWS["e almost R"][0], [("Mesh/Face size=0.2",), ("Geometry/Interface offset=50",), ("Drive/Stroke=80",), ("Analysis/Model=closed form",)]),
     "shaking_drive": ("reversal-a", ("Drive/Profile=table", "Drive/Table=identification-a.csv", "Drive/Start=0"), [("Drive/Smoothing=0.01",)]),
     "drifting_record": ("isolation-a", (), [("Isolation/Drift correction=on",)]),
+    "path_dependent_slide": ("stability-a", (*BEAM, *RISING), [("Analysis/Type=transient",), ("Drive/Speed=50",)]),
     "runaway_slip": ("stability-a", (*BEAM, *FALLING), [("Friction/Memory length=0.1",)]),
     "largest_speed_alone": ("stability-a", (*BEAM, "Stability/Position=auto"), [("Drive/Profile=triangle", "Stability/Ranges=Drive/Speed 50 112")]),
     "overlap_of_layer": ("model-a", PENALTY, [("Contact/Penalty=auto",), ("Contact/Penalty=2000",)]),

@@ -196,23 +196,38 @@ TEST(RowWarnings, PressureBeyondStrength)
   EXPECT_EQ(names(row_warnings(scene, { no_face })), Names{});
 }
 
-// The second lever of a pair presses its cork beyond 0.8 MPa, or slides where friction falls too fast, and the first does not.
+// The second lever of a pair presses its cork beyond 0.8 MPa, bends, or slides where friction falls too fast, and the first does
+// not. The slip speed's share is that of both.
 TEST(SlideWarnings, OfThePairsSecondLever)
 {
-  Scene scene             = model_a();
-  scene.pair.type         = PairType::full;
-  scene.analysis.model    = ModelType::beam;
-  const auto names_behind = [&](const std::vector<double> &P) {
-    return names(slide_warnings(scene, { 0., 30., 100., 0. }, P, 0.));
+  Scene scene          = model_a();
+  scene.pair.type      = PairType::full;
+  scene.analysis.model = ModelType::beam;
+  const double ideal   = kinematics(scene.geometry, 30.).theta;
+  const auto warned    = [&](const double P, const double turn, const double own_speed_share, const double speed = 100.)
+  {
+    Row row           = make_row({ { Column::x, 30. },
+                                   { Column::v, speed },
+                                   { Column::v_rel, speed },
+                                   { Column::theta, ideal },
+                                   { Column::P, 5. },
+                                   { Column::indentation, 0. } });
+    Row second        = row;
+    second[Column::P] = P;
+    second[Column::theta] += turn;
+    row.add_second_lever(second);
+    return slide_warnings(scene, row, own_speed_share);
   };
-  EXPECT_EQ(names_behind({ 5., 5. }), Names{});
-  EXPECT_EQ(names_behind({ 5., 500. }), Names{ "pressure_beyond_strength" });
-  EXPECT_NE(slide_warnings(scene, { 0., 30., 100., 0. }, { 5., 500. }, 0.).front().found.find("second lever"), std::string::npos);
+  EXPECT_EQ(names(warned(5., 0.019, 0.049)), Names{});
+  EXPECT_EQ(names(warned(5., 0.021, 0.)), Names{ "large_deflection" });
+  EXPECT_EQ(names(warned(5., 0., 0.051)), Names{ "path_dependent_slide" });
+  EXPECT_EQ(names(warned(500., 0., 0.)), Names{ "pressure_beyond_strength" });
+  EXPECT_NE(warned(500., 0., 0.).front().found.find("second lever"), std::string::npos);
   scene.friction.law           = StribeckFriction{ 0.9, 0.3, 10. };
   scene.friction.memory_length = 1e-3;
   scene.friction.factor        = 1e-3;
   scene.pair.friction_ratio    = 1e3;
-  EXPECT_EQ(slide_warnings(scene, { 0., 30., 10., 0. }, { 5., 5. }, 0.).size(), 1u);
+  EXPECT_EQ(names(warned(5., 0., 0., 10.)), Names{ "runaway_slip" });
 }
 
 // Largest pressures of a rigid cylinder of R = 56 mm under 0.895 N/mm on a bonded layer in plane strain, by collocation with the

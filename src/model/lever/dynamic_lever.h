@@ -131,11 +131,12 @@ namespace sprag
     {
       if (friction != ContactFriction::sliding)
         return slide_at(drive, friction, 1.);
-      const auto frictionless = slides.solve(drive, 1., ContactFriction::none);
-      const auto free_forces  = frictionless == nullptr ? std::vector<SlidingForces>() : last_forces();
-      const double nearby     = 1e-3 * frame.geometries.front().cylinder_radius;
-      const auto usual_ratio  = slides.speed_ratio(drive, nearby);
-      auto slide              = slide_at(drive, friction, usual_ratio.value_or(1.));
+      const auto frictionless   = slides.solve(drive, 1., ContactFriction::none);
+      const auto free_forces    = frictionless == nullptr ? std::vector<SlidingForces>() : last_forces();
+      const double nearby       = 1e-3 * frame.geometries.front().cylinder_radius;
+      const auto usual_ratio    = slides.speed_ratio(drive, nearby);
+      const auto at_rigid_speed = usual_ratio ? last_forces() : std::vector<SlidingForces>();
+      auto slide                = slide_at(drive, friction, usual_ratio.value_or(1.));
       if (!usual_ratio || !slide || !(slide->uniqueness > 0.))
       {
         if (const auto end = grow_friction(drive, 1.); end.share < 1.)
@@ -155,6 +156,8 @@ namespace sprag
         }
       }
       slide->margin = free_forces.empty() ? 0. : free_forces.front().P / slide->forces.P;
+      if (!at_rigid_speed.empty() && slide->forces.P > 0.)
+        slide->own_speed_share = std::abs(1. - at_rigid_speed.front().P / slide->forces.P);
       if (slide->second && slide->second->P > 0. && !free_forces.empty())
         slide->margin = std::fmin(slide->margin, free_forces.back().P / slide->second->P);
       return slide;

@@ -69,7 +69,8 @@ namespace sprag
     std::optional<SlidingForces> second; ///< forces of a pair's second lever
     double margin = 0.; ///< to jamming: P without friction over P, (s + mu e)/s of a rigid lever with mu signed as the motion;
                         ///< of a pair the smaller one
-    double uniqueness = 0.; ///< det(1 - G df/dz) over that without friction's part; <= 0 beyond where equilibria are unique
+    double own_speed_share = 0.; ///< by which P with the rigid lever's slip speed differs, over P
+    double uniqueness      = 0.; ///< det(1 - G df/dz) over that without friction's part; <= 0 beyond where equilibria are unique
 
     /// Returns whether a lever presses on the cylinder.
     bool is_pressed() const
