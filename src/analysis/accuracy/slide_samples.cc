@@ -2,12 +2,12 @@
 #include "analysis/accuracy/slide_samples.h"
 
 #include "analytic/closed_form.h"
-#include "analytic/measures.h"
 #include "base/errors.h"
 #include "base/ranges.h"
 #include "base/text.h"
 #include "results/entries.h"
 #include "results/row_statistics.h"
+#include "scene/closed_form.h"
 #include "scene/drive.h"
 #include "scene/scene.h"
 
@@ -137,32 +137,27 @@ namespace sprag
       return rows;
     }
 
-    /// Returns x of the ends of all strokes [mm].
-    std::vector<double> stroke_ends(const std::vector<Row> &rows)
+    /// Returns the scene with a drive of constant speed over the same x, unless it locks so. Where a drive changes its speed,
+    /// largest_speed_change sets the distance of the rows in place of Analysis/Step.
+    Scene with_constant_speed(Scene scene)
     {
-      std::vector<double> result = { rows.front()[Column::x], rows.back()[Column::x] };
-      for (std::size_t i = 1; i + 1 < rows.size(); ++i)
-        if (!(rows[i - 1][Column::v] * rows[i + 1][Column::v] > 0.))
-          result.push_back(rows[i][Column::x]);
-      return result;
+      const Drive drive = scene.drive;
+      const bool falls  = drive.at(0.).x > 0.5 * (drive.minimum() + drive.maximum());
+      const auto [from, to] =
+          falls ? std::pair{ drive.maximum(), drive.minimum() } : std::pair{ drive.minimum(), drive.maximum() };
+      scene.drive = Drive(DriveProfile::triangle, from, to, drive.peak_speed(), drive.reversals().empty() ? 0.5 : 1.);
+      if (locking(scene))
+        scene.drive = drive;
+      return scene;
     }
 
-    /// Returns the largest error of interpolating a row between its neighbours, over the column's peak. Rows beside the end of a
-    /// stroke at which the drive slows down are left out: a mu that follows the speed changes with the root of the distance
-    /// there.
+    /// Returns the largest error of interpolating a row between its neighbours, over the column's peak.
     double interpolation_error(const std::vector<Row> &rows, const Column column)
     {
-      const auto ends       = stroke_ends(rows);
-      const double left_out = left_out_behind_reversal * largest(rows, Column::x);
-      const double fastest  = largest(rows, Column::v);
-      double result         = 0.;
+      double result = 0.;
       for (std::size_t i = 1; i + 1 < rows.size(); ++i)
-      {
-        const auto is_near = [&](const double end) { return std::abs(rows[i][Column::x] - end) < left_out; };
-        const bool is_slow = std::abs(rows[i][Column::v]) < 0.5 * fastest && std::any_of(ends.begin(), ends.end(), is_near);
-        if (rows[i - 1][Column::v] * rows[i + 1][Column::v] > 0. && !is_slow)
+        if (rows[i - 1][Column::v] * rows[i + 1][Column::v] > 0.)
           result = std::max(result, std::abs(distance_from_line(rows[i - 1], rows[i], rows[i + 1], column)));
-      }
       return result / largest(rows, column);
     }
 
@@ -328,12 +323,12 @@ namespace sprag
 
   double largest_row_spacing(const Scene &scene, const double error, const bool has_loop)
   {
-    const double longest = 0.25 * (scene.drive.maximum() - scene.drive.minimum());
-    double step          = longest;
+    const Scene even = with_constant_speed(scene);
+    double step      = 0.25 * (scene.drive.maximum() - scene.drive.minimum());
     // The error is proportional to step^2 for small steps.
     for (unsigned int i = 0; i < 8; ++i)
     {
-      const double found = estimate_error(scene, step, has_loop);
+      const double found = estimate_error(even, step, has_loop);
       if (found <= error)
         return step;
       step *= std::max(0.25, 0.95 * std::sqrt(error / found));

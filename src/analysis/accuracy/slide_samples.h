@@ -55,6 +55,7 @@ namespace sprag
   double peak_change(Column column, const std::vector<Row> &passage, const std::vector<Row> &other);
 
   /// Returns the largest Analysis/Step [mm], at most a quarter of the stroke, at which rows of the closed form have a relative
-  /// error of at most `error` > 0: linear interpolation of P and Q and, if `has_loop`, the loop area by the trapezoidal rule.
+  /// error of at most `error` > 0: linear interpolation of P and Q and, if `has_loop`, the loop area by the trapezoidal rule,
+  /// both at the drive's largest speed.
   double largest_row_spacing(const Scene &scene, double error, bool has_loop);
 } // namespace sprag
