@@ -4,12 +4,14 @@
 #include "analysis/accuracy/slide_samples.h"
 #include "analytic/error_estimate.h"
 #include "base/phase_timer.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "estimate/coarser_scene.h"
 #include "estimate/expected_cost.h"
 #include "fe/mesh/lever_mesh.h"
 #include "fe/statics/static_lever.h"
 #include "program/resources.h"
+#include "report/peak_report.h"
 #include "report/report.h"
 #include "report/summary_lines.h"
 #include "results/row_statistics.h"
@@ -33,7 +35,8 @@ namespace sprag
     constexpr double reversal_share = 0.6; ///< of P and Q behind a reversal
 
     constexpr double trial_faces            = 4.;   ///< across the contact where P is largest
-    constexpr double least_faces            = 3.;   ///< likewise, where pressure or width are wanted
+    constexpr double least_faces            = 3.5;  ///< likewise, where pressure or width are wanted
+    constexpr double narrowest              = 0.7;  ///< width of the contact over the estimated one, at least
     constexpr double faces_for_forces       = 2.;   ///< likewise, of forces alone, in trial runs and at least
     constexpr double most_trial_faces       = 300.; ///< along the way of the contact
     constexpr double extrapolated           = 0.4;  ///< face size over that of the trial run that tells of it, at least
@@ -147,8 +150,12 @@ namespace sprag
         const double target   = scene.accuracy.target;
         if (needs_no_trial(target))
           return;
-        is_coarse = forces_only && !scene.accuracy.is_model_open && faces_behind_reversal(scene, target) <= trial_faces;
+        const bool is_coarse =
+            forces_only && !scene.accuracy.is_model_open && faces_behind_reversal(scene, target) <= trial_faces;
         solve_trial_runs(std::max(width / (is_coarse ? faces_for_forces : trial_faces), (to - from) / most_trial_faces));
+        // Beyond the coarser of these trial runs the contact may be narrower than a face.
+        if (!is_coarse)
+          longest_trusted = coarser * face_size;
         const auto is_too_far = [&]
         {
           return longest_face(target) < extrapolated * finer_trial * face_size &&
@@ -163,7 +170,6 @@ namespace sprag
           if (!announce(announcement(fine, cost), cost.cpu_seconds))
             break;
           solve_trial_runs(fine.mesh.face_size);
-          is_refined = true;
         }
       }
 
@@ -197,11 +203,11 @@ namespace sprag
     private:
       Scene scene;
       const bool enforcement_is_open, grading_is_open, forces_only;
-      bool is_guessed  = false;               ///< without a trial run
-      bool is_coarse   = false;               ///< with the fewest faces in the first trial runs
-      bool is_refined  = false;               ///< after the first trial runs
-      double width     = 0.;                  ///< of the contact where P is largest [mm]
-      double face_size = 0.;                  ///< of the finer trial run [mm]
+      bool has_trial         = true;          ///< else the fewest faces suffice
+      double width           = 0.;            ///< estimated one of the contact where P is largest [mm]
+      double trial_width     = 0.;            ///< the same by the trial run [mm]
+      double face_size       = 0.;            ///< of the finer trial run, or the longest one without [mm]
+      double longest_trusted = 0.;            ///< face size for which the errors can be extrapolated [mm]
       std::vector<double> errors;             ///< of the finer trial run, of each quantity
       std::vector<double> closed_form_errors; ///< of the closed form; infinite of what it does not tell
 
@@ -209,30 +215,30 @@ namespace sprag
       /// is that of the warning coarse_contact.
       bool needs_no_trial(const double target)
       {
-        constexpr double pressure_error = 0.8; // times the cube of the faces
-        constexpr double loose          = pressure_error / (least_faces * least_faces * least_faces) / contact_mesh_share;
-        const auto is_simple            = [](const std::string &quantity)
+        const double pressure_error = expected_pressure_error(narrowest * least_faces, scene.mesh.degree);
+        const auto is_simple        = [](const std::string &quantity)
         { return is_force_quantity(quantity) || quantity == "largest_pressure"; };
         const auto &requested = scene.accuracy.quantities;
         const double faces    = forces_only ? faces_for_forces : least_faces;
-        if (!(target >= loose) || scene.accuracy.is_model_open || scene.mesh.degree != 2 ||
+        if (!(contact_mesh_share * target >= pressure_error) || scene.accuracy.is_model_open ||
             faces_behind_reversal(scene, target) > faces || !std::all_of(requested.begin(), requested.end(), is_simple))
           return false;
-        is_guessed = true;
-        face_size  = width / faces;
+        has_trial = false;
+        face_size = longest_trusted = width / faces;
+        trial_width                 = width;
         for (const auto &quantity : requested)
-          errors.push_back(is_force_quantity(quantity) ? 0. : contact_mesh_share * loose);
+          errors.push_back(is_force_quantity(quantity) ? 0. : pressure_error);
         closed_form_errors.assign(errors.size(), std::numeric_limits<double>::infinity());
         return true;
       }
 
       void solve_trial_runs(const double size)
       {
-        face_size         = size;
-        const Scene fine  = with_face_size(scene, size);
-        const auto places = drive_samples(scene.drive);
-        const auto turn   = scene.accuracy.is_model_open ? reversal_samples(scene.drive, 2. * width) : std::vector<Row>{};
-        auto sampled      = with_closed_form(scene, joined(places, turn));
+        face_size = longest_trusted = size;
+        const Scene fine            = with_face_size(scene, size);
+        const auto places           = drive_samples(scene.drive);
+        const auto turn = scene.accuracy.is_model_open ? reversal_samples(scene.drive, 2. * width) : std::vector<Row>{};
+        auto sampled    = with_closed_form(scene, joined(places, turn));
         std::sort(sampled.begin(), sampled.end(), [](const Row &a, const Row &b) { return a[Column::time] < b[Column::time]; });
         if (!turn.empty()) // the closed form alone jumps there
           sampled.erase(std::find_if(sampled.begin(), sampled.end(),
@@ -242,6 +248,9 @@ namespace sprag
         const auto jump   = with_closed_form(scene, turn);
         const auto coarse = trial_run(with_coarser_mesh(fine), places);
         const auto closed = with_closed_form(scene, rows);
+        const auto ratio  = [&](const Row &row)
+        { return row[Column::contact_width] / estimated_contact_width(scene, row[Column::P]); };
+        trial_width = width * sum_over(rows, ratio) / static_cast<double>(rows.size());
         errors.clear();
         closed_form_errors.clear();
         for (const auto &quantity : scene.accuracy.quantities)
@@ -254,17 +263,23 @@ namespace sprag
         }
       }
 
+      /// Returns the faces in contact with which a run tells at most this error of the largest pressure.
+      double faces_for_pressure(const double error) const
+      {
+        constexpr double many   = 10.;
+        const double sufficient = many * std::cbrt(expected_pressure_error(many, scene.mesh.degree) / error);
+        return std::clamp(sufficient, least_faces, least_converging_faces);
+      }
+
       double longest_face(const double target) const
       {
-        // Beyond the coarser of the first trial runs the contact may be narrower than a face; what a refined one found holds for
-        // itself.
-        double result = is_refined || is_coarse || is_guessed ? face_size : coarser * face_size;
+        double result = longest_trusted;
         for (std::size_t i = 0; i < errors.size(); ++i)
         {
           const auto &quantity = scene.accuracy.quantities[i];
           const double share   = share_for(quantity) * target / std::max(errors[i], 1e-12);
           if (!is_force_quantity(quantity))
-            result = std::min(result, face_size * trial_faces / least_faces);
+            result = std::min(result, trial_width / faces_for_pressure(share_for(quantity) * target));
           result = std::min(result, face_size * std::pow(share, 1. / convergence_order(scene, quantity)));
         }
         return std::max(result, face_size / finest);
@@ -291,7 +306,7 @@ namespace sprag
         choice.settings.push_back(
             { "Mesh/Face size", rounded_text(size),
               is_shorter   ? "the largest P and Q behind a reversal need " + rounded_text(width / size) + " faces in contact"
-              : is_guessed ? rounded_text(width / size) + " faces in contact suffice"
+              : !has_trial ? rounded_text(width / size) + " faces in contact suffice"
                            : "a probe with " + rounded_text(face_size) + " mm is " +
                                  percent(*std::max_element(errors.begin(), errors.end())) + " off" });
         if (scene.cylinder.type != CylinderType::rigid && is_open(scene, "Cylinder/Face size"))

@@ -141,6 +141,17 @@ namespace sprag
       return row == nullptr ? 0. : (*row)[Column::contact_width] / scene.mesh.face_size;
     }
 
+    /// Returns the part of the mesh in an error, see mesh_part(). That of the largest pressure of a narrow contact is bounded.
+    ErrorPart narrow_mesh_part(const Scene &scene, const TrialRuns &trial_runs, const std::string &quantity, const double change,
+                               const double order)
+    {
+      auto part          = mesh_part(scene, change, order);
+      const double faces = faces_in_contact(scene, trial_runs.run.slides);
+      if (quantity == "largest_pressure" && faces < least_converging_faces)
+        part.value = std::min(part.value, expected_pressure_error(faces, scene.mesh.degree));
+      return part;
+    }
+
     /// Adds what the largest P or Q, which may lie in the passage through stick behind a reversal, are off beyond the parts in
     /// full sliding.
     void add_reversal(const Scene &scene, const TrialRuns &trial_runs, ErrorEstimate &estimate)
@@ -151,7 +162,7 @@ namespace sprag
       const auto &passage  = trial_runs.run.passage;
       const auto column = estimate.quantity == "P" ? Column::P : estimate.quantity == "Q" ? Column::Q : Column::largest_pressure;
       const auto change = [&](const std::vector<Row> &other) { return peak_change(column, passage, other); };
-      auto part         = mesh_part(scene, change(trial_runs.other.passage), order);
+      auto part         = narrow_mesh_part(scene, trial_runs, estimate.quantity, change(trial_runs.other.passage), order);
       part.value        = part.value + penalty_part(scene, change(trial_runs.soft.passage)).value - total_error(estimate);
       part.name         = "reversal";
       if (part.value > 0.)
@@ -168,7 +179,8 @@ namespace sprag
     {
       const auto change  = [&](const std::vector<Row> &other) { return relative_change(quantity, trial_runs.run.slides, other); };
       const double order = quantity == "largest_pressure" ? pressure_order(scene) : force_order(scene);
-      ErrorEstimate result{ quantity, relative_to, { mesh_part(scene, change(trial_runs.other.slides), order) }, {} };
+      const auto mesh    = narrow_mesh_part(scene, trial_runs, quantity, change(trial_runs.other.slides), order);
+      ErrorEstimate result{ quantity, relative_to, { mesh }, {} };
       if (!trial_runs.soft.slides.empty())
         result.parts.push_back(penalty_part(scene, change(trial_runs.soft.slides)));
       if (!trial_runs.soft.slides.empty() && augments(scene))

@@ -32,6 +32,10 @@ namespace sprag
   /// contact against which they were measured.
   double expected_pressure_error(double elements, unsigned int degree);
 
+  /// Faces across the contact below which pressures do not converge with their order yet: the error that a coarser mesh tells is
+  /// up to twenty times too large, and expected_pressure_error() bounds it.
+  constexpr double least_converging_faces = 6.;
+
   /// Warns where the mesh is too coarse, by more than 5 % expected, for the largest pressure of a run or for the
   /// pressures over more than a quarter of the way that the cylinder makes in contact.
   Warnings coarse_contact_warnings(const Scene &scene, const std::vector<Row> &rows);
