@@ -20,8 +20,8 @@ namespace sprag
   /// interrupted meanwhile.
   ChildAnswer in_child_process(const std::function<std::string()> &work, double seconds);
 
-  /// Executes the program of this name in the folder of the running one in place of this process, with the same arguments. Throws
-  /// InputError where that fails.
+  /// Executes the program of this name in the folder of the running one in place of this process, with the same arguments and its
+  /// heap in large pages, unless GLIBC_TUNABLES says otherwise. Throws InputError where that fails.
   [[noreturn]] void execute_beside(const std::string &name, char **arguments);
 
   /// Keeps this process from growing by more than `bytes` from now on. This has no effect under an address sanitizer, which maps
