@@ -24,7 +24,7 @@ namespace sprag
 
   /// Returns the warnings for a steady slide, by its row of x, v, v_rel, theta, P and indentation. `own_speed_share`: see
   /// HeldSlide.
-  Warnings slide_warnings(const Scene &scene, Row slide, double own_speed_share);
+  Warnings slide_warnings(const Scene &scene, const Row &slide, double own_speed_share);
 
   /// Warns of a growing vibration of a beam whose waves are too short for it, see highest_beam_frequency().
   /// `frequency` and `growth_rate` are its own [Hz, 1/s].

@@ -31,7 +31,7 @@ PROVOKED = {
     "map of beams without modal damping": ("map-friction-depth-a", ("Lever/Modal damping=0", "Map/First points=2", "Map/Second points=2", "Map/Coarsest=1", "Map/Bisections=0"), ["beyond_the_beam"]),
     "layer under a beam": ("stability-a", (*BEAM, "Friction layer/Young's modulus=40"), ["foreign_contact_law"]),
     "falling friction of a beam": ("stability-a", (*BEAM, *FALLING), []),
-    "friction that rises close to locking": ("stability-a", (*BEAM, *RISING, "Lever/Depth=8", "Stability/Position=60", "Stability/Direction=backward", "Drive/Speed=560"), ["pressure_beyond_strength", "path_dependent_slide"]),
+    "friction that rises close to locking": ("stability-a", (*BEAM, *RISING, "Lever/Depth=8", "Stability/Position=60", "Stability/Direction=backward", "Drive/Speed=640"), ["locks", "large_deflection", "large_strain", "pressure_beyond_strength", "path_dependent_slide"]),
     "friction that falls at once": ("stability-a", (*BEAM, *FALLING, "Friction/Memory length=1e-3"), ["runaway_slip"]),
     "friction that falls at once, in time": ("stribeck-a", ("Support/Type=rigid", "Drive/Start=53", "Friction/Memory length=1e-4"), ["runaway_slip"]),
     "slides of a harmonic drive": ("stability-a", (*BEAM, "Drive/Profile=harmonic", "Stability/Position=auto"), ["largest_speed_alone"]),

@@ -131,12 +131,12 @@ namespace sprag
     {
       if (friction != ContactFriction::sliding)
         return slide_at(drive, friction, 1.);
-      const auto frictionless   = slides.solve(drive, 1., ContactFriction::none);
-      const auto free_forces    = frictionless == nullptr ? std::vector<SlidingForces>() : last_forces();
-      const double nearby       = 1e-3 * frame.geometries.front().cylinder_radius;
-      const auto usual_ratio    = slides.speed_ratio(drive, nearby);
-      const auto at_rigid_speed = usual_ratio ? last_forces() : std::vector<SlidingForces>();
-      auto slide                = slide_at(drive, friction, usual_ratio.value_or(1.));
+      const auto frictionless = slides.solve(drive, 1., ContactFriction::none);
+      const auto free_forces  = frictionless == nullptr ? std::vector<SlidingForces>() : last_forces();
+      const double nearby     = 1e-3 * frame.geometries.front().cylinder_radius;
+      const auto usual_ratio  = slides.speed_ratio(drive, nearby);
+      auto at_rigid_speed     = usual_ratio ? last_forces() : std::vector<SlidingForces>();
+      auto slide              = slide_at(drive, friction, usual_ratio.value_or(1.));
       if (!usual_ratio || !slide || !(slide->uniqueness > 0.))
       {
         if (const auto end = grow_friction(drive, 1.); end.share < 1.)
@@ -144,6 +144,7 @@ namespace sprag
         const auto grown   = slides.last;
         const auto grow_at = [&](const DrivePoint &at) { return grow_friction(at, 1.).share == 1.; };
         const double ratio = slides.speed_ratio(drive, nearby, grow_at).value_or(1.);
+        at_rigid_speed     = last_forces();
         slides.last        = grown;
         slide              = slide_at(drive, friction, ratio);
         if (!slide || !(slide->uniqueness > 0.))
