@@ -1,23 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Names of several results and pictures of many of them, on copies of one run; run with /usr/bin/python3."""
+"""Names of several results and pictures of many of them, on copies of one run."""
 
 import shutil
-import sys
 import unittest
-from pathlib import Path
 
 import h5py
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-
-from pictures import PictureTest, draw  # noqa: E402
-import comparison  # noqa: E402
-import overlays  # noqa: E402
-from sprag import parameters  # noqa: E402
-import several  # noqa: E402
-from sprag.results import read_result  # noqa: E402
-from real_results import run_once  # noqa: E402
+from pictures import PictureTest, draw
+import comparison
+import overlays
+from sprag import parameters
+import several
+from sprag.results import read_result
+from real_results import run_once
 
 LISTING = """# Listing of Parameters
 subsection Analysis
@@ -149,7 +145,3 @@ class Pictures(SeveralTest):
             done = draw("comparison.py", run_once("closed-form-a"), run_once("reversal-a of 6"), "-o", target, *options)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertEqual(sorted(path.name for path in self.pictures.iterdir()), names)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,24 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Distances in drawings of the device are those that are meant. Runs the program; with /usr/bin/python3."""
+"""Distances in drawings of the device are those that are meant."""
 
 import os
-import sys
-import unittest
 from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-
-from pictures import SOURCE, PictureTest, draw  # noqa: E402
-import apparatus  # noqa: E402
-import device  # noqa: E402
-import plot  # noqa: E402
-from sprag import program  # noqa: E402
-from sprag.results import NotAResult, read_result  # noqa: E402
-from layout import problems  # noqa: E402
-from style import use_print_style  # noqa: E402
+from pictures import SOURCE, PictureTest, draw
+import apparatus
+import device
+import plot
+from sprag import program
+from sprag.results import NotAResult, read_result
+from layout import problems
+from style import use_print_style
 
 SCENES = Path(os.environ.get("SPRAG_SOURCE", SOURCE)) / "params"
 SPRAG = program.program()
@@ -186,7 +182,3 @@ def distance_to_segments(point, ends, begins):
     along = ends - begins
     share = np.clip(((point - begins) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-30), 0, 1)
     return np.hypot(*(begins + share[:, None] * along - point).T).min()
-
-
-if __name__ == "__main__":
-    unittest.main()

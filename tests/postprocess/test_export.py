@@ -1,18 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""export.py on results of short runs, read back as others would; run with /usr/bin/python3."""
+"""export.py on results of short runs, read back as others would."""
 
 import csv
 import json
-import sys
-import unittest
 from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-
-from pictures import PictureTest, draw  # noqa: E402
-from real_results import real_result, run_once  # noqa: E402
+from pictures import PictureTest, draw
+from real_results import real_result, run_once
 
 
 def read_rows(path, delimiter=","):
@@ -89,7 +85,3 @@ class ExportTest(PictureTest):
     def test_refusals(self):
         self.expect_refusal(draw("export.py", run_once("closed-form-a"), "--only", "map"), "no map", "table, answer, summary")
         self.expect_refusal(draw("export.py", self.folder), "no result.h5")
-
-
-if __name__ == "__main__":
-    unittest.main()

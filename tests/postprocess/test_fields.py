@@ -1,23 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""fields.py and mesh.py on frames of short runs, in a plane and in space; run with /usr/bin/python3."""
+"""fields.py and mesh.py on frames of short runs, in a plane and in space."""
 
 import shutil
-import sys
 import unittest
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-
-from pictures import PictureTest, draw  # noqa: E402
-from real_results import real_result, run_once  # noqa: E402
-from strip import MESH_22, MESH_41  # noqa: E402
-import fields  # noqa: E402
-import frames  # noqa: E402
-import mesh  # noqa: E402
-import solid_fields  # noqa: E402
-from sprag.results import NotAResult, read_fields  # noqa: E402
+from pictures import PictureTest, draw
+from real_results import real_result, run_once
+from strip import MESH_22, MESH_41
+import fields
+import frames
+import mesh
+import solid_fields
+from sprag.results import NotAResult, read_fields
 
 RADIUS, OFFSET = 56, 45.6  # of model A
 LEVER, APPARATUS, SOLID = "lever with frames", "apparatus with frames", "solid with frames"
@@ -185,7 +181,3 @@ class MeshTest(PictureTest):
         done = draw("mesh.py", folder, self.folder / "own.msh")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(done.stdout.splitlines(), [str(folder / "mesh.png"), str(self.folder / "own.png")])
-
-
-if __name__ == "__main__":
-    unittest.main()

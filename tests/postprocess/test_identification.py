@@ -1,19 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Residuals of an identified lever, and tables made as a rig would measure them; run with /usr/bin/python3."""
+"""Residuals of an identified lever, and tables made as a rig would measure them."""
 
 import subprocess
 import sys
-import unittest
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-
-from pictures import FOLDER, PictureTest  # noqa: E402
-from real_results import real_result, run_once  # noqa: E402
-import identification  # noqa: E402
-import measure  # noqa: E402
+from pictures import FOLDER, PictureTest
+from real_results import real_result, run_once
+import identification
+import measure
 
 
 class IdentificationTest(PictureTest):
@@ -37,7 +33,3 @@ class IdentificationTest(PictureTest):
         done = subprocess.run([sys.executable, FOLDER / "measure.py", run_once("closed-form-a"), "-o", path], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(path.read_text().splitlines()[0], "time [s], x [mm], P [N], Q [N]")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,16 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Boundaries in maps of stability; run with /usr/bin/python3."""
+"""Boundaries in maps of stability."""
 
-import sys
 import unittest
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-
-from real_results import real_result  # noqa: E402
-import map as stability  # noqa: E402
+from real_results import real_result
+import map as stability
 
 
 class MapTest(unittest.TestCase):
@@ -36,7 +32,3 @@ class MapTest(unittest.TestCase):
         middle = (0.5, 1 / 3)
         found = sorted(tuple(np.round(end, 12)) for end in [line[1] for kind in (1, 3) for line in lines[kind]])
         self.assertEqual(found, [tuple(np.round(middle, 12))] * 3)
-
-
-if __name__ == "__main__":
-    unittest.main()

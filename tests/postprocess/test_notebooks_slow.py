@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""The notebooks run, and find what another model or an integration of this file finds; run with /usr/bin/python3. Environment: SPRAG,
-the program, SPRAG_SOURCE, the sources. Pictures stay in the folder SPRAG_PICTURES where there is one."""
+"""The notebooks run, and find what another model or an integration of this file finds. Pictures stay in the folder SPRAG_PICTURES where
+there is one."""
 
 import contextlib
 import io
@@ -9,15 +9,13 @@ import math
 import os
 import shutil
 import sys
-import unittest
 from pathlib import Path
 
 os.environ["MPLBACKEND"] = "Agg"
 import matplotlib.pyplot as plt
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, FolderTest  # noqa: E402
+from runs import SOURCE, FolderTest
 
 sys.path.insert(0, str(SOURCE / "postprocess"))
 import sprag  # noqa: E402  # that of the sources, which stays when a notebook's copy goes
@@ -158,7 +156,3 @@ class Notebooks(FolderTest):
         ratio = 2 * np.pi * np.array(found["frequencies"]) / np.sqrt(STIFFNESS / MASS)
         damping = best["viscous"].strength / np.sqrt(STIFFNESS * MASS) * ratio
         np.testing.assert_allclose(found["curves"]["viscous"], np.sqrt((1 + damping**2) / ((1 - ratio**2) ** 2 + damping**2)), rtol=1e-3)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""The Python package runs scenes, reads results and tells errors; run with /usr/bin/python3."""
+"""The Python package runs scenes, reads results and tells errors."""
 
 import contextlib
 import gc
@@ -19,13 +19,11 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-
-from pictures import SOURCE, FolderTest  # noqa: E402
-import sprag  # noqa: E402
-from sprag.dampers import RankedDamper, find_strength, tell_ranking  # noqa: E402
-from sprag.parameters import document  # noqa: E402
-from sprag.program import program  # noqa: E402
+from pictures import SOURCE, FolderTest
+import sprag
+from sprag.dampers import RankedDamper, find_strength, tell_ranking
+from sprag.parameters import document
+from sprag.program import program
 
 SCENES = Path(os.environ.get("SPRAG_SOURCE", SOURCE)) / "params"
 COARSE = {"Mesh/Face size": 2, "Analysis/Step": 4}
@@ -256,7 +254,3 @@ class PackageTest(FolderTest):
         result = sprag.run(SCENES / "closed-form-a.prm", output=self.folder / "a")
         frame = result.to_pandas()
         self.assertEqual((len(frame), frame.attrs["units"]["Q"], frame["x"].max()), (len(result.table["x"]), "N", 65))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,20 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""plot.py on results of short runs, whole, cut short and damaged; run with /usr/bin/python3."""
+"""plot.py on results of short runs, whole, cut short and damaged."""
 
 import shutil
-import sys
 import unittest
 from pathlib import Path
 
 import h5py
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-
-from pictures import PictureTest  # noqa: E402
-from real_results import real_result, run_once  # noqa: E402
-import forces  # noqa: E402
-import isolation  # noqa: E402
+from pictures import PictureTest
+from real_results import real_result, run_once
+import forces
+import isolation
 
 
 def cut(file, rows):
@@ -114,7 +111,3 @@ class PlotTest(PictureTest):
                     if name == "table/x":
                         file[name] = "a text"
                 self.expect_refusal(self.plot(self.folder / name.replace("/", "-")), "damaged or of another version")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,25 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Reports: what stands in them, that they load nothing and run nothing of a stranger's file; run with /usr/bin/python3."""
+"""Reports: what stands in them, that they load nothing and run nothing of a stranger's file."""
 
 import base64
 import re
 import shutil
-import sys
-import unittest
 from html.parser import HTMLParser
-from pathlib import Path
 
 import h5py
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-
-from pictures import PictureTest  # noqa: E402
-import sketch  # noqa: E402
-from apparatus import Geometry  # noqa: E402
-from sprag import parameters  # noqa: E402
-from sprag.results import read_result  # noqa: E402
-from real_results import run_once  # noqa: E402
+from pictures import PictureTest
+import sketch
+from apparatus import Geometry
+from sprag import parameters
+from sprag.results import read_result
+from real_results import run_once
 
 HOSTILE = "<script>alert(1)</script><img src=http://example.org/x onerror=alert(1)>"
 DEVICE = {
@@ -155,7 +150,3 @@ class ReportTest(PictureTest):
             del file["summary"], file["meta"]
         _, words = self.report(self.folder / "a")
         self.assertIn("goes on, or was killed", words)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,24 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Draws all pictures of scenes of params/ that run in a second or so: their layout, what their curves are, and that the pages name all
-that the results hold. Run with /usr/bin/python3."""
+that the results hold."""
 
 import re
 import shutil
-import sys
-import unittest
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-
-from pictures import PictureTest  # noqa: E402
-from real_results import real_result  # noqa: E402
-import comparison  # noqa: E402
-import pages  # noqa: E402
-import plot  # noqa: E402
-from sprag.results import read_result  # noqa: E402
-from style import plt  # noqa: E402
+from pictures import PictureTest
+from real_results import real_result
+import comparison
+import pages
+import plot
+from sprag.results import read_result
+from style import plt
 
 FORCES = {"forces-over-x"}
 IN_TIME = {*FORCES, "forces-over-time", "reversal", "energy"}
@@ -192,7 +187,3 @@ class ScenesTest(PictureTest):
         figure = comparison.comparison(results)
         self.assertIn("12 mm", [text.get_text() for text in figure.axes[1].texts])
         self.expect_layout(figure)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,15 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Every script is a program with --help, -o and --format; run with /usr/bin/python3."""
+"""Every script is a program with --help, -o and --format."""
 
 import os
-import sys
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
-from pages import PAGES  # noqa: E402
-from pictures import FOLDER, draw  # noqa: E402
+from pages import PAGES
+from pictures import FOLDER, draw
 
 SCRIPTS = [path for path in sorted(FOLDER.glob("*.py")) if "def main(" in path.read_text(encoding="utf-8")]
 # Needs ParaView's own Python, which knows no h5py.
@@ -39,7 +36,3 @@ class ScriptsTest(unittest.TestCase):
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
                 for word in ("usage: ", "-o", "--output", *(() if path.name == ONE_FORMAT else ("--format",))):
                     self.assertIn(word, done.stdout)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,16 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""What pictures of studies go over; run with /usr/bin/python3."""
+"""What pictures of studies go over."""
 
-import sys
-import unittest
-from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-
-from pictures import PictureTest  # noqa: E402
-from real_results import real_result  # noqa: E402
-import study  # noqa: E402
-from style import plt  # noqa: E402
+from pictures import PictureTest
+from real_results import real_result
+import study
+from style import plt
 
 
 class StudyTest(PictureTest):
@@ -34,7 +28,3 @@ class StudyTest(PictureTest):
     def test_a_study_cut_short_is_refused(self):
         (self.folder / "study.journal").touch()
         self.expect_refusal(self.plot(self.folder), "study", "cut short")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,19 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Shapes and names of modes, bars of roles and branches of a continuation; run with /usr/bin/python3."""
-
-import sys
-import unittest
-from pathlib import Path
+"""Shapes and names of modes, bars of roles and branches of a continuation."""
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-
-from pictures import PictureTest  # noqa: E402
-from real_results import real_result  # noqa: E402
-import sprag_slip  # noqa: E402
-import vibration  # noqa: E402
-from style import plt  # noqa: E402
+from pictures import PictureTest
+from real_results import real_result
+import sprag_slip
+import vibration
+from style import plt
 
 
 def named_modes(*eigenvalues):
@@ -57,7 +51,3 @@ class Vibration(PictureTest):
         self.assertEqual(lines, [("-", 0, 0), (":", 0, 30), ("-", 30, 40)])
         hollow = [line for line in axes.get_lines() if line.get_markerfacecolor() == "white"]
         self.assertEqual([list(line.get_ydata()) for line in hollow], [[40]])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,15 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Runs that ask for an accuracy: what the program chooses it runs, and a row of a study is the run by itself. Run with /usr/bin/python3;
-environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+"""Runs that ask for an accuracy: what the program chooses it runs, and a row of a study is the run by itself."""
 
-import sys
-import unittest
-from pathlib import Path
 
 import h5py
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, RunTest, sets, sprag  # noqa: E402
+from runs import SOURCE, RunTest, sets, sprag
 
 # A contact of three faces, of which a mesh twice as coarse tells thirty times the error.
 SMALL = ("Geometry/Cylinder radius=20", "Geometry/Interface offset=15", "Lever/Width=10", "Lever/Length=210", "Lever/Depth=20")
@@ -87,7 +82,3 @@ class Accuracy(RunTest):
     def test_rows_of_a_study_keep_their_defaults(self):
         changes = ("Analysis/Model=beam", "Study/Type=transient", "Drive/Start=60")
         self.expect_rows_alone("reversal-a", changes, "Time/Tolerance", ("2e-2", "auto"), lambda file: file["summary/steps"][()])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,19 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""The program from outside: what it refuses, what a failed or killed run leaves behind, its options. Run with /usr/bin/python3;
-environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+"""The program from outside: what it refuses, what a failed or killed run leaves behind, its options."""
 
 import shutil
 import signal
 import subprocess
-import sys
-import unittest
 from pathlib import Path
 
 import h5py
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import RunTest, sets, sprag  # noqa: E402
+from runs import RunTest, sets, sprag
 
 CLOSED_FORM = "subsection Analysis\n  set Model = closed form\nend\n"
 COARSE = sets(("Mesh/Face size=4", "Analysis/Step=5"))
@@ -322,7 +318,3 @@ class Options(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue((self.folder / "output" / "first try" / "result.h5").is_file())
         self.assertIn("largest P", done.stdout)
-
-
-if __name__ == "__main__":
-    unittest.main()

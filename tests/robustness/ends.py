@@ -1,21 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Tests the ends of runs: asked for, crashed, short of memory or disk, robbed of their folder, beside another run. Run with
-/usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+"""Tests the ends of runs: asked for, crashed, short of memory or disk, robbed of their folder, beside another run."""
 
 import os
 import resource
 import shutil
 import signal
-import sys
 import tempfile
 import time
-import unittest
 from pathlib import Path
 
 import h5py
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, TIMEOUT, RunTest, sets, sprag  # noqa: E402
+from runs import SOURCE, TIMEOUT, RunTest, sets, sprag
 
 MODEL_A = SOURCE / "params" / "model-a.prm"
 
@@ -226,7 +222,3 @@ class Refused(EndsTest):
             with h5py.File(self.output / "result.h5", "r") as file:
                 self.assertEqual(file["table/x"][:].max(), dict(ends)[0])
             shutil.rmtree(self.output)
-
-
-if __name__ == "__main__":
-    unittest.main()

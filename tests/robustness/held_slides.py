@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Held slides from outside: what modal, stability, map and sprag-slip scenes are refused for, and what becomes of a slide that jams.
-Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+"""Held slides from outside: what modal, stability, map and sprag-slip scenes are refused for, and what becomes of a slide that jams."""
 
 import math
 import re
-import unittest
 
 import numpy as np
 
@@ -458,7 +456,3 @@ class LeverOfAnyDepth(RunTest):
         for scene in self.SCENES:
             with self.subTest(scene):
                 self.assertTrue((np.diff(np.log(self.frequencies(*scene))) > -1e-3).all())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,17 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""An installed program needs nothing of its sources. Run with /usr/bin/python3; environment: SPRAG, the program in its build
-folder, and SPRAG_SOURCE, the sources."""
+"""An installed program needs nothing of its sources. SPRAG must be the program in its build folder."""
 
 import re
 import shutil
 import subprocess
-import sys
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from folders import FolderTest  # noqa: E402
-from runs import SOURCE, SPRAG, TIMEOUT  # noqa: E402
+from folders import FolderTest
+from runs import SOURCE, SPRAG, TIMEOUT
 
 CHEAP = ("--set", "Mesh/Face size=1", "--set", "Analysis/Step=8", "--set", "Output/Fields=none")
 
@@ -95,7 +92,3 @@ class Version(unittest.TestCase):
         tag = subprocess.run(["git", "-C", SOURCE, "describe", "--tags"], capture_output=True, text=True, check=False)
         if tag.returncode == 0:
             self.assertEqual(re.match(r"v?([0-9.]+)", tag.stdout).group(1), printed)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,16 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""The big libraries, which take 0.2 CPU s to load, are loaded for models alone and not for looks at a scene and formulas. Run with
-/usr/bin/python3; environment: SPRAG, the program, SPRAG_SOURCE, the sources, and SPRAG_BUILD_TYPE: checks of another than Release take
-deal.II's library everywhere."""
+"""The big libraries, which take 0.2 CPU s to load, are loaded for models alone and not for looks at a scene and formulas.
+Environment beside that of all: SPRAG_BUILD_TYPE; checks of another than Release take deal.II's library everywhere."""
 
 import os
 import re
-import sys
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, RunTest, sprag  # noqa: E402
+from runs import SOURCE, RunTest, sprag
 
 BIG = re.compile(r"lib(deal\.ii|petsc|slepc|gmsh|TK|dmumps)")
 MOST_LIBRARIES = 80  # HDF5 with MPI takes some 50
@@ -62,7 +59,3 @@ class Libraries(RunTest):
             with self.subTest(name):
                 self.setUp()
                 self.assertTrue(any(library.startswith("libdeal.ii") for library in self.loaded(*command)))
-
-
-if __name__ == "__main__":
-    unittest.main()

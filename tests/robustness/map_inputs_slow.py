@@ -1,17 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Maps from outside: tables that change before or on the way, scenes that are refused. Run with /usr/bin/python3; environment: SPRAG,
-the program, and SPRAG_SOURCE, the sources."""
+"""Maps from outside: tables that change before or on the way, scenes that are refused."""
 
 import os
-import sys
-import unittest
-from pathlib import Path
 
 import h5py
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, TIMEOUT, RunTest, sets, sprag  # noqa: E402
+from runs import SOURCE, TIMEOUT, RunTest, sets, sprag
 
 SCENE = SOURCE / "params" / "map-friction-depth-a.prm"
 # Every point of a grid: as long as it takes to be stopped after the first half second.
@@ -93,7 +88,3 @@ class MapTest(RunTest):
             found = file["table/second"][:][along & (np.maximum(file["table/kind_low"][:], file["table/kind_high"][:]) == 4)]
             self.assertGreater(len(found), 0)
             self.assertLessEqual(np.abs(found - (56 - 45.6)).max(), 16 / 8 / 2 / 2)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Tests the output of a run: the lines that answer its question, everything with --verbose, and all of it again in run.log. Run with
-/usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+"""Tests the output of a run: the lines that answer its question, everything with --verbose, and all of it again in run.log."""
 
 import fcntl
 import os
@@ -8,15 +7,11 @@ import pty
 import re
 import struct
 import subprocess
-import sys
 import termios
-import unittest
-from pathlib import Path
 
 import h5py
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, SPRAG, TIMEOUT, RunTest, run_scene, sets, sprag  # noqa: E402
+from runs import SOURCE, SPRAG, TIMEOUT, RunTest, run_scene, sets, sprag
 
 SHORT = {
     "model-a": ("Mesh/Face size=1", "Analysis/Step=4", "Output/Fields=none"),
@@ -156,7 +151,3 @@ class Output(RunTest):
         done = run_scene("model-a", settings, "--output", self.output)
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn(done.stderr.splitlines()[-1], (self.output / "run.log").read_text())
-
-
-if __name__ == "__main__":
-    unittest.main()

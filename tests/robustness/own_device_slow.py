@@ -1,22 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """The page params/own-device.md, followed as it is written: its files saved, its commands run one after the other, its findings
-found. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources. With SPRAG_LITERALLY=1 commands call
-./run of the sources, which installs and builds; else the program and the pictures by themselves."""
+found. With SPRAG_LITERALLY=1 commands call ./run of the sources, which installs and builds; else the program and the pictures by
+themselves."""
 
 import os
 import re
 import shlex
 import subprocess
-import sys
-import unittest
-from pathlib import Path
 
 import h5py
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from folders import FolderTest  # noqa: E402
-from runs import SOURCE, SPRAG, TIMEOUT  # noqa: E402
+from folders import FolderTest
+from runs import SOURCE, SPRAG, TIMEOUT
 
 PAGE = SOURCE / "params" / "own-device.md"
 LITERALLY = os.environ.get("SPRAG_LITERALLY") == "1"
@@ -143,7 +139,3 @@ class OwnDevice(FolderTest):
         self.assertTrue(list((self.folder / "own/compared").glob("*.png")))
         self.assertTrue((self.folder / "own/tapered-tables/table.csv").is_file())
         self.assertAlmostEqual(self.result("tapered", "largest_pressure"), 0.44, delta=0.01)
-
-
-if __name__ == "__main__":
-    unittest.main()

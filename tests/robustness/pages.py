@@ -1,17 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Tests that the pages are true: commands are accepted with their options and settings, parameters and choices exist, scripts know their
-options. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+options."""
 
 import re
 import shlex
-import sys
-import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from pictures import draw  # noqa: E402
-from folders import FolderTest  # noqa: E402
-from runs import SOURCE, sprag  # noqa: E402
+from pictures import draw
+from folders import FolderTest
+from runs import SOURCE, sprag
 
 PAGES = {path: path.read_text(encoding="utf-8") for folder in ("", "params", "meshes", "postprocess", "src", "tests") for path in sorted((SOURCE / folder).glob("*.md"))}
 PROGRAMS = ("./run", "sprag", "build/sprag")
@@ -120,7 +117,3 @@ class Pages(FolderTest):
                 for option in named:
                     with self.subTest(page=page, script=script):
                         self.assertRegex(shown.stdout, rf"(?m)(^|[\s\[,]){re.escape(option)}\b")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,17 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""A full pair whose levers differ is judged alike whichever of them comes first; run with /usr/bin/python3; environment: SPRAG, the
-program, and SPRAG_SOURCE, the sources."""
+"""A full pair whose levers differ is judged alike whichever of them comes first."""
 
 import math
-import sys
-import unittest
-from pathlib import Path
 
 import h5py
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, RunTest, sprag  # noqa: E402
+from runs import SOURCE, RunTest, sprag
 
 DEVICE = (
     "Mirrored pair/Type=full", "Mirrored pair/Joint=held", "Friction/Law=Coulomb", "Geometry/Cylinder radius=40", "Geometry/Interface offset=25", "Geometry/Pivot distance=150",
@@ -69,7 +64,3 @@ class PairTest(RunTest):
                         self.assertEqual((one[entry], other[entry]), (value, value), entry)
                     else:
                         np.testing.assert_allclose(one[entry], [other[entry], one[entry] if value is None else value], rtol=0.02, atol=1e-9, err_msg=entry)
-
-
-if __name__ == "__main__":
-    unittest.main()

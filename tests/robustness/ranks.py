@@ -6,15 +6,12 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 import unittest
-from pathlib import Path
 
 import h5py
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, SPRAG, TIMEOUT, RunTest  # noqa: E402
+from runs import SOURCE, SPRAG, TIMEOUT, RunTest
 
 MESH = {"Analysis/Dimension": "3", "Mesh/Face size": "3", "Mesh/Faces in contact": "0", "Mesh/Elements across": "3"}
 SETTINGS = {**MESH, "Cylinder/Tilt": "1e-4", "Drive/Stroke": "5", "Analysis/Step": "2.5"}
@@ -146,7 +143,3 @@ class Ranks(RanksTest):
             self.assertEqual(done.stderr.count(reason), 1, done.stderr)
             self.assertEqual(done.stderr.count("leave out mpirun"), 1, done.stderr)
             self.assertFalse(self.output.exists())
-
-
-if __name__ == "__main__":
-    unittest.main()

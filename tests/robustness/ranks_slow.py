@@ -5,7 +5,6 @@ import os
 import shutil
 import signal
 import subprocess
-import unittest
 from pathlib import Path
 
 from ranks import ALONE, SETTINGS, SOURCE, SPRAG, TIMEOUT, RanksTest, command, finished, read_fields, run
@@ -82,7 +81,3 @@ class SlowRanks(RanksTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, "Goes on: .* of an interrupted run")
         self.expect_alike(read_fields(self.output), read_fields(whole))
-
-
-if __name__ == "__main__":
-    unittest.main()

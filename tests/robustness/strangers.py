@@ -1,20 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Files of strangers: what a mesh cannot do to whoever opens it, results and links in the folder that are not ours, inputs without an
-end. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+end."""
 
 import os
 import shutil
-import sys
 import unittest
-from pathlib import Path
 
 import h5py
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, RunTest, sets, sprag  # noqa: E402
-from strip import MESH_22, SCRIPT  # noqa: E402
-from system_calls import CAN_FILTER, without_confinement, without_landlock  # noqa: E402
+from runs import SOURCE, RunTest, sets, sprag
+from strip import MESH_22, SCRIPT
+from system_calls import CAN_FILTER, without_confinement, without_landlock
 
 CALL = "SystemCall \"touch 'MARK'\";\n"
 # The scripts that surround the mesh, with MARK for a file outside.
@@ -270,7 +267,3 @@ class Inputs(StrangerTest):
         done = self.run_scene()
         self.assertLess(len(done.stderr), 20000)
         self.assertIn("more", done.stderr.splitlines()[-1])
-
-
-if __name__ == "__main__":
-    unittest.main()

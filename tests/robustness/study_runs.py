@@ -1,20 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Studies from outside: rows as the runs by themselves, failing runs, killed and started again, any number of processes, refusals.
-Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+"""Studies from outside: rows as the runs by themselves, failing runs, killed and started again, any number of processes, refusals."""
 
 import os
 import shutil
 import signal
-import sys
 import unittest
 from pathlib import Path
 
 import h5py
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, SPRAG, TIMEOUT, RunTest, sets, sprag  # noqa: E402
-from system_calls import CAN_FILTER, without_locks  # noqa: E402
+from runs import SOURCE, SPRAG, TIMEOUT, RunTest, sets, sprag
+from system_calls import CAN_FILTER, without_locks
 
 STATIC = SOURCE / "params" / "model-a.prm"
 IN_TIME = SOURCE / "params" / "reversal-a.prm"
@@ -237,7 +234,3 @@ class StudyTest(RunTest):
         done = sprag(STATIC, "--output", self.output, *settings({"Study/Reference": "Mesh/Face size = 300"}))
         self.assertEqual(done.returncode, 2)
         self.assertIn("Study/Reference is refused", done.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()
