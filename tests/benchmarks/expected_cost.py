@@ -3,14 +3,13 @@
 """Prints what --validate expects of runs, CPU time and memory, against what they take; see expected-cost.md."""
 
 import argparse
-import os
 import re
 import subprocess
 import tempfile
 from pathlib import Path
 
 import h5py
-from runs import ROOT, add_program, print_row
+from runs import ROOT, add_program, measure_cpu, print_row
 
 ALONE = {"Stability/Critical": "none", "Stability/Roles": "off"}
 RANGES = "Contact/Damping 0.01 0.1; Friction/Factor 0.8 1.2"
@@ -52,13 +51,6 @@ CASES = [
 WIDTHS = (56, 10, 10, 8, 10, 10, 8)
 
 
-def measure_cpu(command):
-    before = os.times()
-    text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    after = os.times()
-    return after.children_user + after.children_system - before.children_user - before.children_system, text
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     add_program(parser)
@@ -68,11 +60,12 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for scene, changes in CASES:
             command = [arguments.sprag, str(ROOT / "params" / (scene + ".prm")), *(f"--set={name}={value}" for name, value in changes.items())]
-            _, text = measure_cpu([*command, "--validate"])
+            text = subprocess.run([*command, "--validate"], check=True, capture_output=True, text=True).stdout
             expected = re.search(r"about (\S+) s of CPU time, (\S+) GB", text)
             seconds, gigabytes = (float(number) for number in expected.groups())
             # A stored basis would be used.
-            cpu, _ = measure_cpu([*command, "--overwrite", "--output", folder + "/out", "--set=Condensed/Cache=" + tempfile.mkdtemp(dir=folder)])
+            command += ["--overwrite", "--output", folder + "/out", "--set=Condensed/Cache=" + tempfile.mkdtemp(dir=folder)]
+            _, cpu = measure_cpu(lambda words=command: subprocess.run(words, check=True, capture_output=True))
             with h5py.File(Path(folder) / "out/result.h5") as file:
                 memory = float(file["meta/peak_memory"][()]) * 2**20 / 1e9
             outside += not 0.5 <= seconds / cpu <= 2

@@ -25,6 +25,14 @@ def run_scene(sprag, scene, changes, output, *options):
         raise RuntimeError(f"{scene}: {done.stderr.strip()}")
 
 
+def measure_cpu(work):
+    """Returns what the work gives, and the CPU time of the processes that it starts."""
+    before = os.times()
+    result = work()
+    after = os.times()
+    return result, after.children_user + after.children_system - before.children_user - before.children_system
+
+
 def print_row(cells, widths):
     """The first cell to the left, the others to the right; a width of 0 ends the line with the cell as it is."""
     line = cells[0].ljust(widths[0])

@@ -6,12 +6,11 @@ settings of a grid whose true error is within the target: along the drive, of he
 import argparse
 import collections
 import itertools
-import os
 import tempfile
 
 import numpy as np
 from effectivity import OF_RINGING, OF_SLIDES, AlongDrive, Held, InTime, drawn_device, without_penalty
-from runs import add_program, print_row
+from runs import add_program, measure_cpu, print_row
 
 TARGETS = (0.1, 1e-2, 1e-3, 1e-4)
 OF_FORCES = ("P", "Q", "loop_area")
@@ -46,13 +45,6 @@ FINE = {"Mesh/Face size": 0.0625, "Analysis/Step": 0.25, "Contact/Enforcement": 
 # Runs asked for 0.1 % have faces of 0.1 mm and penalties of 6e4 N/mm3.
 FINE_RINGING = {"Mesh/Face size": 0.0625, "Time/Tolerance": 2e-4}
 WIDTHS = (40, 10, 10, 10, 10, 12, 12, 8, 0)
-
-
-def measure_cpu(work):
-    before = os.times()
-    result = work()
-    after = os.times()
-    return result, after.children_user + after.children_system - before.children_user - before.children_system
 
 
 def measured(kind, sprag, scene, changes, quantities, reference, folder):
