@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Runs that ask for an accuracy: what the program chooses it runs, and a row of a study is the run by itself."""
 
-
 import h5py
 
 from runs import SOURCE, RunTest, sets, sprag
@@ -38,23 +37,20 @@ class Accuracy(RunTest):
                 path = SOURCE / "params" / f"{scene}.prm"
                 if number == 0:  # chooses as the run does
                     self.assertEqual(sprag(path, *sets(changes), "--validate").returncode, 0)
-                done = sprag(path, *sets((*changes, "Analysis/Warnings=error")), "--output", output)  # it warns of no choice of its own
-                self.assertEqual(done.returncode, 0, done.stderr)
+                self.succeeded(sprag(path, *sets((*changes, "Analysis/Warnings=error")), "--output", output))  # it warns of no choice of its own
                 with self.read(str(number)) as file:
                     self.assertIn(chosen, file["meta/chosen_settings"].asstr()[()])
                 listing = (output / "run.log").read_text().partition("with\n")[2].partition("\n\n")[0]
                 self.assertLess(len(listing.splitlines()), 30, listing)
 
     def test_three_dimensions_are_chosen_where_the_plane_is_too_far_off(self):
-        done = sprag(SOURCE / "params/model-a.prm", *sets(TILTED), "--validate")  # the run itself takes minutes
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.succeeded(sprag(SOURCE / "params/model-a.prm", *sets(TILTED), "--validate"))  # the run itself takes minutes
         self.assertIn("Analysis/Dimension = 3", done.stdout)
 
     def test_errors_are_off_where_a_scene_says_so(self):
         path, coarse = SOURCE / "params/model-a.prm", ("Mesh/Face size=2", "Analysis/Step=8")
         for errors in ("on", "off"):
-            done = sprag(path, *sets((*coarse, f"Output/Errors={errors}")), "--output", self.folder / errors)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.succeeded(sprag(path, *sets((*coarse, f"Output/Errors={errors}")), "--output", self.folder / errors))
         with self.read("on") as on, self.read("off") as off:
             self.assertEqual(list(on["table/P"]), list(off["table/P"]))
             self.assertTrue(on["accuracy"])
@@ -66,8 +62,7 @@ class Accuracy(RunTest):
     def expect_rows_alone(self, scene, changes, name, values, count):
         study = ("Analysis/Type=study", f"Study/Vary={name} = {', '.join(values)}")
         path = SOURCE / "params" / f"{scene}.prm"
-        done = sprag(path, *sets((*changes, *study)), "--output", self.output)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.succeeded(sprag(path, *sets((*changes, *study)), "--output", self.output))
         with self.read("output") as file:
             steps = list(file["table/steps"][:])
         self.assertNotEqual(steps[0], steps[1])

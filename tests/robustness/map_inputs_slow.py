@@ -29,8 +29,7 @@ class MapTest(RunTest):
     def completed(self, name, *options):
         """Runs a map to its end: its folder and what it said on standard error."""
         output = self.folder / name
-        done = sprag(SCENE, "--output", output, *options)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.succeeded(sprag(SCENE, "--output", output, *options))
         self.assertEqual(status(output), "completed")
         self.assertFalse((output / "map.journal").exists())
         return output, done.stderr

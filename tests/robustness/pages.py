@@ -71,8 +71,7 @@ class Pages(FolderTest):
                 continue
             tried.add(tuple(arguments))
             with self.subTest(page=page, command=" ".join(words)):
-                done = sprag(*arguments, "--print-parameters")
-                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                self.silent(sprag(*arguments, "--print-parameters"))
         self.assertGreater(len(tried), 60)
 
     def test_parameters_and_their_words(self):

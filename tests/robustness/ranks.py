@@ -81,8 +81,7 @@ class RanksTest(RunTest):
 
     def read_data(self, ranks, changes, group, names):
         folder = self.folder / f"{changes['Analysis/Type']}-{ranks}"
-        done = run(ranks, folder, changes)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.succeeded(run(ranks, folder, changes))
         with h5py.File(folder / "result.h5") as file:
             return {name: file[group][name][:] for name in names}
 
@@ -108,8 +107,7 @@ class Ranks(RanksTest):
         tables, fields = {}, {}
         for ranks in (1, 2):
             folder = self.folder / str(ranks)
-            done = run(ranks, folder, {**SETTINGS, "Mirrored pair/Type": "full"})
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = self.succeeded(run(ranks, folder, {**SETTINGS, "Mirrored pair/Type": "full"}))
             self.assertEqual(done.stdout.count("largest P"), 1, done.stdout)
             self.assertEqual(done.stdout.count("Processes:    2, which share"), ranks - 1, done.stdout)
             with h5py.File(folder / "result.h5") as file:

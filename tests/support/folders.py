@@ -13,3 +13,13 @@ class FolderTest(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory(prefix="sprag-test-")
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
+
+    def succeeded(self, done):
+        """Returns a program that has ended well."""
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def silent(self, done):
+        """Returns one that has ended well and complained of nothing."""
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done
