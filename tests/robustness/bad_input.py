@@ -89,12 +89,6 @@ class BadScene(ProgramTest):
         self.write(header + text, "own.csv")
         return self.write(f"subsection {section}\n  set {choice} = table\n  set Table = own.csv\nend\n")
 
-    def test_decimal_commas_in_tables(self):
-        for text in ("0;0,3\n10,5;0,5\n20;0,7\n30;0,9\n", "0,0 0,3\n10,5\t0,5\n20,0 0,7\n30,0 0,9\n"):
-            with self.subTest(text=text):
-                self.refused(self.table(text), says=["own.csv:1: ", "decimal point", "0.3"], mistakes=1)
-        self.refused(self.table("0;0,0\n0,1;5,5\n", "Drive", "Profile"), says=["point: 0;0.0"], mistakes=1)
-
     def test_exchanged_columns(self):
         rows = "0.3,0\n0.4,20\n0.5,60\n0.6,120\n"
         self.refused(self.table(rows), says=["row 4: coefficient 120", "exchanged"], mistakes=1)
@@ -103,10 +97,8 @@ class BadScene(ProgramTest):
         for header in ("mu,v [mm/s]\n", "friction coefficient;speed\n", "mu speed\n"):
             with self.subTest(header=header):
                 self.refused(self.table(fine, header=header), says=["coefficient 3", "exchanged"], mistakes=1)
-                done = sprag(self.table(rows, header=header), "--validate", "--quiet")
-                self.assertEqual((done.returncode, done.stderr), (0, ""))
-        done = sprag(self.table(fine, header="friction speed [mm/s], mu [-]\n"), "--validate", "--quiet")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+                self.silent(sprag(self.table(rows, header=header), "--validate", "--quiet"))
+        self.silent(sprag(self.table(fine, header="friction speed [mm/s], mu [-]\n"), "--validate", "--quiet"))
         drive = self.table("0,0\n1,0.1\n1,0.2\n3,0.3\n", "Drive", "Profile", header="displacement [mm]; t [m]\n")
         self.refused(drive, says=["column 't'", "must be in s", "'m' has the dimension m"], mistakes=1)
 
@@ -120,8 +112,7 @@ class BadMesh(ProgramTest):
 
     def test_curves_with_a_name_of_their_own_may_overlap(self):
         names = 'Physical Curve("measured") = {line[1], area[2]};\n'
-        done = sprag(self.geometry(STRIP + LEVER + HUB + FACE + names), "--validate")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.silent(sprag(self.geometry(STRIP + LEVER + HUB + FACE + names), "--validate"))
 
     def test_elements_without_a_group(self):
         more = "other[] = Extrude {0, 5, 0} { Curve{area[0]}; Layers{2}; Recombine; };\n"
@@ -187,8 +178,7 @@ class FailedRun(ProgramTest):
         done = sprag(scene, *sets(soft), "--output", self.output, "--quiet")
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("half of Young's modulus there", done.stderr)
-        with h5py.File(self.output / "result.h5", "r") as file:
-            self.assertIn("half of Young's modulus there", file["summary/status"].asstr()[()])
+        self.assertIn("half of Young's modulus there", self.read("summary", "status")["status"])
 
 
 class RunGoingOn(ProgramTest):
@@ -217,17 +207,10 @@ class RunGoingOn(ProgramTest):
                 self.assertGreaterEqual(len(file["table/x"]), len(left))
                 self.assertIn("subsection Drive", file["parameters"].asstr()[()])
 
-        # A new run into the same folder starts afresh if that is asked for.
-        done = sprag(self.write(""), *COARSE, "--set", "Drive/Stroke=5", "--output", self.output, "--overwrite")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        with h5py.File(path, "r") as file:
-            self.assertEqual(file["table/x"][:].max(), 5)
-
 
 class Options(ProgramTest):
     def test_help_and_version(self):
-        done = sprag("--help")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        done = self.silent(sprag("--help"))
         for option in ("FILE.prm", "--set", "--output", "--validate", "--print-parameters", "--quiet", "--version"):
             self.assertIn(option, done.stdout)
         one = sprag("--help", "lever/depth").stdout
@@ -242,26 +225,19 @@ class Options(ProgramTest):
         self.assertIn("column Q [N]\n", sprag("--help", "Q").stdout)
         self.assertIn("remedy: ", sprag("--help", "near_locking").stdout)
         self.complains(["--help", "lop_area"], "did you mean 'loop_area'?")
-        done = sprag("--version")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        done = self.silent(sprag("--version"))
         self.assertRegex(done.stdout, r"^sprag \d+\.\d+")
 
     def test_names_of_files_and_options(self):
         scene, other, binary = (self.write(CLOSED_FORM, name) for name in ("scene.prm", "other.prm", "binary.prm"))
         binary.write_bytes(bytes(range(256)))
         cases = (
-            ([], "FILE.prm"), ([scene, other], "other.prm"), ([scene, "--outputs", self.output], "--outputs"),
+            ([], "FILE.prm"), ([scene, "--set"], "--set"), ([scene, other], "other.prm"), ([scene, "--outputs", self.output], "--outputs"),
             ([scene, "--quiet", "--verbose"], "--verbose"), ([self.folder / "missing.prm"], "missing.prm: cannot be read"), ([self.folder], "is a folder"), ([binary], "binary.prm"),
         )  # fmt: skip
         for arguments, text in cases:
             with self.subTest(text):
                 self.complains(arguments, text)
-
-    def test_malformed_overrides(self):
-        refused = {text: f"--set: {text}: must have the form Section/Name=value" for text in ("Stroke", "=", "")}
-        messages = self.complains([self.write(CLOSED_FORM), *sets([*refused])], "--set: ")
-        self.assertEqual(messages, list(refused.values()))
-        self.complains([self.write(CLOSED_FORM), "--set"], "--set")
 
     def complains(self, arguments, text):
         before = tree(self.folder)
@@ -270,7 +246,6 @@ class Options(ProgramTest):
         self.assertEqual(done.stdout, "")
         self.assertIn(text, done.stderr)
         self.assertEqual(tree(self.folder), before)
-        return done.stderr.splitlines()
 
     def test_defaults_are_input_and_validating_writes_nothing(self):
         defaults = sprag("--print-parameters")
@@ -278,8 +253,7 @@ class Options(ProgramTest):
         self.assertIn("56", defaults.stdout)
         scene = self.write(defaults.stdout)
         before = tree(self.folder)
-        done = sprag(scene, "--validate", "--output", self.output, cwd=self.folder)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        done = self.silent(sprag(scene, "--validate", "--output", self.output, cwd=self.folder))
         self.assertIn("scene.prm", done.stdout)
         self.assertEqual(tree(self.folder), before)
 
@@ -306,15 +280,13 @@ class Options(ProgramTest):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("the cylinder reaches the lever's pivot", done.stderr)
         self.assertIn("Try", done.stderr)
-        with h5py.File(self.output / "result.h5", "r") as file:
-            z = file["table/z"][:]
-            self.assertGreater(len(z), 20)
-            self.assertGreater(np.abs(z).max(), 100)
-            self.assertIn("pivot", file["summary/status"].asstr()[()])
-            self.assertGreater(file["summary/turns"][()], 0)
+        z, summary = self.read("table", "z")["z"], self.read("summary")
+        self.assertGreater(len(z), 20)
+        self.assertGreater(np.abs(z).max(), 100)
+        self.assertIn("pivot", summary["status"])
+        self.assertGreater(summary["turns"], 0)
 
     def test_default_output_folder(self):
-        done = sprag(self.write(CLOSED_FORM, "first try.prm"), cwd=self.folder)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.succeeded(sprag(self.write(CLOSED_FORM, "first try.prm"), cwd=self.folder))
         self.assertTrue((self.folder / "output" / "first try" / "result.h5").is_file())
         self.assertIn("largest P", done.stdout)

@@ -81,8 +81,7 @@ class BadSlide(ProgramTest):
 
     def test_turn_does_not_count_without_continuation(self):
         there = {**SLIP, "Stability/Position": 30, "Sprag slip/Turn": 30, "Sprag slip/Continuation": 0}
-        done = sprag(self.write(""), *sets(there), "--validate")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.silent(sprag(self.write(""), *sets(there), "--validate"))
 
     def test_values_that_cannot_be_judged_are_told(self):
         """The drive ends at 65 mm; 100 mm is a number like any other."""
@@ -105,25 +104,13 @@ class JammedSlide(ProgramTest):
     JAMMED = ("Friction/Factor=5", "Lever/Depth=20")
 
     def test_is_a_verdict(self):
-        for model in ("beam", "condensed"):  # of the rigid lever below
+        for model in ("beam", "condensed"):
             with self.subTest(model=model):
                 changes = ("Mesh/Face size=4", f"Analysis/Model={model}", "Stability/Critical=none")
                 self.assertRegex(self.completed("stability-a", (*self.JAMMED, *changes)), r"verdict +jammed\n")
                 found = self.read("summary")
                 self.assertEqual((found["verdict"], found["status"]), ("jammed", "completed"))
                 self.assertTrue(np.isnan(found.get("growth_rate", np.nan)))
-
-    def test_critical_friction_of_the_rigid_lever(self):
-        """It locks at mu e = s, the closed form's s at x = 65 mm. A contact of stiffness k_c gives way by delta = P/k_c, which takes
-        it there at a margin m of about sqrt(delta_0/s) already: with P = 18.6 N / m and k_c = 1e9 N/mm that is 1e-5."""
-        changes = ("Analysis/Model=rigid", "Friction/Law=Coulomb", "Friction/Factor=1", "Contact/Stiffness=1e9", "Contact/Exponent=1")
-        search = "Stability/Critical=Friction/Coefficient 1 5"
-        self.completed("stability-a", ("Lever/Depth=20", *changes, search))
-        radius, offset, pivot = 56.0, 45.6, 185.5
-        distance = pivot - 65
-        expected = distance * np.cos(np.arcsin((radius - offset) / distance)) / offset
-        found = self.read("summary")["critical_friction_coefficient_1"]
-        self.assertAlmostEqual(found, expected, delta=1e-4 * expected)
 
     def test_has_modes(self):
         self.completed("stability-a", (*self.JAMMED, "Analysis/Type=modal"))
@@ -144,8 +131,7 @@ class LimitCycle(RunTest):
     """A beam of 7.5 mm, whose vibration repeats itself, and one of 6 mm, whose vibration does not."""
 
     def run_lever(self, depth):
-        done = run_scene("onset-a", (f"Lever/Depth={depth}", "Sprag slip/Continuation=0"), "--output", self.output, "--overwrite")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.succeeded(run_scene("onset-a", (f"Lever/Depth={depth}", "Sprag slip/Continuation=0"), "--output", self.output, "--overwrite"))
         return done.stdout
 
     def test_tells_its_error(self):
@@ -250,8 +236,7 @@ class Stroke(RunTest):
     STROKE = ("Stability/Position=auto", "Stability/Direction=both", "Lever/Depth=10", "Stability/Critical=none", "Stability/Roles=off")
 
     def run_with(self, *changes):
-        done = run_scene("stability-a", changes, "--output", self.output, "--overwrite")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.succeeded(run_scene("stability-a", changes, "--output", self.output, "--overwrite"))
         return done.stdout
 
     PLACES = np.linspace(3.25, 65, 32)
@@ -293,16 +278,6 @@ class Stroke(RunTest):
         self.run_with(*self.STROKE, "Lever/Depth=20", "Contact/Tangential stiffness=123")
         self.assertAlmostEqual(self.read("summary")["growth_rate"], soft, delta=0.02 * soft)
 
-    def test_critical_depth_is_that_of_the_worst_slide(self):
-        changes = [change for change in self.STROKE if "Critical" not in change]
-        printed = self.run_with(*changes, "Stability/Critical=Lever/Depth 11.5 14")
-        self.assertRegex(printed, r"Lever/Depth from 11.5 to 14 mm: flutter, stable from [\d.]+ \+- \S+ mm \(worst forward at x = ")
-        depth = float(re.search(r"stable from ([\d.]+) \+-", printed).group(1))
-        self.assertLess(0, depth - self.read("summary")["critical_lever_depth_1"])
-        thin, thick = self.dense((0.99 * depth, depth))
-        self.assertGreater(thin.max(), 0)
-        self.assertLess(thick.max(), 0)
-
     def test_own_value_is_among_those_tried(self):
         # A narrow range that flutters, far from the points of a wide search.
         support = ("Support/Type=sprung", "Support/Mass=1e-4", "Support/Stiffness=3000", "Support/Damping=0.005")
@@ -312,17 +287,6 @@ class Stroke(RunTest):
         self.assertRegex(printed, "verdict +flutter")
         low, high = (self.read("summary")[f"critical_contact_stiffness_{i}"] for i in (1, 2))
         self.assertTrue(low < 2000 < high, (low, high))
-
-    def test_limit_along_the_stroke_lies_within_its_error(self):
-        changes = "Analysis/Model=condensed", "Stability/Roles=off", "Stability/Critical=Stability/Position 55 58"
-        found = []
-        for size in (0.5, 0.25):
-            self.run_with(*changes, f"Mesh/Face size={size}")
-            summary = self.read("summary")
-            found.append((summary["critical_stability_position_1"], summary["critical_stability_position_1_error"]))
-        (limit, error), (finer, finer_error) = found
-        self.assertLess(abs(limit - finer), error + finer_error)
-        self.assertLess(error, 1)
 
     def test_error_of_a_limit_is_that_of_growth_over_its_slope(self):
         changes = ("Lever/Depth=12", "Analysis/Model=condensed", "Mesh/Face size=1", "Contact/Damping=0.1", "Stability/Direction=forward", "Stability/Roles=off")
@@ -347,16 +311,6 @@ class Stroke(RunTest):
         table = self.read("table")
         corner = [(z == 0.02) == (f == 1) for z, f in zip(table["contact_damping"], table["friction_factor"])]
         self.assertAlmostEqual(found, table["growth_rate"][corner].max(), delta=1e-6 * abs(found))
-        # The worst slide has the least damping, and a mass of the support between the ends of its range.
-        support = ("Support/Type=sprung", "Friction/Law=Coulomb", "Friction/Coefficient=0.6", "Lever/Depth=34")
-        within = "Stability/Ranges=Contact/Damping 0.01 0.2; Support/Mass 2e-4 4e-3"
-        at_a_point = ("Contact/Damping=0.01", "Support/Mass=6e-4")
-        growth = []
-        for changes in ((within,), at_a_point):
-            self.run_with(*self.STROKE, *support, *changes)
-            growth.append(self.read("summary")["growth_rate"])
-        self.assertGreater(growth[0], 0.9 * growth[1])
-        self.assertGreater(growth[1], 100)
         # Levers of 8, 20 and 24 mm are stable there, those between 8 and 14 mm flutter.
         printed = self.run_with(*self.STROKE, "Lever/Depth=20", "Stability/Position=40", "Stability/Direction=forward", "Stability/Ranges=Lever/Depth 8 24")
         self.assertRegex(printed, r"verdict +flutter")

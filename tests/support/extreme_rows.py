@@ -10,8 +10,6 @@ from extreme_runs import (
     peak_deviation,
     equal_rows,
     forces,
-    free_flight,
-    frequency,
     loop_area,
     numbers,
     peaks,
@@ -262,11 +260,6 @@ def inertia_rows():
             dear = model != "rigid" and factor < 1
             name = f"J {factor:g} times, {model}"
             yield Row(name, "reversal-a", (), peaks(TIGHT), "a tenth of Time/Tolerance", 0.02, base=base, slow=dear)
-        options = (f"Lever/Moment of inertia={J!r}", "Analysis/Model=rigid")
-        check = frequency(("Lever/Moment of inertia=6.45", "Analysis/Model=rigid"), scale=factor**-0.5)
-        yield Row(f"J {factor:g} times, frequency", "modal-a", options, check, "frequency over sqrt J", 1e-9)
-    flight = (*BRIEF, "Drive/Stroke=64", "Lever/Moment of inertia=6450", "Analysis/Model=rigid")
-    yield Row("J 1000 times, rigid, in flight", "reversal-a", flight, free_flight(6450.0, 7.4e4), "sqrt(k/J)", 1e-3)
     light = (*BRIEF, "Analysis/Model=rigid", "Lever/Moment of inertia=6.45e-6", *mu(0.73))
     yield Row("J 1e-6 times, P", "reversal-a", light, quasi_static_in_time(0.3, 0.8), "P without inertia", 0.005)
 

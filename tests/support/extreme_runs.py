@@ -117,15 +117,6 @@ def joined(x, y, at):
     )
 
 
-def frequency(*other, scale):
-    """The lowest of the modes."""
-
-    def check(run, make):
-        return off(run.summary["frequency_1"], scale * make(*other).summary["frequency_1"]), np.nan
-
-    return check
-
-
 def deviation(run, _):
     """From the closed form beside it, of P and Q on both strokes."""
     return max(abs(value) for name, value in run.summary.items() if re.fullmatch(r"deviation_[PQ]_\w+", name)), np.nan
@@ -214,19 +205,3 @@ def closes(run, _):
         before = np.interp(t[two] - t[two][0], t[one] - t[one][0], column[one])
         worst = max(worst, np.abs(column[two] - before).max() / np.abs(column).max())
     return worst, np.nan
-
-
-def free_flight(inertia, stiffness):
-    """theta of a rigid lever after its last contact from the oscillation that its spring gives it, over its largest change."""
-
-    def check(run, _):
-        t, theta, touch = (run.table[name] for name in ("time", "theta", "P"))
-        last = np.flatnonzero(touch > 0)[-1] + 2
-        t, theta = t[last:] - t[last], theta[last:]
-        assert len(t) > 5
-        omega = np.sqrt(stiffness / inertia)
-        modes = np.column_stack((np.ones_like(t), np.cos(omega * t), np.sin(omega * t) / omega))
-        left = theta - modes @ np.linalg.lstsq(modes, theta, rcond=None)[0]
-        return np.abs(left).max() / np.ptp(theta), np.nan
-
-    return check
