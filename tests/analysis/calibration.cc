@@ -6,6 +6,7 @@
 #include "levers/prepared_scene.h"
 #include "scene/scene.h"
 #include "support/params_folder.h"
+#include "support/thrown.h"
 
 #include <cmath>
 #include <filesystem>
@@ -25,15 +26,7 @@ namespace
 
   std::string refusal(const Scene &scene)
   {
-    try
-    {
-      calibrate_parts(scene);
-    }
-    catch (const InputError &error)
-    {
-      return error.what();
-    }
-    return {};
+    return thrown_text([&] { calibrate_parts(scene); });
   }
 
   bool contains(const std::string &text, const std::string &part)

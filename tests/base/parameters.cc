@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "scene/scene.h"
+#include "support/thrown.h"
 #include "support/written.h"
 
 #include <cmath>
@@ -49,6 +50,12 @@ namespace
 
   using Messages = std::vector<std::string>;
 
+  /// The mistakes with one value, the first line of which follows that of the section.
+  std::vector<std::string> mistakes_with(const std::string &section, const std::string &name, const std::string &value)
+  {
+    return mistakes("subsection " + section + "\n set " + name + " = " + value + "\nend\n");
+  }
+
   ParameterValues to_values(const std::map<std::string, Setting> &specified)
   {
     ParameterValues values;
@@ -61,6 +68,20 @@ namespace
   std::vector<NamedColumn> friction_columns(const std::string &text)
   {
     return read_two_columns(written(text, "mu.csv"), { "speed", "v" }, { "mu", "coefficient" }).columns;
+  }
+
+  /// Returns what is said of them, from the name of the file on where it is there.
+  std::string complaint(const std::string &text)
+  {
+    const auto said = thrown_text(
+        [&]
+        {
+          const auto columns = friction_columns(text);
+          values_in("mm/s", columns[0]);
+          values_in("", columns[1]);
+        });
+    const auto file = said.find("mu.csv");
+    return file == std::string::npos ? said : said.substr(file);
   }
 } // namespace
 
@@ -138,8 +159,7 @@ TEST(Parameters, AUnitBehindTheLastNumberIsThatOfAll)
 
 TEST(Parameters, UnitsOfAnotherDimensionAreRefused)
 {
-  const auto radius = [](const std::string &value)
-  { return mistakes("subsection Geometry\n set Cylinder radius = " + value + "\nend\n").at(0); };
+  const auto radius       = [](const std::string &value) { return mistakes_with("Geometry", "Cylinder radius", value).at(0); };
   const std::string begin = "scene.prm:2: Geometry/Cylinder radius = ";
   EXPECT_EQ(radius("56 N"), begin + "56 N: must be a number > 0 [mm]: 'N' has the dimension m.kg.s-2, mm has the dimension m");
   EXPECT_EQ(radius("56 mn"), begin + "56 mn: must be a number > 0 [mm]: there is no unit 'mn'");
@@ -180,12 +200,12 @@ TEST(Parameters, NumbersMustBeFiniteAndInRange)
 {
   for (const std::string value : { "nan", "inf", "-inf", "1e999", "", "big", "0", "-56", "--5", "+-5", "0x10", "5,6" })
   {
-    const auto found = mistakes("subsection Geometry\n set Cylinder radius = " + value + "\nend\n");
+    const auto found = mistakes_with("Geometry", "Cylinder radius", value);
     ASSERT_EQ(found.size(), 1u) << value;
     EXPECT_EQ(found[0].rfind("scene.prm:2: Geometry/Cylinder radius = " + value + ": must be a number > 0", 0), 0u) << found[0];
   }
   for (const std::string value : { "56", "+56", "5.6e1", ".5", "5.", "1E-3" })
-    EXPECT_TRUE(mistakes("subsection Geometry\n set Cylinder radius = " + value + "\nend\n").empty()) << value;
+    EXPECT_TRUE(mistakes_with("Geometry", "Cylinder radius", value).empty()) << value;
 }
 
 TEST(Parameters, IntegersListsChoicesAndAutoKeepTheirRules)
@@ -204,7 +224,7 @@ TEST(Parameters, NoHintIsAThousandTimesOff)
 {
   const auto rule = [](const std::string &value)
   {
-    const auto said = mistakes("subsection Geometry\n set Cylinder radius = " + value + "\nend\n").at(0);
+    const auto said = mistakes_with("Geometry", "Cylinder radius", value).at(0);
     return said.substr(said.rfind("must be a number > 0") + 21);
   };
   EXPECT_EQ(rule("5,6"), "with a decimal point: did you mean '5.6'?");
@@ -221,7 +241,7 @@ TEST(Parameters, AListWithDecimalCommasIsRefused)
 {
   const auto rule = [](const std::string &value)
   {
-    const auto said = mistakes("subsection Mesh\n set Ratios = " + value + "\nend\n").at(0);
+    const auto said = mistakes_with("Mesh", "Ratios", value).at(0);
     return said.substr(said.rfind(": ") + 2);
   };
   EXPECT_EQ(rule("0,5"), "must be '0, 5' for a list, or '0.5'");
@@ -340,51 +360,23 @@ TEST(Csv, ColumnsAreFoundByNameInTheirUnits)
 
 TEST(Csv, ColumnsThatAreNotClearAreRefused)
 {
-  const auto said = [](const std::string &text)
-  {
-    try
-    {
-      const auto columns = friction_columns(text);
-      values_in("mm/s", columns[0]);
-      return std::string();
-    }
-    catch (const InputError &error)
-    {
-      const std::string what = error.what();
-      return what.substr(what.find("mu.csv") == std::string::npos ? 0 : what.find("mu.csv"));
-    }
-  };
-  EXPECT_EQ(said("mu, mu0\n1, 2\n"), "mu.csv: the header 'mu, mu0' has no column 'speed': it has mu, mu0");
-  EXPECT_EQ(said("v1 v2 mu\n1 2 3\n"), "mu.csv: the header 'v1 v2 mu' has no column 'speed': it has v1, v2, mu");
-  EXPECT_EQ(said("speed [mm], mu\n1, 2\n"),
+  EXPECT_EQ(complaint("mu, mu0\n1, 2\n"), "mu.csv: the header 'mu, mu0' has no column 'speed': it has mu, mu0");
+  EXPECT_EQ(complaint("v1 v2 mu\n1 2 3\n"), "mu.csv: the header 'v1 v2 mu' has no column 'speed': it has v1, v2, mu");
+  EXPECT_EQ(complaint("speed [mm], mu\n1, 2\n"),
             "column 'speed': must be in mm/s: 'mm' has the dimension m, mm/s has the dimension m.s-1");
-  EXPECT_EQ(said("1, 2\n" + std::string("\0", 1)), "mu.csv: is not a text in UTF-8");
+  EXPECT_EQ(complaint("1, 2\n" + std::string("\0", 1)), "mu.csv: is not a text in UTF-8");
   for (const std::string name : { "speed_km/h", "speed_m/s", "speed in m/s" }) // a slash leaves the unit behind it
-    EXPECT_NE(said(name + ", mu\n1, 2\n"), "") << name;
-  EXPECT_EQ(said("speed_kn, mu\n1, 2\n"), "") << "a kilonewton is no speed";
-  EXPECT_EQ(said("speed_knot, mu\n1, 2\n"),
+    EXPECT_NE(complaint(name + ", mu\n1, 2\n"), "") << name;
+  EXPECT_EQ(complaint("speed_kn, mu\n1, 2\n"), "") << "a kilonewton is no speed";
+  EXPECT_EQ(complaint("speed_knot, mu\n1, 2\n"),
             "column 'speed_knot': 'knot' may be its unit: must be in brackets, as '[knot]', or not there");
-  EXPECT_EQ(said("speed_mean, mu_k\n1, 2\n"), "");
+  EXPECT_EQ(complaint("speed_mean, mu_k\n1, 2\n"), "");
 }
 
 // Such comments would be passed over beside numbers 1000 times as large.
 TEST(Csv, AUnitInACommentIsReadOrRefused)
 {
-  const auto said = [](const std::string &header)
-  {
-    try
-    {
-      const auto columns = friction_columns(header + "\n0, 1\n0.5, 1\n");
-      values_in("mm/s", columns[0]);
-      values_in("", columns[1]);
-      return std::string();
-    }
-    catch (const InputError &error)
-    {
-      const std::string what = error.what();
-      return what.find("mu.csv") == std::string::npos ? what : what.substr(what.find("mu.csv"));
-    }
-  };
+  const auto said = [](const std::string &header) { return complaint(header + "\n0, 1\n0.5, 1\n"); };
   EXPECT_EQ(said("speed, mu\n# [m/s], [-]"),
             "mu.csv:2: the comment '[m/s], [-]' may tell the unit 'm/s', and the column 'speed' has none: write a first line as "
             "'speed [m/s], ...', with [mm/s] where the comment means something else");
@@ -401,21 +393,8 @@ TEST(Csv, AUnitInACommentIsReadOrRefused)
 
 TEST(Csv, NoHintIsAThousandTimesOff)
 {
-  const auto said = [](const std::string &rows)
-  {
-    try
-    {
-      friction_columns(rows);
-      return std::string();
-    }
-    catch (const InputError &error)
-    {
-      const std::string what = error.what();
-      return what.substr(what.find("mu.csv"));
-    }
-  };
-  EXPECT_EQ(said("0;0,3\n"), "mu.csv:1: 0;0,3: numbers need a decimal point: 0;0.3");
-  EXPECT_EQ(said("10;2,000\n"), "mu.csv:1: 10;2,000: numbers need a decimal point and no separator of thousands");
+  EXPECT_EQ(complaint("0;0,3\n"), "mu.csv:1: 0;0,3: numbers need a decimal point: 0;0.3");
+  EXPECT_EQ(complaint("10;2,000\n"), "mu.csv:1: 10;2,000: numbers need a decimal point and no separator of thousands");
 }
 
 // A first row taken for a header would leave a table without its friction at rest.
@@ -436,17 +415,9 @@ TEST(Csv, AFirstRowIsNoHeader)
 
 TEST(Csv, EveryFaultyLineIsNamed)
 {
-  const auto file = written("v, mu\n0, 0.3\n1\n2, 0.5, 7\nx, y\n3, 0.5\n", "mu.csv");
-  try
-  {
-    read_two_columns(file, { "v" }, { "mu" });
-    FAIL();
-  }
-  catch (const InputError &error)
-  {
-    EXPECT_EQ(error.messages, (Messages{ file + ":3: 1: must be two numbers", file + ":4: 2, 0.5, 7: must be two numbers",
-                                         file + ":5: x, y: must be two numbers" }));
-  }
+  const auto messages = thrown_messages([] { friction_columns("v, mu\n0, 0.3\n1\n2, 0.5, 7\nx, y\n3, 0.5\n"); });
+  EXPECT_EQ(without_folder(messages), (Messages{ "mu.csv:3: 1: must be two numbers", "mu.csv:4: 2, 0.5, 7: must be two numbers",
+                                                 "mu.csv:5: x, y: must be two numbers" }));
   EXPECT_THROW(read_two_columns("/nowhere/mu.csv", { "v" }, { "mu" }), InputError);
   EXPECT_THROW(read_two_columns(testing::TempDir(), { "v" }, { "mu" }), InputError);
   EXPECT_THROW(friction_columns("# nothing\n"), InputError);

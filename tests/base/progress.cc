@@ -11,9 +11,8 @@ namespace
 {
   struct TimedRun
   {
-    explicit TimedRun(const ProgressStyle style, const std::size_t columns = 0)
-        : progress(
-              stream, style, 130., [this] { return now; }, columns)
+    explicit TimedRun(const ProgressStyle style)
+        : progress(stream, style, 130., [this] { return now; })
     {
     }
 
@@ -59,13 +58,4 @@ TEST(Progress, TerminalRedrawsOneLineTenTimesASecond)
   EXPECT_LE(count(text, '\r'), 15u);
   EXPECT_GE(count(text, '\r'), 12u);
   EXPECT_NE(text.find("[####################] 100 %  x  130.000 mm"), std::string::npos) << text;
-}
-
-TEST(Progress, NarrowTerminalKeepsShareAndTime)
-{
-  TimedRun middle(ProgressStyle::terminal, 80), narrow(ProgressStyle::terminal, 60);
-  middle.step(65.);
-  narrow.step(65.);
-  EXPECT_EQ(middle.stream.str(), "\r[#####.....]  50 %  x   65.000 mm  P   14.639 N  Q  -11.888 N   4 it  0:00 left");
-  EXPECT_EQ(narrow.stream.str(), "\r[##########..........]  50 %  0:00 left");
 }

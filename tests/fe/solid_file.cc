@@ -6,6 +6,7 @@
 #include "fe/mesh/lever_mesh.h"
 #include "scene/scene.h"
 #include "scenes.h"
+#include "support/thrown.h"
 #include "support/written.h"
 
 #include <deal.II/grid/grid_tools.h>
@@ -52,15 +53,7 @@ namespace
 
   std::vector<std::string> find_mistakes(const Scene &scene)
   {
-    try
-    {
-      check_solid_file(scene);
-    }
-    catch (const InputError &error)
-    {
-      return without_folder(error.messages);
-    }
-    return {};
+    return without_folder(thrown_messages([&] { check_solid_file(scene); }));
   }
 
   void expect_mistake(const Changes &changes, const std::string &message)

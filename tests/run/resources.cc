@@ -4,6 +4,7 @@
 #include "base/errors.h"
 #include "scene/scene.h"
 #include "scenes.h"
+#include "support/thrown.h"
 
 #include <filesystem>
 #include <fstream>
@@ -105,17 +106,9 @@ namespace
     Scene scene = model_a();
     EXPECT_NO_THROW(require_memory(scene));
     scene.mesh.face_size = 1e-4;
-    try
-    {
-      require_memory(scene);
-      FAIL();
-    }
-    catch (const InputError &error)
-    {
-      const std::string text = error.what();
-      EXPECT_NE(text.find("Mesh/Face size = 0.0001 mm"), std::string::npos) << text;
-      EXPECT_NE(text.find(" GB of memory, and "), std::string::npos) << text;
-    }
+    const auto text      = thrown_text([&] { require_memory(scene); });
+    EXPECT_NE(text.find("Mesh/Face size = 0.0001 mm"), std::string::npos) << text;
+    EXPECT_NE(text.find(" GB of memory, and "), std::string::npos) << text;
     scene.analysis.model = ModelType::closed_form;
     EXPECT_NO_THROW(require_memory(scene));
   }
@@ -177,18 +170,7 @@ namespace
 
   TEST(Memory, MoreRowsThanCanBeUsedAreRefused)
   {
-    const auto refusal = [](const Scene &scene) -> std::string
-    {
-      try
-      {
-        require_memory(scene);
-      }
-      catch (const InputError &error)
-      {
-        return error.what();
-      }
-      return "";
-    };
+    const auto refusal   = [](const Scene &scene) { return thrown_text([&] { require_memory(scene); }); };
     Scene scene          = model_a();
     scene.analysis.model = ModelType::closed_form;
     scene.drive          = Drive(DriveProfile::harmonic, 0., 65., 112., 1e3);

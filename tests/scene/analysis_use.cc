@@ -5,8 +5,8 @@
 #include "input/read.h"
 #include "scene/scene.h"
 #include "support/params_folder.h"
+#include "support/thrown.h"
 
-#include <boost/algorithm/string/join.hpp>
 #include <filesystem>
 #include <gtest/gtest.h>
 
@@ -21,15 +21,7 @@ namespace
 
   std::string refusal(const std::vector<std::string> &overrides)
   {
-    try
-    {
-      read_scene(scene_file("model-a"), overrides);
-    }
-    catch (const InputError &error)
-    {
-      return boost::algorithm::join(error.messages, "\n");
-    }
-    return "";
+    return thrown_text([&] { read_scene(scene_file("model-a"), overrides); });
   }
 } // namespace
 

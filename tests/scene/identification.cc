@@ -46,16 +46,9 @@ namespace
     /// Returns the message about a table or other settings, without the table's path.
     std::string mistake(const std::string &text, const Messages &more = {}) const
     {
-      try
-      {
-        scene(text, more);
-      }
-      catch (const InputError &error)
-      {
-        EXPECT_EQ(error.messages.size(), 1u) << error.what();
-        return error.messages.front();
-      }
-      return "none";
+      const auto messages = thrown_messages([&] { scene(text, more); });
+      EXPECT_EQ(messages.size(), 1u);
+      return messages.empty() ? "none" : messages.front();
     }
 
     /// Thirty rows whose first column begins at 0 and grows by `step`.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "base/errors.h"
 #include "input/read.h"
 #include "scene/scene.h"
+#include "support/thrown.h"
 #include "support/written.h"
 
 #include <gtest/gtest.h>
@@ -19,15 +19,7 @@ namespace sprag
   /// Returns the error messages about a scene, without the folder of its file.
   inline Messages mistakes(const std::string &text, const Messages &overrides = {})
   {
-    try
-    {
-      read_scene(written(text), overrides);
-    }
-    catch (const InputError &error)
-    {
-      return without_folder(error.messages);
-    }
-    return {};
+    return without_folder(thrown_messages([&] { read_scene(written(text), overrides); }));
   }
 
   /// Returns the error messages about the defaults with these overrides.
@@ -42,9 +34,18 @@ namespace sprag
     return find_mistakes(overrides);
   }
 
-  inline void expect_refused(const Messages &scene, const Messages &wrong, const std::string &message)
+  /// Expects one message, about the last of the overrides.
+  inline void expect_refused(const Messages &overrides, const std::string &rule)
   {
-    EXPECT_EQ(find_mistakes(scene, wrong), (Messages{ "--set: " + message }));
+    const auto &wrong = overrides.back();
+    const auto at     = wrong.find('=');
+    EXPECT_EQ(find_mistakes(overrides), Messages{ "--set: " + wrong.substr(0, at) + " = " + wrong.substr(at + 1) + ": " + rule });
+  }
+
+  inline void expect_refused(Messages overrides, const Messages &more, const std::string &rule)
+  {
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    expect_refused(overrides, rule);
   }
 
   /// Geometry of model B.

@@ -71,10 +71,8 @@ TEST(Variation, RangesThatAreNone)
 
 TEST(Variation, ListsAndGridsThatCannotBe)
 {
-  EXPECT_EQ(
-      find_mistakes(study, { "Study/Combine=list", "Study/Vary=Lever/Depth = 1, 2; Lever/Width = 1, 2, 3" }),
-      (Messages{ "--set: Study/Vary = Lever/Depth = 1, 2; Lever/Width = 1, 2, 3: must give each parameter as many values with "
-                 "Combine = list: Lever/Depth has 2, Lever/Width has 3" }));
+  expect_refused(study, { "Study/Combine=list", "Study/Vary=Lever/Depth = 1, 2; Lever/Width = 1, 2, 3" },
+                 "must give each parameter as many values with Combine = list: Lever/Depth has 2, Lever/Width has 3");
   expect_wrong("Study/Vary=Lever/Depth = 1 ... 2 : 1000; Lever/Width = 1 ... 2 : 1000",
                { "makes 1e+06 runs, of which a study may have 20000" });
 }
