@@ -152,3 +152,32 @@ TEST(FrameCoupling, WorkOfItsForcesIsTheKineticEnergyButForTheSchemesDissipation
     EXPECT_LT(open(2.5e-3), open(1e-2) / (radius == 1. ? 50. : 12.)) << radius;
   }
 }
+
+TEST(FrameCoupling, InertiaIsTheDerivativeOfItsForcesByAccelerations)
+{
+  const auto weights = implicit();
+  FrameCoupling coupling(layout, rest);
+  Kinematic begin{ Vector(layout.size()), Vector(layout.size()), Vector(layout.size()) };
+  begin.position[layout.rotation()] = 0.07;
+  begin.position[layout.support()]  = 0.3;
+  const auto dofs                   = coupling.coupled_dofs();
+  dealii::FullMatrix<double> inertia(4, 4);
+  coupling.add_inertia(dofs, { { rest + 0.07 } }, inertia);
+  for (unsigned int j = 0; j < 4; ++j)
+  {
+    // Over an acceleration of 10 the interface moves by 2.5e-6, of which 5e-17 is round-off; what is not linear is even.
+    const double a = 10.;
+    Vector values[2];
+    for (const double sign : { 1., -1. })
+    {
+      Vector end = begin.position;
+      end[dofs[j]] += sign * a * weights.beta * weights.dt * weights.dt;
+      InterfaceForces forces;
+      coupling.add_forces(begin, end, weights, forces);
+      values[sign > 0. ? 0 : 1] = forces.values;
+    }
+    for (unsigned int i = 0; i < 4; ++i)
+      EXPECT_NEAR(-inertia(i, j), (values[0][i] - values[1][i]) / (2. * a), 1e-9) << i << j;
+  }
+  EXPECT_NEAR(inertia(1, 3), std::sin(rest + 0.07), 1e-15);
+}

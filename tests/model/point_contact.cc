@@ -154,7 +154,7 @@ namespace
   constexpr double tolerance = 1e-6 * stiffness;
 
   template <class Evaluate>
-  void expect_tangent(const Case &tested, const Vector &at, const Evaluate &evaluate)
+  void expect_tangent(const Case &tested, const Vector &at, const Evaluate &evaluate, const double most = tolerance)
   {
     const InterfaceForces exact = evaluate(at);
     ASSERT_FALSE(exact.dofs.empty());
@@ -168,7 +168,7 @@ namespace
       const Vector left = evaluate(moved).values;
       for (unsigned int i = 0; i < exact.dofs.size(); ++i)
         EXPECT_NEAR(exact.tangent(i, j), (right[i] - left[i]) / (2. * h),
-                    tolerance * arm(tested, exact.dofs[i]) * arm(tested, exact.dofs[j]))
+                    most * arm(tested, exact.dofs[i]) * arm(tested, exact.dofs[j]))
             << tested.name << ", force on dof " << exact.dofs[i] << " by dof " << exact.dofs[j];
     }
   }
@@ -198,6 +198,28 @@ namespace
           result.push_back(lever);
         }
     return result;
+  }
+
+  /// Slides of all levers both ways on a curved law.
+  std::vector<Case> slides(const FrictionLaw &friction, const double damping)
+  {
+    std::vector<Case> result;
+    for (auto lever : levers(friction))
+      for (const double direction : { 1., -1. })
+      {
+        lever.normal    = { 10451., 1.4726 };
+        lever.damping   = damping;
+        lever.direction = direction;
+        result.push_back(lever);
+      }
+    return result;
+  }
+
+  double distance(const dealii::FullMatrix<double> &a, const dealii::FullMatrix<double> &b)
+  {
+    auto difference = a;
+    difference.add(-1., b);
+    return difference.frobenius_norm();
   }
 
   /// Slipping under mu(v), damped, curved law, bending, sprung: everything at once.
@@ -327,4 +349,45 @@ TEST(PointContact, ForcesAreContinuousWhereTheClosestPointStaysAtANode)
       before = after;
     }
   }
+}
+
+// Over 2e-6 mm: the law's third derivative, 1.5e7 N/mm^3, makes 1e-5 N/mm; round-off of the gap, 2e-14 mm times 1500 N/mm over
+// 2e-6 mm, as much. The tangent itself is 1500 N/mm.
+TEST(Linearisation, PressureAndFrictionAreTheDerivativeOfTheForcesByDisplacements)
+{
+  for (const auto &friction : { coulomb, cork, FrictionLaw{ CorkOnAluminium{}, FrictionSpeed::sliding, 50. } })
+    for (const auto &slide : slides(friction, 0.05))
+    {
+      PointContact contact(slide.properties());
+      PointContact::Evaluation found;
+      const auto evaluate = [&](const Vector &z)
+      {
+        contact.evaluate_sliding({ z, slide.drive(0.), slide.direction * 108. }, found);
+        return found.forces;
+      };
+      const Vector at    = slide.position(0., 0.012);
+      const auto tangent = evaluate(at).tangent;
+      EXPECT_EQ(distance(contact.linearise({ at, slide.drive(0.), slide.direction * 108. }, found).stiffness(), tangent), 0.)
+          << slide.name;
+      expect_tangent(slide, at, evaluate, 1e-3);
+    }
+}
+
+// A step without movement, all weight on its end, that begins without friction.
+TEST(Linearisation, StuckIsTheTangentOfAStepInStick)
+{
+  for (const auto &friction : { coulomb, cork })
+    for (const auto &slide : slides(friction, 0.))
+    {
+      PointContact contact(slide.properties());
+      PointContact::Evaluation found;
+      const Vector at = slide.position(0., 0.012), rest(at.size());
+      const auto linear =
+          contact.linearise({ at, slide.drive(0.), slide.direction * 108., nullptr, ContactFriction::stuck }, found).stiffness();
+      const DrivePoint drive{ 0., slide.x, 0., 0. };
+      const std::vector<ContactHistory> history{ ContactHistory{} };
+      const StepWeights all_at_the_end{ 1e-5, 0., 0., 0.25, 0.5 };
+      contact.evaluate(InterfaceStep{ drive, history, drive, { at, rest, rest }, at, rest, all_at_the_end }, found);
+      EXPECT_LT(distance(found.forces.tangent, linear), 1e-12 * linear.frobenius_norm()) << slide.name;
+    }
 }
