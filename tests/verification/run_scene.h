@@ -8,6 +8,7 @@
 #include "report/report.h"
 #include "scene/scene.h"
 #include "scenes.h"
+#include "support/made_mesh.h"
 #include "support/scene_parts.h"
 
 #include <cmath>
@@ -19,8 +20,7 @@ namespace sprag
   /// stiffness in stick at the first reversal [N/mm].
   inline double run_scene(const Scene &scene, std::vector<Row> &rows)
   {
-    dealii::Triangulation<2> triangulation;
-    make_mesh(scene, triangulation);
+    const MadeMesh triangulation(scene);
     StaticLever<2> model(triangulation, scene);
     return run_quasi_static(model, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
                             [&](const State &, const Row &row, const Evaluation &)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/statics/solid_body.h"
 #include "scene/scene.h"
+#include "support/made_mesh.h"
 #include "verification/solid_run.h"
 
 #include <filesystem>
@@ -54,8 +55,7 @@ namespace
     namespace fs      = std::filesystem;
     const auto folder = fs::temp_directory_path() / ("sprag-factors-" + std::to_string(::getpid()));
     const Scene scene = tilted_model_a();
-    Mesh plane;
-    make_mesh(scene, plane);
+    const MadeMesh plane(scene);
     const SolidBody in_memory(scene, plane);
     fs::create_directories(folder);
     {

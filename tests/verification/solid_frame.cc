@@ -6,30 +6,14 @@ using namespace sprag;
 
 namespace
 {
-  Scene frame(const double web, const double poisson_ratio = 0.)
+  Scene frame(const double web)
   {
-    Scene scene         = solid_model_a(poisson_ratio);
+    Scene scene         = solid_model_a(0.);
     scene.lever.outline = LeverOutline::frame;
     scene.frame.web     = web;
     return scene;
   }
-
-  Scene in_plane(Scene scene)
-  {
-    scene.analysis.dimension = 2;
-    return scene;
-  }
 } // namespace
-
-// The difference comes from the compliance of the face, whose near-surface layer ends in the flange.
-TEST(SolidFrame, WithAWebOfFullWidthItIsPlaneStress)
-{
-  const Scene scene = frame(40.);
-  const SolidRun solid(scene);
-  const auto rows = run_scene(in_plane(scene));
-  for (const Column column : { Column::P, Column::Q, Column::theta, Column::friction_work })
-    EXPECT_LT(difference(rows, solid.rows, column), 3e-6) << column_info(column).name;
-}
 
 // Flanges rest on a web a quarter as wide, in their middle: beside it they yield, which the plane does not know. The frame is
 // softer than the plane's: P changes by 3e-4 at most and its peak falls by 7e-5. With holes both are the same.
@@ -44,6 +28,7 @@ TEST(SolidFrame, AWebInTheMiddleIsSofterThanThePlanesSlow)
     EXPECT_LT(difference(rows, solid.rows, Column::P), 1e-3) << web;
     return 1. - largest(solid.rows, Column::P) / largest(rows, Column::P);
   };
-  EXPECT_LT(std::abs(loss(0.)), 3e-6);
+  for (const double whole : { 0., 40. })
+    EXPECT_LT(std::abs(loss(whole)), 3e-6);
   EXPECT_GT(loss(10.), 3e-5);
 }

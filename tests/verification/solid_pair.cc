@@ -73,10 +73,8 @@ namespace
 TEST(SolidPair, WithoutContractionItIsThatOfThePlane)
 {
   const Scene scene = unlike_levers(solid_model_a(0.));
-  Scene plane       = scene;
-  plane.analysis    = {};
   const SolidRun solid(scene);
-  const auto rows = run_scene(plane);
+  const auto rows = run_scene(in_plane(scene));
   for (const Column column : { Column::P, Column::Q, Column::theta })
   {
     EXPECT_LT(apart(rows, first_value(column), solid.rows, first_value(column)), 1e-6) << column_info(column).name;

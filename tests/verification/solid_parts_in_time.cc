@@ -4,6 +4,7 @@
 #include "fe/leaf/leaf_spring.h"
 #include "levers/dynamics.h"
 #include "scene/scene.h"
+#include "support/made_mesh.h"
 #include "verification/held_slides.h"
 #include "verification/solid_run.h"
 
@@ -37,12 +38,6 @@ namespace
     return with_fixed_step(scene, 1e-4);
   }
 
-  Scene in_plane(Scene scene)
-  {
-    scene.analysis.dimension = 2;
-    return scene;
-  }
-
   /// A leaf spring heavy enough to be felt, a tip mass, and a support that feels the momentum of both.
   Scene on_leaf_with_tip(Scene scene)
   {
@@ -52,21 +47,6 @@ namespace
     scene.support.type          = SupportType::sprung;
     scene.spring                = prepared_spring(scene);
     return scene;
-  }
-
-  /// A plate on two places of sensors, whose pads of half the width each are those of the plane.
-  Scene on_sensors(Scene scene)
-  {
-    scene.plate.type          = PlateType::on_sensors;
-    scene.plate.poisson_ratio = scene.lever.poisson_ratio;
-    scene.plate.sensors       = { 105., 195. };
-    scene.plate.sensor_width  = 0.5 * scene.lever.width;
-    return scene;
-  }
-
-  double sum(const std::vector<double> &values)
-  {
-    return std::accumulate(values.begin(), values.end(), 0.);
   }
 
   struct BothRuns
@@ -91,20 +71,6 @@ namespace
     const auto solid = with_modes_up_to(plane.lever->condensed.lever->stiffness.back(), scene, space_maker);
     return { run_in_time(plane.model(), scene).rows, run_in_time(solid.model(), scene).rows };
   }
-
-  /// Largest difference of the places' forces over the largest of one.
-  double sensor_difference(const BothRuns &runs)
-  {
-    double difference = 0., largest = 0.;
-    for (std::size_t k = 0; k < runs.plane.size(); ++k)
-      for (std::size_t i = 0; i < runs.plane[k].sensor_forces.size(); ++i)
-      {
-        const double expected = runs.plane[k].sensor_forces[i];
-        difference            = std::max(difference, std::abs(expected - runs.solid.at(k).sensor_forces.at(i)));
-        largest               = std::max(largest, std::abs(expected));
-      }
-    return difference / largest;
-  }
 } // namespace
 
 // Scaled as in a plane, whether the half or the whole is there.
@@ -119,8 +85,7 @@ TEST(SolidPartsInTime, MassAndMomentOfInertiaAreThePlanes)
         scene.mesh.degree    = 1;
         scene.lever.outline  = outline;
         scene.lever.inertia  = source;
-        Mesh plane;
-        make_mesh(scene, plane);
+        const MadeMesh plane(scene);
         const ElasticBody<2> plane_body(plane, lever_properties(scene).body);
         const InertialMatrices expected(plane_body, lever_inertia(scene));
         const SolidBody body(scene, plane);
@@ -162,10 +127,11 @@ TEST(SolidPartsInTime, ALeafSpringAndATipMassMoveAsInThePlaneSlow)
 
 TEST(SolidPartsInTime, SensorsFeelWhatThePlanesFeel)
 {
-  const auto runs = run_both(on_sensors(hardly_ringing()));
+  const Scene scene = hardly_ringing();
+  const auto runs   = run_both(on_sensors(scene, 0.5 * scene.lever.width)); // the plane's
   for (const Column column : { Column::P, Column::Q, Column::theta })
     EXPECT_LT(difference(runs.plane, runs.solid, column), 1e-6) << column_info(column).name;
-  EXPECT_LT(sensor_difference(runs), 1e-6);
+  EXPECT_LT(sensor_difference(runs.plane, runs.solid), 1e-6);
   for (const auto &row : runs.solid)
     for (const std::size_t place : { 0u, 1u })
       for (const std::size_t side : { 0u, 1u })
@@ -177,11 +143,10 @@ namespace
   /// Narrow pads at the corners, with contraction, the axis out of true.
   Scene at_corners(const double tilt, const AnalysisType type = AnalysisType::transient)
   {
-    Scene scene               = tilted(on_sensors(with_face_size(in_space(type), 4.)), tilt);
-    scene.lever.poisson_ratio = scene.layer.poisson_ratio = scene.plate.poisson_ratio = 0.3;
-    scene.plate.sensor_width                                                          = 8.;
-    scene.drive = Drive(DriveProfile::triangle, 18., 19., 112., 1.);
-    return scene;
+    Scene scene               = tilted(with_face_size(in_space(type), 4.), tilt);
+    scene.lever.poisson_ratio = scene.layer.poisson_ratio = 0.3;
+    scene.drive                                           = Drive(DriveProfile::triangle, 18., 19., 112., 1.);
+    return on_sensors(scene, 8.);
   }
 } // namespace
 

@@ -3,10 +3,13 @@
 
 #include "fe/statics/static_lever.h"
 #include "scene/scene.h"
+#include "support/compared_rows.h"
+#include "support/made_mesh.h"
 #include "verification/run_scene.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <numeric>
 
 namespace sprag
 {
@@ -28,13 +31,33 @@ namespace sprag
     return scene;
   }
 
+  inline Scene in_plane(Scene scene)
+  {
+    scene.analysis.dimension = 2;
+    return scene;
+  }
+
+  /// With a plate on two places of sensors, each with two of that width.
+  inline Scene on_sensors(Scene scene, const double sensor_width)
+  {
+    scene.plate.type          = PlateType::on_sensors;
+    scene.plate.poisson_ratio = scene.lever.poisson_ratio;
+    scene.plate.sensors       = { 105., 195. };
+    scene.plate.sensor_width  = sensor_width;
+    return scene;
+  }
+
+  inline double sum(const std::vector<double> &values)
+  {
+    return std::accumulate(values.begin(), values.end(), 0.);
+  }
+
   /// A run in three dimensions.
   struct SolidRun
   {
     explicit SolidRun(const Scene &scene)
     {
-      Mesh plane;
-      make_mesh(scene, plane);
+      const MadeMesh plane(scene);
       const SolidBody body(scene, plane);
       StaticLever<3> lever(body, scene);
       run_quasi_static(
@@ -52,21 +75,16 @@ namespace sprag
     SolidStructure::Exactness exactness{};
   };
 
-  inline double largest(const std::vector<Row> &rows, const Column column)
+  /// Largest difference of the forces of places of sensors over the largest of one.
+  inline double sensor_difference(const std::vector<Row> &a, const std::vector<Row> &b)
   {
-    double result = 0.;
-    for (const auto &row : rows)
-      result = std::max(result, std::abs(row[column]));
-    return result;
-  }
-
-  /// Returns the largest difference of a column over its largest value.
-  inline double difference(const std::vector<Row> &a, const std::vector<Row> &b, const Column column)
-  {
-    EXPECT_EQ(a.size(), b.size());
-    double result = 0.;
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-      result = std::max(result, std::abs(a[i][column] - b[i][column]));
-    return result / largest(a, column);
+    double result = 0., largest = 0.;
+    for (std::size_t k = 0; k < a.size(); ++k)
+      for (std::size_t i = 0; i < a[k].sensor_forces.size(); ++i)
+      {
+        result  = std::max(result, std::abs(a[k].sensor_forces[i] - b.at(k).sensor_forces.at(i)));
+        largest = std::max(largest, std::abs(a[k].sensor_forces[i]));
+      }
+    return result / largest;
   }
 } // namespace sprag

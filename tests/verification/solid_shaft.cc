@@ -2,6 +2,7 @@
 #include "model/contact/circle.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
+#include "support/made_mesh.h"
 #include "support/turning_axis.h"
 #include "verification/face_forces.h"
 #include "verification/solid_run.h"
@@ -58,8 +59,7 @@ TEST_P(SolidShaft, CarriesTheMomentOfTheFaceAboutItsMiddle)
 {
   Scene scene               = yielding();
   scene.contact.enforcement = GetParam();
-  Mesh plane;
-  make_mesh(scene, plane);
+  const MadeMesh plane(scene);
   const SolidBody body(scene, plane);
   StaticLever<3> lever(body, scene);
   std::array<double, 2> off{}, peak{};
