@@ -5,6 +5,7 @@
 #include "mpi_environment.h"
 #include "scene/scene.h"
 #include "scenes.h"
+#include "support/made_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -32,8 +33,7 @@ namespace
 
   Vibration vibration(const Scene &scene)
   {
-    dealii::Triangulation<2> triangulation;
-    make_mesh(scene, triangulation);
+    const MadeMesh triangulation(scene);
     const ElasticBody<2> body(triangulation, lever_properties(scene).body);
     LeverInertia inertia;
     inertia.densities = { { material_id::lever, scene.lever.density },

@@ -5,7 +5,9 @@
 #include "fe/body/body_properties.h"
 #include "scene/scene.h"
 #include "scenes.h"
+#include "support/made_mesh.h"
 #include "support/temporary_folder.h"
+#include "support/thrown.h"
 
 #include <cmath>
 #include <filesystem>
@@ -65,8 +67,7 @@ namespace
   void expect_built_in(const double offset, const double layer)
   {
     const auto scene = coarse_scene(offset, layer);
-    dealii::Triangulation<2> triangulation;
-    make_mesh(scene, triangulation);
+    const MadeMesh triangulation(scene);
     auto area = areas(triangulation);
     EXPECT_NEAR(area[material_id::lever], 210. * 20., 1e-8);
     EXPECT_NEAR(area[material_id::layer], 210. * layer, 1e-8);
@@ -189,22 +190,15 @@ namespace
   }
 
   /// Returns the message of make_mesh() about a user's file.
-  std::string complaint(const std::string &text)
+  std::string complaint(const std::string &script)
   {
     const TemporaryFolder folder;
     Scene scene     = coarse_scene(45.6, 0.);
-    scene.mesh.file = folder.write("bar.geo", text);
+    scene.mesh.file = folder.write("bar.geo", script);
     dealii::Triangulation<2> triangulation;
-    try
-    {
-      make_mesh(scene, triangulation);
-    }
-    catch (const InputError &error)
-    {
-      EXPECT_NE(std::string(error.what()).find(scene.mesh.file), std::string::npos) << error.what();
-      return error.what();
-    }
-    return "";
+    const auto text = thrown_text([&] { make_mesh(scene, triangulation); });
+    EXPECT_NE(text.find(scene.mesh.file), std::string::npos) << text;
+    return text;
   }
 
   void expect_named(const std::string &message, const std::string &words)
@@ -225,8 +219,7 @@ TEST(Mesh, PlateLiesFreeBeforeTheBar)
   for (const double offset : { 0., model_a_offset })
   {
     const auto scene = built(offset, LeverOutline::bar, PlateType::on_sensors);
-    dealii::Triangulation<2> triangulation;
-    make_mesh(scene, triangulation);
+    const MadeMesh triangulation(scene);
     auto area = areas(triangulation);
     EXPECT_NEAR(area[material_id::lever], 210. * 20., 1e-8);
     EXPECT_NEAR(area[material_id::hub], 10. * (20. + offset + 1. + 8. + 6.), 1e-8);
@@ -240,8 +233,7 @@ TEST(Mesh, FrameHasRootArmAndWebs)
   for (const double offset : { 0., 4., model_a_offset })
   {
     const auto scene = built(offset, LeverOutline::frame, PlateType::none);
-    dealii::Triangulation<2> triangulation;
-    make_mesh(scene, triangulation);
+    const MadeMesh triangulation(scene);
     auto area = areas(triangulation);
     // The hub's circle is a polygon of 30 sides and more.
     EXPECT_NEAR(area[material_id::lever], frame_area(scene, offset + 1.), 0.8);
@@ -264,8 +256,7 @@ TEST(Mesh, FrameCarriesAPlate)
   for (const double offset : { 0., model_a_offset })
   {
     const auto scene = built(offset, LeverOutline::frame, PlateType::on_sensors);
-    dealii::Triangulation<2> triangulation;
-    make_mesh(scene, triangulation);
+    const MadeMesh triangulation(scene);
     EXPECT_NEAR(areas(triangulation)[material_id::lever], frame_area(scene, offset + 15.), 0.8);
     expect_plate(scene, triangulation);
     expect_good_cells(scene, triangulation);
@@ -279,8 +270,7 @@ TEST(Mesh, FrameWithoutPocketsIsSolid)
   scene.frame.flange    = 1.5;
   scene.lever.depth     = 5.;
   scene.frame.tip_depth = 4.;
-  dealii::Triangulation<2> triangulation;
-  make_mesh(scene, triangulation);
+  const MadeMesh triangulation(scene);
   auto area = areas(triangulation);
   EXPECT_EQ(area.count(material_id::web), 0u);
   EXPECT_NEAR(area[material_id::lever], 180. * 4.5 + 40. * 20. - M_PI * 25., 0.8);
@@ -297,8 +287,7 @@ TEST(Mesh, UsersMeshIsTakenAsItIs)
                                             "$Nodes\n6\n1 0 10 0\n2 200 10 0\n3 200 11 0\n4 0 11 0\n5 200 30 0\n6 0 30 0\n"
                                             "$EndNodes\n$Elements\n5\n1 1 2 11 1 1 2\n2 1 2 12 4 4 1\n3 1 2 12 5 6 4\n"
                                             "4 3 2 22 1 1 2 3 4\n5 3 2 21 2 4 3 5 6\n$EndElements\n");
-  dealii::Triangulation<2> triangulation;
-  make_mesh(scene, triangulation);
+  const MadeMesh triangulation(scene);
   EXPECT_EQ(triangulation.n_active_cells(), 2u);
   EXPECT_NEAR(areas(triangulation)[material_id::layer], 200., 1e-9);
   EXPECT_NEAR(areas(triangulation)[material_id::lever], 3800., 1e-9);
@@ -333,17 +322,10 @@ TEST(Mesh, PlateThatTheFileLacksIsNamed)
   scene.plate.type = PlateType::on_sensors;
   scene.mesh.file  = folder.write("bar.geo", bar("lever", "friction face", "hub"));
   dealii::Triangulation<2> triangulation;
-  try
-  {
-    make_mesh(scene, triangulation);
-    FAIL();
-  }
-  catch (const InputError &error)
-  {
-    expect_named(error.what(), "Friction plate/Type = on sensors, but there is no physical surface 'plate'");
-    expect_named(error.what(), "'sensor plate'");
-    expect_named(error.what(), "'sensor lever'");
-  }
+  const auto text = thrown_text([&] { make_mesh(scene, triangulation); });
+  expect_named(text, "Friction plate/Type = on sensors, but there is no physical surface 'plate'");
+  expect_named(text, "'sensor plate'");
+  expect_named(text, "'sensor lever'");
 }
 
 namespace

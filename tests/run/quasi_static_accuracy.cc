@@ -8,6 +8,7 @@
 
 #include "results/row_statistics.h"
 #include "scene/scene.h"
+#include "support/made_mesh.h"
 #include "verification/run_scene.h"
 
 #include <gtest/gtest.h>
@@ -29,8 +30,7 @@ namespace
   Estimates estimated(const Scene &scene)
   {
     Estimates result;
-    Mesh mesh;
-    make_mesh(scene, mesh);
+    const MadeMesh mesh(scene);
     StaticLever<2> model(mesh, scene);
     const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
     PhaseTimer timer;
@@ -56,8 +56,7 @@ namespace
   Estimates estimated_in_space(const Scene &scene)
   {
     Estimates result;
-    Mesh plane;
-    make_mesh(scene, plane);
+    const MadeMesh plane(scene);
     SolidBody body(scene, plane);
     StaticLever<3> lever(body, scene);
     result.penalty = lever.penalties().normal;
@@ -135,8 +134,7 @@ TEST(QuasiStaticAccuracy, ToldErrorsOfTheForcesHoldAlongTheWay)
 TEST(QuasiStaticAccuracy, AFinerMeshTellsLessAndTheModelKeepsItsPenalties)
 {
   Scene scene = coarse_scene(0.5);
-  Mesh mesh;
-  make_mesh(scene, mesh);
+  const MadeMesh mesh(scene);
   StaticLever<2> model(mesh, scene);
   const auto penalties = model.penalties();
   const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "run_scene.h"
 #include "scene/scene.h"
+#include "support/made_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -119,8 +120,7 @@ namespace
 
   void expect_hard_contact(const Scene &scene)
   {
-    dealii::Triangulation<2> triangulation;
-    make_mesh(scene, triangulation);
+    const MadeMesh triangulation(scene);
     StaticLever<2> model(triangulation, lever_properties(scene));
     const auto found = strokes(scene, model);
     expect_reference(found.rows, references, 0.02);
@@ -163,8 +163,7 @@ TEST(ContactPressure, OfASecondLeverIsRecoveredToo)
   scene.pair.cylinder_offset = 0.02;
   scene.drive                = Drive(DriveProfile::triangle, 0., 65., 112., 0.5);
   scene.analysis.step        = 6.5;
-  dealii::Triangulation<2> triangulation;
-  make_mesh(scene, triangulation);
+  const MadeMesh triangulation(scene);
   StaticLever<2> model(triangulation, scene);
   const auto found = strokes(scene, model);
   for (std::size_t i = 2; i < found.rows.size(); ++i)
@@ -184,8 +183,7 @@ TEST(ContactPressure, ShorterFacesResolveNarrowContacts)
   scene.mesh.face_size        = 0.25;
   scene.mesh.faces_in_contact = 4.;
   scene.contact.enforcement   = Enforcement::augmented_lagrangian;
-  dealii::Triangulation<2> triangulation;
-  make_mesh(scene, triangulation);
+  const MadeMesh triangulation(scene);
   StaticLever<2> model(triangulation, lever_properties(scene));
   expect_reference(strokes(scene, model).rows, narrow, 0.01);
 }

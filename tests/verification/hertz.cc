@@ -10,32 +10,8 @@ using namespace sprag;
 namespace
 {
 
-  struct Outcome
-  {
-    FaceProfile face;
-    double load;       ///< per length out of plane [N/mm]
-    double half_width; ///< [mm]
-  };
-
-  /// Pressed together by `depth` in a few steps, without friction.
-  Outcome pressed(const dealii::Triangulation<2> &triangulation, const LeverProperties &properties, const double depth)
-  {
-    StaticLever<2> model(triangulation, properties);
-    Equilibrium at{ model.initial_state({ 0., 0., 1. }), {} };
-    for (const double share : { 0.1, 0.25, 0.5, 0.75, 1. })
-      at = step_to(model, at.state, share * depth, properties.contact);
-    Row row;
-    model.observe(at.state, at.found, row);
-    return { profile(model, at), row[Column::P] / properties.body.width, 0.5 * row[Column::contact_width] };
-  }
-
-  double largest(const std::vector<double> &values)
-  {
-    return *std::max_element(values.begin(), values.end());
-  }
-
   /// `ripple`: pressure between nodes besides [MPa].
-  void expect_half_planes(const Outcome &outcome, const double modulus, const double radius, const double ripple)
+  void expect_half_planes(const PressedBlock &outcome, const double modulus, const double radius, const double ripple)
   {
     const double a  = std::sqrt(4. * outcome.load * radius / (M_PI * modulus));
     const double p0 = 2. * outcome.load / (M_PI * a);
@@ -155,5 +131,5 @@ TEST(Hertz, RigidCylinderOnAThinBondedLayer)
     worst          = std::max(worst, std::abs(outcome.face.pressure[q] - p) / (modulus * delta / thickness));
   }
   EXPECT_LE(worst, 0.033);
-  EXPECT_NEAR(largest(outcome.face.pressure), modulus / thickness * delta, 2e-3 * modulus / thickness * delta);
+  EXPECT_NEAR(outcome.largest_pressure(), modulus / thickness * delta, 2e-3 * modulus / thickness * delta);
 }

@@ -8,6 +8,7 @@
 #include "input/scene_key.h"
 #include "mpi_environment.h"
 #include "scene/scene.h"
+#include "support/made_mesh.h"
 #include "verification/run_transient.h"
 
 namespace sprag
@@ -15,8 +16,7 @@ namespace sprag
   /// A run in time of the scene's meshed lever, condensed or not, in memory.
   inline TransientRun run_meshed_in_time(const Scene &scene)
   {
-    dealii::Triangulation<2> triangulation;
-    make_mesh(scene, triangulation);
+    const MadeMesh triangulation(scene);
     const ElasticBody<2> body(triangulation, lever_properties(scene).body);
     const double relaxation = contact_reference(scene).relaxation;
     const auto lever =

@@ -81,4 +81,28 @@ namespace sprag
       }
     return result;
   }
+
+  /// A block or two that are pressed together by a depth in a few steps, without friction.
+  struct PressedBlock
+  {
+    FaceProfile face;
+    double load;       ///< per length out of plane [N/mm]
+    double half_width; ///< [mm]
+
+    double largest_pressure() const
+    {
+      return *std::max_element(face.pressure.begin(), face.pressure.end());
+    }
+  };
+
+  inline PressedBlock pressed(const Mesh &mesh, const LeverProperties &properties, const double depth)
+  {
+    StaticLever<2> model(mesh, properties);
+    Equilibrium at{ model.initial_state({ 0., 0., 1. }), {} };
+    for (const double share : { 0.5, 0.75, 1. })
+      at = step_to(model, at.state, share * depth, properties.contact);
+    Row row;
+    model.observe(at.state, at.found, row);
+    return { profile(model, at), row[Column::P] / properties.body.width, 0.5 * row[Column::contact_width] };
+  }
 } // namespace sprag

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "scene/scene.h"
+#include "support/made_mesh.h"
 #include "verification/run_scene.h"
 
 #include <algorithm>
@@ -12,8 +13,7 @@ namespace
 {
   double largest_Q(const Scene &scene, const double step, const bool at_the_end)
   {
-    dealii::Triangulation<2> triangulation;
-    make_mesh(scene, triangulation);
+    const MadeMesh triangulation(scene);
     auto properties = lever_properties(scene);
     if (!at_the_end)
       properties.is_damper = false;
