@@ -82,14 +82,6 @@ TEST(Ringing, IsExactForOneSinusoidWhateverItsGrowthAndTheDriftBelow)
       }
 }
 
-TEST(Ringing, TellsTheStrongerOfTwo)
-{
-  const auto two   = [](const double time) { return sinusoid(5., 290., -10.)(time) + sinusoid(2., 900., -10.)(time); };
-  const auto found = ringing(sampled(two, 0.1, 1e-5), 0.02);
-  EXPECT_NEAR(found.frequency, 290., 0.29);
-  EXPECT_NEAR(found.growth_rate, -10., 0.5);
-}
-
 TEST(Ringing, FindsNoneWhereThereIsNone)
 {
   const std::vector<Deviation> smooth = { [](double) { return 0.; },

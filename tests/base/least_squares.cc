@@ -6,13 +6,6 @@
 
 using namespace sprag;
 
-TEST(LeastSquares, LineGoesThroughPointsOfALine)
-{
-  const auto line = fitted_line({ 1., 2., 5. }, { 5., 7., 13. });
-  EXPECT_NEAR(line.slope, 2., 1e-14);
-  EXPECT_NEAR(line.at(0.), 3., 1e-14);
-}
-
 // The line through y = 0, 0, 3 at x = 0, 1, 2 has by hand the slope 3/2 and is -1/2 at 0.
 TEST(LeastSquares, LineOfPointsOffAnyLine)
 {

@@ -28,16 +28,6 @@ namespace
     return compute_stress<2>(MaterialModel::neo_hookean, lame, deformation - deformations[0]);
   }
 
-  Stress<2> st_venant_kirchhoff(const Lame &lame, const Gradient &displacement)
-  {
-    return compute_stress<2>(MaterialModel::st_venant_kirchhoff, lame, displacement);
-  }
-
-  double st_venant_kirchhoff_energy(const Lame &lame, const Gradient &displacement)
-  {
-    return energy_density<2>(MaterialModel::st_venant_kirchhoff, lame, displacement);
-  }
-
   Gradient moved(Gradient deformation, const unsigned int i, const double h)
   {
     deformation[i / 2][i % 2] += h;
@@ -84,25 +74,4 @@ TEST(PlaneConstants, PullingMeetsYoungsModulus)
     EXPECT_NEAR(modulus(plane_constants({ 20., nu }, PlaneState::stress)), 20., 1e-12);
     EXPECT_NEAR(modulus(plane_constants({ 20., nu }, PlaneState::strain)), 20. / (1. - nu * nu), 1e-12);
   }
-}
-
-// Strains of up to 1.5 make derivatives of order 4 up to 1e3 MPa too: W is a polynomial of degree 4 in F.
-TEST(StVenantKirchhoff, StressAndTangentAreDerivativesOfTheEnergy)
-{
-  for (const PlaneState plane : { PlaneState::strain, PlaneState::stress })
-    for (const auto &deformation : deformations)
-      for (unsigned int j = 0; j < 4; ++j)
-        for (const double h : { 1e-3, 1e-4, 1e-5 })
-        {
-          const auto lame         = plane_constants({ 20., 0.3 }, plane);
-          const auto displacement = deformation - deformations[0];
-          const auto right        = moved(displacement, j, h);
-          const auto left         = moved(displacement, j, -h);
-          const auto at           = st_venant_kirchhoff(lame, displacement);
-          const double difference = st_venant_kirchhoff_energy(lame, right) - st_venant_kirchhoff_energy(lame, left);
-          EXPECT_NEAR(at.piola[j / 2][j % 2], difference / (2. * h), allowed(h));
-          const auto piola_change = st_venant_kirchhoff(lame, right).piola - st_venant_kirchhoff(lame, left).piola;
-          for (unsigned int i = 0; i < 4; ++i)
-            EXPECT_NEAR(at.tangent[i][j], piola_change[i / 2][i % 2] / (2. * h), 2. * allowed(h)) << i << j;
-        }
 }
