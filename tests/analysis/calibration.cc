@@ -5,7 +5,7 @@
 #include "input/read.h"
 #include "levers/prepared_scene.h"
 #include "scene/scene.h"
-#include "support/params_folder.h"
+#include "support/shipped.h"
 #include "support/thrown.h"
 
 #include <cmath>
@@ -20,8 +20,7 @@ namespace
   Scene calibration(const std::string &model, std::vector<std::string> changes = {})
   {
     changes.push_back("Mesh/Face size=1");
-    const auto file = params_folder() / ("calibration-" + model + ".prm");
-    return read_scene(file.string(), changes);
+    return shipped("calibration-" + model, changes);
   }
 
   std::string refusal(const Scene &scene)

@@ -18,14 +18,20 @@ namespace
 {
   constexpr double mu = 0.5;
 
-  Scene design(const TemporaryFolder &folder, const std::vector<std::string> &changes)
+  Scene read(const std::vector<std::string> &changes)
+  {
+    const TemporaryFolder folder;
+    return read_scene(folder.write("scene.prm", ""), changes);
+  }
+
+  Scene design(const std::vector<std::string> &changes)
   {
     std::vector<std::string> all = { "Analysis/Type=design",           "Friction/Law=Coulomb",
                                      "Friction/Coefficient=0.5",       "Geometry/Interface offset=0",
                                      "Geometry/Cylinder radius=30",    "Geometry/Pivot distance=200",
                                      "Rotational spring/Stiffness=5e4" };
     all.insert(all.end(), changes.begin(), changes.end());
-    return read_scene(folder.write("scene.prm", ""), all);
+    return read(all);
   }
 
   Found best_design(const Scene &scene)
@@ -48,11 +54,9 @@ namespace
 // Model A at 112 mm/s, where its cork has mu = 0.73, and at a tenth of that.
 TEST(Design, AtATenthOfTheSpeedTheLeverDoesWhatItDoesOnSuchADrive)
 {
-  const TemporaryFolder folder;
   const auto scene_at = [&](const std::string &speed)
   {
-    return read_scene(folder.write("scene.prm", ""), { "Analysis/Type=design", "Drive/Speed=" + speed,
-                                                       "Design/Demands=largest force <= 1e3; damping slope >= 0.08" });
+    return read({ "Analysis/Type=design", "Drive/Speed=" + speed, "Design/Demands=largest force <= 1e3; damping slope >= 0.08" });
   };
   const Scene scene = scene_at("112"), slow = scene_at("11.2");
   const auto quantities = lever_quantities(scene), slowly = lever_quantities(slow);
@@ -69,11 +73,9 @@ TEST(Design, AtATenthOfTheSpeedTheLeverDoesWhatItDoesOnSuchADrive)
 
 TEST(Design, OfATableTheOtherSpeedIsThatOfItsOwnMotion)
 {
-  const TemporaryFolder folder;
-  const Scene scene = read_scene(folder.write("scene.prm", ""),
-                                 { "Analysis/Type=design", "Isolation/Mass=0.5", "Isolation/Stiffness=9.67", "Isolation/Levers=8",
-                                   "Isolation/Base amplitude=10", "Isolation/Base frequency=0.7",
-                                   "Design/Demands=relative amplitude <= 100; friction ratio >= 0.01" });
+  const Scene scene = read({ "Analysis/Type=design", "Isolation/Mass=0.5", "Isolation/Stiffness=9.67", "Isolation/Levers=8",
+                             "Isolation/Base amplitude=10", "Isolation/Base frequency=0.7",
+                             "Design/Demands=relative amplitude <= 100; friction ratio >= 0.01" });
   auto quantities   = lever_quantities(scene);
   add_table_quantities(scene, scene.design, quantities);
   const double amplitude = quantities[DesignQuantity::relative_amplitude];
@@ -85,9 +87,8 @@ TEST(Design, OfATableTheOtherSpeedIsThatOfItsOwnMotion)
 
 TEST(Design, SteepestLeverWithinARatioOfSlopes)
 {
-  const TemporaryFolder folder;
-  const auto found = best_design(design(folder, { "Design/Free=Geometry/Cylinder radius = 5 ... 100",
-                                                  "Design/Demands=slope ratio <= 1.8", "Design/Aim=maximise damping slope" }));
+  const auto found = best_design(design({ "Design/Free=Geometry/Cylinder radius = 5 ... 100", "Design/Demands=slope ratio <= 1.8",
+                                          "Design/Aim=maximise damping slope" }));
   ASSERT_TRUE(found.meets_all);
   const double theta = inclination_for_ratio(1.8);
   EXPECT_NEAR(found.lever.parameters[0], 200. * std::sin(theta), 1e-3 * 200. * std::sin(theta));
@@ -97,10 +98,9 @@ TEST(Design, SteepestLeverWithinARatioOfSlopes)
 
 TEST(Design, LargestOffsetWithinAMarginToJamming)
 {
-  const TemporaryFolder folder;
   const auto found =
-      best_design(design(folder, { "Design/Free=Geometry/Interface offset = 0 ... 59", "Geometry/Cylinder radius=60",
-                                   "Design/Demands=jamming margin >= 0.8", "Design/Aim=maximise Geometry/Interface offset" }));
+      best_design(design({ "Design/Free=Geometry/Interface offset = 0 ... 59", "Geometry/Cylinder radius=60",
+                           "Design/Demands=jamming margin >= 0.8", "Design/Aim=maximise Geometry/Interface offset" }));
   ASSERT_TRUE(found.meets_all);
   // mu e/s = 0.2 at x = 65 with s^2 = (l - x)^2 - (R - e)^2: a quadratic equation for e.
   const double a = std::pow(mu / 0.2, 2) + 1., b = -2. * 60., c = 60. * 60. - 135. * 135.;
@@ -110,12 +110,10 @@ TEST(Design, LargestOffsetWithinAMarginToJamming)
 
 TEST(Design, ShortestLeverOfThreeFreeParameters)
 {
-  const TemporaryFolder folder;
-  const auto found = best_design(
-      design(folder, { "Design/Free=Geometry/Cylinder radius = 15 ... 60; Geometry/Pivot distance = 90 ... 400; Rotational "
-                       "spring/Stiffness = 1e3 ... 2e5",
-                       "Design/Demands=damping slope = 0.1 +- 1e-5; slope ratio <= 1.8",
-                       "Design/Aim=minimise Geometry/Pivot distance" }));
+  const auto found = best_design(design(
+      { "Design/Free=Geometry/Cylinder radius = 15 ... 60; Geometry/Pivot distance = 90 ... 400; Rotational "
+        "spring/Stiffness = 1e3 ... 2e5",
+        "Design/Demands=damping slope = 0.1 +- 1e-5; slope ratio <= 1.8", "Design/Aim=minimise Geometry/Pivot distance" }));
   ASSERT_TRUE(found.meets_all);
   // Short is steep, and steep at the smallest radius that the bounds and the way of the drive leave: l - 65 > R, but a lever of
   // R = 15 is at the bound of the ratio only at l = 15/sin th0 = 107 mm, where c follows from k.
@@ -128,10 +126,9 @@ TEST(Design, ShortestLeverOfThreeFreeParameters)
 
 TEST(Design, WhatCannotBeMetNamesTheDemandThatStopsIt)
 {
-  const TemporaryFolder folder;
-  const Scene scene = design(folder, { "Design/Free=Geometry/Cylinder radius = 5 ... 100",
-                                       "Design/Demands=inclination <= 60; slope ratio <= 1.2; damping slope >= 0.1",
-                                       "Design/Aim=minimise largest force" });
+  const Scene scene = design({ "Design/Free=Geometry/Cylinder radius = 5 ... 100",
+                               "Design/Demands=inclination <= 60; slope ratio <= 1.2; damping slope >= 0.1",
+                               "Design/Aim=minimise largest force" });
   const DesignProblem problem(scene);
   const auto found = best_lever(problem);
   EXPECT_FALSE(found.meets_all);
@@ -148,10 +145,9 @@ TEST(Design, WhatCannotBeMetNamesTheDemandThatStopsIt)
 // c is proportional to mu and k: with mu 20 % off either way it is 20 % off at best, where k gives the target itself.
 TEST(Design, TheNearestIsTheOneWithTheBestWorstCorner)
 {
-  const TemporaryFolder folder;
   const DesignProblem problem(
-      design(folder, { "Design/Free=Rotational spring/Stiffness = 1e4 ... 2e5", "Design/Aim=minimise largest force",
-                       "Design/Demands=damping slope = 0.1 +- 0.001", "Design/Tolerances=Friction/Factor = 0.8 ... 1.2" }));
+      design({ "Design/Free=Rotational spring/Stiffness = 1e4 ... 2e5", "Design/Aim=minimise largest force",
+               "Design/Demands=damping slope = 0.1 +- 0.001", "Design/Tolerances=Friction/Factor = 0.8 ... 1.2" }));
   const auto stopping = stopping_demands(problem);
   ASSERT_EQ(stopping.size(), 1u);
   EXPECT_NEAR(std::abs(stopping[0].attainable - 0.1), 0.02, 1e-4);
@@ -159,14 +155,13 @@ TEST(Design, TheNearestIsTheOneWithTheBestWorstCorner)
 
 TEST(Design, DemandsHoldWithinTolerances)
 {
-  const TemporaryFolder folder;
   // c is proportional to mu and k.
   const auto find = [&](const std::vector<std::string> &more)
   {
     std::vector<std::string> changes = { "Design/Free=Rotational spring/Stiffness = 1e3 ... 1e6",
                                          "Design/Demands=damping slope >= 0.1", "Design/Aim=minimise largest force" };
     changes.insert(changes.end(), more.begin(), more.end());
-    return best_design(design(folder, changes));
+    return best_design(design(changes));
   };
   const auto exact = find({}), tolerant = find({ "Design/Tolerances=Friction/Factor = 0.8 ... 1.1" });
   ASSERT_TRUE(exact.meets_all && tolerant.meets_all);
@@ -176,9 +171,8 @@ TEST(Design, DemandsHoldWithinTolerances)
   // The lever locks at mu = l/e, which a tolerance may reach.
   EXPECT_FALSE(find({ "Geometry/Interface offset=20", "Design/Tolerances=Friction/Factor = 1 ... 30" }).meets_all);
   // With a preload friction that depends on the speed counts in the slopes as well. Model A by the rule of five points.
-  const Scene preloaded =
-      read_scene(folder.write("scene.prm", ""), { "Analysis/Type=design", "Rotational spring/Rest angle=-0.05" });
-  const auto slope = [&](const double v)
+  const Scene preloaded = read({ "Analysis/Type=design", "Rotational spring/Rest angle=-0.05" });
+  const auto slope      = [&](const double v)
   {
     const double h = 0.1;
     const auto Q   = [&](const double x) { return closed_form(preloaded, x, v).Q; };
@@ -191,11 +185,10 @@ TEST(Design, DemandsHoldWithinTolerances)
 
 TEST(Design, FrontOfTwoAimsIsOfLeversThatNoneBeats)
 {
-  const TemporaryFolder folder;
   // Over R alone c and the ratio of the slopes both grow: every R is on the front.
   const Scene scene =
-      design(folder, { "Design/Free=Geometry/Cylinder radius = 10 ... 60", "Design/Demands=", "Design/Aim=maximise damping slope",
-                       "Design/Second aim=minimise slope ratio", "Design/Front points=5" });
+      design({ "Design/Free=Geometry/Cylinder radius = 10 ... 60", "Design/Demands=", "Design/Aim=maximise damping slope",
+               "Design/Second aim=minimise slope ratio", "Design/Front points=5" });
   const auto front = pareto_front(DesignProblem(scene));
   ASSERT_EQ(front.size(), 5u);
   EXPECT_NEAR(front.front().parameters[0], 60., 0.06);
@@ -212,10 +205,8 @@ TEST(Design, FrontOfTwoAimsIsOfLeversThatNoneBeats)
 
 TEST(Design, LargestRadiusWithinAReach)
 {
-  const TemporaryFolder folder;
-  const auto found =
-      best_design(design(folder, { "Geometry/Pivot height=30", "Design/Free=Geometry/Cylinder radius = 35 ... 100",
-                                   "Design/Demands=reach >= 150", "Design/Aim=maximise Geometry/Cylinder radius" }));
+  const auto found = best_design(design({ "Geometry/Pivot height=30", "Design/Free=Geometry/Cylinder radius = 35 ... 100",
+                                          "Design/Demands=reach >= 150", "Design/Aim=maximise Geometry/Cylinder radius" }));
   ASSERT_TRUE(found.meets_all);
   // The circle about (x, 0) meets the pivot (200, -30) at x = 150.
   const double R = std::hypot(50., 30.);
@@ -225,13 +216,11 @@ TEST(Design, LargestRadiusWithinAReach)
 
 TEST(Design, LargestBeginningWithinAResidualOffset)
 {
-  const TemporaryFolder folder;
-  const Scene scene =
-      design(folder, { "Isolation/Mass=0.05", "Isolation/Stiffness=1.1", "Isolation/Levers=2", "Isolation/Damper=lever",
-                       "Isolation/Base motion=none", "Isolation/Duration=3", "Isolation/Initial displacement=0.01",
-                       "Design/Free=Isolation/Initial displacement = 1e-4 ... 0.1", "Design/Demands=residual offset <= 1e-3",
-                       "Design/Aim=maximise Isolation/Initial displacement" });
-  const auto found = best_design(scene);
+  const Scene scene = design({ "Isolation/Mass=0.05", "Isolation/Stiffness=1.1", "Isolation/Levers=2", "Isolation/Damper=lever",
+                               "Isolation/Base motion=none", "Isolation/Duration=3", "Isolation/Initial displacement=0.01",
+                               "Design/Free=Isolation/Initial displacement = 1e-4 ... 0.1",
+                               "Design/Demands=residual offset <= 1e-3", "Design/Aim=maximise Isolation/Initial displacement" });
+  const auto found  = best_design(scene);
   ASSERT_TRUE(found.meets_all);
   // So close to z = 0 the table swings out on K + n C_Q forward and back on K + n C_Q backward, each for a quarter of that
   // period, and turns at r = sqrt((K + n C_Q backward)/(K + n C_Q forward)) of the last turn. At the end it is about the mean of

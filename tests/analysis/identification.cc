@@ -10,6 +10,7 @@
 #include "verification/run_transient.h"
 
 #include <cmath>
+#include <functional>
 #include <gtest/gtest.h>
 #include <map>
 
@@ -83,6 +84,11 @@ namespace
     return found.low <= truth && truth <= found.high;
   }
 
+  std::function<MeasuredStroke(unsigned int)> with_noise(const std::vector<Row> &rows, const Noise &noise)
+  {
+    return [&rows, noise](const unsigned int seed) { return measured(rows, noise, seed); };
+  }
+
   /// In how many of all seeds the intervals hold the truth: within three standard deviations of the binomial distribution, so
   /// that one count in 370 fails though all is right. The seeds are fixed.
   template <class Measure>
@@ -154,9 +160,7 @@ TEST(Identification, IntervalsHoldTheTruthUnderCorrelatedNoise)
   const Scene truth = device();
   const auto rows   = compute_rows(truth);
   expect_honest(guess(truth, { Unknown::friction_constant, Unknown::stiffness }), { { "mu", 0.73 }, { "k", 7.4e4 } },
-                [&](const unsigned int seed) {
-                  return measured(rows, { 0.2, 0.8 }, seed);
-                });
+                with_noise(rows, { 0.2, 0.8 }));
 }
 
 TEST(Identification, IntervalsHoldTheTruthUnderNoiseThatGrowsWithTheForce)
@@ -199,12 +203,7 @@ TEST(Identification, FindsTheFrictionLawWhereTheSpeedVaries)
   scene.friction.law          = CoulombFriction{ 0.6 };
   const Truth law             = { { "mu_0", 0.3491 }, { "mu_1", 4.422e-3 }, { "mu_2", -9.235e-6 }, { "k", 7.4e4 } };
   scene.identification.sought = { Unknown::friction_polynomial, Unknown::stiffness };
-  expect_honest(
-      scene, law,
-      [&](const unsigned int seed) {
-        return measured(rows, { 0.1, 0. }, seed);
-      },
-      seeds / 2);
+  expect_honest(scene, law, with_noise(rows, { 0.1, 0. }), seeds / 2);
 }
 
 // Friction rises in proportion to speed, and its table begins above the slowest rows.
@@ -219,12 +218,8 @@ TEST(Identification, ATableKnowsNothingBelowItsFirstSpeed)
   scene.identification.friction_speeds = { 40., 90., 140., 200. };
   scene.identification.window          = 0.;
   const auto rows                      = sampled(truth, 1e-3);
-  expect_honest(
-      scene, { { "mu_at_40", 0.46 }, { "mu_at_90", 0.535 }, { "k", 7.4e4 } },
-      [&](const unsigned int seed) {
-        return measured(rows, { 0.05, 0. }, seed);
-      },
-      seeds / 6);
+  expect_honest(scene, { { "mu_at_40", 0.46 }, { "mu_at_90", 0.535 }, { "k", 7.4e4 } }, with_noise(rows, { 0.05, 0. }),
+                seeds / 6);
 }
 
 TEST(Identification, NamesWhatOneDirectionCannotTellApart)
@@ -287,12 +282,7 @@ protected:
 
 TEST_F(IdentificationInTime, LeavesTheVibrationOutAndCorrectsFlexure)
 {
-  expect_honest(
-      scene(ModelType::beam), { { "mu", 0.73 }, { "k", 7.4e4 } },
-      [&](const unsigned int seed) {
-        return measured(rows, { 0.2, 0. }, seed);
-      },
-      40);
+  expect_honest(scene(ModelType::beam), { { "mu", 0.73 }, { "k", 7.4e4 } }, with_noise(rows, { 0.2, 0. }), 40);
 }
 
 TEST_F(IdentificationInTime, FindsTheWindowFromTheData)

@@ -9,7 +9,7 @@
 #include "scene/contact_estimates.h"
 #include "scene/scene.h"
 #include "scenes.h"
-#include "support/params_folder.h"
+#include "support/shipped.h"
 
 #include <cmath>
 #include <filesystem>
@@ -20,12 +20,6 @@ using namespace sprag;
 
 namespace
 {
-  Scene from_params(const std::string &name, const std::vector<std::string> &changes)
-  {
-    const auto file = params_folder() / name;
-    return read_scene(file.string(), changes);
-  }
-
   /// Model A as a rigid lever on a stiff contact, constant mu.
   Scene rigid_lever(const double mu)
   {
@@ -35,15 +29,6 @@ namespace
     return scene;
   }
 } // namespace
-
-TEST(Jamming, RigidMarginIsThatOfTheClosedForm)
-{
-  const auto margin = jamming_margin(rigid_lever(0.73));
-  const double s    = kinematics(model_a().geometry, 65.).s;
-  EXPECT_DOUBLE_EQ(margin.x, 65.);
-  EXPECT_NEAR(margin.critical_mu, s / 45.6, 1e-12);
-  EXPECT_NEAR(margin.mu_e, 0.73 * 45.6, 1e-12);
-}
 
 // P without friction over P is (s - mu e)/s for a rigid lever, and the beam has 1e4 times the stiffness of aluminium.
 TEST(Jamming, StiffBeamJamsWhereTheRigidLeverLocks)
@@ -111,7 +96,7 @@ TEST(Jamming, NoOffsetNoRigidLocking)
 
 TEST(CriticalValues, ThinLeverFluttersThickOneDoesNot)
 {
-  const Scene scene = from_params("stability-a.prm", {});
+  const Scene scene = shipped("stability-a", {});
   DynamicsMaker maker;
   const auto found = critical_values(scene, { "Lever/Depth", 5., 21., 5 }, 1e-6, maker);
   ASSERT_EQ(found.changes.size(), 1u);
@@ -128,7 +113,7 @@ TEST(CriticalValues, ThinLeverFluttersThickOneDoesNot)
 
 TEST(CriticalValues, GrowthOfAValueIsTheLargestOfItsPlacesBothWays)
 {
-  const Scene scene = from_params("stability-a.prm", { "Stability/Position=auto", "Stability/Direction=both" });
+  const Scene scene = shipped("stability-a", { "Stability/Position=auto", "Stability/Direction=both" });
   DynamicsMaker maker;
   const auto found = critical_values(scene, { "Lever/Depth", 5., 8., 2 }, 1e-2, maker);
   std::map<double, std::map<double, double>> largest; // of a value, by direction
@@ -163,7 +148,7 @@ TEST(CriticalValues, FindBothLimitsOfAnotherKindBetweenTheValuesTried)
 // Model B flutters from 11.822 to 14.514 mm: between the values tried, of which none does.
 TEST(CriticalValues, IslandBetweenTheValuesTriedIsFoundWhereGrowthPeaks)
 {
-  const Scene scene = from_params("stability-b.prm", {});
+  const Scene scene = shipped("stability-b", {});
   DynamicsMaker maker;
   const auto found = critical_values(scene, { "Lever/Depth", 5., 25., 5 }, 1e-6, maker);
   EXPECT_EQ(found.spacing, 5.);
@@ -180,31 +165,31 @@ TEST(CriticalValues, IslandBetweenTheValuesTriedIsFoundWhereGrowthPeaks)
 // on.
 TEST(CriticalValues, LookInsideRanges)
 {
-  const Scene scene = from_params("stability-a.prm", { "Geometry/Cylinder radius=31.76",
-                                                       "Geometry/Interface offset=21.62",
-                                                       "Geometry/Pivot distance=114.3",
-                                                       "Geometry/Pivot height=0.04184",
-                                                       "Rotational spring/Stiffness=4.971e4",
-                                                       "Lever/Length=124.6",
-                                                       "Lever/Width=44.95",
-                                                       "Lever/Young's modulus=2.1e5",
-                                                       "Lever/Density=7.85e-9",
-                                                       "Lever/Mass damping=9.904",
-                                                       "Lever/Stiffness damping=1.083e-5",
-                                                       "Lever/Modal damping=0",
-                                                       "Lever/Inertia=as built",
-                                                       "Friction layer/Thickness=0",
-                                                       "Contact/Stiffness=14550",
-                                                       "Contact/Exponent=1.315",
-                                                       "Drive/Stroke=51.42",
-                                                       "Drive/Speed=97.78",
-                                                       "Friction/Law=Stribeck",
-                                                       "Friction/Static coefficient=0.4937",
-                                                       "Friction/Kinetic coefficient=0.6042",
-                                                       "Friction/Stribeck speed=22.45",
-                                                       "Stability/Position=30.85",
-                                                       "Stability/Direction=forward",
-                                                       "Stability/Ranges=Contact/Damping 0.01 0.2; Friction/Factor 0.9 1.1" });
+  const Scene scene = shipped("stability-a", { "Geometry/Cylinder radius=31.76",
+                                               "Geometry/Interface offset=21.62",
+                                               "Geometry/Pivot distance=114.3",
+                                               "Geometry/Pivot height=0.04184",
+                                               "Rotational spring/Stiffness=4.971e4",
+                                               "Lever/Length=124.6",
+                                               "Lever/Width=44.95",
+                                               "Lever/Young's modulus=2.1e5",
+                                               "Lever/Density=7.85e-9",
+                                               "Lever/Mass damping=9.904",
+                                               "Lever/Stiffness damping=1.083e-5",
+                                               "Lever/Modal damping=0",
+                                               "Lever/Inertia=as built",
+                                               "Friction layer/Thickness=0",
+                                               "Contact/Stiffness=14550",
+                                               "Contact/Exponent=1.315",
+                                               "Drive/Stroke=51.42",
+                                               "Drive/Speed=97.78",
+                                               "Friction/Law=Stribeck",
+                                               "Friction/Static coefficient=0.4937",
+                                               "Friction/Kinetic coefficient=0.6042",
+                                               "Friction/Stribeck speed=22.45",
+                                               "Stability/Position=30.85",
+                                               "Stability/Direction=forward",
+                                               "Stability/Ranges=Contact/Damping 0.01 0.2; Friction/Factor 0.9 1.1" });
   DynamicsMaker maker;
   const auto found = critical_values(scene, { "Lever/Depth", 5.9, 6., 2 }, 1e-2, maker);
   ASSERT_EQ(found.changes.size(), 1u);
@@ -228,9 +213,8 @@ TEST(CriticalValues, LookInsideRanges)
 // is 14.390 mm.
 TEST(CriticalValues, SeeVibrationsOfAShortPieceOfTheStroke)
 {
-  const Scene scene =
-      from_params("stability-b.prm", { "Analysis/Model=beam", "Stability/Position=auto", "Stability/Direction=forward",
-                                       "Friction/Coefficient=0.3", "Contact/Damping=0.003" });
+  const Scene scene = shipped("stability-b", { "Analysis/Model=beam", "Stability/Position=auto", "Stability/Direction=forward",
+                                               "Friction/Coefficient=0.3", "Contact/Damping=0.003" });
   DynamicsMaker maker;
   const auto found = critical_values(scene, { "Lever/Depth", 13.6, 14.9, 2 }, 1e-3, maker);
   ASSERT_EQ(found.changes.size(), 1u);
@@ -240,13 +224,12 @@ TEST(CriticalValues, SeeVibrationsOfAShortPieceOfTheStroke)
 // The contact is wider than its elements near the centre, to which a model looks until it has found a slide itself.
 TEST(SweptSlides, OfEqualEquilibriaAreThoseOfModelsOfTheirOwn)
 {
-  const Scene scene =
-      from_params("stability-b.prm",
-                  { "Analysis/Model=condensed", "Mesh/Face size=0.5", "Geometry/Cylinder radius=42",
-                    "Geometry/Interface offset=6", "Geometry/Pivot distance=160", "Geometry/Pivot height=0",
-                    "Rotational spring/Stiffness=5e4", "Lever/Made of=aluminium", "Lever/Length=180", "Lever/Depth=2.942",
-                    "Friction layer/Thickness=3", "Friction/Coefficient=0.7", "Friction/Factor=1.2", "Stability/Position=50",
-                    "Stability/Direction=backward", "Contact/Damping=0.02", "Stability/Ranges=Contact/Damping 0.02 0.1" });
+  const Scene scene = shipped(
+      "stability-b", { "Analysis/Model=condensed", "Mesh/Face size=0.5", "Geometry/Cylinder radius=42",
+                       "Geometry/Interface offset=6", "Geometry/Pivot distance=160", "Geometry/Pivot height=0",
+                       "Rotational spring/Stiffness=5e4", "Lever/Made of=aluminium", "Lever/Length=180", "Lever/Depth=2.942",
+                       "Friction layer/Thickness=3", "Friction/Coefficient=0.7", "Friction/Factor=1.2", "Stability/Position=50",
+                       "Stability/Direction=backward", "Contact/Damping=0.02", "Stability/Ranges=Contact/Damping 0.02 0.1" });
   DynamicsMaker maker;
   const auto swept = sweep(scene, maker, { true });
   for (const auto &[direction, constants, along] : swept.sweeps)
@@ -260,8 +243,8 @@ TEST(SweptSlides, OfEqualEquilibriaAreThoseOfModelsOfTheirOwn)
 // Against slides checked one by one: the limits are found to 0.6 % of the depths searched.
 TEST(CriticalValues, HoldForTheSceneAndForMostOfTheRanges)
 {
-  const Scene scene = from_params("stability-a.prm", { "Stability/Position=35", "Stability/Direction=forward",
-                                                       "Stability/Ranges=Friction/Factor 0.8 1.2; Contact/Damping 0.01 0.15" });
+  const Scene scene = shipped("stability-a", { "Stability/Position=35", "Stability/Direction=forward",
+                                               "Stability/Ranges=Friction/Factor 0.8 1.2; Contact/Damping 0.01 0.15" });
   DynamicsMaker maker;
   constexpr double resolution = 6e-3 * (25. - 5.);
   const auto found            = critical_values(scene, { "Lever/Depth", 5., 25., 5 }, 1e-6, maker);
@@ -331,7 +314,7 @@ TEST(LossFactor, IsThatOfADashpotAtTheOwnFrequency)
     auto changes = lever;
     changes.insert(changes.end(),
                    { "Contact/Damping=0.1", "Contact/Damping law=loss factor", "Contact/Exponent=1", "Contact/Stiffness=1e4" });
-    const Scene scene    = from_params("stability-a.prm", changes);
+    const Scene scene    = shipped("stability-a", changes);
     const auto reference = contact_reference(scene);
     DynamicsMaker maker;
     const auto found = check_slide(scene, maker);
@@ -356,7 +339,7 @@ TEST(LossFactor, IsThatOfADashpotAtTheOwnFrequency)
 TEST(CriticalValues, AreToldAcrossValuesThatCannotBeChecked)
 {
   DynamicsMaker maker;
-  const auto found = critical_values(from_params("stability-a.prm", {}), { "Friction/Factor", 0.1, 8., 49 }, 1e-6, maker);
+  const auto found = critical_values(shipped("stability-a", {}), { "Friction/Factor", 0.1, 8., 49 }, 1e-6, maker);
   ASSERT_EQ(found.not_checked.size(), 1u);
   EXPECT_GT(found.not_checked.front(), 6.);
   EXPECT_LT(found.not_checked.front(), 7.);
@@ -372,8 +355,8 @@ TEST(CriticalValues, FrictionThatRisesJamsFromOneSpeedOn)
   for (const auto &[depth, speed] : { std::pair<std::string, double>{ "10", 608.4 }, { "12", 579.3 } })
   {
     const Scene scene =
-        from_params("stability-a.prm", { "Lever/Depth=" + depth, "Friction/Law=Stribeck", "Friction/Static coefficient=0.4",
-                                         "Friction/Kinetic coefficient=0.4", "Friction/Viscous coefficient=0.004" });
+        shipped("stability-a", { "Lever/Depth=" + depth, "Friction/Law=Stribeck", "Friction/Static coefficient=0.4",
+                                 "Friction/Kinetic coefficient=0.4", "Friction/Viscous coefficient=0.004" });
     DynamicsMaker maker;
     const auto found = critical_values(scene, { "Drive/Speed", 540., 900., 9 }, 1e-4, maker);
     EXPECT_TRUE(found.not_checked.empty());
@@ -386,7 +369,7 @@ TEST(CriticalValues, FrictionThatRisesJamsFromOneSpeedOn)
 TEST(CriticalValues, TellTheMotionOfAPair)
 {
   // A held joint leaves the levers nothing in common.
-  const Scene scene = from_params("pair-stability-a.prm", { "Mirrored pair/Joint=held", "Support/Type=rigid" });
+  const Scene scene = shipped("pair-stability-a", { "Mirrored pair/Joint=held", "Support/Type=rigid" });
   DynamicsMaker maker;
   const auto present = check_slide(scene, maker);
   EXPECT_EQ(present.motion(), "either");
@@ -405,7 +388,7 @@ TEST(CriticalValues, TellTheMotionOfAPair)
 
 TEST(CriticalValues, ScenesThatAreNotAdmittedArePassedOver)
 {
-  const Scene scene = from_params("stability-a.prm", {});
+  const Scene scene = shipped("stability-a", {});
   DynamicsMaker maker;
   EXPECT_TRUE(critical_values(scene, { "Geometry/Interface offset", 56., 80., 3 }, 1e-3, maker).changes.empty());
 }
@@ -413,8 +396,8 @@ TEST(CriticalValues, ScenesThatAreNotAdmittedArePassedOver)
 // A thin one: bending that is made stiff alone still vibrates at 3 kHz, with hardly any damping.
 TEST(Roles, ABeamWithoutFlexureIsARigidLever)
 {
-  const Scene scene = from_params("stability-a.prm", { "Lever/Depth=2", "Lever/Modal damping=0.001", "Contact/Damping=0.2",
-                                                       "Stability/Position=40", "Stability/Direction=forward" });
+  const Scene scene = shipped("stability-a", { "Lever/Depth=2", "Lever/Modal damping=0.001", "Contact/Damping=0.2",
+                                               "Stability/Position=40", "Stability/Direction=forward" });
   DynamicsMaker maker;
   const auto found   = roles(scene, check_slide(scene, maker), maker);
   const auto flexure = std::find_if(found.begin(), found.end(), [](const Role &role) { return role.name == "without_flexure"; });
@@ -425,7 +408,7 @@ TEST(Roles, ABeamWithoutFlexureIsARigidLever)
 
 TEST(Roles, FlexureMakesTheSpragSlip)
 {
-  const Scene scene = from_params("stability-a.prm", {});
+  const Scene scene = shipped("stability-a", {});
   DynamicsMaker maker;
   const auto present = check_slide(scene, maker);
   ASSERT_EQ(present.kind, SlideKind::flutter);
@@ -441,7 +424,7 @@ TEST(Roles, FlexureMakesTheSpragSlip)
 
 TEST(Roles, SupportIsLeftOutWhereThereIsOne)
 {
-  const Scene scene = from_params("stability-a.prm", { "Support/Type=sprung" });
+  const Scene scene = shipped("stability-a", { "Support/Type=sprung" });
   DynamicsMaker maker;
   const auto present = check_slide(scene, maker);
   const auto fixed   = check_slide(variant(scene, { "Support/Type=rigid" }), maker);

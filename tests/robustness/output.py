@@ -9,7 +9,6 @@ import struct
 import subprocess
 import termios
 
-import h5py
 
 from runs import SOURCE, SPRAG, TIMEOUT, RunTest, run_scene, sets, sprag
 
@@ -42,9 +41,8 @@ class Output(RunTest):
                     self.expect_file_peaks(next(line for line in lines if "largest P" in line))
 
     def expect_file_peaks(self, line):
-        with h5py.File(self.output / "result.h5") as file:
-            for way, printed in re.findall(r"(forward|backward) (\S+) N", line):
-                self.assertAlmostEqual(float(printed) / file[f"summary/peak_P_{way}"][()], 1, delta=1e-3)
+        for way, printed in re.findall(r"(forward|backward) (\S+) N", line):
+            self.assertAlmostEqual(float(printed) / self.read("summary")[f"peak_P_{way}"], 1, delta=1e-3)
 
     def on_a_terminal(self, *arguments, columns=0, typed="", **environment):
         """Returns the output of a run on a terminal and its exit status."""
@@ -118,16 +116,14 @@ class Output(RunTest):
 
     def test_many_reversals_are_a_table_with_an_end(self):
         lines = self.run_scene("reversal-a", *sets(MANY_TURNS)).stdout.splitlines()
-        with h5py.File(self.output / "result.h5") as file:
-            turns = sum(name.endswith("_verdict") for name in file["summary"])
+        turns = sum(name.endswith("_verdict") for name in self.read("summary"))
         self.assertGreater(turns, 12)
         self.assertTrue(any(f"and {turns - 12} more in /summary" in line for line in lines), lines)
 
     def test_verbose_prints_all(self):
         text = self.run_scene("reversal-a", "--verbose").stdout
-        with h5py.File(self.output / "result.h5") as file:
-            for name in file["summary"]:
-                self.assertIn(name, text)
+        for name in self.read("summary"):
+            self.assertIn(name, text)
 
     def expect_log(self, scene, done):
         log = (self.output / "run.log").read_text()

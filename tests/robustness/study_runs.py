@@ -101,8 +101,7 @@ class StudyTest(RunTest):
         self.assertIn("refused: Analysis/Maximum deviation = 0, Mesh/Face size = 300", done.stdout)
         # All but the refused one warn, and the study of them.
         self.assertEqual(done.stdout.splitlines()[-1], "completed, 1 warning: runs_with_warnings")
-        with h5py.File(self.output / "result.h5", "r") as file:
-            self.assertRegex(file["warnings/runs_with_warnings"].asstr()[()], r"^3 of 4 runs have warnings: .*coarse_contact in 3\b")
+        self.assertRegex(self.read("warnings")["runs_with_warnings"], r"^3 of 4 runs have warnings: .*coarse_contact in 3\b")
 
     def test_warnings_of_runs_fail_a_study_that_is_told_so(self):
         vary = {**COARSE, "Study/Vary": "Friction/Factor = 0.8, 1", "Analysis/Warnings": "error"}
@@ -126,8 +125,7 @@ class StudyTest(RunTest):
             file.truncate(file.seek(0, 2) - 30)
         table, _, _, done = self.study(scene, changes)
         self.assertRegex(done.stderr, r"study.journal: \d+ runs? taken over")
-        with h5py.File(self.output / "result.h5", "r") as file:
-            taken_over = file["meta/runs_taken_over"][()]
+        taken_over = self.read("meta", "runs_taken_over")["runs_taken_over"]
         self.assertTrue(0.6 * most_lines - 1 < taken_over < len(table["run"]), taken_over)
         self.expect_same_numbers(whole, table)
 
@@ -179,8 +177,7 @@ class StudyTest(RunTest):
         few = {**MANY, "Study/Vary": "Friction/Factor = 0.9, 1"}
         nowhere = {**os.environ, "TMPDIR": "/proc"}  # which mpirun cannot use
         self.succeeded(sprag(IN_TIME, "--output", self.output, *settings(few), "--jobs", 64, env=nowhere))
-        with h5py.File(self.output / "result.h5", "r") as file:
-            self.assertEqual(file["meta/ranks"][()], 2)
+        self.assertEqual(self.read("meta", "ranks")["ranks"], 2)
 
     def test_interrupted(self):
         more = {**MANY, "Study/Vary": "Lever/Depth = 5 ... 20 : 400"}  # than two processes end before the signal reaches them

@@ -6,7 +6,7 @@
 #include "input/read.h"
 #include "mpi_environment.h"
 #include "scene/scene.h"
-#include "support/params_folder.h"
+#include "support/shipped.h"
 
 #include <cmath>
 #include <filesystem>
@@ -20,7 +20,7 @@ namespace
   Scene asked(const std::string &name, std::vector<std::string> overrides)
   {
     overrides.push_back("Output/Fields=none");
-    return read_scene((params_folder() / (name + ".prm")).string(), overrides);
+    return shipped(name, overrides);
   }
 
   std::string chosen(const Choice &choice, const std::string &parameter)

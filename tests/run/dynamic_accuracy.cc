@@ -10,7 +10,7 @@
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 #include "scenes.h"
-#include "support/params_folder.h"
+#include "support/shipped.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,11 +50,6 @@ namespace
     const auto dynamics = maker.make(scene);
     const auto found    = check_slide(dynamics.model(), held_drive(scene), checked_modes(scene));
     return vibration_accuracy(scene, found, dynamics.meshed, maker);
-  }
-
-  Scene shipped(const std::string &name, const std::vector<std::string> &overrides)
-  {
-    return read_scene((params_folder() / (name + ".prm")).string(), overrides);
   }
 
   /// P at a time, linear between rows.

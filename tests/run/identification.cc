@@ -75,12 +75,12 @@ TEST_F(RunIdentification, WritesTheSceneWithWhatItFound)
 
 TEST_F(RunIdentification, WritesItsIntervalsAsRangesOfAVerdict)
 {
-  const auto shipped = [&](const Changes &changes)
+  const auto find_ranges = [&](const Changes &changes)
   {
-    run(read_scene((params_folder() / "identification-a.prm").string(), changes), output);
+    run(shipped("identification-a", changes), output);
     return uncertain_ranges(read_scene(output + "/identified.prm", {})).value();
   };
-  const auto ranges = shipped({ "Identification/Unknowns=mu, k, e, th0" });
+  const auto ranges = find_ranges({ "Identification/Unknowns=mu, k, e, th0" });
   ASSERT_EQ(ranges.size(), 4u);
   EXPECT_EQ(ranges[0].name, "Friction/Coefficient");
   EXPECT_EQ(ranges[3].name, "Geometry/Pivot height");
@@ -89,7 +89,7 @@ TEST_F(RunIdentification, WritesItsIntervalsAsRangesOfAVerdict)
   EXPECT_NEAR(ranges[1].from, 7.184e4, 5.);
   EXPECT_NEAR(ranges[1].to, 7.506e4, 5.);
   // A rest angle of 1.7e-5 +- 3e-5 rad, where a scene admits none above 0.
-  const auto preloaded = shipped({ "Identification/Unknowns=mu, k, rest" });
+  const auto preloaded = find_ranges({ "Identification/Unknowns=mu, k, rest" });
   ASSERT_EQ(preloaded.size(), 3u);
   EXPECT_EQ(preloaded[2].to, 0.);
   EXPECT_EQ(read_scene(output + "/identified.prm", {}).spring.rest_angle, 0.);

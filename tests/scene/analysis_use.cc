@@ -4,7 +4,7 @@
 #include "base/errors.h"
 #include "input/read.h"
 #include "scene/scene.h"
-#include "support/params_folder.h"
+#include "support/shipped.h"
 #include "support/thrown.h"
 
 #include <filesystem>
@@ -14,14 +14,9 @@ using namespace sprag;
 
 namespace
 {
-  std::string scene_file(const std::string &name)
-  {
-    return (params_folder() / (name + ".prm")).string();
-  }
-
   std::string refusal(const std::vector<std::string> &overrides)
   {
-    return thrown_text([&] { read_scene(scene_file("model-a"), overrides); });
+    return thrown_text([&] { shipped("model-a", overrides); });
   }
 } // namespace
 
@@ -37,7 +32,7 @@ TEST(Accuracy, NamesAreThoseOfTheAnalysis)
 TEST(Accuracy, ContactIsEnforcedByMultipliersWhereThatIsCheap)
 {
   const auto enforcement = [](const std::vector<std::string> &overrides)
-  { return read_scene(scene_file("model-a"), overrides).contact.enforcement; };
+  { return shipped("model-a", overrides).contact.enforcement; };
   EXPECT_EQ(enforcement({}), Enforcement::augmented_lagrangian);
   EXPECT_EQ(enforcement({ "Analysis/Dimension=3" }), Enforcement::augmented_lagrangian);
   EXPECT_EQ(enforcement({ "Contact/Penalty=500" }), Enforcement::penalty);

@@ -4,7 +4,7 @@
 #include "input/read.h"
 #include "scene/scene.h"
 #include "scenes.h"
-#include "support/params_folder.h"
+#include "support/shipped.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -21,10 +21,6 @@ namespace
     return scene;
   }
 
-  std::string model_a_file()
-  {
-    return (params_folder() / "model-a.prm").string();
-  }
 } // namespace
 
 // Finite elements of model A are pressed in by P = 9117 delta^1.444 (N, mm): the analysis of its contact law.
@@ -75,7 +71,7 @@ TEST(ContactReference, OfATyreIsThatOfALayer)
 // Widths of hard contact on faces of 0.03125 mm, from tests/benchmarks/pressure.md; estimates need not be better than a fifth.
 TEST(FaceGrading, WidthsOfModelAAreEstimated)
 {
-  const Scene scene = read_scene(model_a_file());
+  const Scene scene = shipped("model-a");
   EXPECT_NEAR(estimated_contact_width(scene, 1.52), 0.723, 0.15);
   EXPECT_NEAR(estimated_contact_width(scene, 6.15), 1.356, 0.27);
   EXPECT_NEAR(estimated_contact_width(scene, 14.7), 1.940, 0.39);
@@ -83,7 +79,7 @@ TEST(FaceGrading, WidthsOfModelAAreEstimated)
 
 TEST(FaceGrading, ShortFacesLieWhereTheContactIsNarrow)
 {
-  const auto grading = face_grading(read_scene(model_a_file()));
+  const auto grading = face_grading(shipped("model-a"));
   ASSERT_TRUE(grading);
   EXPECT_DOUBLE_EQ(grading->longest, 0.25);
   EXPECT_DOUBLE_EQ(grading->shortest, 0.0625);
@@ -94,15 +90,15 @@ TEST(FaceGrading, ShortFacesLieWhereTheContactIsNarrow)
 
 TEST(FaceGrading, NoneWhereFacesAreShortEnoughOrFarTooLong)
 {
-  EXPECT_FALSE(face_grading(read_scene(model_a_file(), { "Mesh/Faces in contact=0" })));
-  EXPECT_FALSE(face_grading(read_scene(model_a_file(), { "Drive/Start=50", "Mesh/Face size=0.1" })));
-  EXPECT_FALSE(face_grading(read_scene(model_a_file(), { "Mesh/Face size=4" })));
+  EXPECT_FALSE(face_grading(shipped("model-a", { "Mesh/Faces in contact=0" })));
+  EXPECT_FALSE(face_grading(shipped("model-a", { "Drive/Start=50", "Mesh/Face size=0.1" })));
+  EXPECT_FALSE(face_grading(shipped("model-a", { "Mesh/Face size=4" })));
 }
 
 TEST(FaceGrading, ContactsNarrowerThanFacesAreNoneOfGradedFaces)
 {
   const auto is_narrow = [](const double width, const std::vector<std::string> &changes)
-  { return is_narrower_than_faces(read_scene(model_a_file(), changes), width); };
+  { return is_narrower_than_faces(shipped("model-a", changes), width); };
   const std::string even = "Mesh/Faces in contact=0", wide = "Mesh/Face size=2";
   EXPECT_TRUE(is_narrow(1.9, { even, wide }));
   EXPECT_FALSE(is_narrow(2.1, { even, wide }));

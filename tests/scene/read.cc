@@ -5,6 +5,7 @@
 #include "scene/messages.h"
 #include "scene/scene.h"
 #include "support/params_folder.h"
+#include "support/shipped.h"
 
 #include <array>
 #include <hdf5.h>
@@ -30,11 +31,6 @@ namespace
     H5Fclose(file);
     return path;
   }
-
-  std::filesystem::path scenes()
-  {
-    return params_folder();
-  }
 } // namespace
 
 TEST(ReadScene, TablesAndMeshesLieRelativeToTheFile)
@@ -53,7 +49,7 @@ TEST(ReadScene, TablesAndMeshesLieRelativeToTheFile)
 
 TEST(ReadScene, PrintedParametersGiveTheSameScene)
 {
-  const Scene scene = read_scene((scenes() / "model-b.prm").string(), { "Friction/Law=Coulomb", "Contact/Penalty=500" });
+  const Scene scene = shipped("model-b", { "Friction/Law=Coulomb", "Contact/Penalty=500" });
   const Scene again = read_scene(written(parameters_text(scene)));
   EXPECT_EQ(parameters_text(again), parameters_text(scene));
   EXPECT_EQ(again.specified, scene.specified);
@@ -101,7 +97,7 @@ TEST(ReadScene, ReversalsTakeTimeInTransientAnalysesOnly)
 TEST(ReadScene, ScenesOfTheProgramAreFaultless)
 {
   unsigned int n_scenes = 0;
-  for (const auto &entry : std::filesystem::directory_iterator(scenes()))
+  for (const auto &entry : std::filesystem::directory_iterator(params_folder()))
     if (entry.path().extension() == ".prm")
     {
       ++n_scenes;

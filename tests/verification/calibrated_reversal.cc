@@ -4,7 +4,7 @@
 #include "levers/dynamics.h"
 #include "levers/prepared_scene.h"
 #include "scene/scene.h"
-#include "support/params_folder.h"
+#include "support/shipped.h"
 #include "verification/run_transient.h"
 
 #include <algorithm>
@@ -19,8 +19,7 @@ namespace
 {
   Scene calibration(const std::string &model)
   {
-    const auto file = params_folder() / ("calibration-" + model + ".prm");
-    return read_scene(file.string());
+    return shipped("calibration-" + model);
   }
 
   double peak_P(const Scene &scene)

@@ -2,7 +2,7 @@
 #include "analysis/limit_cycle/limit_cycle.h"
 #include "input/read.h"
 #include "scene/scene.h"
-#include "support/params_folder.h"
+#include "support/shipped.h"
 #include "verification/held_slides.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace
 
   Scene beam_at_onset(const std::string &depth)
   {
-    return read_scene((params_folder() / "onset-a.prm").string(), { "Friction/Coefficient=0.6", "Lever/Depth=" + depth });
+    return shipped("onset-a", { "Friction/Coefficient=0.6", "Lever/Depth=" + depth });
   }
 
   /// Returns the attractor to which a growing perturbation leads.
@@ -111,7 +111,7 @@ TEST(LimitCycle, TellsItsErrorSlow)
   for (const auto &device : devices)
   {
     SCOPED_TRACE(device.back());
-    expect_true_errors(read_scene((params_folder() / "onset-a.prm").string(), device));
+    expect_true_errors(shipped("onset-a", device));
   }
 }
 
@@ -140,10 +140,9 @@ TEST(LimitCycle, IsLookedForMoreThanOnce)
 // 252.5 Hz.
 TEST(LimitCycle, OfADivergenceIsFoundInItsOwnTime)
 {
-  const JudgedSlide checked(
-      read_scene((params_folder() / "stability-a.prm").string(),
-                 { "Analysis/Type=sprag slip", "Analysis/Model=rigid", "Friction/Law=Stribeck", "Friction/Static coefficient=2.5",
-                   "Friction/Stribeck speed=10", "Friction/Memory length=1e-4", "Drive/Speed=50" }));
+  const JudgedSlide checked(shipped("stability-a", { "Analysis/Type=sprag slip", "Analysis/Model=rigid", "Friction/Law=Stribeck",
+                                                     "Friction/Static coefficient=2.5", "Friction/Stribeck speed=10",
+                                                     "Friction/Memory length=1e-4", "Drive/Speed=50" }));
   ASSERT_EQ(checked.stability.kind, SlideKind::divergence);
   const auto &settings = checked.scene.sprag_slip;
   const auto cycle     = choose_cycle_steps(checked.stability, settings);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "input/read.h"
 #include "scene/scene.h"
-#include "support/params_folder.h"
+#include "support/shipped.h"
 #include "verification/held_slides.h"
 #include "verification/run_scene.h"
 
@@ -55,7 +55,7 @@ namespace
 
   Scene scene_with(const std::vector<std::string> &changes)
   {
-    return read_scene((params_folder() / "stribeck-a.prm").string(), changes);
+    return shipped("stribeck-a", changes);
   }
 
   /// c = -2 Re(lambda) K/|lambda|^2 of the frame [N s/mm], on a contact so stiff that the lever has nothing to follow with.
@@ -109,10 +109,9 @@ TEST(Stribeck, ShearOfTheLayerFeedsABeamAsItFeedsAMesh)
   double growth[2], frequency[2];
   for (const unsigned int i : { 0, 1 })
   {
-    const auto scene =
-        read_scene((params_folder() / "stability-a.prm").string(),
-                   { i == 0 ? "Analysis/Model=beam" : "Analysis/Model=condensed", "Friction/Law=Stribeck",
-                     "Friction/Stribeck speed=10", "Drive/Speed=10", "Stability/Position=65", "Stability/Direction=backward" });
+    const auto scene      = shipped("stability-a", { i == 0 ? "Analysis/Model=beam" : "Analysis/Model=condensed",
+                                                     "Friction/Law=Stribeck", "Friction/Stribeck speed=10", "Drive/Speed=10",
+                                                     "Stability/Position=65", "Stability/Direction=backward" });
     const auto eigenvalue = JudgedSlide(scene).stability.modes.front().mode.eigenvalue;
     growth[i]             = eigenvalue.real();
     frequency[i]          = eigenvalue.imag();
@@ -250,10 +249,9 @@ TEST(Stribeck, FrictionBehindAReversalIsThatOfTheSpeed)
 {
   for (const std::string model : { "beam", "condensed" })
   {
-    const auto scene =
-        read_scene((params_folder() / "reversal-a.prm").string(),
-                   { "Analysis/Model=" + model, "Friction/Law=Stribeck", "Friction/Static coefficient=0.9",
-                     "Friction/Kinetic coefficient=0.5", "Friction/Stribeck speed=60", "Drive/Start=55", "Drive/Stroke=60" });
+    const auto scene = shipped("reversal-a", { "Analysis/Model=" + model, "Friction/Law=Stribeck",
+                                               "Friction/Static coefficient=0.9", "Friction/Kinetic coefficient=0.5",
+                                               "Friction/Stribeck speed=60", "Drive/Start=55", "Drive/Stroke=60" });
     double mean = 0., expected = 0., time = 0.;
     for (const auto &row : run_in_time(scene).rows)
       if (row[Column::v] < -100. && row[Column::x] < 58.)
