@@ -30,14 +30,14 @@ namespace
 // The remaining difference is the mechanics of a lever that yields a thousandth as much. P: 0.4 to 0.7 % with aluminium and
 // cork, so 1e-5. Up to half the distance of 0.02 mm between the integration points over s adds 1e-4. Q: in a thin layer a
 // contact of half-width a leans by mu a / 2.6 at most under its own shear. With a = 0.05 mm that is 6e-4 rad for model B where
-// the mesh resolves it, times the force across x, 2 Q. A coarse mesh leans less. Contact points at nodes would leave half a
-// face size in s, 4e-3.
+// the mesh resolves it, times the force across x, 2 Q: 1.2e-3. A coarse mesh leans less. Contact points at nodes would leave half
+// a face size in s, 4e-3.
 TEST(RigidLimit, MeetsTheClosedFormAtACoarseMesh)
 {
   expect_closed_form(1., 2e-4, 1e-3);
 }
 
-TEST(SlowRigidLimit, MeetsTheClosedFormWithin1PerMil)
+TEST(SlowRigidLimit, MeetsTheClosedFormAtAFineMesh)
 {
-  expect_closed_form(0.125, 1e-3, 1e-3);
+  expect_closed_form(0.125, 1e-3, 1.3e-3);
 }
