@@ -11,6 +11,8 @@
 
 namespace sprag
 {
+  struct SlideStability;
+
   /// A parameter that was left open, the value chosen for it and why, a sentence.
   struct ChosenSetting
   {
@@ -38,6 +40,10 @@ namespace sprag
 
   /// Returns whether a quantity is among Accuracy/Quantity.
   bool is_requested(const Scene &scene, const std::string &quantity);
+
+  /// Returns the frequency of a slide by which settings are chosen [Hz]: that of the largest growth rate, or in time, where P
+  /// rings, the one nearest to a rigid lever's on its contact.
+  double ringing_frequency(const Scene &scene, const SlideStability &slide);
 
   /// Returns the scene in the plane, its cylinder true.
   Scene to_plane(Scene scene);

@@ -8,6 +8,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "estimate/coarser_scene.h"
+#include "estimate/dynamic_accuracy.h"
 #include "input/check.h"
 #include "report/summary_lines.h"
 #include "results/row_statistics.h"
@@ -26,19 +27,30 @@ namespace sprag
     // Shares of the target that the causes of an error may use up.
     constexpr double slide_mesh_share = 0.3, slide_penalty_share = 0.2, slide_mode_share = 0.1, slide_step_share = 0.4,
                      slide_model_share = 0.8;
+    constexpr double step_error        = 2.; ///< part `step` of P that a run tells, over Time/Tolerance
+    // A held slide has no steps. What it scatters over a face falls by a lower power of the face size: 3.5, 1.7 and 0.64 % of the
+    // growth rate of stability-a with 0.93, 0.27 and 0.12 mm.
+    constexpr double held_mesh_share = 0.5, held_order = 1.;
 
     constexpr double stiffest          = 0.5; ///< penalty over the stiffest that a mesh takes
     constexpr double slide_trial_faces = 3.;  ///< across the contact where P is largest
     constexpr double slide_finest      = 8.;  ///< Mesh/Face size of the trial run over that of a run
 
-    double difference(const SlideStability &found, const SlideStability &other, const std::vector<std::string> &quantities)
+    /// Returns what a slide has of Accuracy/Quantity.
+    SlideValue value_for(const Scene &scene, const std::string &quantity)
+    {
+      return [&scene, is_growth = quantity == "growth_rate"](const SlideStability &slide)
+      { return is_growth ? slide.growth_rate() : ringing_frequency(scene, slide); };
+    }
+
+    double difference(const Scene &scene, const SlideStability &found, const SlideStability &other,
+                      const std::vector<std::string> &quantities)
     {
       double result = 0.;
       for (const auto &quantity : quantities)
       {
-        const auto value = [&](const SlideStability &slide)
-        { return quantity == "growth_rate" ? slide.growth_rate() : slide.frequency(); };
-        result = std::max(result, std::abs(value(other) / value(found) - 1.));
+        const auto value = value_for(scene, quantity);
+        result           = std::max(result, std::abs(value(other) / value(found) - 1.));
       }
       if (!std::isfinite(result))
         throw AnalysisError("Accuracy/Target: the slide at x = " + mm(found.slide ? found.slide->drive.x : 0.) +
@@ -87,12 +99,16 @@ namespace sprag
         face_size           = estimated_contact_width(scene, contact_reference(scene).P) / slide_trial_faces;
         fine.mesh.face_size = face_size;
         const auto found    = check_slide(fine, maker);
-        const auto change = [&](const Scene &other) { return factor * difference(found, check_slide(other, maker), quantities); };
-        penalties         = maker.make(fine).meshed.penalties;
-        penalty_error     = change(with_penalties(fine, penalties, 1. / softer)) * finer_share(softer, 1.);
-        for (unsigned int modes = 5; modes < fine.condensed.modes; modes *= 2)
-          mode_errors.emplace_back(modes, change(with_modes(fine, modes)));
+        const auto change   = [&](const Scene &other)
+        { return factor * difference(scene, found, check_slide(other, maker), quantities); };
+        penalties     = maker.make(fine).meshed.penalties;
+        penalty_error = change(with_penalties(fine, penalties, 1. / softer)) * finer_share(softer, 1.);
+        // A run tells what half its modes change.
+        for (unsigned int modes = 5; 2 * modes < fine.condensed.modes; modes *= 2)
+          mode_errors.emplace_back(2 * modes, change(with_modes(fine, modes)));
         mesh_error = change(with_coarser_mesh(with_penalties(fine, penalties, 1.))) * finer_share(coarser, force_order(scene));
+        if (scene.analysis.type == AnalysisType::stability) // of which a run tells the scatter, too
+          mesh_error += largest_scatter(slides_over_face(fine, maker, &found), quantities);
         if (scene.accuracy.is_model_open)
         {
           Scene beam          = fine;
@@ -123,8 +139,8 @@ namespace sprag
         if (scene.analysis.type == AnalysisType::transient && is_open(scene, "Time/Tolerance") && is_open(scene, "Time/Step"))
         {
           choice.error += slide_step_share * target;
-          choice.settings.push_back(
-              { "Time/Tolerance", rounded_text(slide_step_share * target), "errors of P are about as large" });
+          choice.settings.push_back({ "Time/Tolerance", rounded_text(slide_step_share * target / step_error),
+                                      "errors of P are about " + rounded_text(step_error) + " times as large" });
         }
         return choice;
       }
@@ -138,6 +154,16 @@ namespace sprag
       ContactPenalties penalties{};                             ///< of the trial run
       std::vector<std::pair<unsigned int, double>> mode_errors; ///< of numbers of modes
 
+      double largest_scatter(const std::vector<SlideStability> &places, const std::vector<std::string> &quantities) const
+      {
+        return largest(quantities,
+                       [&](const std::string &quantity)
+                       {
+                         const auto value = value_for(scene, quantity);
+                         return scatter(places, value) / std::abs(value(places.front()));
+                       });
+      }
+
       bool takes_beam(const double target) const
       {
         const double share = scene.analysis.type == AnalysisType::transient ? 1. - slide_step_share : slide_model_share;
@@ -146,8 +172,10 @@ namespace sprag
 
       double add_mesh(const double target, Choice &choice) const
       {
-        const double order = force_order(scene);
-        const double ideal = face_size * std::pow(slide_mesh_share * target / std::max(mesh_error, 1e-12), 1. / order);
+        const bool is_held = scene.analysis.type == AnalysisType::stability;
+        const double order = is_held ? held_order : force_order(scene);
+        const double share = is_held ? held_mesh_share : slide_mesh_share;
+        const double ideal = face_size * std::pow(share * target / std::max(mesh_error, 1e-12), 1. / order);
         const double size  = std::clamp(ideal, face_size / slide_finest, coarser * face_size);
         choice.error += mesh_error * std::pow(size / face_size, order);
         choice.settings.push_back({ "Mesh/Face size", rounded_text(size),
@@ -179,7 +207,8 @@ namespace sprag
           if (error <= slide_mode_share * target)
           {
             choice.error += error;
-            choice.settings.push_back({ "Condensed/Modes", std::to_string(modes), percent(error) + " off a probe with more" });
+            choice.settings.push_back(
+                { "Condensed/Modes", std::to_string(modes), "half of them are " + percent(error) + " off a probe with more" });
             return;
           }
       }

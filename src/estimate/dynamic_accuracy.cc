@@ -45,29 +45,6 @@ namespace sprag
       std::vector<SlideStability> other_mesh; ///< on the mesh of with_compared_mesh(), with as many modes as `other_modes`
     };
 
-    /// Checks the slide of a meshed scene at places over a face of its mesh, where there is one; the first may be known already.
-    std::vector<SlideStability> slides_over_face(const Scene &scene, DynamicsMaker &maker,
-                                                 const SlideStability *const known = nullptr)
-    {
-      const Scene held    = held_scene(scene);
-      const auto dynamics = maker.make(held);
-      std::vector<SlideStability> result;
-      for (const double share : face_shares)
-      {
-        if (known != nullptr && share == 0.)
-        {
-          result.push_back(*known);
-          continue;
-        }
-        DrivePoint drive  = held_drive(scene);
-        const double away = share * scene.mesh.face_size;
-        drive.x += drive.x - away > scene.drive.minimum() ? -away : away;
-        if (auto slide = check_slide(dynamics.model(), drive, checked_modes(held)); slide.slide)
-          result.push_back(std::move(slide));
-      }
-      return result;
-    }
-
     /// Checks the slide of a meshed scene, see held_scene(), by these models; `found` is its own. The run's own mesh stays in the
     /// maker.
     SlideTrials run_slide_trials(const Scene &scene, const SlideStability &found, const ContactPenalties &penalties,
@@ -96,8 +73,6 @@ namespace sprag
       return result;
     }
 
-    using SlideValue = std::function<double(const SlideStability &)>;
-
     double mean(const std::vector<SlideStability> &slides, const SlideValue &value)
     {
       return sum_over(slides, value) / static_cast<double>(slides.size());
@@ -123,9 +98,7 @@ namespace sprag
     std::vector<ErrorPart> with_place(std::vector<ErrorPart> parts, const SlideStability &found, const SlideTrials &trial_runs,
                                       const SlideValue &value)
     {
-      const double middle  = mean(trial_runs.places, value);
-      const auto distances = mapped(trial_runs.places, [&](const auto &slide) { return value(slide) - middle; });
-      parts.front().value += root_mean_square(distances) / std::abs(value(found));
+      parts.front().value += scatter(trial_runs.places, value) / std::abs(value(found));
       return parts;
     }
 
@@ -153,17 +126,6 @@ namespace sprag
     {
       const auto &turns = drive.reversals();
       return turns.size() > 1 ? turns[1] - 0.5 * drive.reversal_duration() : drive.duration();
-    }
-
-    /// The vibration of a slide that is nearest to a frequency [Hz].
-    std::complex<double> eigenvalue_near(const SlideStability &slide, const double frequency)
-    {
-      std::complex<double> result = std::nan("");
-      for (const auto &mode : slide.modes)
-        if (const auto lambda = mode.mode.eigenvalue;
-            !(std::abs(lambda.imag() / (2. * M_PI) - frequency) >= std::abs(result.imag() / (2. * M_PI) - frequency)))
-          result = lambda;
-      return result;
     }
 
     std::vector<ErrorPart> times(std::vector<ErrorPart> parts, const double factor)
@@ -296,6 +258,33 @@ namespace sprag
       return { P, overshoot, { "frequency", "it", add_both(frequency_parts, errors.frequency, weight * apart), {} }, decay };
     }
   } // namespace
+
+  std::vector<SlideStability> slides_over_face(const Scene &scene, DynamicsMaker &maker, const SlideStability *const known)
+  {
+    const Scene held    = held_scene(scene);
+    const auto dynamics = maker.make(held);
+    std::vector<SlideStability> result;
+    for (const double share : face_shares)
+    {
+      if (known != nullptr && share == 0.)
+      {
+        result.push_back(*known);
+        continue;
+      }
+      DrivePoint drive  = held_drive(scene);
+      const double away = share * scene.mesh.face_size;
+      drive.x += drive.x - away > scene.drive.minimum() ? -away : away;
+      if (auto slide = check_slide(dynamics.model(), drive, checked_modes(held)); slide.slide)
+        result.push_back(std::move(slide));
+    }
+    return result;
+  }
+
+  double scatter(const std::vector<SlideStability> &places, const SlideValue &value)
+  {
+    const double middle = mean(places, value);
+    return root_mean_square(mapped(places, [&](const auto &slide) { return value(slide) - middle; }));
+  }
 
   std::vector<ErrorEstimate> vibration_accuracy(const Scene &scene, const SlideStability &found, const MeshedDynamics &dynamics,
                                                 DynamicsMaker &maker)

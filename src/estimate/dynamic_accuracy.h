@@ -5,9 +5,20 @@
 #include "analytic/error_estimate.h"
 #include "levers/dynamics.h"
 
+#include <functional>
+#include <vector>
+
 namespace sprag
 {
   struct Scene;
+
+  /// Checks the slide of a meshed scene at places over a face of its mesh, where there is one; the first may be known already.
+  std::vector<SlideStability> slides_over_face(const Scene &scene, DynamicsMaker &maker, const SlideStability *known = nullptr);
+
+  using SlideValue = std::function<double(const SlideStability &)>;
+
+  /// Returns how far a value scatters over such places, root mean square.
+  double scatter(const std::vector<SlideStability> &places, const SlideValue &value);
 
   /// Estimates the errors of growth_rate and frequency of a meshed lever's held slide. The same slide is checked with a third of
   /// the penalty and, over places between the nodes, on its mesh and one of twice the Mesh/Face size. The changes tell the error

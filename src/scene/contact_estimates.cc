@@ -189,10 +189,10 @@ namespace sprag
     ContactReference result{};
     set_forces(device, result);
 
-    result.stiffness   = is_meshed(device.analysis.model) ? face_stiffness(device, result.P) : law_stiffness(contact, result.P);
-    const double omega = result.s * std::sqrt(result.stiffness / moment_of_inertia(device));
-    result.relaxation  = 2. * contact.damping / omega;
-    result.tangential  = contact.tangential_stiffness.value_or(result.stiffness / (2. * (1. + face_material(device).nu)));
+    result.stiffness  = is_meshed(device.analysis.model) ? face_stiffness(device, result.P) : law_stiffness(contact, result.P);
+    result.omega      = result.s * std::sqrt(result.stiffness / moment_of_inertia(device));
+    result.relaxation = 2. * contact.damping / result.omega;
+    result.tangential = contact.tangential_stiffness.value_or(result.stiffness / (2. * (1. + face_material(device).nu)));
     return result;
   }
 

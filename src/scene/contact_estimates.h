@@ -49,7 +49,8 @@ namespace sprag
     double smallest_P; ///< of the closed form over the drive [N]
     double s;          ///< pivot to contact there [mm]
     double stiffness;  ///< dP/d(delta) at that P, of the contact law or, of a meshed lever, of its face [N/mm]
-    double relaxation; ///< damping over stiffness: 2 zeta / omega, omega = s sqrt(stiffness / J), zeta = Contact/Damping [s]
+    double omega;      ///< of a rigid lever on the contact, s sqrt(stiffness / J) [1/s]
+    double relaxation; ///< damping over stiffness: 2 zeta / omega, zeta = Contact/Damping [s]
     double tangential; ///< in stick: Contact/Tangential stiffness, or the layer's shear beside its compression [N/mm]
   };
 

@@ -152,7 +152,7 @@ TEST(Choice, ABeamServesWhereCoarse)
   const Scene finer = asked("reversal-a", { "Accuracy/Target=0.01", "Analysis/Model=auto" });
   const auto choice = choose_settings(finer);
   EXPECT_EQ(chosen(choice, "Analysis/Model"), "condensed");
-  EXPECT_NEAR(std::stod(chosen(choice, "Time/Tolerance")), 0.004, 1e-9);
+  EXPECT_NEAR(std::stod(chosen(choice, "Time/Tolerance")), 0.002, 1e-9);
 }
 
 namespace

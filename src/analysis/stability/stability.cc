@@ -106,6 +106,16 @@ namespace sprag
     return !(growth < error && growth > round_off * std::abs(eigenvalue));
   }
 
+  std::complex<double> eigenvalue_near(const SlideStability &slide, const double frequency)
+  {
+    std::complex<double> result = std::nan("");
+    for (const auto &mode : slide.modes)
+      if (const auto lambda = mode.mode.eigenvalue;
+          !(std::abs(lambda.imag() / (2. * M_PI) - frequency) >= std::abs(result.imag() / (2. * M_PI) - frequency)))
+        result = lambda;
+    return result;
+  }
+
   bool SlideStability::is_decided() const
   {
     return modes.empty() || kind == SlideKind::jammed || sprag::is_decided(worst_mode().mode.eigenvalue, error);

@@ -104,6 +104,9 @@ namespace sprag
     std::string motion() const;
   };
 
+  /// Returns the eigenvalue of a slide's mode that is nearest to a frequency [Hz]; NaN without equilibrium.
+  std::complex<double> eigenvalue_near(const SlideStability &slide, double frequency);
+
   /// Growth above this share of |lambda| counts as growth. No structure has so little damping.
   constexpr double smallest_growth = 1e-6;
 
