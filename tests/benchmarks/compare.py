@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-only
 """Runs every scene of params/, long ones shortened, with two builds of sprag and prints a line a scene: how far results differ and
-what both cost. Exit status 1 where P, Q or theta differ by more than 1e-9 (--limit) of their peak or a verdict differs. See README.md; of
-what runs cost, cost.py prints more.
+what both cost. Exit status 1 where P, Q or theta differ by more than 1e-9 (--limit) of their peak or a verdict differs. With --speed, only
+what both builds cost, over a fixed list of runs. See README.md.
 
     tests/benchmarks/compare.py OLD NEW [--scenes WORD...]
+    tests/benchmarks/compare.py OLD NEW --speed [--repeats 3] [--scenes WORD...]
 """
 
 import argparse
@@ -40,6 +41,30 @@ SHORTER = {
     "plate-reversal-": REVERSAL,
     "stability-": ("Stability/Critical=Lever/Depth 4 12",),
     "stiff-": ("Analysis/Step=5",),
+}
+
+STATIC = ("Output/Fields=none",)
+IN_TIME = (*STATIC, "Time/Tolerance=0")
+FEW_STEPS = ("Drive/Start=58", "Drive/Stroke=60", "Time/Step=2e-4")
+NO_SEARCH = ("Stability/Critical=none", "Stability/Roles=off")
+SPEED = {
+    "start": ("closed-form-a", ()),
+    "model A as shipped": ("model-a", ()),
+    "quasi-static, penalty": ("model-a", STATIC),
+    "quasi-static, augmented": ("augmented-lagrangian-a", STATIC),
+    "elastic cylinder": ("cylinder-a", STATIC),
+    "pair": ("pair-a", STATIC),
+    "face size 0.0625": ("model-a", (*STATIC, "Mesh/Face size=0.0625", "Analysis/Step=10")),
+    "beam in time": ("reversal-a", (*IN_TIME, "Time/Step=5e-6")),
+    "condensed in time": ("reversal-a", (*IN_TIME, "Analysis/Model=condensed", "Time/Step=1e-4")),
+    "finite elements in time": ("reversal-a", (*IN_TIME, "Analysis/Model=finite element", *FEW_STEPS)),
+    "pair in time": ("pair-reversal-a", (*IN_TIME, "Analysis/Model=condensed", *FEW_STEPS)),
+    "eigenvalues": ("stability-a", (*STATIC, "Analysis/Model=finite element", *NO_SEARCH)),
+    "solid A as shipped": ("solid-a", ()),
+    "study of beams": ("study-reversal-a", ("Analysis/Model=beam", "Study/Reference=", "Study/Vary=Lever/Depth = 15 ... 25 : 250")),
+    "frequencies": ("study-transmissibility-a", ("Study/Vary=Isolation/Base frequency = 0.2 ... 4 : 200 log", "Isolation/Damper=lever")),
+    "random base, condensed": ("isolation-ground-a", ("Analysis/Model=condensed", "Isolation/Duration=10")),
+    "map": ("map-friction-depth-a", ("Map/First points=30", "Map/Second points=30", "Map/Coarsest=1", "Map/Bisections=0")),
 }
 
 COUNTED = re.compile(r"(P|Q|theta)(_2|_0|_beam|_fitted|_forward|_backward)?")
@@ -152,6 +177,10 @@ def line(name, cells):
     return name.ljust(26) + "".join(str(cell).rjust(10) for cell in cells)
 
 
+def speed(old, new):
+    return [f"{old:.2f}", f"{new:.2f}", f"{old / new:.2f}"]
+
+
 def compare_scene(arguments, scene, folder):
     begin = max((begin for begin in SHORTER if scene.startswith(begin)), key=len)
     runs = []
@@ -168,8 +197,23 @@ def compare_scene(arguments, scene, folder):
     failed = bool(texts) or any(not worst[kind] <= arguments.limit for kind in ("P", "Q", "theta"))
     remark = "" if rows is None else f" chaotic: the first {rows} rows"
     remark += f" FAILED {'; '.join(texts)}" if failed else ""
-    print(line(scene, [f"{worst[kind]:.0e}" for kind in KINDS] + [f"{old.cpu:.2f}", f"{new.cpu:.2f}", f"{old.cpu / new.cpu:.2f}"]) + remark, flush=True)
+    print(line(scene, [f"{worst[kind]:.0e}" for kind in KINDS] + speed(old.cpu, new.cpu)) + remark, flush=True)
     return not failed
+
+
+def compare_speed(arguments, name, folder):
+    scene, changes = SPEED[name]
+    costs = {"old": [], "new": []}
+    for _ in range(arguments.repeats):
+        for build, seconds in costs.items():
+            (folder / build).mkdir(parents=True, exist_ok=True)
+            run = Run(getattr(arguments, build), scene, changes, folder / build)
+            if run.status != 0:
+                print(f"{name}: {build}: {run.message}", flush=True)
+                return False
+            seconds.append(run.cpu)
+    print(line(name, speed(*(min(seconds) for seconds in costs.values()))), flush=True)
+    return True
 
 
 def main():
@@ -177,17 +221,20 @@ def main():
     parser.add_argument("old", type=Path)
     parser.add_argument("new", type=Path)
     parser.add_argument("--scenes", nargs="+", default=[""], help="only those with one of these words in their name")
+    parser.add_argument("--speed", action="store_true", help="what a fixed list of runs costs, results aside")
+    parser.add_argument("--repeats", type=int, default=3, help="of each run of --speed, old and new in turn; the least counts")
     parser.add_argument("--limit", type=float, default=LIMIT, help="of P, Q and theta over their peaks")
     arguments = parser.parse_args()
     arguments.old, arguments.new = arguments.old.resolve(), arguments.new.resolve()
 
-    names = [path.stem for path in sorted((ROOT / "params").glob("*.prm"))]
+    names = SPEED if arguments.speed else [path.stem for path in sorted((ROOT / "params").glob("*.prm"))]
     names = [name for name in names if any(word in name for word in arguments.scenes)]
-    print(line("scene", [*KINDS, "old s", "new s", "speed"]))
+    print(line("run" if arguments.speed else "scene", ([] if arguments.speed else list(KINDS)) + ["old s", "new s", "speed"]))
+    act = compare_speed if arguments.speed else compare_scene
     passed = []
     with tempfile.TemporaryDirectory(prefix="sprag-compare-") as folder:
         for number, name in enumerate(names):
-            passed.append(compare_scene(arguments, name, Path(folder) / str(number)))
+            passed.append(act(arguments, name, Path(folder) / str(number)))
     print(f"{passed.count(False)} of {len(passed)} failed")
     return 0 if passed and all(passed) else 1
 
