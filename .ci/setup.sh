@@ -52,8 +52,14 @@ install_packages() # sprag, all or thorough
     say "This is no Debian system: nothing is installed. Needed is what packages.txt lists."
     return
   fi
+  # All were found, and nothing was installed or removed since.
+  local found=$build_dir/packages-$1.found
+  [ "$found" -nt /var/lib/dpkg/status ] && [ "$found" -nt "$project/packages.txt" ] && return
   mapfile -t missing < <(missing_packages "${needed[@]}")
-  [ "${#missing[@]}" -gt 0 ] || return 0
+  if [ "${#missing[@]}" -eq 0 ]; then
+    touch "$found"
+    return
+  fi
 
   local as_root=(env)
   if [ "$(id -u)" -ne 0 ]; then

@@ -83,8 +83,8 @@ def picture_paths(options, default):
     return [base.with_name(f"{base.name}.{ending}") for ending in options.format or ("png",)]
 
 
-def write_picture(figure, paths, dpi=DPI):
-    """Writes a picture and makes the folders it needs."""
+def save(figure, paths, dpi=DPI):
+    """Writes a picture, makes the folders it needs, and says where it is."""
     for path in paths:
         path.parent.mkdir(parents=True, exist_ok=True)
         if path.suffix == ".png":
@@ -93,9 +93,4 @@ def write_picture(figure, paths, dpi=DPI):
             figure.canvas.print_png(path, pil_kwargs={"compress_level": 2})
         else:
             figure.savefig(path, dpi=dpi)
-
-
-def save(figure, paths, dpi=DPI):
-    """Writes a picture and says where it is."""
-    write_picture(figure, paths, dpi)
     print(*paths, sep="\n")

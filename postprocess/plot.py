@@ -3,14 +3,20 @@
 """Draws result folders of sprag: forces, contact, fields, sensors, reversals, energies, sweeps, calibrations, comparisons."""
 
 import gc
-import multiprocessing
+import os
+import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 
+SECOND = None  # the process that draws the second half of a drive's pictures
 if __name__ == "__main__":
     gc.disable()  # it would take 6 % of the time, for next to no memory
+    # A second process loads and draws beside this one. A fork would copy every page of memory that both write to.
+    if "--on-word" in sys.argv and "--second" not in sys.argv:
+        SECOND = subprocess.Popen([sys.executable, *sys.argv, "--second"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
-from arguments import DPI, add_folders, add_output, make_parser, names_picture, script, write_picture
+from arguments import DPI, add_folders, add_output, make_parser, names_picture, save, script
 from calibration import calibration
 from comparison import check_steps, comparisons
 from contact import contact
@@ -34,15 +40,17 @@ from transient import energy, has_reversal, is_transient, reversal
 from vibration import vibration_pictures
 
 
-FORK = multiprocessing.get_context("fork")
 # Types of analysis that are drawn as far as they have come.
 IN_STEPS = ("quasi-static", "transient", "isolation", "sprag slip")
 # A later run in the same folder may have none of these pictures.
 OF_ONE_RUN = ("forces-over-time", "forces-over-x", "contact", "reversal", "energy", "sensors", "pair", "fields")
+HALVES = (0, 1)
 
 
-def draw(results):
-    """{picture name: figure} for one or several results."""
+def draw(results, halves=HALVES):
+    """{picture name: figure} for one or several results. Pictures of a drive come in two halves, the others with the first."""
+    if 0 not in halves and (len(results) > 1 or results[0].type not in ("quasi-static", "transient")):
+        return {}
     if len(results) > 1:
         return comparisons(results)
     (result,) = results
@@ -72,60 +80,46 @@ def draw(results):
             return sprag_slip_pictures(result)
         case "isolation":
             return isolation_pictures(result)
-    return draw_drive(result)
+    return draw_drive(result, halves)
 
 
-def draw_drive(result):
-    pictures = {"forces-over-x": forces_over_x([result])}
+def draw_drive(result, halves):
+    """The pictures of a run that moves the cylinder, those of the given halves."""
+    pictures = {"forces-over-x": partial(forces_over_x, [result])}
     if is_transient(result):
-        pictures["forces-over-time"] = forces_over_time([result])
+        pictures["forces-over-time"] = partial(forces_over_time, [result])
     if is_solid(result):
-        pictures["contact"] = surface(result)
+        pictures["contact"] = partial(surface, result)
     elif result.friction_face is not None:
-        pictures["contact"] = contact(result)
+        pictures["contact"] = partial(contact, result)
     if is_transient(result) and has_reversal(result):
-        pictures["reversal"] = reversal(result)
+        pictures["reversal"] = partial(reversal, result)
     if is_transient(result) and result.has("energy_residual"):
-        pictures["energy"] = energy(result)
+        pictures["energy"] = partial(energy, result)
     if has_sensors(result):
-        pictures["sensors"] = sensor_forces(result)
+        pictures["sensors"] = partial(sensor_forces, result)
     if has_pair(result):
-        pictures["pair"] = draw_pair(result)
-    return {**pictures, **draw_fields(result)}
+        pictures["pair"] = partial(draw_pair, result)
+    if written_frames(result):
+        pictures["fields"] = partial(draw_fields, result)
+    drawn = {name: make() for place, (name, make) in enumerate(pictures.items()) if (2 * place >= len(pictures)) in halves}
+    return {name: figure for name, figure in drawn.items() if figure is not None}
 
 
 def draw_fields(result):
     """Draws the fields at the largest P. A frame that cannot be read, as while it is written, does not stop the other pictures."""
     try:
-        return {"fields": fields(result)} if written_frames(result) else {}
+        return fields(result)
     except NotAResult as error:
         print(f"plot.py: no picture of the fields: {error}", file=sys.stderr)
-        return {}
+        return None
 
 
 def save_all(pictures, folder, endings=("png",), dpi=DPI):
-    """Every figure in every format, under its name. All but the last are written by processes of their own, as drawing takes one
-    core. Where one fails its figure is written here, which tells why."""
-    paths = {name: [folder / f"{name}.{ending}" for ending in endings] for name in pictures}
-    sys.stdout.flush()
-    writers = {name: FORK.Process(target=write_or_fail, args=(pictures[name], paths[name], dpi)) for name in list(pictures)[:-1]}
-    for writer in writers.values():
-        writer.start()
-    for name in reversed(pictures):
-        if name in writers:
-            writers[name].join()
-        if name not in writers or writers[name].exitcode != 0:
-            write_picture(pictures[name], paths[name], dpi)
-        plt.close(pictures[name])
-    for written in paths.values():
-        print(*written, sep="\n")
-
-
-def write_or_fail(figure, paths, dpi):
-    try:
-        write_picture(figure, paths, dpi)
-    except Exception:
-        sys.exit(1)
+    """Writes every figure in every format, under its name."""
+    for name, figure in pictures.items():
+        save(figure, [folder / f"{name}.{ending}" for ending in endings], dpi)
+        plt.close(figure)
 
 
 def remove_earlier(pictures, folder, endings):
@@ -141,6 +135,7 @@ def read_arguments(arguments):
     add_output(parser, "PICTURE_DIR", "the only result folder, or the current one")
     parser.add_argument("--report", action="store_true", help="write report.html too, with all pictures in it")
     parser.add_argument("--on-word", action="store_true", help="wait for a line on standard input, and do nothing without one")
+    parser.add_argument("--second", action="store_true", help="draw only the second half of the pictures of a drive, and no report")
     options = parser.parse_args(arguments)
     if names_picture(options.output):
         parser.error("-o names a folder, as there are several pictures; comparison.py draws one of several results")
@@ -156,14 +151,30 @@ def main(arguments=None):
     if options.on_word and not sys.stdin.readline():
         return
     endings = options.format or ("png",)
+    if options.report and "png" not in endings:
+        endings = (*endings, "png")
+    if SECOND:
+        print("draw", file=SECOND.stdin, flush=True)
     results = [read_result(folder) for folder in options.folders]
-    pictures = draw(results)
-    save_all(pictures, options.output, (*endings, "png") if options.report and "png" not in endings else endings)
+    pictures = draw(results, (1,) if options.second else (0,) if SECOND else HALVES)
+    save_all(pictures, options.output, endings)
+    if options.second:
+        return
+    names = list(pictures)
+    if SECOND:
+        lines = SECOND.communicate()[0]
+        print(lines, end="")
+        if SECOND.returncode != 0:
+            raise NotAResult("pictures are missing: the message stands above")
+        names += dict.fromkeys(Path(line).stem for line in lines.splitlines())
     if options.folders == [options.output]:
-        remove_earlier(pictures, options.output, endings)
+        remove_earlier(names, options.output, endings)
     if options.report:
-        write_report(results, {name: options.output / f"{name}.png" for name in pictures}, options.output / "report.html")
+        write_report(results, {name: options.output / f"{name}.png" for name in names}, options.output / "report.html")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    status = main()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(status)  # to free every object would take 0.15 s

@@ -2,13 +2,14 @@
 """plot.py on results of short runs, whole, cut short and damaged."""
 
 import shutil
+import subprocess
 import unittest
 from pathlib import Path
 
 import h5py
 import numpy as np
 
-from pictures import PictureTest
+from pictures import SOURCE, PictureTest
 from real_results import real_result, run_once
 import forces
 import isolation
@@ -54,6 +55,16 @@ class PlotTest(PictureTest):
         done = self.silent(self.plot(self.pictures, "--format", "png,pdf"))
         self.assertEqual({Path(line).name for line in done.stdout.splitlines()}, names)
         self.assertEqual({path.name for path in self.pictures.iterdir()}, {*names, *before, "mine.png"})
+
+    def test_two_processes_draw_what_one_does(self):
+        folder = self.copied("reversal-a of 6")
+        alone = self.silent(self.plot("--report", folder))
+        command = ["/usr/bin/python3", SOURCE / "postprocess" / "plot.py", "--report", "--on-word", folder]
+        for word, lines in (("", ""), ("draw\n", alone.stdout.replace(str(self.pictures), str(folder)))):
+            done = subprocess.run(command, input=word, capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (0, lines, ""))
+        for picture in self.pictures.iterdir():
+            self.assertEqual(picture.read_bytes(), (folder / picture.name).read_bytes(), picture)
 
     def test_several_runs(self):
         done = self.plot(run_once("model-b"), self.copied("model-b"))
