@@ -259,7 +259,7 @@ namespace sprag
         if (accuracy.is_model_open && !accuracy.chooses_settings() && !is_study)
           report("Analysis/Model", "auto needs Accuracy/Target or Accuracy/Budget");
         const bool is_model_chosen = input.scene.chosen.count("Analysis/Model") > 0;
-        if (accuracy.chooses_settings() && follows_formulas(input.scene) && !is_study && !is_model_chosen)
+        if (accuracy.chooses_settings() && !possible.empty() && follows_formulas(input.scene) && !is_study && !is_model_chosen)
           report("Analysis/Model", "must be auto or a model that solves for the contact where an accuracy is asked for");
         if (accuracy.chooses_settings() && possible.empty())
           report(accuracy.target > 0. ? "Accuracy/Target" : "Accuracy/Budget",

@@ -29,7 +29,7 @@ namespace sprag
     bool verbose           = false;   ///< prints all of a summary
     RunLog *log            = nullptr; ///< begins in the folder once that is made; null: none
     unsigned int processes = 1;       ///< that run the scene together
-    InMemory *in_memory    = nullptr; ///< for a run that writes no files and estimates no errors, in place of a folder; else null
+    InMemory *in_memory    = nullptr; ///< for a run that writes no files, in place of a folder; else null
     std::string chosen     = {};      ///< settings that follow from the scene's Accuracy, "Section/Name = VALUE; ..."
   };
 } // namespace sprag

@@ -96,7 +96,7 @@ namespace sprag
       stream << "Accuracy, estimated:\n";
     for (const auto &estimate : estimates)
     {
-      stream << "  " << std::left << std::setw(18) << estimate.quantity << std::right;
+      stream << "  " << std::left << std::setw(22) << estimate.quantity << std::right;
       if (estimate.parts.empty())
         stream << estimate.unknown << '\n';
       else

@@ -42,7 +42,7 @@ namespace sprag
 
   bool estimates_errors(const Scene &scene, const RunOptions &options)
   {
-    return options.in_memory == nullptr && scene.output.errors;
+    return scene.output.errors && (options.in_memory == nullptr || scene.accuracy.chooses_settings());
   }
 
   std::shared_ptr<DynamicsMaker> dynamics_maker(const RunOptions &options)

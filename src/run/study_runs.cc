@@ -84,13 +84,15 @@ namespace sprag
     Warnings warnings;
     try
     {
-      const Scene scene = resolved(make_scene(index)).scene;
+      const auto [scene, choice] = resolved(make_scene(index));
       require_memory(scene);
       warnings = scene_warnings(scene);
       carry_out(scene, make_options(in_memory), warnings);
       check_warnings(scene, warnings);
       record.found = std::move(in_memory.found);
       record.work  = counted_work(scene, record.found.summary);
+      if (choice)
+        record.found.summary.push_back({ "chosen_settings", to_text(choice->settings), "", "that followed from Accuracy" });
       if (!has_reference)
         record.found.curve.clear();
     }

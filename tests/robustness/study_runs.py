@@ -109,6 +109,13 @@ class StudyTest(RunTest):
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr.splitlines()[-1], "^sprag: Analysis/Warnings = error: 1 warning: runs_with_warnings. The first says: 2 of 2 runs")
 
+    def test_a_row_tells_a_missed_target_and_what_was_chosen(self):
+        vary = {"Accuracy/Quantity": "Q", "Study/Vary": "Accuracy/Target = 3e-4, 0"}
+        _, texts, _, _ = self.study(STATIC, {**vary, "Mesh/Face size": "4"})
+        self.assertEqual([("target_missed" in each) for each in texts["warnings"]], [True, False])
+        self.assertRegex(texts["chosen_settings"][0], "Analysis/Step = ")
+        self.assertEqual(texts["chosen_settings"][1], "")
+
     def test_a_step_that_is_given_is_fixed(self):
         short = {"Drive/Start": "45", "Drive/Stroke": "45.6", "Drive/Reversal duration": "2e-3"}
         table, *_ = self.study(IN_TIME, {**short, "Study/Type": "transient", "Study/Vary": "Time/Step = 2e-5, 1e-5"})

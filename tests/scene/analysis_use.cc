@@ -26,6 +26,7 @@ TEST(Accuracy, NamesAreThoseOfTheAnalysis)
             std::string::npos);
   EXPECT_NE(refusal({ "Analysis/Model=auto" }).find("auto needs Accuracy/Target"), std::string::npos);
   EXPECT_NE(refusal({ "Accuracy/Target=0.01", "Analysis/Type=modal" }).find("Accuracy/Target"), std::string::npos);
+  EXPECT_EQ(refusal({ "Accuracy/Target=0.01", "Analysis/Type=slope" }).find("Analysis/Model"), std::string::npos);
   EXPECT_EQ(refusal({ "Accuracy/Target=0.01", "Accuracy/Quantity=P, largest_pressure", "Analysis/Model=auto" }), "");
 }
 
