@@ -124,8 +124,8 @@ namespace sprag
       /// Does one step of Gauss-Newton. Returns its change of omega, none if the matrix is singular.
       std::optional<double> improve()
       {
-        namespace dense              = boost::numeric::ublas;
-        dense::matrix<double> matrix = dense::zero_matrix<double>(unknowns, unknowns);
+        namespace dense = boost::numeric::ublas;
+        std::array<Vector, unknowns> sums{}; // below the diagonal
         dense::vector<double> change = dense::zero_vector<double>(unknowns);
         dense::permutation_matrix<std::size_t> order(unknowns);
         Complex wave       = 1.;
@@ -138,10 +138,14 @@ namespace sprag
           for (unsigned int row = 0; row < unknowns; ++row)
           {
             change[row] += gradient[row] * rest;
-            for (unsigned int column = 0; column < unknowns; ++column)
-              matrix(row, column) += gradient[row] * gradient[column];
+            for (unsigned int column = 0; column <= row; ++column)
+              sums[row][column] += gradient[row] * gradient[column];
           }
         }
+        dense::matrix<double> matrix(unknowns, unknowns);
+        for (unsigned int row = 0; row < unknowns; ++row)
+          for (unsigned int column = 0; column <= row; ++column)
+            matrix(row, column) = matrix(column, row) = sums[row][column];
         // At zero amplitude omega and growth have no gradient: the first step solves for the linear unknowns alone.
         if (parameters[0] == 0. && parameters[1] == 0.)
           matrix(4, 4) = matrix(5, 5) = 1.;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <deal.II/lac/full_matrix.h>
-
-#include <vector>
 
 namespace sprag
 {
@@ -21,9 +20,9 @@ namespace sprag
 
   /// Ranges that increasing numbers make up.
   template <class Iterator>
-  std::vector<NumberRange> find_ranges(Iterator number, const Iterator end)
+  auto find_ranges(Iterator number, const Iterator end)
   {
-    std::vector<NumberRange> result;
+    boost::container::small_vector<NumberRange, 8> result;
     for (; number != end; ++number)
     {
       if (result.empty() || result.back().end != *number)

@@ -85,13 +85,12 @@ namespace sprag
     dealii::Vector<double> acceleration;
   };
 
-  /// The state at the end of a step whose acceleration there is 0: position and velocity.
+  /// Position and velocity at the end of a step whose acceleration there is 0; the acceleration is empty.
   inline Kinematic unaccelerated(const Kinematic &begin, const StepWeights &w)
   {
-    Kinematic end = begin;
+    Kinematic end{ begin.position, begin.velocity, {} };
     end.position.add(w.dt, begin.velocity, w.dt * w.dt * (0.5 - w.beta), begin.acceleration);
     end.velocity.add(w.dt * (1. - w.gamma), begin.acceleration);
-    end.acceleration = 0.;
     return end;
   }
 
