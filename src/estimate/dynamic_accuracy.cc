@@ -35,6 +35,8 @@ namespace sprag
 
     constexpr double too_far = 0.2; ///< relative change of a frequency, beyond which another vibration was compared
 
+    constexpr double other_vibration = 0.04; ///< relative distance of a measured frequency from that of the slide, at least
+
     /// The slide of a scene by models that are less accurate, each in one respect, and at places between the nodes, its own
     /// first.
     struct SlideTrials
@@ -245,6 +247,7 @@ namespace sprag
       const double window = turned.window_end - turned.window_begin;
       const double weight = swing > 0. ? swing * window / (swing * window + excess / decay_rate(found)) : 0.;
       const double apart  = std::abs(measured / slide_frequency(found) - 1.);
+      const double share  = apart > other_vibration ? 1. : weight; // of both in what was measured
       const auto add_both = [&](const std::vector<ErrorPart> &parts, const double by_step, const double by_vibration)
       { return with_part(with_part(parts, step(by_step)), vibration(by_vibration)); };
       ErrorEstimate overshoot{ "overshoot", "", {}, "No estimate: P does not overshoot." };
@@ -255,7 +258,7 @@ namespace sprag
       ErrorEstimate P{ "P", "", {}, "No estimate: P vibrates on behind the first reversal, and errors grow with it." };
       if (!goes_on)
         P = { "P", "its peak", add_both(times(frequency_parts, lag), fast_errors.P / peak, largest_before / peak), {} };
-      return { P, overshoot, { "frequency", "it", add_both(frequency_parts, errors.frequency, weight * apart), {} }, decay };
+      return { P, overshoot, { "frequency", "it", add_both(frequency_parts, errors.frequency, share * apart), {} }, decay };
     }
   } // namespace
 

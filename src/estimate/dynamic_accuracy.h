@@ -40,9 +40,10 @@ namespace sprag
   /// overshoot is wrong as the stiffness is, with the square of the frequency, and a peak may lie between two rows. If P vibrates
   /// before the drive turns, as passing elements excite it or the slide grows there, the part `vibration` tells that this goes on
   /// through the ringing at any phase: to P its amplitude, to the overshoot the root mean square. The frequency is a mean of
-  /// both, weighted by their integrals over the window. The decay has the parts of the vibration's, for the step the algorithmic
-  /// damping, and `fit`: how far the envelope's decay is from that of the slide. Reduced levers have the parts of step and
-  /// vibration alone: only finite elements show what they leave out.
+  /// both, weighted by their integrals over the window, or where it is far from the slide's it is the other vibration's. The
+  /// decay has the parts of the vibration's, for the step the algorithmic damping, and `fit`: how far the envelope's decay is
+  /// from that of the slide. Reduced levers have the parts of step and vibration alone: only finite elements show what they leave
+  /// out.
   ///
   /// Drives without a reversal, contacts that open and slides that grow on their own have no estimate, but the reason in words.
   std::vector<ErrorEstimate> transient_accuracy(const Scene &scene, const MeshedDynamics &dynamics, const std::vector<Row> &rows,
