@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
+#include "analysis/accuracy/slide_samples.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
 #include "support/find_value.h"
@@ -41,6 +42,23 @@ TEST(EnergyLedger, ClosesWithAnElasticCylinder)
   Scene scene         = models().front();
   scene.cylinder.type = CylinderType::solid;
   EXPECT_LT(std::abs(residual(scene, 1.)), 5e-4);
+}
+
+// Multipliers are means over faces. Friction of a point that slips keeps its own: the difference would pass for slip, the more in
+// short steps, and mu would be that of another speed.
+TEST(AugmentedLagrangian, FrictionOfShortStepsIsThatOfTheSpeed)
+{
+  const Scene scene = with_face_size(with_augmented_lagrangian(model_a()), 2.);
+  const Drive drive(DriveProfile::triangle, 0., 65., 112., 0.5);
+  std::vector<Row> samples;
+  for (unsigned int i = 0; i < 40; ++i)
+    samples.emplace_back(drive.at((60. + 1e-4 * i) / 112.));
+  const MadeMesh triangulation(scene);
+  StaticLever<2> model(triangulation, scene);
+  const auto rows   = solve_at_samples(model, samples, 0., { 1., 1e-6, scene.contact });
+  const Row &last   = rows.back();
+  const double mu_v = friction_coefficient(step_friction(scene.friction, 112.), std::abs(last[Column::v_rel])).coefficient;
+  EXPECT_NEAR(last[Column::friction_resultant] / (mu_v * last[Column::normal_resultant]), 1., 1e-3);
 }
 
 // Augmentation leaves a penetration, which turns the lever by as much over the distance of the contact.

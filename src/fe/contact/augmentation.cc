@@ -92,8 +92,9 @@ namespace sprag
     for (std::size_t a = 0; a < states.size(); ++a)
     {
       result[a].normal_multiplier = pressures[a];
-      result[a].traction          = tractions[a];
-      result[a].point             = states[a].index;
+      // That of a point which slips is known: what a mean differs from it by would pass for slip.
+      result[a].traction = states[a].slipping ? states[a].traction : tractions[a];
+      result[a].point    = states[a].index;
     }
     return result;
   }

@@ -11,7 +11,8 @@ namespace sprag
   /// for any degree of the displacements, which keeps the pair stable. A coefficient is the mean traction weighted with the
   /// corner's hat function (lumped dual basis),
   ///   lambda_c = int t h_c dA / int h_c dA,
-  /// so that pressures >= 0 give multipliers >= 0. The variation of the traction within a cell is left to the penalty.
+  /// so that pressures >= 0 give multipliers >= 0. The variation of the traction within a cell is left to the penalty. Points
+  /// that slip keep their own traction, by which the friction law is met there.
   template <int dim>
   class FaceMultipliers
   {
