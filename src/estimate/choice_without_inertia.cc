@@ -33,6 +33,7 @@ namespace sprag
     constexpr double contact_mesh_share = 0.6; ///< of pressure and width, which rows hardly change
 
     constexpr double reversal_share = 0.6; ///< of P and Q behind a reversal
+    constexpr double stick_share    = 0.4; ///< likewise
 
     constexpr double trial_faces            = 4.;   ///< across the contact where P is largest
     constexpr double least_faces            = 3.5;  ///< likewise, where pressure or width are wanted
@@ -55,19 +56,30 @@ namespace sprag
     }
 
     /// Returns the faces in contact that P and Q need behind a reversal for a target; infinite without a target. Their error goes
-    /// with the square of mu and of the face size, and is the larger where mu rises with speed: slip spreads the more slowly. On
-    /// models A and B and two other devices, with mu of 0.4 to 1.5 and 1 to 8 faces, it is half to twice that taken here. Of a
-    /// contact narrower than four faces the run tells too large an error for a tight target; its width is taken up to a fifth too
-    /// large here.
+    /// with the square of mu and of the face size. On models A and B and two other devices, with mu of 0.4 to 0.7 and 2 to 12
+    /// faces, it is a twentieth to 0.7 times that taken here. Of a contact narrower than four faces the run tells too large an
+    /// error for a tight target; its width is taken up to a fifth too large here.
     double faces_behind_reversal(const Scene &scene, const double target)
     {
       constexpr double tight = 2.5e-3;
       const double speed     = scene.drive.peak_speed();
-      const auto law         = step_friction(scene.friction, speed);
-      const double mu        = friction_coefficient(law, speed).coefficient;
-      const bool rises       = friction_coefficient(law, 0.).coefficient < mu;
-      const double error     = (rises ? 0.05 : 0.01) * mu * mu; // of one face in contact
+      const double mu        = friction_coefficient(step_friction(scene.friction, speed), speed).coefficient;
+      const double error     = 0.03 * mu * mu; // of one face in contact
       return std::max(target < tight ? 5. : 0., std::sqrt(error / (reversal_share * target)));
+    }
+
+    /// Returns the Analysis/Step that the steps through stick behind a reversal need for a target, infinite where the usual ones
+    /// suffice. Their error is that of mu at another speed. On models A and B and two other devices that of the usual ones is a
+    /// third to all of that taken here.
+    double longest_step_through_stick(const Scene &scene, const double target)
+    {
+      const double speed   = scene.drive.peak_speed();
+      const auto law       = step_friction(scene.friction, speed);
+      const double mu      = friction_coefficient(law, speed).coefficient;
+      const double error   = 4.5e-3 * mu * (mu - friction_coefficient(law, 0.).coefficient);
+      const bool is_passed = !scene.drive.reversals().empty() && (is_requested(scene, "P") || is_requested(scene, "Q"));
+      return is_passed && error > stick_share * target ? std::sqrt(stick_share * target / error)
+                                                       : std::numeric_limits<double>::infinity();
     }
 
     double share_for(const std::string &quantity)
@@ -193,8 +205,11 @@ namespace sprag
           choice.settings.push_back({ "Mesh/Faces in contact", "0", "no pressure is wanted" });
         if (is_open(scene, "Analysis/Step"))
         {
-          const double step = largest_row_spacing(scene, row_share * target, is_requested(scene, "loop_area"));
-          choice.settings.push_back({ "Analysis/Step", rounded_text(step), "lines between rows follow the closed form" });
+          const double spacing = largest_row_spacing(scene, row_share * target, is_requested(scene, "loop_area"));
+          const double longest = closed_form ? spacing : longest_step_through_stick(scene, target);
+          choice.settings.push_back({ "Analysis/Step", rounded_text(std::min(spacing, longest)),
+                                      longest < spacing ? "steps through stick behind a reversal are short enough"
+                                                        : "lines between rows follow the closed form" });
           choice.error += row_share * target;
         }
         return choice;

@@ -2,6 +2,7 @@
 #include "estimate/expected_cost.h"
 
 #include "analysis/stability/sweep.h"
+#include "analysis/statics/quasi_static.h"
 #include "analysis/study/study_points.h"
 #include "analysis/transient/transient.h"
 #include "base/errors.h"
@@ -48,7 +49,7 @@ namespace sprag
     double static_steps(const Scene &scene, const StepsTaken &taken)
     {
       const double turns = 1. + static_cast<double>(scene.drive.reversals().size());
-      return taken.value_or(expected_rows(scene) + reversal_steps * turns);
+      return taken.value_or(expected_rows(scene) + reversal_steps * (0.9 + 0.1 / stick_step_share(scene.analysis.step)) * turns);
     }
 
     /// CPU times that a run takes once and for each of its steps or slides, where slowness() = 1 [s].

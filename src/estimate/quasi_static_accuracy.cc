@@ -171,7 +171,7 @@ namespace sprag
         return;
       const double by_steps = peak_change(column, trial_runs.other.passage, trial_runs.longer_steps);
       estimate.parts.push_back(
-          { "stick", by_steps, "It is of the steps through stick behind a reversal, which no setting shortens." });
+          { "stick", by_steps, "Try an Analysis/Step of " + mm(0.8 * std::min(1., scene.analysis.step)) + '.' });
     }
 
     ErrorEstimate estimate(const Scene &scene, const TrialRuns &trial_runs, const std::string &quantity,

@@ -24,7 +24,7 @@ namespace sprag
 
     constexpr double least_P           = 0.02; ///< of sampled rows, over the largest P
     constexpr unsigned int most_halves = 6;    ///< halvings of a step
-    constexpr Index passage_limit      = 100;  ///< rows
+    constexpr Index passage_limit      = 2000; ///< rows
 
     /// Returns the value of a row less the linear interpolation over x between two others; 0 if these have the same x.
     double distance_from_line(const Row &before, const Row &row, const Row &after, const Column column)

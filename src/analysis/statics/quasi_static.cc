@@ -27,7 +27,8 @@ namespace sprag
     /// Equilibria that only give multipliers leave out more than left_out_in_statics: 1e-6 of the penetration.
     constexpr double left_out_before_augmentation = 10.;
 
-    // The passage through stick after a reversal is about (|F+| + |F-|) / k_t long; its steps are these shares of it.
+    // The passage through stick after a reversal is about (|F+| + |F-|) / k_t long; its steps are these shares of it, times
+    // stick_step_share().
     constexpr double first_share   = 0.02;
     constexpr double largest_share = 0.125;
     constexpr double passages      = 3.; ///< lengths of passage with short steps
@@ -275,18 +276,19 @@ namespace sprag
     {
       auto &[now, dx, passage, reported_stiffness] = solver;
       const bool reversed                          = drive.turns_at(now.state.drive.time) || begins_backward(now.state.drive);
+      const double shortened                       = stick_step_share(settings.step);
       if (reversed)
       {
         const double stiffness = stick_stiffness(model, now.state);
         passage                = passage_after(now.row, stiffness);
-        dx                     = std::clamp(first_share * passage.length, settings.minimum_step, settings.step);
+        dx                     = std::clamp(shortened * first_share * passage.length, settings.minimum_step, settings.step);
         if (reported_stiffness == 0.)
           reported_stiffness = stiffness;
       }
       if (std::abs(now.row[Column::x] - passage.begin) < passages * passage.length)
-        dx = std::clamp(largest_share * passage.length, settings.minimum_step, dx);
+        dx = std::clamp(shortened * largest_share * passage.length, settings.minimum_step, dx);
       now = advance(model, drive, settings, now, reversed, dx);
-      dx  = std::min(settings.step, growth * dx);
+      dx  = std::min(settings.step, (1. + (growth - 1.) * std::sqrt(shortened)) * dx); // P is largest behind the passage
     }
   } // namespace
 

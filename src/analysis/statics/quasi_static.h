@@ -7,6 +7,7 @@
 #include "scene/discretisation_settings.h"
 #include "scene/drive.h"
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 
@@ -26,6 +27,13 @@ namespace sprag
     double minimum_step = 1e-6; ///< smaller steps end the run [mm]
     ContactSettings contact;
   };
+
+  /// Returns how short steps through stick are over the usual ones, for the largest change of x in a step [mm]. Their error goes
+  /// with their length, that of lines between rows with the square of theirs.
+  inline double stick_step_share(const double step)
+  {
+    return std::min(1., step * step);
+  }
 
   /// Returns the state at the beginning, x = 0: just touching, or in equilibrium without friction if the cylinder already opens
   /// the lever (of a pair with an offset).
