@@ -18,6 +18,24 @@ namespace sprag
     all.insert(all.end(), more.begin(), more.end());
   }
 
+  /// Returns the items of two increasing ranges, each once, increasing.
+  template <class T>
+  std::vector<T> united(const std::vector<T> &a, const std::vector<T> &b)
+  {
+    std::vector<T> result;
+    result.reserve(a.size() + b.size());
+    std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
+    return result;
+  }
+
+  /// Orders the items and leaves each once.
+  template <class T>
+  void sort_unique(std::vector<T> &all)
+  {
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+  }
+
   /// Returns the values of a function, or of a member, for all items of a range.
   template <class Range, class Function>
   auto mapped(const Range &items, const Function &function)

@@ -107,7 +107,7 @@ TEST(FrameCoupling, TangentIsTheDerivativeOfTheForces)
     const auto weights          = generalised_alpha(radius, step);
     const InterfaceForces exact = with(coupling, InterfaceForces(), begin(), end(), weights);
     // It is added to that of the contact.
-    const InterfaceForces contact{ { layout.rotation() }, Vector(1), dealii::FullMatrix<double>(dealii::IdentityMatrix(1)) };
+    const InterfaceForces contact{ { { layout.rotation() }, Vector(1) }, dealii::FullMatrix<double>(dealii::IdentityMatrix(1)) };
     EXPECT_DOUBLE_EQ(with(coupling, contact, begin(), end(), weights).tangent(0, 0), exact.tangent(0, 0) + 1.);
     for (unsigned int j = 0; j < 4; ++j)
     {

@@ -32,7 +32,7 @@ namespace
   InterfaceForces contact_forces(const DofSelection &dofs)
   {
     const auto n = static_cast<unsigned int>(dofs.size());
-    InterfaceForces forces{ dofs, dealii::Vector<double>(n), dealii::FullMatrix<double>(n, n) };
+    InterfaceForces forces{ { dofs, dealii::Vector<double>(n) }, dealii::FullMatrix<double>(n, n) };
     for (unsigned int i = 0; i < n; ++i)
     {
       forces.values[i] = 1. + i;

@@ -20,7 +20,7 @@ namespace sprag
     {
       static constexpr bool within_candidates = true;
 
-      InterfaceForces forces{ { 0 }, dealii::Vector<double>(1), dealii::FullMatrix<double>(1, 1) };
+      InterfaceForces forces{ { { 0 }, dealii::Vector<double>(1) }, dealii::FullMatrix<double>(1, 1) };
       ContactHistory last_history;
       StepWork works;
       double stored = 0.;

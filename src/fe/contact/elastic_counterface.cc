@@ -19,7 +19,6 @@ namespace sprag
       , properties(properties_)
       , pair(lever, cylinder)
       , first_node(cylinder.edges.front().nodes.front().position)
-      , dof_places(properties.layout.size())
   {
   }
 
@@ -41,7 +40,7 @@ namespace sprag
       begin_element(element_index);
       step_element(face_step, found);
     }
-    sum_forces(loaded, dof_places, found.forces);
+    sum_forces(loaded, found.forces);
     found.sums.work.drive -= force_on_cylinder * (step.to.x - step.from.x);
   }
 
@@ -98,7 +97,7 @@ namespace sprag
       }
       end_element();
     }
-    sum_forces(loaded, dof_places, found.forces);
+    sum_forces(loaded, found.forces);
   }
 
   void ElasticCounterface::touch(const Vector<double> &displacements, const DrivePoint &drive, FaceEvaluation<2> &found)
@@ -112,7 +111,7 @@ namespace sprag
       for (unsigned int q = first; q < face.elements[element].end; ++q)
         add_point(q, found);
     }
-    sum_forces(loaded, dof_places, found.forces);
+    sum_forces(loaded, found.forces);
   }
 
   double ElasticCounterface::gap_change(const FacePointState<2> &point, const FaceEvaluation<2> &found,
@@ -499,7 +498,7 @@ namespace sprag
     if (!has_forces)
       return;
     const auto on_interface = interface_coordinates();
-    InterfaceForces forces{ collect_dofs(on_interface), row_on_dofs(on_interface, values),
+    InterfaceForces forces{ { collect_dofs(on_interface), row_on_dofs(on_interface, values) },
                             matrix_on_dofs(on_interface, tangent) };
     if (in_parts)
     {

@@ -159,6 +159,5 @@ namespace sprag
     std::vector<InterfaceForces> loaded; ///< dofs in any order
     bool in_parts = false;               ///< whether steady sliding gives its tangent in parts
     std::vector<LinearisedForces> parts; ///< of the elements loaded
-    std::vector<unsigned int> dof_places;
   };
 } // namespace sprag

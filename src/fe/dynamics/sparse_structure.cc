@@ -460,7 +460,7 @@ namespace sprag
     Motion motion;
     motion.drive            = to;
     Vector<double> position = free_motion;
-    const auto moved        = current->system->response({ forces.dofs, forces.values });
+    const auto moved        = current->system->response(forces);
     for (unsigned int i = 0; i < n_lever; ++i)
       position[i] += moved[i];
     if (constants.sprung && !forces.dofs.empty() && forces.dofs.back() == layout().support())

@@ -269,7 +269,7 @@ namespace sprag
       look_at(step);
     evaluate_contacts(step, mode, found);
     excess.add_forces(turns(step.trial), !found.forces.dofs.empty(), found.forces);
-    step.trial.forces = { found.forces.dofs, found.forces.values };
+    step.trial.forces = found.forces;
     found.near        = step.near;
     found.residual =
         std::visit([&](auto &s) { return s.residual(step.trial.coordinates, found.forces, found.near); }, own_structure);

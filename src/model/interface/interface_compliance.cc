@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "model/interface/interface_compliance.h"
 
+#include "base/ranges.h"
+
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
@@ -12,6 +14,11 @@ namespace sprag
   unsigned int find_index(const unsigned int dof, const DofSelection &dofs)
   {
     return static_cast<unsigned int>(std::lower_bound(dofs.begin(), dofs.end(), dof) - dofs.begin());
+  }
+
+  DofSelection find_indices(const DofSelection &some, const DofSelection &dofs)
+  {
+    return mapped(some, [&](const unsigned int dof) { return find_index(dof, dofs); });
   }
 
   FullMatrix<double> inverse(const FullMatrix<double> &matrix, const bool is_symmetric)

@@ -14,6 +14,9 @@ namespace sprag
   /// Returns the index of a dof among increasing ones, or that at which it would be inserted.
   unsigned int find_index(unsigned int dof, const DofSelection &dofs);
 
+  /// Returns the indices of some dofs among increasing ones, which hold them.
+  DofSelection find_indices(const DofSelection &some, const DofSelection &dofs);
+
   /// Returns the inverse of a matrix by LAPACK; a symmetric one must be positive definite.
   dealii::FullMatrix<double> inverse(const dealii::FullMatrix<double> &matrix, bool is_symmetric = false);
 

@@ -13,48 +13,48 @@ namespace sprag
 {
   using namespace dealii;
 
-  void sum_forces(const std::vector<InterfaceForces> &loaded, std::vector<unsigned int> &dof_places, InterfaceForces &sum)
+  void sum_forces(const std::vector<InterfaceForces> &loaded, InterfaceForces &sum)
   {
     sum.dofs.clear();
     for (const auto &some : loaded)
-      sum.dofs.insert(sum.dofs.end(), some.dofs.begin(), some.dofs.end());
-    std::sort(sum.dofs.begin(), sum.dofs.end());
-    sum.dofs.erase(std::unique(sum.dofs.begin(), sum.dofs.end()), sum.dofs.end());
+      append(sum.dofs, some.dofs);
+    sort_unique(sum.dofs);
     const auto n = static_cast<unsigned int>(sum.dofs.size());
-    for (unsigned int a = 0; a < n; ++a)
-      dof_places[sum.dofs[a]] = a;
-
     sum.values.reinit(n);
     sum.tangent.reinit(n, n);
     sum.has_tangent = true;
     for (const auto &some : loaded)
-      for (unsigned int i = 0; i < some.dofs.size(); ++i)
+    {
+      const auto places = find_indices(some.dofs, sum.dofs);
+      for (unsigned int i = 0; i < places.size(); ++i)
       {
-        const unsigned int row = dof_places[some.dofs[i]];
-        sum.values[row] += some.values[i];
-        for (unsigned int j = 0; j < some.dofs.size(); ++j)
-          sum.tangent(row, dof_places[some.dofs[j]]) += some.tangent(i, j);
+        sum.values[places[i]] += some.values[i];
+        sum.tangent.add(places[i], places.size(), places.data(), &some.tangent(i, 0));
       }
+    }
   }
 
-  void add_dofs(const std::vector<unsigned int> &others, InterfaceForces &forces)
+  void add_dofs(const DofSelection &others, DofLoads &loads)
   {
-    if (std::includes(forces.dofs.begin(), forces.dofs.end(), others.begin(), others.end()))
+    if (std::includes(loads.dofs.begin(), loads.dofs.end(), others.begin(), others.end()))
       return;
-    InterfaceForces result;
-    std::set_union(forces.dofs.begin(), forces.dofs.end(), others.begin(), others.end(), std::back_inserter(result.dofs));
-    const auto n = static_cast<unsigned int>(result.dofs.size());
-    result.values.reinit(n);
-    const auto places = mapped(forces.dofs, [&](const unsigned int dof) { return find_index(dof, result.dofs); });
-    for (unsigned int i = 0; i < places.size(); ++i)
-      result.values[places[i]] = forces.values[i];
-    result.has_tangent = forces.has_tangent;
-    if (forces.has_tangent)
-    {
-      result.tangent.reinit(n, n);
-      forces.tangent.scatter_matrix_to(places, places, result.tangent);
-    }
-    forces = std::move(result);
+    DofLoads wider{ united(loads.dofs, others), {} };
+    wider.values.reinit(static_cast<unsigned int>(wider.dofs.size()));
+    for (unsigned int i = 0; i < loads.dofs.size(); ++i)
+      wider.values[find_index(loads.dofs[i], wider.dofs)] = loads.values[i];
+    loads = std::move(wider);
+  }
+
+  void add_dofs(const DofSelection &others, InterfaceForces &forces)
+  {
+    const auto before = forces.dofs;
+    add_dofs(others, static_cast<DofLoads &>(forces));
+    if (!forces.has_tangent || forces.dofs.size() == before.size())
+      return;
+    const auto places = find_indices(before, forces.dofs);
+    FullMatrix<double> wider(forces.dofs.size(), forces.dofs.size());
+    forces.tangent.scatter_matrix_to(places, places, wider);
+    forces.tangent = std::move(wider);
   }
 
   DofSelection all_dofs(const unsigned int number)

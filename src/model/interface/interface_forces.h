@@ -10,20 +10,26 @@ namespace sprag
   // Forces act on a linear structure at its interface, whose degrees of freedom are called dofs. Their displacements are
   //   z = z_free + G f(z),   G its compliance.
 
-  /// Forces on some dofs and their derivatives by the displacements of the same dofs, unsymmetric.
-  struct InterfaceForces
+  /// Forces on some dofs.
+  struct DofLoads
   {
     std::vector<unsigned int> dofs; ///< increasing
     dealii::Vector<double> values;
+  };
+
+  /// Forces on some dofs and their derivatives by the displacements of the same dofs, unsymmetric.
+  struct InterfaceForces : DofLoads
+  {
     dealii::FullMatrix<double> tangent;
     bool has_tangent = true; ///< false: it was not requested and is empty
   };
 
-  /// Adds dofs (increasing) with zero forces.
-  void add_dofs(const std::vector<unsigned int> &others, InterfaceForces &forces);
+  // Add dofs (increasing) with zero forces.
+  void add_dofs(const DofSelection &others, DofLoads &loads);
+  void add_dofs(const DofSelection &others, InterfaceForces &forces);
 
-  /// Sums forces on possibly common dofs in any order. `dof_places` is scratch space with one entry per dof of the interface.
-  void sum_forces(const std::vector<InterfaceForces> &loaded, std::vector<unsigned int> &dof_places, InterfaceForces &sum);
+  /// Sums forces on possibly common dofs in any order.
+  void sum_forces(const std::vector<InterfaceForces> &loaded, InterfaceForces &sum);
 
   /// Output requested of a contact. One that does not keep its tangent always finds all of it.
   enum class Request
@@ -32,13 +38,6 @@ namespace sprag
     with_tangent,
     complete ///< forces, works, energy and points: those that may take part and, along the lines where the pressure is largest,
              ///< all near the cylinder; all of these where nothing touches
-  };
-
-  /// Forces on some dofs.
-  struct DofLoads
-  {
-    std::vector<unsigned int> dofs; ///< increasing
-    dealii::Vector<double> values;
   };
 
   /// Returns 0 ... number - 1.

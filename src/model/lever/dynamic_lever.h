@@ -440,9 +440,8 @@ namespace sprag
       const auto contact_perturbation = in_contact ? contact->linearise(slide, found) : LinearisedForces();
       auto dofs                       = contact_perturbation.dofs;
       for (const auto &others : { coupling.coupled_dofs(), hub_spring.loaded_dofs() })
-        dofs.insert(dofs.end(), others.begin(), others.end());
-      std::sort(dofs.begin(), dofs.end());
-      dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
+        append(dofs, others);
+      sort_unique(dofs);
 
       LinearisedForces result(std::move(dofs));
       result.add(contact_perturbation);
@@ -575,7 +574,7 @@ namespace sprag
     Motion completed(Motion motion, const DrivePoint &drive, const InterfaceForces &forces) const
     {
       motion.drive   = drive;
-      motion.forces  = { forces.dofs, forces.values };
+      motion.forces  = forces;
       motion.contact = found.history();
       return motion;
     }

@@ -11,7 +11,6 @@
 #include "model/structure/lever_frame.h"
 #include "scene/closed_form.h"
 
-#include <map>
 #include <optional>
 
 namespace sprag
@@ -118,16 +117,11 @@ namespace sprag
     {
       Equilibrium result = a;
       result.displacements.sadd(0.5, 0.5, b.displacements);
-      std::map<unsigned int, double> sum;
-      for (const auto *loads : { &a.forces, &b.forces })
-        for (std::size_t i = 0; i < loads->dofs.size(); ++i)
-          sum[loads->dofs[i]] += 0.5 * loads->values[static_cast<unsigned int>(i)];
-      result.forces = { {}, dealii::Vector<double>(static_cast<unsigned int>(sum.size())) };
-      for (const auto &[dof, value] : sum)
-      {
-        result.forces.values[static_cast<unsigned int>(result.forces.dofs.size())] = value;
-        result.forces.dofs.push_back(dof);
-      }
+      for (double &value : result.forces.values)
+        value *= 0.5;
+      add_dofs(b.forces.dofs, result.forces);
+      for (unsigned int i = 0; i < b.forces.dofs.size(); ++i)
+        result.forces.values[find_index(b.forces.dofs[i], result.forces.dofs)] += 0.5 * b.forces.values[i];
       for (std::size_t lever = 0; lever < result.ideal.size(); ++lever)
         result.ideal[lever] = 0.5 * (a.ideal[lever] + b.ideal[lever]);
       return result;
@@ -176,7 +170,7 @@ namespace sprag
         contact.widen_candidates();
         return solve_from_last(drive, ratio, friction, round_off, share);
       }
-      last = { z, { solved.forces->dofs, solved.forces->values }, ideal };
+      last = { z, *solved.forces, ideal };
       return solved.forces;
     }
   };

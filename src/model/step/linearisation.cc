@@ -69,11 +69,10 @@ namespace sprag
 
   void LinearisedForces::add(const LinearisedForces &other)
   {
-    const auto places = mapped(other.dofs, [&](const unsigned int dof) { return find_index(dof, dofs); });
+    const auto places = find_indices(other.dofs, dofs);
     for (const auto matrix : force_matrices)
       for (unsigned int i = 0; i < places.size(); ++i)
-        for (unsigned int j = 0; j < places.size(); ++j)
-          (this->*matrix)(places[i], places[j]) += (other.*matrix)(i, j);
+        (this->*matrix).add(places[i], places.size(), places.data(), &(other.*matrix)(i, 0));
     const auto n = static_cast<unsigned int>(dofs.size());
     for (const auto &delay : other.delays)
       delays.push_back({ delay.time, spread(delay.force, places, n), spread(delay.stiffness_row, places, n),

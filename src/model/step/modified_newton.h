@@ -33,7 +33,7 @@ namespace sprag
 
       NewtonResult result;
       if (jacobian != nullptr)
-        include(jacobian->dofs, phi);
+        add_dofs(jacobian->dofs, phi);
       move(phi, z);
       if (jacobian != nullptr && !factors.use(jacobian, equations.compliance, weights))
         jacobian.reset();
@@ -77,19 +77,6 @@ namespace sprag
     const StepWeights &weights;
     JacobianFactors &factors;
 
-    /// Makes phi have all of some dofs.
-    static void include(const DofSelection &dofs, DofLoads &phi)
-    {
-      if (std::includes(phi.dofs.begin(), phi.dofs.end(), dofs.begin(), dofs.end()))
-        return;
-      DofLoads wider;
-      std::set_union(phi.dofs.begin(), phi.dofs.end(), dofs.begin(), dofs.end(), std::back_inserter(wider.dofs));
-      wider.values.reinit(static_cast<unsigned int>(wider.dofs.size()));
-      for (unsigned int i = 0; i < phi.dofs.size(); ++i)
-        wider.values[find_index(phi.dofs[i], wider.dofs)] = phi.values[i];
-      phi = std::move(wider);
-    }
-
     /// Sets z to z_free + G phi. Returns the largest movement.
     double move(const DofLoads &phi, dealii::Vector<double> &z) const
     {
@@ -104,8 +91,8 @@ namespace sprag
     ResidualEvaluation evaluate(const dealii::Vector<double> &z, const Request request, DofLoads &phi) const
     {
       ResidualEvaluation result{ contact_at(z, request), {}, dealii::Vector<double>(z.size()), 0. };
-      const auto &[dofs, values, tangent, has_tangent] = *result.forces;
-      include(dofs, phi);
+      const auto &[dofs, values] = static_cast<const DofLoads &>(*result.forces);
+      add_dofs(dofs, phi);
       result.difference = phi.values;
       result.difference *= -1.;
       for (unsigned int i = 0, place = 0; i < dofs.size(); ++i)

@@ -32,7 +32,10 @@ namespace sprag
 
   SPRAG_SERIALISE(DofLoads, dofs, values)
 
-  SPRAG_SERIALISE(InterfaceForces, dofs, values, tangent, has_tangent)
+  void serialise(Archive &archive, InterfaceForces &forces)
+  {
+    archive(forces.dofs, forces.values, forces.tangent, forces.has_tangent);
+  }
 
   SPRAG_SERIALISE(Motion, drive, coordinates, face_force, contact, forces, tangent)
 
