@@ -194,9 +194,7 @@ namespace sprag
         : block(block_)
         , near(near_)
         , layout(make_layout(block))
-        , window(layout, { 1e12, 0., 1. },
-                 { { layout.surface, [this](const DofSelection &) { return near.dofs; },
-                     [this](const DofSelection &) { return near.compliance; } } })
+        , window(layout, { 1e12, 0., 1. }, { std::make_shared<NearCompliance>(near, layout.surface) })
         , contact(block.friction_face(), make_properties(counterface, layout))
         , elastic(layout.size())
         , placed(layout.size())
@@ -284,6 +282,28 @@ namespace sprag
     }
 
   private:
+    /// The compliance of the dofs that are near, one a block.
+    class NearCompliance : public FaceCompliance
+    {
+    public:
+      NearCompliance(const NearFace &near_, const unsigned int n_dofs)
+          : near(near_)
+      {
+        for (unsigned int dof = 0; dof < n_dofs; ++dof)
+          ranges.push_back({ dof, dof + 1 });
+      }
+
+    protected:
+      dealii::FullMatrix<double> block(const BlockPair &pair) override
+      {
+        return dealii::FullMatrix<double>(
+            1, 1, &near.compliance(find_index(pair.first, near.dofs), find_index(pair.second, near.dofs)));
+      }
+
+    private:
+      const NearFace &near;
+    };
+
     static InterfaceLayout make_layout(const SolidBlock &block)
     {
       InterfaceLayout result{ 3 * static_cast<unsigned int>(block.friction_face().nodes.size()), false };

@@ -179,7 +179,7 @@ namespace sprag
       : body(body_)
       , dofs(surface_dofs(body))
   {
-    find_blocks(surroundings_over_depth * body.near_layer_depth());
+    divide(surroundings_over_depth * body.near_layer_depth());
     if (!body.has_near_layer())
       return;
     find_basis(begin, end, spacing_over_depth * body.near_layer_depth());
@@ -198,15 +198,18 @@ namespace sprag
       reach = std::max(blocks[most].xi - blocks[first].xi, blocks[last].xi - blocks[most].xi);
   }
 
-  void LayeredCompliance::find_blocks(const double surroundings)
+  void LayeredCompliance::divide(const double surroundings)
   {
     const auto &nodes = body.friction_face().nodes;
     for (unsigned int i = 0; i < nodes.size(); ++i)
     {
       const double xi = nodes[i].position[0];
       if (blocks.empty() || rounded(blocks.back().xi) != rounded(xi))
-        blocks.push_back({ xi, 3 * i, 3 * i, static_cast<unsigned int>(blocks.size()) });
-      blocks.back().end = 3 * (i + 1);
+      {
+        ranges.push_back({ 3 * i, 3 * i });
+        blocks.push_back({ xi, static_cast<unsigned int>(blocks.size()) });
+      }
+      ranges.back().end = 3 * (i + 1);
     }
 
     if (!body.has_near_layer())
@@ -267,27 +270,10 @@ namespace sprag
         basis(surface_dof, j) = transposed(j, surface_dof);
   }
 
-  unsigned int LayeredCompliance::containing_block(const unsigned int surface_dof) const
-  {
-    const auto after = std::upper_bound(blocks.begin(), blocks.end(), surface_dof,
-                                        [](const unsigned int value, const Block &range) { return value < range.begin; });
-    return static_cast<unsigned int>(after - blocks.begin()) - 1;
-  }
-
-  DofSelection LayeredCompliance::whole_blocks(const DofSelection &surface_dofs) const
-  {
-    DofSelection result;
-    for (const unsigned int surface_dof : surface_dofs)
-      if (result.empty() || surface_dof > result.back())
-        for (unsigned int i = blocks[containing_block(surface_dof)].begin; i < blocks[containing_block(surface_dof)].end; ++i)
-          result.push_back(i);
-    return result;
-  }
-
   LayeredCompliance::NearColumns LayeredCompliance::find_near_columns(const unsigned int block_index) const
   {
     SparseColumns loads;
-    for (unsigned int surface_dof = blocks[block_index].begin; surface_dof < blocks[block_index].end; ++surface_dof)
+    for (unsigned int surface_dof = ranges[block_index].begin; surface_dof < ranges[block_index].end; ++surface_dof)
     {
       if (const int number = body.number_near(dofs[surface_dof]); number >= 0)
         loads.add(static_cast<unsigned int>(number), 1.);
@@ -295,22 +281,22 @@ namespace sprag
     }
     const int n            = loads.size();
     const auto responses   = body.respond_near(loads);
-    const auto near_matrix = [&](const Block &other)
+    const auto near_matrix = [&](const NumberRange &other)
     {
-      FullMatrix<double> result(other.end - other.begin, n);
+      FullMatrix<double> result(other.size(), n);
       for (unsigned int i = 0; i < result.m(); ++i)
         if (const int number = body.number_near(dofs[other.begin + i]); number >= 0)
           for (unsigned int j = 0; j < result.n(); ++j)
             result(i, j) = responses[j * static_cast<std::size_t>(body.n_near()) + number];
       return result;
     };
-    NearColumns result{ 0, { near_matrix(blocks[block_index]) } };
+    NearColumns result{ 0, { near_matrix(ranges[block_index]) } };
     const double least  = body.has_near_layer() ? negligible * result.block_matrices.front().linfty_norm() : 0.;
     const auto add_side = [&](const int step, const auto &add)
     {
       for (int other = static_cast<int>(block_index) + step; other >= 0 && other < static_cast<int>(blocks.size()); other += step)
       {
-        auto matrix = near_matrix(blocks[other]);
+        auto matrix = near_matrix(ranges[other]);
         if (body.has_near_layer() && matrix.linfty_norm() < least)
           break;
         add(std::move(matrix));
@@ -355,13 +341,13 @@ namespace sprag
     return is_far_away ? nullptr : &columns.block_matrices[number];
   }
 
-  FullMatrix<double> LayeredCompliance::block(const unsigned int row_block, const unsigned int column_block)
+  FullMatrix<double> LayeredCompliance::block(const BlockPair &rows_and_columns)
   {
-    const auto &rows    = blocks[row_block];
-    const auto &columns = blocks[column_block];
-    const int n_rows = static_cast<int>(rows.end - rows.begin), n_columns = static_cast<int>(columns.end - columns.begin),
+    const auto [row_block, column_block] = rows_and_columns;
+    const auto &rows = ranges[row_block], &columns = ranges[column_block];
+    const int n_rows = static_cast<int>(rows.size()), n_columns = static_cast<int>(columns.size()),
               n = static_cast<int>(basis.n());
-    FullMatrix<double> result(rows.end - rows.begin, columns.end - columns.begin);
+    FullMatrix<double> result(rows.size(), columns.size());
     if (n > 0)
     {
       const double one = 1., zero = 0.; // row-major matrices are the transposed of BLAS's column-major ones
@@ -370,30 +356,14 @@ namespace sprag
     }
     // G_near is symmetric: the transposed block serves if it is represented and this one is not. If both must be solved for,
     // the block with the fewer equal ones is.
-    const bool by_column = is_represented(row_block, column_block) ||
-                           (!is_represented(column_block, row_block) && columns.n_represented <= rows.n_represented);
+    const bool by_column =
+        is_represented(row_block, column_block) ||
+        (!is_represented(column_block, row_block) && blocks[column_block].n_represented <= blocks[row_block].n_represented);
     const auto *const near = by_column ? near_block(row_block, column_block) : near_block(column_block, row_block);
     if (near != nullptr && by_column)
       result.add(1., *near);
     else if (near != nullptr)
       result.Tadd(1., *near);
-    return result;
-  }
-
-  FullMatrix<double> LayeredCompliance::among(const DofSelection &whole_blocks)
-  {
-    FullMatrix<double> result(whole_blocks.size());
-    std::vector<unsigned int> all; // numbers of the blocks
-    for (unsigned int place = 0; place < whole_blocks.size(); place += blocks[all.back()].end - blocks[all.back()].begin)
-      all.push_back(containing_block(whole_blocks[place]));
-    for (unsigned int i = 0, row = 0; i < all.size(); row += blocks[all[i]].end - blocks[all[i]].begin, ++i)
-      for (unsigned int j = 0, column = 0; j <= i; column += blocks[all[j]].end - blocks[all[j]].begin, ++j)
-      {
-        const auto entries = block(all[i], all[j]);
-        for (unsigned int a = 0; a < entries.m(); ++a)
-          for (unsigned int b = 0; b < entries.n() && column + b <= row + a; ++b)
-            result(row + a, column + b) = result(column + b, row + a) = entries(a, b);
-      }
     return result;
   }
 
@@ -411,7 +381,7 @@ namespace sprag
       double near_part      = 0.;
       for (unsigned int a = 0; a < forces.dofs.size(); ++a)
         if (const unsigned int by = forces.dofs[a], from = containing_block(by); const auto *const near = near_block(to, from))
-          near_part += (*near)(surface_dofs[i] - blocks[to].begin, by - blocks[from].begin) * forces.values[a];
+          near_part += (*near)(surface_dofs[i] - ranges[to].begin, by - ranges[from].begin) * forces.values[a];
       result[i] += near_part;
     }
     return result;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fe/statics/solid_body.h"
+#include "fe/statics/static_interface.h"
 #include "model/interface/interface_forces.h"
 
 #include <deal.II/lac/full_matrix.h>
@@ -20,19 +21,12 @@ namespace sprag
   /// Without a near-surface layer G = G_near of the whole body, without error.
   ///
   /// G_near is computed in blocks of nodes with the same xi, once for all blocks with equal surroundings in the layer.
-  class LayeredCompliance
+  class LayeredCompliance : public FaceCompliance
   {
   public:
     /// Forces act on the face between `begin` and `end` along xi [mm]. `spacing_over_depth` > 0 is the spacing of the attachment
     /// loads along xi over the layer's depth; smaller ones leave out less. The body must outlive this object.
     LayeredCompliance(const SolidBody &body, double begin, double end, double spacing_over_depth = 1.);
-
-    /// Returns all dofs of the blocks that contain the selected dofs, increasing. Dofs are numbers among the face's
-    /// displacements, sorted by blocks, see surface_dofs().
-    DofSelection whole_blocks(const DofSelection &surface_dofs) const;
-
-    /// Returns the compliance between dofs that make up whole blocks [mm/N].
-    dealii::FullMatrix<double> among(const DofSelection &whole_blocks);
 
     /// Returns the displacements of some dofs by forces on others [mm]; negligible entries of G_near are left out.
     dealii::Vector<double> displacements(const DofSelection &surface_dofs, const DofLoads &forces);
@@ -48,8 +42,6 @@ namespace sprag
     struct Block
     {
       double xi;                      ///< [mm]
-      unsigned int begin;             ///< its first dof
-      unsigned int end;               ///< one past its last
       unsigned int representative;    ///< block with equal surroundings whose columns serve for this one
       unsigned int n_represented = 1; ///< blocks with equal surroundings, this one included
     };
@@ -61,15 +53,14 @@ namespace sprag
       std::vector<dealii::FullMatrix<double>> block_matrices;
     };
 
-    void find_blocks(double surroundings);
+    void divide(double surroundings);
     void find_reach();
     void find_basis(double begin, double end, double spacing);
     bool is_represented(unsigned int row_block, unsigned int column_block) const;
     const NearColumns &near_columns(unsigned int block_index);
     const dealii::FullMatrix<double> *near_block(unsigned int row_block, unsigned int column_block);
-    dealii::FullMatrix<double> block(unsigned int row_block, unsigned int column_block);
+    dealii::FullMatrix<double> block(const BlockPair &rows_and_columns) override;
     NearColumns find_near_columns(unsigned int block_index) const;
-    unsigned int containing_block(unsigned int surface_dof) const;
 
     const SolidBody &body;
     const std::vector<unsigned int> dofs; ///< of the body, by number on the face

@@ -70,12 +70,16 @@ namespace sprag
 
   SolidStructure::SolidStructure(const SolidBody &body_, const double begin, const double end, const InterfaceLayout &layout_,
                                  const JointSprings &springs_)
-      : StaticInterface(layout_, springs_,
-                        { { layout_.surface, [this](const DofSelection &some) { return compliance.whole_blocks(some); },
-                            [this](const DofSelection &blocks) { return compliance.among(blocks); } } })
+      : SolidStructure(body_, std::make_shared<LayeredCompliance>(body_, begin, end), layout_, springs_)
+  {
+  }
+
+  SolidStructure::SolidStructure(const SolidBody &body_, std::shared_ptr<LayeredCompliance> face, const InterfaceLayout &layout_,
+                                 const JointSprings &springs_)
+      : StaticInterface(layout_, springs_, { face })
       , body(body_)
       , surface(surface_dofs(body))
-      , compliance(body, begin, end)
+      , compliance(std::move(face))
       , node_lines(lines_along(body.friction_face()))
       , sensors(body, make_response(body))
   {
@@ -106,7 +110,7 @@ namespace sprag
     for (unsigned int i = 0; i < layout.levers; ++i)
     {
       const auto displacement = lever_displacement(coordinates, i);
-      const auto strain_part  = finite->strain_residual(displacement, on_surface({ forces.dofs, forces.values }, i));
+      const auto strain_part  = finite->strain_residual(displacement, on_surface(forces, i));
       std::copy(strain_part.begin(), strain_part.end(), strain_parts.begin() + first_body_coordinate(i));
       for (unsigned int dof = 0; dof < layout.surface; ++dof)
         face_displacements[layout.first(i) + dof] = displacement[surface[dof]] + strain_part[surface[dof]];
@@ -151,7 +155,7 @@ namespace sprag
     const auto displacements = [&](const DofSelection &some)
     {
       if (!finite)
-        return compliance.displacements(some, acting);
+        return compliance->displacements(some, acting);
       Vector<double> result(static_cast<unsigned int>(some.size()));
       for (unsigned int i = 0; i < result.size(); ++i)
         result[i] = coordinates[first_body_coordinate(lever) + surface[some[i]]];

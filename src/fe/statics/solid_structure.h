@@ -90,7 +90,7 @@ namespace sprag
 
     const LayeredCompliance &face_compliance() const
     {
-      return compliance;
+      return *compliance;
     }
 
     /// Returns a state's forces on the face of each lever and the displacements where they act.
@@ -106,6 +106,9 @@ namespace sprag
     Exactness exactness(const std::vector<FaceSample> &samples) const;
 
   private:
+    SolidStructure(const SolidBody &body, std::shared_ptr<LayeredCompliance> compliance, const InterfaceLayout &layout,
+                   const JointSprings &springs);
+
     /// Index among the coordinates, at finite strain, of the first displacement of a lever's body.
     unsigned int first_body_coordinate(const unsigned int lever) const
     {
@@ -116,9 +119,9 @@ namespace sprag
     std::vector<double> responses(const std::vector<DofLoads> &on_faces) const;
 
     const SolidBody &body;
-    const std::vector<unsigned int> surface;           ///< the body's degrees of freedom on a lever's faces
-    mutable LayeredCompliance compliance;              ///< of a face; keeps the columns found
-    std::vector<std::vector<unsigned int>> node_lines; ///< nodes of the face with the same zeta, along xi; three and more
+    const std::vector<unsigned int> surface;             ///< the body's degrees of freedom on a lever's faces
+    const std::shared_ptr<LayeredCompliance> compliance; ///< of a face; keeps the columns found
+    std::vector<std::vector<unsigned int>> node_lines;   ///< nodes of the face with the same zeta, along xi; three and more
     const SensorForces sensors;
     mutable std::optional<FiniteStrain> finite; ///< of a body that is not linear
   };

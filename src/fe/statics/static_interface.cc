@@ -9,7 +9,48 @@ namespace sprag
 {
   using namespace dealii;
 
-  StaticInterface::StaticInterface(const InterfaceLayout &layout_, const JointSprings &springs_, std::vector<FaceResponse> faces_)
+  DofSelection FaceCompliance::whole_blocks(const DofSelection &selected) const
+  {
+    DofSelection result;
+    for (const unsigned int dof : selected)
+      if (result.empty() || dof > result.back())
+        for (unsigned int i = ranges[containing_block(dof)].begin; i < ranges[containing_block(dof)].end; ++i)
+          result.push_back(i);
+    return result;
+  }
+
+  FullMatrix<double> FaceCompliance::among(const DofSelection &whole_blocks)
+  {
+    std::vector<unsigned int> numbers; // of the blocks
+    for (unsigned int place = 0; place < whole_blocks.size(); place += ranges[numbers.back()].size())
+      numbers.push_back(containing_block(whole_blocks[place]));
+    std::vector<BlockPair> pairs;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+        pairs.emplace_back(numbers[i], numbers[j]);
+    find_blocks(pairs);
+    FullMatrix<double> result(whole_blocks.size());
+    for (const auto &pair : pairs)
+    {
+      const auto entries        = block(pair);
+      const unsigned int row    = find_index(ranges[pair.first].begin, whole_blocks);
+      const unsigned int column = find_index(ranges[pair.second].begin, whole_blocks);
+      for (unsigned int a = 0; a < entries.m(); ++a)
+        for (unsigned int b = 0; b < entries.n() && column + b <= row + a; ++b)
+          result(row + a, column + b) = result(column + b, row + a) = entries(a, b);
+    }
+    return result;
+  }
+
+  unsigned int FaceCompliance::containing_block(const unsigned int dof) const
+  {
+    const auto after = std::upper_bound(ranges.begin(), ranges.end(), dof,
+                                        [](const unsigned int value, const NumberRange &range) { return value < range.begin; });
+    return static_cast<unsigned int>(after - ranges.begin()) - 1;
+  }
+
+  StaticInterface::StaticInterface(const InterfaceLayout &layout_, const JointSprings &springs_,
+                                   std::vector<std::shared_ptr<FaceCompliance>> faces_)
       : layout(layout_)
       , springs(springs_)
       , faces(std::move(faces_))
@@ -21,7 +62,7 @@ namespace sprag
   {
     if (!std::includes(candidates.begin(), candidates.end(), near.begin(), near.end()))
       set_candidates(near);
-    return find_indices(near);
+    return find_indices(near, candidates);
   }
 
   void StaticInterface::set_candidates(const DofSelection &selected)
@@ -40,15 +81,15 @@ namespace sprag
       for (const auto &face : faces)
       {
         const auto begin = std::lower_bound(selected.begin(), selected.end(), first);
-        const auto end   = std::lower_bound(begin, selected.end(), first + face.n_interface);
+        const auto end   = std::lower_bound(begin, selected.end(), first + face->n_dofs());
         DofSelection face_dofs;
         std::transform(begin, end, std::back_inserter(face_dofs), [&](const unsigned int dof) { return dof - first; });
-        const auto blocks = face.whole_blocks(face_dofs);
+        const auto blocks = face->whole_blocks(face_dofs);
         for (const unsigned int place : blocks)
           candidates.push_back(first + place);
         if (!blocks.empty())
-          compliance.append(face.among(blocks));
-        first += face.n_interface;
+          compliance.append(face->among(blocks));
+        first += face->n_dofs();
       }
       for (unsigned int slope = 0; slope < layout.slopes; ++slope)
         add_spring(layout.slope(slope), springs.slopes[slope]);
@@ -60,30 +101,19 @@ namespace sprag
 
   void StaticInterface::serialise_history(Archive &archive)
   {
+    for (const auto &face : faces)
+      face->serialise_history(archive);
     DofSelection selected = requested;
     archive(selected);
     if (archive.reads() && !selected.empty())
       set_candidates(selected);
   }
 
-  DofSelection StaticInterface::find_indices(const DofSelection &selected) const
-  {
-    DofSelection result;
-    unsigned int place = 0;
-    for (const unsigned int dof : selected)
-    {
-      while (candidates.at(place) != dof) // throws if it is no candidate
-        ++place;
-      result.push_back(place);
-    }
-    return result;
-  }
-
   void StaticInterface::set_faces(const DofLoads &forces, const DofSelection &near, Vector<double> &coordinates)
   {
     const auto places = look_at(near);
     Vector<double> displacements(compliance.size());
-    add_response(compliance, find_indices(forces.dofs), forces.values, places, displacements);
+    add_response(compliance, find_indices(forces.dofs, candidates), forces.values, places, displacements);
     for (const unsigned int place : places)
       if (layout.is_surface(candidates[place]))
         coordinates[candidates[place]] = displacements[place];
@@ -96,7 +126,7 @@ namespace sprag
     Vector<double> mismatch(compliance.size());
     for (const unsigned int place : places)
       mismatch[place] = -coordinates[candidates[place]];
-    add_response(compliance, find_indices(forces.dofs), forces.values, places, mismatch);
+    add_response(compliance, find_indices(forces.dofs, candidates), forces.values, places, mismatch);
     Residual result{ Vector<double>(n_coordinates()), 0. };
     double squares = 0.;
     for (const unsigned int place : places)
@@ -125,7 +155,7 @@ namespace sprag
     Vector<double> mismatch(compliance.size());
     for (const unsigned int place : places)
       mismatch[place] = residual.values[candidates[place]];
-    const auto values = interface_correction(compliance, find_indices(forces.dofs), forces.tangent, places, mismatch);
+    const auto values = interface_correction(compliance, find_indices(forces.dofs, candidates), forces.tangent, places, mismatch);
     Vector<double> result(n_coordinates());
     for (const unsigned int place : places)
       result[candidates[place]] = values[place];

@@ -3,11 +3,11 @@
 
 #include "base/archive.h"
 #include "fe/body/elastic_body.h"
+#include "model/interface/block_product.h"
 #include "model/interface/interface_forces.h"
 #include "model/interface/interface_layout.h"
 
 #include <array>
-#include <functional>
 #include <memory>
 
 namespace sprag
@@ -30,12 +30,43 @@ namespace sprag
     std::shared_ptr<const dealii::PETScWrappers::SparseMatrix> tangent = {}; ///< of structures that are factorised anew
   };
 
-  /// Compliance of a face of a body that its hub holds, by the places of its dofs on the face.
-  struct FaceResponse
+  /// Compliance between the displacements of a face's nodes, the body held at its hub [mm/N]. A contact meets few of them at a
+  /// time: it is found in blocks of dofs that follow each other, where it is asked for, and kept. Dofs are numbers on the face.
+  class FaceCompliance
   {
-    unsigned int n_interface;
-    std::function<DofSelection(const DofSelection &)> whole_blocks;                    ///< those that hold some dofs
-    std::function<dealii::FullMatrix<double>(const DofSelection &whole_blocks)> among; ///< [mm/N]
+  public:
+    virtual ~FaceCompliance() = default;
+
+    unsigned int n_dofs() const
+    {
+      return ranges.empty() ? 0 : ranges.back().end;
+    }
+
+    /// Returns all dofs of the blocks that hold the selected dofs, increasing.
+    DofSelection whole_blocks(const DofSelection &selected) const;
+
+    /// Returns the compliance between dofs that make up whole blocks.
+    dealii::FullMatrix<double> among(const DofSelection &whole_blocks);
+
+    /// Serialises which blocks are known, where later ones depend on that.
+    virtual void serialise_history(Archive &)
+    {
+    }
+
+  protected:
+    using BlockPair = std::pair<unsigned int, unsigned int>; ///< of rows and columns, first >= second
+
+    /// Finds blocks, of which some are known, together.
+    virtual void find_blocks(const std::vector<BlockPair> &)
+    {
+    }
+
+    virtual dealii::FullMatrix<double> block(const BlockPair &rows_and_columns) = 0;
+
+    /// Returns the number of the block that holds a dof.
+    unsigned int containing_block(unsigned int dof) const;
+
+    std::vector<NumberRange> ranges; ///< of the blocks' dofs
   };
 
   /// A state of levers without inertia, which it refers to.
@@ -59,7 +90,8 @@ namespace sprag
     static constexpr bool has_candidates = true;
 
     /// `faces`: those of a lever in the order of their dofs, the same for both of a pair.
-    StaticInterface(const InterfaceLayout &layout, const JointSprings &springs, std::vector<FaceResponse> faces);
+    StaticInterface(const InterfaceLayout &layout, const JointSprings &springs,
+                    std::vector<std::shared_ptr<FaceCompliance>> faces);
     StaticInterface &operator=(StaticInterface &&) = delete;
 
     unsigned int n_coordinates() const
@@ -88,7 +120,7 @@ namespace sprag
     /// Returns the correction, 0 on dofs that are not looked at. Throws AnalysisError if the tangent is singular.
     dealii::Vector<double> correction(const Residual &residual, const InterfaceForces &forces, const DofSelection &near);
 
-    /// Serialises the candidate dofs.
+    /// Serialises the candidate dofs and what is known of the faces.
     void serialise_history(Archive &archive);
 
   protected:
@@ -105,11 +137,10 @@ namespace sprag
 
   private:
     void set_candidates(const DofSelection &selected);
-    DofSelection find_indices(const DofSelection &selected) const;
     DofSelection look_at(const DofSelection &near);
 
     const JointSprings springs;
-    const std::vector<FaceResponse> faces;
+    const std::vector<std::shared_ptr<FaceCompliance>> faces;
 
     DofSelection candidates;        ///< dofs of known compliance, a place for each
     DofSelection requested;         ///< dofs for which they were chosen
