@@ -20,13 +20,15 @@ namespace
         const auto element = static_cast<unsigned int>(face.elements.size());
         const double xi    = i + (i < first_apart ? 0. : apart);
         FaceEdge<3> edge;
-        FacePoint<3> point{ dealii::Point<3>(xi + 0.5, 0., j + 0.5), 1., {}, {} };
+        FacePoint<3> point{ dealii::Point<3>(xi + 0.5, 0., j + 0.5), 1. };
+        FaceElement<3> added{ element, element + 1, std::sqrt(2.), 4 };
         for (unsigned int a = 0; a < 4; ++a)
         {
           edge.nodes.push_back({ dealii::Point<3>(xi + a / 2, 0., j + a % 2), 4 * element + a });
-          point.nodes.emplace_back(4 * element + a, 0.25);
+          added.nodes[a]  = 4 * element + a;
+          point.shapes[a] = 0.25;
         }
-        face.elements.push_back({ element, element + 1, std::sqrt(2.) });
+        face.elements.push_back(added);
         face.points.push_back(point);
         face.edges.push_back(edge);
       }

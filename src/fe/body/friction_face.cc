@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/body/friction_face.h"
 
+#include "base/errors.h"
 #include "base/ranges.h"
 #include "fe/body/end_face.h"
 
@@ -87,8 +88,8 @@ namespace sprag
       struct CellPart
       {
         std::vector<FacePoint<dim>> points;
+        FaceElement<dim> element;
         FaceEdge<dim> edge;
-        double length;
       };
       std::vector<CellPart> cells                                                = {};
       std::map<std::pair<unsigned int, bool>, FEFaceValues<dim>> values_by_parts = {};
@@ -103,27 +104,26 @@ namespace sprag
 
         auto &values = values_for(count_parts(length, properties.point_spacing), goes_along<dim>(cell->face(f)));
         values.reinit(cell, f);
-        std::vector<FacePoint<dim>> points;
+        CellPart part{ {}, { 0, 0, length }, {} };
         for (const unsigned int q : values.quadrature_point_indices())
-          points.push_back(
-              { values.quadrature_point(q), properties.material_width(cell->material_id()) * values.JxW(q), {}, {} });
-        FaceEdge<dim> edge;
-        add_nodes(cell, f, values, points, edge);
+          part.points.push_back({ values.quadrature_point(q), properties.material_width(cell->material_id()) * values.JxW(q) });
+        add_nodes(cell, f, values, part);
         const auto by_place = [](const auto &a, const auto &b) { return is_before(a.position, b.position); };
-        std::sort(points.begin(), points.end(), by_place);
-        std::sort(edge.nodes.begin(), edge.nodes.end(), by_place);
-        cells.push_back({ std::move(points), std::move(edge), length });
+        std::sort(part.points.begin(), part.points.end(), by_place);
+        std::sort(part.edge.nodes.begin(), part.edge.nodes.end(), by_place);
+        cells.push_back(std::move(part));
       }
 
       FrictionFace<dim> face()
       {
         std::sort(cells.begin(), cells.end(),
                   [](const auto &a, const auto &b) { return is_before(a.points.front().position, b.points.front().position); });
-        for (const auto &[points, edge, length] : cells)
+        for (const auto &[points, element, edge] : cells)
         {
-          const auto begin = static_cast<unsigned int>(result.points.size());
-          result.points.insert(result.points.end(), points.begin(), points.end());
-          result.elements.push_back({ begin, static_cast<unsigned int>(result.points.size()), length });
+          auto &added = result.elements.emplace_back(element);
+          added.begin = static_cast<unsigned int>(result.points.size());
+          append(result.points, points);
+          added.end = static_cast<unsigned int>(result.points.size());
           result.edges.push_back(edge);
         }
         return result;
@@ -137,7 +137,7 @@ namespace sprag
       }
 
       void add_nodes(const typename DoFHandler<dim>::active_cell_iterator &cell, const unsigned int f,
-                     const FEFaceValues<dim> &values, std::vector<FacePoint<dim>> &points, FaceEdge<dim> &edge)
+                     const FEFaceValues<dim> &values, CellPart &part)
       {
         std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
         cell->get_dof_indices(indices);
@@ -148,18 +148,22 @@ namespace sprag
           for (unsigned int d = 0; d < dim; ++d)
             dofs[d] = indices[fe.face_to_cell_index(i + d, f)];
           const auto position = mapping.transform_unit_to_real_cell(cell, fe.get_unit_support_points()[in_cell]);
-          edge.nodes.push_back({ position, FaceEdge<dim>::held });
+          part.edge.nodes.push_back({ position, FaceEdge<dim>::held });
           if (constraints.is_constrained(dofs[0]))
             continue;
           const auto node = index_by_dof.try_emplace(dofs[0], static_cast<unsigned int>(result.nodes.size()));
           if (node.second)
             result.nodes.push_back({ position, dofs });
-          edge.nodes.back().index = node.first->second;
+          part.edge.nodes.back().index               = node.first->second;
+          auto &[begin, end, length, n_nodes, nodes] = part.element;
+          if (n_nodes == nodes.size())
+            throw AnalysisError("contact is limited to elements of degree 2");
           for (const unsigned int q : values.quadrature_point_indices())
           {
-            points[q].nodes.emplace_back(node.first->second, values.shape_value(in_cell, q));
-            points[q].slopes.push_back(values.shape_grad(in_cell, q)[0]);
+            part.points[q].shapes[n_nodes] = values.shape_value(in_cell, q);
+            part.points[q].slopes[n_nodes] = values.shape_grad(in_cell, q)[0];
           }
+          nodes[n_nodes++] = node.first->second;
         }
       }
     };
@@ -182,9 +186,9 @@ namespace sprag
         ordered.push_back(face.nodes[order[i]]);
       }
       face.nodes = std::move(ordered);
-      for (auto &point : face.points)
-        for (auto &[node, shape] : point.nodes)
-          node = place[node];
+      for (auto &element : face.elements)
+        for (unsigned int a = 0; a < element.n_nodes; ++a)
+          element.nodes[a] = place[element.nodes[a]];
       for (auto &edge : face.edges)
         for (auto &node : edge.nodes)
           if (node.index != FaceEdge<dim>::held)

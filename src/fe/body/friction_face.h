@@ -22,22 +22,29 @@ namespace sprag
     std::array<unsigned int, dim> dofs;
   };
 
+  /// Most free nodes of a cell's face, which has degree 2.
+  template <int dim>
+  constexpr unsigned int most_face_nodes = dim == 2 ? 3 : 9;
+
   /// An integration point of the friction face.
   template <int dim>
   struct FacePoint
   {
-    dealii::Point<dim> position;                        ///< undeformed [mm]
-    double weight;                                      ///< area of the face that it represents [mm^2]
-    std::vector<std::pair<unsigned int, double>> nodes; ///< indices of the free nodes that move it, and their shape functions
-    std::vector<double> slopes;                         ///< of those along the first axis [1/mm]
+    dealii::Point<dim> position;                       ///< undeformed [mm]
+    double weight;                                     ///< area of the face that it represents [mm^2]
+    std::array<double, most_face_nodes<dim>> shapes{}; ///< of the element's nodes
+    std::array<double, most_face_nodes<dim>> slopes{}; ///< of these shapes along the first axis [1/mm]
   };
 
-  /// The points of one cell's face.
-  struct Element
+  /// The points of one cell's face, with the nodes that move them.
+  template <int dim>
+  struct FaceElement
   {
-    unsigned int begin; ///< index of the first
-    unsigned int end;   ///< beyond the last
-    double length;      ///< along the first axis [mm]
+    unsigned int begin;                                     ///< index of the first point
+    unsigned int end;                                       ///< beyond the last
+    double length;                                          ///< along the first axis [mm]
+    unsigned int n_nodes = 0;                               ///< free ones
+    std::array<unsigned int, most_face_nodes<dim>> nodes{}; ///< their indices
   };
 
   /// All nodes of one cell's face, ordered along the first axis, then the last.
@@ -61,7 +68,7 @@ namespace sprag
   {
     std::vector<FaceNode<dim>> nodes;   ///< in three dimensions ordered along the first axis, then the last
     std::vector<FacePoint<dim>> points; ///< element by element, ordered along the first axis, then the last
-    std::vector<Element> elements;
+    std::vector<FaceElement<dim>> elements;
     std::vector<FaceEdge<dim>> edges; ///< of the elements
     double young_modulus = 0.;        ///< largest of its cells [MPa]
     double depth         = 0.;        ///< largest size of its cells normal to the face [mm]

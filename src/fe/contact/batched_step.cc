@@ -53,9 +53,8 @@ namespace sprag
   };
 
   template <int dim>
-  BatchedStep<dim>::BatchedStep(const FrictionFace<dim> &face_, const Elements &grid_, const RigidCylinder &cylinder_)
-      : face(face_)
-      , grid(grid_)
+  BatchedStep<dim>::BatchedStep(const Elements &grid_, const RigidCylinder &cylinder_)
+      : grid(grid_)
       , cylinder(cylinder_)
       , blocks(grid.elements.size())
   {
@@ -76,7 +75,7 @@ namespace sprag
     }
     blocks[element].travel = ElementTravel<dim>(farthest, most_shapes);
     for (unsigned int first = range.begin; first < range.end; first += n_lanes)
-      blocks[element].all.emplace_back(face, grid, first, range.end);
+      blocks[element].all.emplace_back(grid, first, range.end);
   }
 
   template <int dim>

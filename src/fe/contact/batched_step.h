@@ -70,7 +70,7 @@ namespace sprag
     };
 
     /// All of these must outlive it.
-    BatchedStep(const FrictionFace<dim> &face, const Elements &grid, const RigidCylinder &cylinder);
+    BatchedStep(const Elements &grid, const RigidCylinder &cylinder);
     ~BatchedStep();
 
     /// Forgets the elements where the last step began. `history`: of the points in contact there, by increasing point.
@@ -145,7 +145,6 @@ namespace sprag
     void set_point(const Block &block, const Begin &begin, const End<Batch> &end, unsigned int lane,
                    FacePointState<dim> &state) const;
 
-    const FrictionFace<dim> &face;
     const Elements &grid;
     const RigidCylinder &cylinder;
     std::vector<Blocks> blocks; ///< of the elements

@@ -68,7 +68,7 @@ namespace sprag
     }
 
     /// Displacement along eta at xi, linear between the points [mm].
-    double deflection(const FrictionFace<2> &face, const dealii::Vector<double> &displacement, const double xi)
+    double deflection(const FaceElements<2> &face, const dealii::Vector<double> &displacement, const double xi)
     {
       const auto &points     = face.points;
       const auto is_before   = [](const auto &point, const double value) { return point.position[0] < value; };
@@ -77,9 +77,10 @@ namespace sprag
       const double share     = std::clamp((xi - before->position[0]) / (after->position[0] - before->position[0]), 0., 1.);
       const auto point_value = [&](const FacePoint<2> &point)
       {
-        double result = 0.;
-        for (const auto &[node, shape] : point.nodes)
-          result += shape * displacement[2 * node + 1];
+        const auto &element = face.elements[face.point_elements[&point - points.data()]];
+        double result       = 0.;
+        for (unsigned int a = 0; a < element.n_nodes; ++a)
+          result += point.shapes[a] * displacement[2 * element.nodes[a] + 1];
         return result;
       };
       return (1. - share) * point_value(*before) + share * point_value(*after);
@@ -93,7 +94,7 @@ namespace sprag
 
     /// Returns the deflection of a layer's face at the centre of pressure over that aside of the contact, from the columns that
     /// are filled [mm]; 0 without a layer.
-    double indentation(const FrictionFace<2> &face, const double thickness, const FaceEvaluation<2> &found, const Row &row)
+    double indentation(const FaceElements<2> &face, const double thickness, const FaceEvaluation<2> &found, const Row &row)
     {
       if (thickness == 0. || !(row[Column::normal_resultant] > 0.))
         return 0.;
@@ -288,7 +289,7 @@ namespace sprag
   {
     observe_contact(found, row);
     if constexpr (dim == 2)
-      row[Column::indentation] = indentation(face, properties.layer_thickness, found, row);
+      row[Column::indentation] = indentation(grid, properties.layer_thickness, found, row);
   }
 
   template <int dim>
@@ -321,11 +322,12 @@ namespace sprag
       const double area      = face_point.weight;
       double free            = 0.; // share of a force here that nodes take which the hub does not hold
       dealii::Tensor<1, dim> moved;
-      for (const auto &[node, shape] : face_point.nodes)
+      const auto &element = face.elements[point.element];
+      for (unsigned int a = 0; a < element.n_nodes; ++a)
       {
-        free += shape;
+        free += face_point.shapes[a];
         for (unsigned int d = 0; d < dim; ++d)
-          moved[d] += shape * found.displacement[dim * node + d];
+          moved[d] += face_point.shapes[a] * found.displacement[dim * element.nodes[a] + d];
       }
       for (unsigned int d = 0; d < dim; ++d)
       {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/contact/face_contact.h"
 
+#include "base/ranges.h"
+
 #include "laws/friction_law.h"
 
 #include <algorithm>
@@ -17,7 +19,7 @@ namespace sprag
   FaceContact<dim>::FaceContact(const FrictionFace<dim> &face_, FaceProperties properties_,
                                 const FrictionFace<dim> &elastic_cylinder)
       : ContactFace<dim>(face_, std::move(properties_))
-      , batched(face, grid, properties.cylinder)
+      , batched(grid, properties.cylinder)
   {
     if constexpr (dim == 2)
       if (!elastic_cylinder.elements.empty())
@@ -224,11 +226,9 @@ namespace sprag
       add_frame(properties.layout, n_displacements, n_displacements + 1, coordinates);
       for (unsigned int i = 0; i < properties.layout.slopes; ++i)
         coordinates.push_back({ n_displacements + 2 + i, properties.layout.slope(i), 1. });
-      const auto dofs = collect_dofs(coordinates);
-      summed.dofs.insert(summed.dofs.end(), dofs.begin(), dofs.end());
+      append(summed.dofs, collect_dofs(coordinates));
     }
-    std::sort(summed.dofs.begin(), summed.dofs.end());
-    summed.dofs.erase(std::unique(summed.dofs.begin(), summed.dofs.end()), summed.dofs.end());
+    sort_unique(summed.dofs);
     for (auto &coordinates : summed.coordinates)
       for (auto &coordinate : coordinates)
         coordinate.dof = find_index(coordinate.dof, summed.dofs);

@@ -40,44 +40,10 @@ namespace sprag
     const decltype(dealii::pack_rtree_of_indices(std::vector<Box>())) tree;
   };
 
-  namespace
-  {
-    template <int dim>
-    auto copied_elements(const FrictionFace<dim> &face)
-    {
-      std::vector<typename FaceElements<dim>::Element> result;
-      for (const auto &element : face.elements)
-      {
-        const auto &nodes = face.points[element.begin].nodes;
-        if (nodes.size() > FaceElements<dim>::max_nodes)
-          throw AnalysisError("contact is limited to elements of degree 2");
-        auto &copy = result.emplace_back();
-        copy       = { element.begin, element.end, element.length, static_cast<unsigned int>(nodes.size()), {} };
-        for (unsigned int a = 0; a < copy.n_nodes; ++a)
-          copy.nodes[a] = nodes[a].first;
-      }
-      return result;
-    }
-
-    template <int dim>
-    auto copied_points(const FrictionFace<dim> &face)
-    {
-      std::vector<typename FaceElements<dim>::Point> result;
-      for (const auto &point : face.points)
-      {
-        auto &copy = result.emplace_back();
-        copy       = { point.position, point.weight, {} };
-        for (unsigned int a = 0; a < point.nodes.size(); ++a)
-          copy.shapes[a] = point.nodes[a].second;
-      }
-      return result;
-    }
-  } // namespace
-
   template <int dim>
   FaceElements<dim>::FaceElements(const FrictionFace<dim> &face)
-      : elements(copied_elements(face))
-      , points(copied_points(face))
+      : elements(face.elements)
+      , points(face.points)
       , tree(std::make_unique<Tree>(face))
   {
     for (unsigned int element = 0; element < elements.size(); ++element)
@@ -192,8 +158,7 @@ namespace sprag
       for (unsigned int a = 0; a < elements[element].n_nodes; ++a)
         for (unsigned int d = 0; d < dim; ++d)
           result.push_back(dim * elements[element].nodes[a] + d);
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
+    sort_unique(result);
     return result;
   }
 

@@ -24,32 +24,15 @@ namespace sprag
     LeverPoint centre; ///< of the cylinder
   };
 
-  /// A friction face laid out for the search and summation of every iteration of every step: one face element after the other,
-  /// without indirection within one. An element holds the points of the face of one cell. Elements are found by their boxes, and
-  /// from one to those beside it.
+  /// The elements of a friction face, to be searched in every iteration of every step. An element holds the points of the face of
+  /// one cell. Elements are found by their boxes, and from one to those beside it.
   template <int dim>
   class FaceElements
   {
   public:
-    static constexpr unsigned int max_nodes = dim == 2 ? 3 : 9;
-
-    /// Range of the points of one cell, with the nodes that move them.
-    struct Element
-    {
-      unsigned int begin; ///< points, as in FrictionFace
-      unsigned int end;
-      double length;
-      unsigned int n_nodes;
-      std::array<unsigned int, max_nodes> nodes;
-    };
-
-    /// An integration point: place, weight [mm^(dim - 1)] and shape functions.
-    struct Point
-    {
-      dealii::Point<dim> position; ///< undeformed
-      double weight;
-      std::array<double, max_nodes> shapes; ///< of the element's nodes
-    };
+    static constexpr unsigned int max_nodes = most_face_nodes<dim>;
+    using Element                           = FaceElement<dim>;
+    using Point                             = FacePoint<dim>;
 
     /// Indices of elements, increasing.
     using Indices = std::vector<unsigned int>;
@@ -89,14 +72,6 @@ namespace sprag
     std::vector<Indices> neighbours; ///< of the elements: those that touch them
     Indices other_starts;            ///< of a face of several parts that do not touch: an element of each
   };
-
-  inline std::vector<unsigned int> united(const std::vector<unsigned int> &a, const std::vector<unsigned int> &b)
-  {
-    std::vector<unsigned int> result;
-    result.reserve(a.size() + b.size());
-    std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
-    return result;
-  }
 
   /// Elements and dofs of a face that a contact may touch.
   template <int dim>

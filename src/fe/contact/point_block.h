@@ -24,22 +24,22 @@ namespace sprag
     unsigned int n;            ///< of points
 
     /// Takes the points from `first_point` on, of an element that ends before `end`.
-    PointBlock(const FrictionFace<dim> &face, const FaceElements<dim> &grid, const unsigned int first_point,
-               const unsigned int end)
+    PointBlock(const FaceElements<dim> &face, const unsigned int first_point, const unsigned int end)
         : first(first_point)
         , n(std::min(n_lanes, end - first_point))
     {
       for (unsigned int i = 0; i < n_lanes; ++i)
       {
         const unsigned int q = first + std::min(i, n - 1);
-        const auto &point    = grid.points[q];
+        const auto &point    = face.points[q];
         const auto at        = in_space(point.position);
         position.x[i] = at[0], position.y[i] = at[1], position.z[i] = at[2];
         weight[i] = i < n ? point.weight : 0.;
         for (unsigned int a = 0; a < n_nodes; ++a)
+        {
           shapes[a][i] = point.shapes[a];
-        for (unsigned int a = 0; a < face.points[q].slopes.size(); ++a)
-          slopes[a][i] = face.points[q].slopes[a];
+          slopes[a][i] = point.slopes[a];
+        }
       }
     }
 

@@ -101,13 +101,12 @@ namespace sprag
       {
         const auto &element = face.elements[i];
         const auto from     = static_cast<unsigned int>(part.points.size());
-        for (unsigned int q = element.begin; q < element.end; ++q)
-        {
-          auto &point = part.points.emplace_back(face.points[q]);
-          for (auto &node : point.nodes)
-            node.first -= first;
-        }
-        part.elements.push_back({ from, static_cast<unsigned int>(part.points.size()), element.length });
+        part.points.insert(part.points.end(), face.points.begin() + element.begin, face.points.begin() + element.end);
+        auto &added = part.elements.emplace_back(element);
+        added.begin = from;
+        added.end   = static_cast<unsigned int>(part.points.size());
+        for (unsigned int a = 0; a < added.n_nodes; ++a)
+          added.nodes[a] -= first;
         auto &edge = part.edges.emplace_back(face.edges[i]);
         for (auto &node : edge.nodes)
           if (node.index != FaceEdge<3>::held)

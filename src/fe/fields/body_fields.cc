@@ -59,9 +59,10 @@ namespace sprag
         dofs.back()[2] = node.dofs[2];
     }
     std::vector<std::map<unsigned int, double>> sums(points.size());
-    for (std::size_t q = 0; q < face.points.size(); ++q)
-      for (const auto &[node, shape] : face.points[q].nodes)
-        sums[indices[q]][node] += share[q] * shape;
+    for (const auto &element : face.elements)
+      for (unsigned int q = element.begin; q < element.end; ++q)
+        for (unsigned int a = 0; a < element.n_nodes; ++a)
+          sums[indices[q]][element.nodes[a]] += share[q] * face.points[q].shapes[a];
     for (const auto &dof_weights : sums)
       movers.emplace_back(dof_weights.begin(), dof_weights.end());
   }

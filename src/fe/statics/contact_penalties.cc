@@ -34,7 +34,7 @@ namespace sprag
       const double by_layer          = penalty_factor * face.young_modulus / std::max(face.depth, layer_thickness);
       if (face.edges.front().nodes.size() == corners)
         return by_layer;
-      const auto shorter    = [](const Element &a, const Element &b) { return a.length < b.length; };
+      const auto shorter    = [](const auto &a, const auto &b) { return a.length < b.length; };
       const double shortest = std::min_element(face.elements.begin(), face.elements.end(), shorter)->length;
       const double length   = std::max(shortest, longest);
       const double by_cells = std::max(by_layer, penalty_over_cells * face.young_modulus / length);
