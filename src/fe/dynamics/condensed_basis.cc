@@ -204,12 +204,10 @@ namespace sprag
     const auto n_lever   = static_cast<unsigned int>(basis.stiffness.size());
     const unsigned int n = n_lever + (constants.sprung ? 1 : 0);
     ModalData data;
-    data.layout           = basis.layout;
-    data.layout.sprung    = constants.sprung;
-    data.stiffness        = basis.stiffness;
-    data.face_compliance  = basis.face_compliance;
-    data.relaxation       = constants.relaxation;
-    data.spring_stiffness = constants.spring_stiffness;
+    data.layout          = basis.layout;
+    data.layout.sprung   = constants.sprung;
+    data.stiffness       = basis.stiffness;
+    data.face_compliance = basis.face_compliance;
     data.shapes.reinit(data.layout.size(), n);
     for (unsigned int i = 0; i < std::min(data.layout.size(), static_cast<unsigned int>(basis.shapes.m())); ++i)
       for (unsigned int j = 0; j < n_lever; ++j)
@@ -218,25 +216,7 @@ namespace sprag
     data.layer_stiffness.reinit(n, n);
     if (n_lever > 0)
       data.layer_stiffness.fill(basis.layer_stiffness);
-    // The spring's share of the modes' stiffness is not damped.
-    data.damping.reinit(n, n);
-    const unsigned int hub = data.layout.rotation();
-    for (unsigned int i = 0; i < n_lever; ++i)
-    {
-      for (unsigned int j = 0; j < n_lever; ++j)
-        data.damping(i, j) = constants.relaxation * basis.layer_stiffness(i, j) - constants.stiffness_damping *
-                                                                                      constants.spring_stiffness *
-                                                                                      basis.shapes(hub, i) * basis.shapes(hub, j);
-      data.damping(i, i) += constants.mass_damping + constants.stiffness_damping * basis.stiffness[i] +
-                            (i == 0 ? 0. : 2. * constants.modal_damping * std::sqrt(basis.stiffness[i]));
-    }
-    if (constants.sprung)
-    {
-      data.support = n_lever;
-      data.stiffness.push_back(constants.support_stiffness / constants.support_mass);
-      data.damping(n_lever, n_lever)              = constants.support_damping / constants.support_mass;
-      data.shapes(data.layout.support(), n_lever) = 1. / std::sqrt(constants.support_mass);
-    }
+    add_damping_and_support(constants, data);
     return data;
   }
 

@@ -54,21 +54,6 @@ namespace sprag
     return { densities, lever.tip_mass, lever.moment_of_inertia, lever.inertia, lever.hub_inertia, device.spring.behaviour };
   }
 
-  LeverDynamics make_lever_dynamics(const Device &device, const double relaxation, const double lever_mass)
-  {
-    LeverDynamics result;
-    result.spring_stiffness  = device.spring.stiffness;
-    result.mass_damping      = device.lever.mass_damping;
-    result.stiffness_damping = device.lever.stiffness_damping;
-    result.relaxation        = relaxation;
-    result.modal_damping     = device.lever.modal_damping;
-    result.sprung            = device.support.type == SupportType::sprung;
-    result.support_mass      = device.support.mass + lever_mass;
-    result.support_stiffness = device.support.stiffness;
-    result.support_damping   = support_damping(device.support, lever_mass);
-    return result;
-  }
-
   double mesh_inertia(const Device &device, const ElasticBody<2> &body)
   {
     return BodyMass<2>(body, lever_inertia(device)).moment_of_inertia;

@@ -17,10 +17,6 @@ namespace sprag
   /// The masses of a scene's meshed lever.
   LeverInertia lever_inertia(const Device &device);
 
-  /// Spring, damping and support of a scene's meshed lever. `relaxation`: damping over stiffness of the friction layer [s];
-  /// `lever_mass`: what moves with a sprung support [t].
-  LeverDynamics make_lever_dynamics(const Device &device, double relaxation, double lever_mass);
-
   /// A meshed lever in time, and its numbers for /meta.
   struct MeshedDynamics : MassSums
   {

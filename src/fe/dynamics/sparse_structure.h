@@ -7,25 +7,12 @@
 #include "fe/dynamics/lever_modes.h"
 #include "model/step/dynamic_model.h"
 #include "model/step/linearisation.h"
+#include "model/structure/lever_frame.h"
 
 #include <memory>
 
 namespace sprag
 {
-  /// Constants of a meshed lever in time that are not in its matrices.
-  struct LeverDynamics
-  {
-    double spring_stiffness  = 0.; ///< k [N mm/rad], > 0
-    double mass_damping      = 0.; ///< Rayleigh [1/s]
-    double stiffness_damping = 0.; ///< Rayleigh, the spring left out [s]
-    double relaxation        = 0.; ///< of the friction layer, damping over stiffness [s]
-    double modal_damping     = 0.; ///< of critical, on the bending modes
-    bool sprung              = false;
-    double support_mass      = 0.; ///< with the lever's [t]
-    double support_stiffness = 0.; ///< [N/mm]
-    double support_damping   = 0.; ///< [N s/mm]
-  };
-
   /// A meshed linear lever with all its degrees of freedom, answering to forces at its interface as ModalStructure does.
   /// Coordinates: TotalCoordinates and, on a sprung support, its displacement.
   class SparseStructure

@@ -218,30 +218,6 @@ namespace sprag
       }
     }
 
-    void set_damping(const Device &device, const FullMatrix<double> &modes, ModalData &data)
-    {
-      const Lever &lever = device.lever;
-      for (unsigned int i = 0; i < modes.n(); ++i)
-      {
-        if (i > 0)
-          data.damping(i, i) += 2. * lever.modal_damping * std::sqrt(data.stiffness[i]);
-        data.damping(i, i) += lever.mass_damping + lever.stiffness_damping * data.stiffness[i];
-        for (unsigned int j = 0; j < modes.n(); ++j)
-          data.damping(i, j) -= lever.stiffness_damping * device.spring.stiffness * modes(0, i) * modes(0, j);
-      }
-    }
-
-    void append_support(const Device &device, ModalData &data)
-    {
-      const Support &support = device.support;
-      const unsigned int i   = static_cast<unsigned int>(data.stiffness.size());
-      const double on_frame  = carried_mass(device);
-      const double mass      = support.mass + on_frame;
-      data.support           = i;
-      data.stiffness.push_back(support.stiffness / mass);
-      data.damping(i, i)                    = support_damping(support, on_frame) / mass;
-      data.shapes(data.layout.support(), i) = 1. / std::sqrt(mass);
-    }
   } // namespace
 
   double carried_mass(const Device &device)
@@ -251,19 +227,15 @@ namespace sprag
 
   ModalData beam_modes(const Device &device, const BeamMesh &mesh)
   {
-    const auto matrices = make_matrices(device, mesh);
-    const auto modes    = solve_modes(matrices);
+    const auto matrices  = make_matrices(device, mesh);
+    const auto modes     = solve_modes(matrices);
+    const auto constants = make_lever_dynamics(device, 0., carried_mass(device));
     ModalData data;
-    data.layout           = { mesh.n_dofs(), device.support.type == SupportType::sprung };
-    data.stiffness        = modes.stiffness;
-    data.spring_stiffness = device.spring.stiffness;
-    const auto all        = modes.shapes.n() + (data.layout.sprung ? 1 : 0);
-    data.shapes.reinit(data.layout.size(), all);
-    data.damping.reinit(all, all);
+    data.layout    = { mesh.n_dofs(), constants.sprung };
+    data.stiffness = modes.stiffness;
+    data.shapes.reinit(data.layout.size(), modes.shapes.n() + (constants.sprung ? 1 : 0));
     set_shapes(device, mesh, matrices, modes.shapes, data);
-    set_damping(device, modes.shapes, data);
-    if (data.layout.sprung)
-      append_support(device, data);
+    add_damping_and_support(constants, data);
     return data;
   }
 } // namespace sprag

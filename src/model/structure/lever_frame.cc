@@ -39,4 +39,19 @@ namespace sprag
   {
     return 2. * support.damping * std::sqrt(support.stiffness * (support.mass + lever_mass));
   }
+
+  LeverDynamics make_lever_dynamics(const Device &device, const double relaxation, const double lever_mass)
+  {
+    LeverDynamics result;
+    result.spring_stiffness  = device.spring.stiffness;
+    result.mass_damping      = device.lever.mass_damping;
+    result.stiffness_damping = device.lever.stiffness_damping;
+    result.relaxation        = relaxation;
+    result.modal_damping     = device.lever.modal_damping;
+    result.sprung            = device.support.type == SupportType::sprung;
+    result.support_mass      = device.support.mass + lever_mass;
+    result.support_stiffness = device.support.stiffness;
+    result.support_damping   = support_damping(device.support, lever_mass);
+    return result;
+  }
 } // namespace sprag

@@ -50,4 +50,22 @@ namespace sprag
 
   /// Returns c_f = 2 D sqrt(k_f m) [N s/mm], D = Support/Damping and m the mass of frame and lever [t].
   double support_damping(const Support &support, double lever_mass);
+
+  /// Spring, damping and support of a lever in time, beside its modes or matrices.
+  struct LeverDynamics
+  {
+    double spring_stiffness  = 0.; ///< k [N mm/rad], > 0
+    double mass_damping      = 0.; ///< Rayleigh [1/s]
+    double stiffness_damping = 0.; ///< Rayleigh, the spring left out [s]
+    double relaxation        = 0.; ///< of the friction layer, damping over stiffness [s]
+    double modal_damping     = 0.; ///< of critical, on the bending modes
+    bool sprung              = false;
+    double support_mass      = 0.; ///< with the lever's [t]
+    double support_stiffness = 0.; ///< [N/mm]
+    double support_damping   = 0.; ///< [N s/mm]
+  };
+
+  /// Returns those of a scene's lever. `relaxation`: damping over stiffness of the friction layer [s];
+  /// `lever_mass`: what moves with a sprung support [t].
+  LeverDynamics make_lever_dynamics(const Device &device, double relaxation, double lever_mass);
 } // namespace sprag

@@ -67,6 +67,32 @@ namespace sprag
     }
   } // namespace
 
+  void add_damping_and_support(const LeverDynamics &constants, ModalData &data)
+  {
+    const auto n           = static_cast<unsigned int>(data.stiffness.size());
+    const auto &shapes     = data.shapes;
+    const auto &layer      = data.layer_stiffness;
+    const unsigned int hub = data.layout.rotation();
+    data.relaxation        = constants.relaxation;
+    data.spring_stiffness  = constants.spring_stiffness;
+    data.damping.reinit(shapes.n(), shapes.n());
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      // The spring's share of the modes' stiffness is not damped.
+      for (unsigned int j = 0; j < n; ++j)
+        data.damping(i, j) = (layer.empty() ? 0. : constants.relaxation * layer(i, j)) -
+                             constants.stiffness_damping * constants.spring_stiffness * shapes(hub, i) * shapes(hub, j);
+      data.damping(i, i) += constants.mass_damping + constants.stiffness_damping * data.stiffness[i] +
+                            (i == 0 ? 0. : 2. * constants.modal_damping * std::sqrt(data.stiffness[i]));
+    }
+    if (!constants.sprung)
+      return;
+    data.support = n;
+    data.stiffness.push_back(constants.support_stiffness / constants.support_mass);
+    data.damping(n, n)                    = constants.support_damping / constants.support_mass;
+    data.shapes(data.layout.support(), n) = 1. / std::sqrt(constants.support_mass);
+  }
+
   ModalStructure::ModalStructure(ModalData modal_data)
       : data(std::move(modal_data))
   {

@@ -4,6 +4,7 @@
 #include "model/interface/interface_layout.h"
 #include "model/step/dynamic_model.h"
 #include "model/step/linearisation.h"
+#include "model/structure/lever_frame.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
@@ -28,6 +29,9 @@ namespace sprag
     double spring_stiffness = 0.;               ///< of the rotation [N mm/rad], part of `stiffness` already
     unsigned int support    = -1u;              ///< mode that is the support's, the last; -1u without
   };
+
+  /// Adds damping, spring and support to data of a lever's modes, whose layout and whose shapes have room for the support.
+  void add_damping_and_support(const LeverDynamics &constants, ModalData &data);
 
   /// Response of a ModalData to interface forces f, static or in steps of the generalised-alpha method. With modal coordinates q,
   /// shapes S and static shapes u of compliance G_r
