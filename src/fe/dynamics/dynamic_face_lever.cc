@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/dynamic_face_lever.h"
 
-#include "fe/statics/contact_penalties.h"
-#include "model/lever/assemble_lever.h"
-#include "model/structure/lever_frame.h"
+#include "fe/dynamics/complete_dynamics.h"
 #include "scene/device.h"
-#include "scene/mirrored_pair.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,21 +22,6 @@ namespace sprag
       return result;
     }
 
-    template <class Structure>
-    std::unique_ptr<DynamicModel> assemble(const Device &device, const ElasticBody<2> &body, std::unique_ptr<Structure> structure,
-                                           const MeshedDynamics &facts)
-    {
-      const InterfaceLayout layout = structure->layout();
-      const auto levers            = all_lever_properties(device);
-      const auto contact           = [&](const unsigned int lever)
-      {
-        return std::make_unique<FaceContact<2>>(body.friction_face(),
-                                                face_properties(body, levers[lever], layout.single_lever(), facts.penalties),
-                                                body.cylinder_face());
-      };
-      return assemble_lever(std::move(structure), lever_frame(device, layout, facts.total_mass), contact,
-                            static_cast<unsigned int>(body.friction_face().points.size()));
-    }
   } // namespace
 
   LeverInertia lever_inertia(const Device &device)
@@ -88,22 +70,15 @@ namespace sprag
   {
     const auto &matrices = *basis.matrices;
     const auto constants = make_lever_dynamics(device, relaxation, matrices.total_mass);
-    const auto structure = [&](const FiniteElementBasis &element_basis)
-    { return std::make_unique<SparseStructure>(body, element_basis.matrices, element_basis.modes, constants); };
-
+    const std::array<const FiniteElementBasis *, 2> parts{ { &basis, basis.swinging ? basis.swinging.get() : &basis } };
+    const auto structure = [&](const unsigned int part)
+    { return std::make_unique<SparseStructure>(body, parts[part]->matrices, parts[part]->modes, constants); };
+    const auto displacement =
+        [both = std::array{ parts[0]->matrices, parts[1]->matrices }](const unsigned int part, const Motion &motion)
+    { return both[part]->coordinates.elastic_displacement(motion.coordinates.position); };
     MeshedDynamics result = facts(device, body, basis.modes.stiffness, matrices);
     result.n_coordinates  = count_levers(device) * matrices.coordinates.size();
-    const auto complete   = [&](auto lever)
-    {
-      result.elastic_displacement = [lever_structure = lever.get()](const Motion &motion, const unsigned int index)
-      { return lever_structure->elastic_displacement(motion, index); };
-      result.model = assemble(device, body, std::move(lever), result);
-    };
-    if (count_levers(device) == 1)
-      complete(structure(basis));
-    else
-      complete(std::make_unique<MirroredStructure<SparseStructure>>(
-          structure(basis), structure(basis.swinging ? *basis.swinging : basis), basis.swinging == nullptr));
+    complete_dynamics(device, body, body.friction_face(), !basis.swinging, structure, displacement, result);
     return result;
   }
 
@@ -128,9 +103,7 @@ namespace sprag
         *response = make_response(body);
       return condensed_displacement(body.held(), *parts[part], surface_dofs(body), *response, motion);
     };
-    complete_condensed(
-        count_levers(device), !bases.swinging, structure, displacement,
-        [&](auto lever) { return assemble(device, body, std::move(lever), result); }, result);
+    complete_dynamics(device, body, body.friction_face(), !bases.swinging, structure, displacement, result);
     return result;
   }
 } // namespace sprag

@@ -5,7 +5,6 @@
 #include "fe/dynamics/condensed_basis.h"
 #include "fe/dynamics/sparse_structure.h"
 #include "model/step/dynamic_model.h"
-#include "model/structure/mirrored_structure.h"
 
 #include <functional>
 #include <memory>
@@ -55,28 +54,6 @@ namespace sprag
     std::shared_ptr<const CondensedBasis> lever;
     std::shared_ptr<const CondensedBasis> swinging;
   };
-
-  /// Completes the condensed model of a lever or a pair. `structure(part)` and `displacement(part, motion)`: structure and
-  /// elastic displacement of the lever, or of the symmetric (0) and the antisymmetric (1) motions of a pair, whose structures may
-  /// be `identical`; `assemble(structure)` makes the model.
-  template <class Structure, class Displacement, class Assemble>
-  void complete_condensed(const unsigned int levers, const bool identical, const Structure &structure,
-                          const Displacement &displacement, const Assemble &assemble, MeshedDynamics &result)
-  {
-    if (levers == 1)
-    {
-      result.elastic_displacement = [displacement](const Motion &motion, unsigned int) { return displacement(0, motion); };
-      result.model                = assemble(structure(0));
-      return;
-    }
-    auto pair                   = std::make_unique<MirroredStructure<ModalStructure>>(structure(0), structure(1), identical);
-    result.elastic_displacement = [lever_structure = pair.get(), displacement](const Motion &motion, const unsigned int lever)
-    {
-      return lever_structure->lever_vector(
-          motion, lever, [&](const unsigned int part, const Motion &part_motion) { return displacement(part, part_motion); });
-    };
-    result.model = assemble(std::move(pair));
-  }
 
   /// J about the pivot of all that turns with the hub, by the mesh [t mm^2].
   double mesh_inertia(const Device &device, const ElasticBody<2> &body);

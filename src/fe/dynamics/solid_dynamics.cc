@@ -4,14 +4,10 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "fe/body/friction_face.h"
-#include "fe/contact/face_contact.h"
+#include "fe/dynamics/complete_dynamics.h"
 #include "fe/dynamics/condensed_basis.h"
-#include "fe/statics/contact_penalties.h"
-#include "fe/statics/lever_properties.h"
-#include "model/lever/assemble_lever.h"
 #include "scene/device.h"
 #include "scene/lever_shape.h"
-#include "scene/mirrored_pair.h"
 
 #include <algorithm>
 #include <cmath>
@@ -131,24 +127,6 @@ namespace sprag
       return result;
     }
 
-    LeverFrame make_frame(const Device &device, const SolidInTime &lever, const InterfaceLayout &layout)
-    {
-      LeverFrame result       = lever_frame(device, layout, lever.modes.total_mass);
-      result.sensor_stiffness = lever.sensors->stiffness();
-      result.observe_sensors  = [is_half = lever.body->is_half()](const std::vector<double> &forces, Row &row)
-      { observe_sensors(forces, is_half, row); };
-      return result;
-    }
-
-    /// Returns all but the model and its displacements.
-    MeshedDynamics describe(const Device &device, const SolidInTime &lever, const unsigned int n_modes)
-    {
-      MeshedDynamics result;
-      static_cast<MassSums &>(result) = lever.modes;
-      result.n_coordinates            = count_levers(device) * n_modes + (device.support.type == SupportType::sprung ? 1 : 0);
-      result.penalties                = penalties_in_time(device, *lever.body);
-      return result;
-    }
   } // namespace
 
   std::vector<const LeverModes *> structure_modes(const SolidInTime &lever, const unsigned int levers)
@@ -195,23 +173,14 @@ namespace sprag
     };
     const auto displacement = [&lever, structures, dofs = face_dofs(face)](const unsigned int part, const Motion &motion)
     { return condensed_displacement(lever.body->held(), *structures[part], dofs, make_response(*lever.body), motion); };
-    MeshedDynamics result = describe(device, lever, n_modes);
-    const auto assemble   = [&](auto all)
-    {
-      const InterfaceLayout layout = all->layout();
-      const auto properties        = all_lever_properties(device);
-      const auto contact           = [&](const unsigned int index)
-      {
-        return std::make_unique<FaceContact<3>>(
-            face, face_properties(*lever.body, properties[index], layout.single_lever(), result.penalties));
-      };
-      return assemble_lever(std::move(all), make_frame(device, lever, layout), contact,
-                            static_cast<unsigned int>(face.points.size()));
-    };
-    result.face        = std::shared_ptr<const FrictionFace<3>>(face_part, &face);
-    result.follow_edge = [&lever, structures](const Eigenmode &mode, ModeShape &shape)
+    MeshedDynamics result;
+    static_cast<MassSums &>(result) = lever.modes;
+    result.n_coordinates            = levers * n_modes + (device.support.type == SupportType::sprung ? 1 : 0);
+    result.penalties                = penalties_in_time(device, *lever.body);
+    result.face                     = std::shared_ptr<const FrictionFace<3>>(face_part, &face);
+    result.follow_edge              = [&lever, structures](const Eigenmode &mode, ModeShape &shape)
     { follow_edge(lever.body->friction_face(), structures, mode, shape); };
-    complete_condensed(levers, levers == 2 && structures[0] == structures[1], structure, displacement, assemble, result);
+    complete_dynamics(device, *lever.body, face, !lever.swinging, structure, displacement, result);
     return result;
   }
 

@@ -79,12 +79,6 @@ namespace sprag
     /// v^T C v with the motion's positions as velocities v: twice the power that damping takes.
     double damping_form(const Motion &velocities) const;
 
-    /// Elastic displacement of all degrees of freedom of the body, in lever axes [mm]. Of a pair's structure that of a lever.
-    dealii::Vector<double> elastic_displacement(const Motion &motion, unsigned int /*lever*/ = 0) const
-    {
-      return matrices->coordinates.elastic_displacement(motion.coordinates.position);
-    }
-
     /// Serialises the steps whose factors are kept, and what is kept with them.
     void serialise_history(Archive &archive);
 

@@ -26,12 +26,6 @@ namespace sprag
       return static_cast<unsigned int>(sensors.size());
     }
 
-    /// Stiffness of each of them [N/mm].
-    double stiffness() const
-    {
-      return sensors.empty() ? 0. : sensors.front().stiffness;
-    }
-
     /// Returns their forces by those on a linear body's surface, by its dofs [N].
     std::vector<double> operator()(const DofLoads &forces) const;
 

@@ -164,13 +164,6 @@ namespace sprag
       return result;
     }
 
-    dealii::Vector<double> elastic_displacement(const Motion &motion, const unsigned int lever) const
-    {
-      return lever_vector(motion, lever,
-                          [&](const unsigned int part, const Motion &part_motion)
-                          { return parts[part]->elastic_displacement(part_motion); });
-    }
-
     void serialise_history(Archive &archive)
     {
       for (const auto &part : parts)
