@@ -53,6 +53,10 @@ namespace
     {
       return inner->hold(drive, friction);
     }
+    double drive_force(const Motion &motion) const override
+    {
+      return inner->drive_force(motion);
+    }
     double largest_friction_share(const DrivePoint &drive, const double resolution) override
     {
       return inner->largest_friction_share(drive, resolution);

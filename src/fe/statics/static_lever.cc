@@ -6,7 +6,6 @@
 #include "fe/contact/face_contact.h"
 #include "fe/statics/contact_penalties.h"
 #include "laws/friction_law.h"
-#include "model/contact/joined_history.h"
 #include "model/structure/joined_interfaces.h"
 #include "scene/closed_form.h"
 #include "scene/device.h"

@@ -37,10 +37,17 @@ namespace sprag
   }
 
   /// Centre (x, 0) of the cylinder in lever axes [mm].
-  LeverPoint cylinder_centre(const Geometry &geometry, double x, double theta);
+  inline LeverPoint cylinder_centre(const Geometry &geometry, const double x, const double theta)
+  {
+    const auto circle = placed_circle(geometry, x, theta);
+    return { circle.xi, circle.eta };
+  }
 
   /// Returns that centre as a function of x [mm] and theta [rad].
-  std::function<LeverPoint(double x, double theta)> cylinder_centre(const Geometry &geometry);
+  inline std::function<LeverPoint(double x, double theta)> cylinder_centre(const Geometry &geometry)
+  {
+    return [geometry](const double x, const double theta) { return cylinder_centre(geometry, x, theta); };
+  }
 
   /// A point of the lever against the rigid circle, which does not rotate. Rows are derivatives by the displacement of the point
   /// along xi and eta, rotation theta, position x of the circle: minus the force on x is the x-force of the circle on the lever.

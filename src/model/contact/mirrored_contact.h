@@ -2,7 +2,6 @@
 #pragma once
 
 #include "model/contact/contact_of_levers.h"
-#include "model/contact/joined_history.h"
 #include "model/interface/interface_layout.h"
 #include "model/step/interface_step.h"
 #include "model/step/linearisation.h"

@@ -33,31 +33,6 @@ namespace sprag
     return result;
   }
 
-  void InterfaceCompliance::append(std::shared_ptr<const FullMatrix<double>> matrix)
-  {
-    diagonal.push_back({ size(), std::move(matrix) });
-  }
-
-  void InterfaceCompliance::append(FullMatrix<double> matrix)
-  {
-    append(std::make_shared<const FullMatrix<double>>(std::move(matrix)));
-  }
-
-  void InterfaceCompliance::append(const double compliance)
-  {
-    append(FullMatrix<double>(1, 1, &compliance));
-  }
-
-  const std::vector<InterfaceCompliance::Block> &InterfaceCompliance::blocks() const
-  {
-    return diagonal;
-  }
-
-  unsigned int InterfaceCompliance::size() const
-  {
-    return diagonal.empty() ? 0 : diagonal.back().end();
-  }
-
   double InterfaceCompliance::operator()(const unsigned int row_dof, const unsigned int column_dof) const
   {
     const auto block =

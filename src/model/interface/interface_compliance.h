@@ -4,6 +4,7 @@
 #include <deal.II/lac/full_matrix.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace sprag
@@ -44,16 +45,32 @@ namespace sprag
     };
 
     /// Appends a block for the next dofs. Blocks may share a matrix.
-    void append(std::shared_ptr<const dealii::FullMatrix<double>> matrix);
-    void append(dealii::FullMatrix<double> matrix);
+    void append(std::shared_ptr<const dealii::FullMatrix<double>> matrix)
+    {
+      diagonal.push_back({ size(), std::move(matrix) });
+    }
+
+    void append(dealii::FullMatrix<double> matrix)
+    {
+      append(std::make_shared<const dealii::FullMatrix<double>>(std::move(matrix)));
+    }
 
     /// Adds a block of one dof.
-    void append(double compliance);
+    void append(const double compliance)
+    {
+      append(dealii::FullMatrix<double>(1, 1, &compliance));
+    }
 
-    const std::vector<Block> &blocks() const;
+    const std::vector<Block> &blocks() const
+    {
+      return diagonal;
+    }
 
     /// Returns the number of dofs.
-    unsigned int size() const;
+    unsigned int size() const
+    {
+      return diagonal.empty() ? 0 : diagonal.back().end();
+    }
 
     double operator()(unsigned int row_dof, unsigned int column_dof) const;
 

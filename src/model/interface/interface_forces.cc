@@ -93,8 +93,7 @@ namespace sprag
     if (dofs.empty())
       return result;
     Vector<double> loaded(static_cast<unsigned int>(dofs.size()));
-    for (unsigned int i = 0; i < loaded.size(); ++i)
-      loaded[i] = mismatch[dofs[i]];
+    mismatch.extract_subvector_to(dofs.begin(), dofs.end(), loaded.begin());
     try
     {
       const InterfaceFactors factors(compliance, dofs, tangent);

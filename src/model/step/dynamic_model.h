@@ -30,6 +30,16 @@ namespace sprag
     std::shared_ptr<const StoredJacobian> tangent; ///< of a step on the way here; null without
   };
 
+  /// Returns a motion at rest without force, of so many coordinates and static face shapes.
+  inline Motion at_rest(const unsigned int n_coordinates, const unsigned int n_shapes = 0)
+  {
+    const dealii::Vector<double> zero(n_coordinates);
+    Motion motion;
+    motion.coordinates = { zero, zero, zero };
+    motion.face_force.reinit(n_shapes);
+    return motion;
+  }
+
   /// Displacement [mm or rad] and velocity of a dof.
   struct DofState
   {
@@ -121,12 +131,7 @@ namespace sprag
     virtual void observe(const Motion &motion, Row &row) const = 0;
 
     /// Returns Q of all levers together there [N], as observe() finds it.
-    virtual double drive_force(const Motion &motion) const
-    {
-      Row row;
-      observe(motion, row);
-      return row.drive_force();
-    }
+    virtual double drive_force(const Motion &motion) const = 0;
 
     /// Points of the friction face and their tractions at the last motion; empty where there is no mesh.
     virtual FacePoints face_points() const                   = 0;

@@ -28,14 +28,4 @@ namespace sprag
       return false;
     }
   }
-
-  const StoredJacobian &JacobianFactors::jacobian() const
-  {
-    return *stored;
-  }
-
-  Vector<double> JacobianFactors::reaction(const Vector<double> &displacements) const
-  {
-    return factors->reaction(stored->matrix, displacements);
-  }
 } // namespace sprag

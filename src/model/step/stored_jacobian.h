@@ -29,10 +29,16 @@ namespace sprag
     /// is singular.
     bool use(std::shared_ptr<const StoredJacobian> jacobian, const InterfaceCompliance &compliance, const StepWeights &weights);
 
-    const StoredJacobian &jacobian() const;
+    const StoredJacobian &jacobian() const
+    {
+      return *stored;
+    }
 
     /// Returns InterfaceFactors::reaction() of the stored Jacobian.
-    dealii::Vector<double> reaction(const dealii::Vector<double> &displacements) const;
+    dealii::Vector<double> reaction(const dealii::Vector<double> &displacements) const
+    {
+      return factors->reaction(stored->matrix, displacements);
+    }
 
   private:
     std::shared_ptr<const StoredJacobian> stored;

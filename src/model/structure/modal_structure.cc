@@ -106,12 +106,7 @@ namespace sprag
 
   Motion ModalStructure::rest() const
   {
-    Motion motion;
-    motion.coordinates.position.reinit(n_modes());
-    motion.coordinates.velocity.reinit(n_modes());
-    motion.coordinates.acceleration.reinit(n_modes());
-    motion.face_force.reinit(static_cast<unsigned int>(data.face_compliance.m()));
-    return motion;
+    return at_rest(n_modes(), static_cast<unsigned int>(data.face_compliance.m()));
   }
 
   InterfaceCompliance ModalStructure::interface_compliance(const FullMatrix<double> &inverse, const double static_share) const
