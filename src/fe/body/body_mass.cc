@@ -34,9 +34,8 @@ namespace sprag
     template <int dim>
     std::vector<std::array<unsigned int, dim>> node_dofs(const typename DoFHandler<dim>::active_cell_iterator &cell)
     {
-      const auto &fe = cell->get_fe();
-      std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
-      cell->get_dof_indices(indices);
+      const auto &fe     = cell->get_fe();
+      const auto indices = cell_dofs(cell);
       std::vector<std::array<unsigned int, dim>> result(fe.base_element(0).n_dofs_per_cell());
       for (unsigned int a = 0; a < result.size(); ++a)
         for (unsigned int d = 0; d < dim; ++d)
@@ -62,11 +61,10 @@ namespace sprag
   {
     std::vector<int> result(body.n_dofs(), -1);
     const auto &fe = body.dofs().get_fe();
-    std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
     for (const auto &cell : body.dofs().active_cell_iterators())
       if (material_id::turns(cell->material_id()))
       {
-        cell->get_dof_indices(indices);
+        const auto indices = cell_dofs(cell);
         for (unsigned int i = 0; i < indices.size(); ++i)
           result[indices[i]] = static_cast<int>(fe.system_to_component_index(i).first);
       }

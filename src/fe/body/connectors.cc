@@ -44,15 +44,12 @@ namespace sprag
     template <int dim, class Face>
     PadRange<dim> face_outline(const Face &face)
     {
+      const auto [lower, upper] = face->bounding_box().get_boundary_points();
       PadRange<dim> result;
       for (unsigned int i = 0; i < dim - 1; ++i)
       {
-        result.begin[i] = result.end[i] = face->vertex(0)[2 * i];
-        for (const unsigned int v : face->vertex_indices())
-        {
-          result.begin[i] = std::min(result.begin[i], face->vertex(v)[2 * i]);
-          result.end[i]   = std::max(result.end[i], face->vertex(v)[2 * i]);
-        }
+        result.begin[i] = lower[2 * i];
+        result.end[i]   = upper[2 * i];
       }
       return result;
     }
@@ -132,8 +129,7 @@ namespace sprag
       }
       FEValues<dim> values(body.cell_mapping(), fe, Quadrature<dim>(in_cell), update_values | update_gradients);
       values.reinit(cell);
-      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-      cell->get_dof_indices(dofs);
+      const auto dofs = cell_dofs(cell);
       for (unsigned int q = 0; q < rule.size(); ++q)
       {
         const double share = rule.weight(q) * piece.measure() / range.measure();

@@ -20,12 +20,11 @@ namespace sprag
       const auto &fe      = body.dofs().get_fe();
       const double length = total_measure<2>(faces);
       FEFaceValues<2> values(body.cell_mapping(), fe, QGauss<1>(fe.degree + 1), update_values | update_JxW_values);
-      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
       Vector<double> load(body.n_dofs());
       for (const auto &[cell, f] : faces)
       {
         values.reinit(cell, f);
-        cell->get_dof_indices(dofs);
+        const auto dofs = cell_dofs(cell);
         for (unsigned int i = 0; i < dofs.size(); ++i)
           if (fe.system_to_component_index(i).first == 1 && !body.is_held(static_cast<unsigned int>(dofs[i])))
             for (const unsigned int q : values.quadrature_point_indices())

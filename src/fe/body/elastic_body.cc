@@ -4,6 +4,7 @@
 #include "base/ranges.h"
 #include "fe/algebra/nested_dissection.h"
 #include "fe/body/cell_elasticity.h"
+#include "fe/body/end_face.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -44,14 +45,10 @@ namespace sprag
     if (dim == 3)
       VectorTools::interpolate_boundary_values(dof_handler, boundary_id::symmetry, none, constraints,
                                                fe.component_mask(FEValuesExtractors::Scalar(dim - 1)));
-    std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->material_id() == material_id::hub)
-      {
-        cell->get_dof_indices(indices);
-        for (const auto index : indices)
+        for (const auto index : cell_dofs(cell))
           constraints.add_line(index);
-      }
     if (constrain)
       constrain(dof_handler, constraints);
     constraints.close();
@@ -84,17 +81,14 @@ namespace sprag
     FullMatrix<double> cell_matrix(n, n);
     Vector<double> cell_forces(n);
     Vector<double> cell_displacement(n);
-    std::vector<types::global_dof_index> indices(n);
     for (const auto &cell : dof_handler.active_cell_iterators())
     {
       if (cell->material_id() == material_id::hub)
         continue;
-      cell->get_dof_indices(indices);
-      for (unsigned int i = 0; i < n; ++i)
-        cell_displacement[i] = displacement[indices[i]];
+      cell->get_dof_values(displacement, cell_displacement);
       elasticity.reinit(cell, cell_displacement);
       elasticity.assemble(cell_matrix, cell_forces);
-      constraints.distribute_local_to_global(cell_matrix, cell_forces, indices, matrix, forces);
+      constraints.distribute_local_to_global(cell_matrix, cell_forces, cell_dofs(cell), matrix, forces);
     }
     for (const auto &spring : springs)
     {

@@ -11,6 +11,15 @@ namespace sprag
   template <int dim>
   using CellFaces = std::vector<std::pair<typename dealii::DoFHandler<dim>::active_cell_iterator, unsigned int>>;
 
+  /// Returns the degrees of freedom of a cell.
+  template <class Cell>
+  std::vector<dealii::types::global_dof_index> cell_dofs(const Cell &cell)
+  {
+    std::vector<dealii::types::global_dof_index> result(cell->get_fe().n_dofs_per_cell());
+    cell->get_dof_indices(result);
+    return result;
+  }
+
   /// Returns the faces on a boundary.
   template <int dim>
   CellFaces<dim> boundary_faces(const dealii::DoFHandler<dim> &dofs, const dealii::types::boundary_id boundary)

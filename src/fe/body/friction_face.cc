@@ -34,13 +34,8 @@ namespace sprag
     {
       if constexpr (dim == 2)
         return face->diameter();
-      double first = face->vertex(0)[0], last = first;
-      for (const unsigned int v : face->vertex_indices())
-      {
-        first = std::min(first, face->vertex(v)[0]);
-        last  = std::max(last, face->vertex(v)[0]);
-      }
-      return last - first;
+      const auto [lower, upper] = face->bounding_box().get_boundary_points();
+      return upper[0] - lower[0];
     }
 
     /// Returns true if the first direction of the face's own coordinates goes along the first axis.
@@ -139,8 +134,7 @@ namespace sprag
       void add_nodes(const typename DoFHandler<dim>::active_cell_iterator &cell, const unsigned int f,
                      const FEFaceValues<dim> &values, CellPart &part)
       {
-        std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
-        cell->get_dof_indices(indices);
+        const auto indices = cell_dofs(cell);
         for (unsigned int i = 0; i < fe.n_dofs_per_face(); i += dim)
         {
           const unsigned int in_cell = fe.face_to_cell_index(i, f);

@@ -59,16 +59,13 @@ namespace sprag
     template <int dim>
     Stress<dim> neo_hookean(const Lame &constants, const Tensor<2, dim> &displacement_gradient)
     {
-      const auto F   = deformation_gradient(displacement_gradient);
-      const double J = determinant(F);
-      if (!(J > 0.))
-        throw AnalysisError("an element turned inside out");
       const double lambda = constants.lambda, mu = constants.mu;
-      const double pressure = lambda * std::log(J);
-      const auto inverse_t  = transpose(invert(F));
+      const auto log_J      = dilatation<dim>(MaterialModel::neo_hookean, displacement_gradient);
+      const auto &inverse_t = log_J.derivative;
+      const double pressure = lambda * log_J.value;
 
       Stress<dim> stress;
-      stress.piola          = mu * (F - inverse_t) + pressure * inverse_t;
+      stress.piola          = mu * (deformation_gradient(displacement_gradient) - inverse_t) + pressure * inverse_t;
       const auto derivative = [&](const auto i, const auto a, const auto k, const auto b)
       {
         return (i == k && a == b ? mu : 0.) + lambda * inverse_t[i][a] * inverse_t[k][b] +

@@ -4,6 +4,7 @@
 #include "base/errors.h"
 #include "base/ranges.h"
 #include "fe/body/cell_stiffness.h"
+#include "fe/body/end_face.h"
 
 namespace sprag
 {
@@ -116,11 +117,10 @@ namespace sprag
   void InertialMatrices::find_pattern(const ElasticBody<2> &body)
   {
     pattern.reinit(coordinates.size(), coordinates.size());
-    std::vector<types::global_dof_index> dofs(body.dofs().get_fe().n_dofs_per_cell());
     for (const auto &cell : body.dofs().active_cell_iterators())
       if (cell->material_id() != material_id::hub)
       {
-        cell->get_dof_indices(dofs);
+        const auto dofs = cell_dofs(cell);
         for (const auto i : dofs)
           for (const auto j : dofs)
             pattern.add(coordinates.mover(static_cast<unsigned int>(i)).coordinate,
@@ -160,13 +160,12 @@ namespace sprag
   void InertialMatrices::assemble_stiffness(const ElasticBody<2> &body)
   {
     CellStiffness<2> cell_stiffness(body);
-    std::vector<types::global_dof_index> dofs(body.dofs().get_fe().n_dofs_per_cell());
     for (const auto &cell : body.dofs().active_cell_iterators())
     {
       if (cell->material_id() == material_id::hub)
         continue;
       const auto &cell_matrix = cell_stiffness(cell);
-      cell->get_dof_indices(dofs);
+      const auto dofs         = cell_dofs(cell);
       coordinates.scatter(dofs, cell_matrix, stiffness);
       if (cell->material_id() == material_id::layer)
         coordinates.scatter(dofs, cell_matrix, layer_stiffness);

@@ -3,6 +3,7 @@
 
 #include "fe/algebra/block_krylov.h"
 #include "fe/body/cell_stiffness.h"
+#include "fe/body/end_face.h"
 
 #include <deal.II/dofs/dof_tools.h>
 
@@ -184,13 +185,12 @@ namespace sprag
       const auto m         = static_cast<unsigned int>(modes.size());
       const unsigned int n = body.dofs().get_fe().n_dofs_per_cell();
       CellStiffness<dim> stiffness(body);
-      std::vector<types::global_dof_index> indices(n);
       FullMatrix<double> local(n, m), forces(n, m), result(m, m);
       for (const auto &cell : body.dofs().active_cell_iterators())
       {
         if (cell->material_id() != material_id::layer)
           continue;
-        cell->get_dof_indices(indices);
+        const auto indices = cell_dofs(cell);
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < m; ++j)
             local(i, j) = modes[j][indices[i]];

@@ -2,6 +2,7 @@
 #include "fe/fields/body_fields.h"
 
 #include "fe/body/cell_elasticity.h"
+#include "fe/body/end_face.h"
 #include "fe/contact/face_parts.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -94,10 +95,10 @@ namespace sprag
     template <class AnyBody, class Cell>
     bool touches_what_is_held(const AnyBody &body, const Cell &cell)
     {
-      for (const unsigned int v : cell->vertex_indices())
-        if (body.is_held(static_cast<unsigned int>(cell->vertex_dof_index(v, 0))))
-          return true;
-      return false;
+      const auto corners = cell->vertex_indices();
+      return std::any_of(corners.begin(), corners.end(),
+                         [&](const unsigned int v)
+                         { return body.is_held(static_cast<unsigned int>(cell->vertex_dof_index(v, 0))); });
     }
 
     /// The normal stress out of the plane [MPa].
@@ -278,14 +279,13 @@ namespace sprag
     FEValues<dim> values(body.cell_mapping(), fe, places, update_quadrature_points);
     std::map<std::pair<types::material_id, bool>, std::vector<unsigned int>> numbers; // by the first degree of freedom
     const auto on_places = dofs_at<dim>(fe, places);
-    std::vector<types::global_dof_index> element_dofs(fe.n_dofs_per_cell());
     for (const auto &cell : body.dofs().active_cell_iterators())
     {
       values.reinit(cell);
-      cell->get_dof_indices(element_dofs);
-      const auto part   = cell->material_id();
-      const bool at_hub = part == material_id::hub || touches_what_is_held(body, cell);
-      auto &number      = numbers[{ part, at_hub }];
+      const auto element_dofs = cell_dofs(cell);
+      const auto part         = cell->material_id();
+      const bool at_hub       = part == material_id::hub || touches_what_is_held(body, cell);
+      auto &number            = numbers[{ part, at_hub }];
       number.resize(body.n_dofs(), none);
       for (unsigned int q = 0; q < places.size(); ++q)
       {

@@ -2,6 +2,7 @@
 #include "fe/leaf/leaf_body.h"
 
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "fe/body/body_properties.h"
 #include "fe/body/end_face.h"
@@ -110,10 +111,8 @@ namespace sprag
     {
       ComponentMask mask(2, false);
       mask.set(component, true);
-      std::vector<unsigned int> result;
-      for (const auto dof : DoFTools::extract_boundary_dofs(body.dofs(), mask, { boundary }))
-        result.push_back(static_cast<unsigned int>(dof));
-      return result;
+      return mapped(DoFTools::extract_boundary_dofs(body.dofs(), mask, { boundary }),
+                    [](const auto dof) { return static_cast<unsigned int>(dof); });
     }
 
     void hold_all(const std::vector<unsigned int> &dofs, AffineConstraints<double> &constraints)
@@ -136,12 +135,11 @@ namespace sprag
     {
       const auto &fe = body.dofs().get_fe();
       FEFaceValues<2> values(body.cell_mapping(), fe, QGauss<1>(fe.degree + 1), update_values | update_JxW_values);
-      std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
       std::map<types::global_dof_index, double> weights;
       for (const auto &[cell, f] : boundary_faces(body.dofs(), boundary_id::joint))
       {
         values.reinit(cell, f);
-        cell->get_dof_indices(indices);
+        const auto indices = cell_dofs(cell);
         for (unsigned int i = 0; i < indices.size(); ++i)
           if (fe.system_to_component_index(i).first == component && fe.has_support_on_face(i, f))
             for (const unsigned int q : values.quadrature_point_indices())

@@ -2,6 +2,7 @@
 #include "fe/statics/layered_compliance.h"
 
 #include "base/errors.h"
+#include "fe/body/end_face.h"
 #include "fe/statics/solid_body.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -87,13 +88,12 @@ namespace sprag
       FEFaceValues<3> values(body.cell_mapping(), fe, QGauss<2>(fe.degree + 1),
                              update_values | update_quadrature_points | update_JxW_values);
       std::vector<std::map<unsigned int, double>> columns(3 * along.number() * across.number());
-      std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
       for (const auto &cell : body.dofs().active_cell_iterators())
         for (const unsigned int f : cell->face_indices())
           if (is_layer_interface(body, cell, f))
           {
             values.reinit(cell, f);
-            cell->get_dof_indices(indices);
+            const auto indices = cell_dofs(cell);
             for (const unsigned int q : values.quadrature_point_indices())
             {
               const auto &place = values.quadrature_point(q);
