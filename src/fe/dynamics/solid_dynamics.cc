@@ -2,6 +2,7 @@
 #include "fe/dynamics/solid_dynamics.h"
 
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "fe/body/friction_face.h"
 #include "fe/dynamics/complete_dynamics.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace sprag
 {
@@ -41,18 +43,15 @@ namespace sprag
                      ModeShape &shape)
     {
       const auto nodes = lines_along(face).back();
-      shape.xi.clear();
-      for (const unsigned int node : nodes)
-        shape.xi.push_back(face.nodes[node].position[0]);
+      shape.xi         = mapped(nodes, [&](const unsigned int node) { return face.nodes[node].position[0]; });
       for (unsigned int index = 0; index < structures.size(); ++index)
         for (unsigned int i = 0; i < 2; ++i)
         {
           const auto moved = [&](const unsigned int d)
           {
-            std::vector<double> values;
-            for (const unsigned int node : nodes)
-              values.push_back(lever_displacement(structures, mode.mode.coordinates[i], index, face.nodes[node].dofs[d]));
-            return values;
+            const auto displacement = [&](const unsigned int node)
+            { return lever_displacement(structures, mode.mode.coordinates[i], index, face.nodes[node].dofs[d]); };
+            return mapped(nodes, displacement);
           };
           auto &lever       = shape.levers.at(index);
           lever.along[i]    = moved(0);
@@ -114,8 +113,7 @@ namespace sprag
     DofSelection part_dofs(const FacePart &face_part)
     {
       DofSelection result(3 * face_part.face.nodes.size());
-      for (unsigned int i = 0; i < result.size(); ++i)
-        result[i] = 3 * face_part.first_node + i;
+      std::iota(result.begin(), result.end(), 3 * face_part.first_node);
       return result;
     }
 

@@ -5,6 +5,7 @@
 #include "fe/dynamics/sparse_vibration.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace sprag
 {
@@ -66,34 +67,26 @@ namespace sprag
     return product * v;
   }
 
+  void SparseStructure::solve_statics(const Vector<double> &load, Vector<double> &q) const
+  {
+    const auto lever_solution = statics->system->solve(Vector<double>(load.begin(), load.begin() + n_lever));
+    std::copy(lever_solution.begin(), lever_solution.end(), q.begin());
+    if (constants.sprung)
+      q[n_lever] = load[n_lever] / constants.support_stiffness;
+  }
+
   std::vector<StructureMode> SparseStructure::vibrations(const LinearisedForces &forces, const unsigned int number,
                                                          const bool /*shapes*/)
   {
     use_statics();
-    const auto solve = [this](const Vector<double> &load, Vector<double> &q)
-    {
-      const auto lever_solution = statics->system->solve(Vector<double>(load.begin(), load.begin() + n_lever));
-      std::copy(lever_solution.begin(), lever_solution.end(), q.begin());
-      if (constants.sprung)
-        q[n_lever] = load[n_lever] / constants.support_stiffness;
-    };
-    const SparseOperator structure{ lever_interface.n_coordinates(),
-                                    [this](const auto &q, auto &result) { mass_product(q, result); },
-                                    [this](const auto &q, auto &result) { damping_product(q, result); },
-                                    [this](const auto &q, auto &result) { stiffness_product(q, result); },
-                                    solve,
-                                    lever_interface };
-    return sparse_vibrations(structure, forces, number);
+    return sparse_vibrations(*this, forces, number);
   }
 
   namespace
   {
     double product(const Vector<double> &a, const Vector<double> &b)
     {
-      double sum = 0.;
-      for (unsigned int i = 0; i < a.size(); ++i)
-        sum += a[i] * b[i];
-      return sum;
+      return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
     }
   } // namespace
 
@@ -291,12 +284,7 @@ namespace sprag
 
   Motion SparseStructure::rest() const
   {
-    Motion motion;
-    const unsigned int n            = lever_interface.n_coordinates();
-    motion.coordinates.position     = Vector<double>(n);
-    motion.coordinates.velocity     = Vector<double>(n);
-    motion.coordinates.acceleration = Vector<double>(n);
-    return motion;
+    return at_rest(n_coordinates());
   }
 
   void SparseStructure::use_statics()

@@ -70,6 +70,24 @@ namespace sprag
     /// Returns the vibrations of lowest frequency under linear forces at the interface.
     std::vector<StructureMode> vibrations(const LinearisedForces &forces, unsigned int number, bool shapes = true);
 
+    // Products with all coordinates, the support's included.
+    void mass_product(const dealii::Vector<double> &q, dealii::Vector<double> &result) const;
+    void damping_product(const dealii::Vector<double> &q, dealii::Vector<double> &result) const;
+    void stiffness_product(const dealii::Vector<double> &q, dealii::Vector<double> &result) const;
+
+    /// Solves with the stiffness, after use_statics().
+    void solve_statics(const dealii::Vector<double> &load, dealii::Vector<double> &q) const;
+
+    const LeverInterface &interface() const
+    {
+      return lever_interface;
+    }
+
+    unsigned int n_coordinates() const
+    {
+      return lever_interface.n_coordinates();
+    }
+
     /// Gives the layer another damping over its stiffness [s], for vibrations alone.
     void use_relaxation(const double relaxation)
     {
@@ -111,11 +129,6 @@ namespace sprag
     double effective_support(const StepWeights &w) const;
     double free_support(const Kinematic &start, const StepWeights &w) const;
     dealii::Vector<double> motion_load(const Kinematic &start, const Products &motion_products, const StepWeights &w) const;
-
-    // Products with all coordinates, the support's included.
-    void mass_product(const dealii::Vector<double> &q, dealii::Vector<double> &result) const;
-    void damping_product(const dealii::Vector<double> &q, dealii::Vector<double> &result) const;
-    void stiffness_product(const dealii::Vector<double> &q, dealii::Vector<double> &result) const;
 
     const std::shared_ptr<const InertialMatrices> matrices;
     LeverDynamics constants;

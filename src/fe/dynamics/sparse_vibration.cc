@@ -54,7 +54,7 @@ namespace sprag
     {
     public:
       /// Arguments must outlive the problem. Throws AnalysisError if there is a mode without stiffness.
-      InverseProblem(const SparseOperator &sparse_structure, const LinearisedForces &interface_forces)
+      InverseProblem(const SparseStructure &sparse_structure, const LinearisedForces &interface_forces)
           : structure(sparse_structure)
           , forces(interface_forces)
           , stiffness(forces.stiffness())
@@ -75,12 +75,13 @@ namespace sprag
       /// Returns the size of the state.
       unsigned int size() const
       {
-        return 2 * structure.size + n_delays();
+        return 2 * structure.n_coordinates() + n_delays();
       }
 
       SparseState zero() const
       {
-        return { Vector<double>(structure.size), Vector<double>(structure.size), Vector<double>(n_delays()) };
+        return { Vector<double>(structure.n_coordinates()), Vector<double>(structure.n_coordinates()),
+                 Vector<double>(n_delays()) };
       }
 
       /// Returns the state that leads to the given one: displacements -K^-1 (C q + M q' + delayed tractions).
@@ -103,7 +104,7 @@ namespace sprag
       SparseState momenta(const SparseState &state) const
       {
         SparseState result = zero();
-        structure.stiffness(state.q, result.q);
+        structure.stiffness_product(state.q, result.q);
         add_interface_forces(springs, state.q, result.q);
         mass_product(state.rate, result.rate);
         for (unsigned int k = 0; k < n_delays(); ++k)
@@ -115,7 +116,7 @@ namespace sprag
       /// 1e-9 of it.
       double mass_form(const SparseState &state, const double square) const
       {
-        Vector<double> momentum(structure.size);
+        Vector<double> momentum(structure.n_coordinates());
         mass_product(state.q, momentum);
         const double displacement_part = momentum * state.q;
         mass_product(state.rate, momentum);
@@ -123,7 +124,7 @@ namespace sprag
       }
 
     private:
-      const SparseOperator &structure;
+      const SparseStructure &structure;
       const LinearisedForces &forces;
       const FullMatrix<double> stiffness;
       const FullMatrix<double> damping;
@@ -156,13 +157,13 @@ namespace sprag
       void find_responses()
       {
         FullMatrix<double> compliance(n_forces, n_forces);
-        Vector<double> load(structure.size);
+        Vector<double> load(structure.n_coordinates());
         for (unsigned int b = 0; b < n_forces; ++b)
         {
           load = 0.;
-          structure.interface.add_force(forces.dofs[b], 1., load);
-          responses.emplace_back(structure.size);
-          structure.solve(load, responses.back());
+          structure.interface().add_force(forces.dofs[b], 1., load);
+          responses.emplace_back(structure.n_coordinates());
+          structure.solve_statics(load, responses.back());
           const auto z = loaded_displacements(responses.back());
           for (unsigned int a = 0; a < n_forces; ++a)
             compliance(a, b) = z[a];
@@ -185,7 +186,7 @@ namespace sprag
 
       void mass_product(const Vector<double> &rate, Vector<double> &momentum) const
       {
-        structure.mass(rate, momentum);
+        structure.mass_product(rate, momentum);
         add_interface_forces(forces.inertia, rate, momentum);
       }
 
@@ -193,8 +194,9 @@ namespace sprag
       /// they leave out of balance is solved for once more.
       Vector<double> displacements(const SparseState &state) const
       {
-        Vector<double> load(structure.size), left(structure.size), correction(structure.size), result(structure.size);
-        structure.damping(state.q, load);
+        Vector<double> load(structure.n_coordinates()), left(structure.n_coordinates()), correction(structure.n_coordinates()),
+            result(structure.n_coordinates());
+        structure.damping_product(state.q, load);
         mass_product(state.rate, left);
         load += left;
         load *= -1.;
@@ -205,7 +207,7 @@ namespace sprag
         constexpr unsigned int corrections = 2;
         for (unsigned int i = 0; i < corrections; ++i)
         {
-          structure.stiffness(result, left);
+          structure.stiffness_product(result, left);
           left.sadd(-1., 1., load);
           add_interface_forces(stiffness, result, left);
           solve(left, correction);
@@ -223,12 +225,12 @@ namespace sprag
         for (unsigned int k = 0; k < n_delays(); ++k)
           values.add(-forces.delays[k].time * rates[k], forces.delays[k].force);
         for (unsigned int a = 0; a < n_forces; ++a)
-          structure.interface.add_force(forces.dofs[a], values[a], sum);
+          structure.interface().add_force(forces.dofs[a], values[a], sum);
       }
 
       Vector<double> loaded_displacements(const Vector<double> &q) const
       {
-        const auto all = structure.interface.displacements(q);
+        const auto all = structure.interface().displacements(q);
         Vector<double> z(n_forces);
         for (unsigned int a = 0; a < z.size(); ++a)
           z[a] = all[forces.dofs[a]];
@@ -243,13 +245,13 @@ namespace sprag
         Vector<double> values(z.size());
         matrix.vmult(values, z);
         for (unsigned int a = 0; a < n_forces; ++a)
-          structure.interface.add_force(forces.dofs[a], values[a], sum);
+          structure.interface().add_force(forces.dofs[a], values[a], sum);
       }
 
       /// With the stiffness of structure and forces: f = A (1 - G A)^-1 z where the structure alone went to z.
       void solve(const Vector<double> &right_hand_side, Vector<double> &q) const
       {
-        structure.solve(right_hand_side, q);
+        structure.solve_statics(right_hand_side, q);
         if (n_forces == 0)
           return;
         auto z = loaded_displacements(q);
@@ -433,7 +435,7 @@ namespace sprag
     }
   } // namespace
 
-  std::vector<StructureMode> sparse_vibrations(const SparseOperator &structure, const LinearisedForces &forces,
+  std::vector<StructureMode> sparse_vibrations(const SparseStructure &structure, const LinearisedForces &forces,
                                                const unsigned int number)
   {
     const InverseProblem problem(structure, forces);

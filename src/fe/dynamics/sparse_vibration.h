@@ -1,28 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/algebra/compressed_rows.h"
-#include "fe/dynamics/effective_system.h"
-#include "fe/dynamics/lever_interface.h"
+#include "fe/dynamics/sparse_structure.h"
 #include "model/step/linearisation.h"
 #include "model/step/vibration.h"
 
-#include <functional>
+#include <vector>
 
 namespace sprag
 {
-  /// Products and solutions of a sparse structure, in vectors of all its coordinates.
-  struct SparseOperator
-  {
-    using Product     = std::function<void(const dealii::Vector<double> &, dealii::Vector<double> &)>;
-    unsigned int size = 0;
-    Product mass;
-    Product damping;
-    Product stiffness;
-    Product solve; ///< with the stiffness
-    const LeverInterface &interface;
-  };
-
   /// Largest backward error of what sparse_vibrations() returns: of the residual A^-1 E s - s / lambda of the first-order problem
   /// over s / lambda, as roots of |lambda|^2 q^T M q + q'^T M q'. An eigenvalue is wrong by that share times its condition, which
   /// is 1 without friction and damping and grows as |lambda| / |Delta lambda| where two meet, to some 10 in a flutter.
@@ -34,6 +20,6 @@ namespace sprag
   /// interface, and what grows or was found below them without vibrating, by increasing |lambda|; of a structure that has fewer
   /// those found so well. The method of Arnoldi for the inverse of the linearised problem, see InverseProblem, in a space of no
   /// more than 100 dimensions and 12 for each. Throws AnalysisError if they are not found in it, or not that well.
-  std::vector<StructureMode> sparse_vibrations(const SparseOperator &structure, const LinearisedForces &forces,
+  std::vector<StructureMode> sparse_vibrations(const SparseStructure &structure, const LinearisedForces &forces,
                                                unsigned int number);
 } // namespace sprag

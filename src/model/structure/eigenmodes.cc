@@ -34,15 +34,20 @@ namespace sprag
 
     constexpr double tie_tolerance = 1e-6; ///< relative difference of displacements, as those of both sides in a mode that twists
 
+    void add(const Complex factor, const ComplexVector &vector, ComplexVector &sum)
+    {
+      sum[0].add(factor.real(), vector[0], -factor.imag(), vector[1]);
+      sum[1].add(factor.real(), vector[1], factor.imag(), vector[0]);
+    }
+
     void multiply(ComplexVector &vector, const Complex factor)
     {
       if (vector[0].size() == 0) // face forces of a reduced lever
         return;
-      const auto real = vector[0];
-      vector[0] *= factor.real();
-      vector[0].add(-factor.imag(), vector[1]);
-      vector[1] *= factor.real();
-      vector[1].add(factor.imag(), real);
+      const dealii::Vector<double> zero(vector[0].size());
+      ComplexVector product{ { zero, zero } };
+      add(factor, vector, product);
+      vector = std::move(product);
     }
 
     /// To modal mass 1 and a rotation, or the largest displacement if there is none, the first of those alike, that is real and
@@ -136,12 +141,6 @@ namespace sprag
         result.crossed += std::conj(at(a, i)) * at(b, j) + std::conj(at(a, j)) * at(b, i);
       }
       return result;
-    }
-
-    void add(const Complex factor, const ComplexVector &vector, ComplexVector &sum)
-    {
-      sum[0].add(factor.real(), vector[0], -factor.imag(), vector[1]);
-      sum[1].add(factor.real(), vector[1], factor.imag(), vector[0]);
     }
 
     /// Factors of two vectors, a column a combination.

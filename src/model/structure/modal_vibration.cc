@@ -70,7 +70,11 @@ namespace sprag
           std::copy(pair.vector[part].begin(), pair.vector[part].begin() + n, result.coordinates[part].begin());
           result.face_force[part].reinit(static_cast<unsigned int>(data.face_compliance.m()));
         }
-        const auto z = interface_amplitudes(pair);
+        const auto state    = complex_state(pair);
+        const auto by_modes = modal_amplitudes(state);
+        auto z              = by_modes;
+        for (unsigned int a = 0; a < n_static; ++a)
+          z[a] += state[2 * n + a];
         const auto f = forces.forces(lambda, z);
         for (unsigned int a = 0; a < n_static; ++a)
         {
@@ -78,7 +82,7 @@ namespace sprag
           result.face_force[0][forces.dofs[a]] = elastic.real();
           result.face_force[1][forces.dofs[a]] = elastic.imag();
         }
-        result.residual = backward_error(lambda, pair, f);
+        result.residual = backward_error(lambda, state, by_modes, f);
         return result;
       }
 
@@ -188,52 +192,55 @@ namespace sprag
         add_product(rate, one_force, into_static, -1., at_tau, at_u, rate_matrix);
       }
 
-      std::vector<Complex> interface_amplitudes(const Eigenpair &pair) const
+      static std::vector<Complex> complex_state(const Eigenpair &pair)
       {
-        std::vector<Complex> z(n_forces);
+        std::vector<Complex> result;
+        for (unsigned int i = 0; i < pair.vector[0].size(); ++i)
+          result.emplace_back(pair.vector[0][i], pair.vector[1][i]);
+        return result;
+      }
+
+      /// Interface displacements by the modes alone.
+      std::vector<Complex> modal_amplitudes(const std::vector<Complex> &state) const
+      {
+        std::vector<Complex> result(n_forces);
         for (unsigned int a = 0; a < n_forces; ++a)
-        {
           for (unsigned int i = 0; i < n; ++i)
-            z[a] += shapes(a, i) * Complex(pair.vector[0][i], pair.vector[1][i]);
-          if (a < n_static)
-            z[a] += Complex(pair.vector[0][2 * n + a], pair.vector[1][2 * n + a]);
-        }
-        return z;
+            result[a] += shapes(a, i) * state[i];
+        return result;
       }
 
       /// Residual in modes and static shapes over the sum of the terms' sizes, by their parts in the displacements.
-      double backward_error(const Complex lambda, const Eigenpair &pair, const std::vector<Complex> &f) const
+      double backward_error(const Complex lambda, const std::vector<Complex> &state, const std::vector<Complex> &by_modes,
+                            const std::vector<Complex> &f) const
       {
         double modal_norm  = 0.;
         double static_norm = 0.;
         for (unsigned int a = 0; a < n_static; ++a)
         {
-          Complex by_modes;
-          for (unsigned int i = 0; i < n; ++i)
-            by_modes += shapes(a, i) * Complex(pair.vector[0][i], pair.vector[1][i]);
-          modal_norm += std::norm(by_modes);
-          static_norm += std::norm(Complex(pair.vector[0][2 * n + a], pair.vector[1][2 * n + a]));
+          modal_norm += std::norm(by_modes[a]);
+          static_norm += std::norm(state[2 * n + a]);
         }
         if (static_norm == 0.)
-          return modal_error(lambda, pair, f);
+          return modal_error(lambda, state, f);
         modal_norm  = std::sqrt(modal_norm);
         static_norm = std::sqrt(static_norm);
-        return (modal_norm * modal_error(lambda, pair, f) + static_norm * static_error(lambda, pair, f)) /
+        return (modal_norm * modal_error(lambda, state, f) + static_norm * static_error(lambda, state, f)) /
                (modal_norm + static_norm);
       }
 
-      double modal_error(const Complex lambda, const Eigenpair &pair, const std::vector<Complex> &f) const
+      double modal_error(const Complex lambda, const std::vector<Complex> &state, const std::vector<Complex> &f) const
       {
         double residual = 0.;
         double size     = 0.;
         for (unsigned int i = 0; i < n; ++i)
         {
-          const Complex q(pair.vector[0][i], pair.vector[1][i]);
+          const Complex q = state[i];
           Complex damped, driven;
           double damped_size = 0., driven_size = 0.;
           for (unsigned int j = 0; j < n; ++j)
           {
-            const Complex term = lambda * data.damping(i, j) * Complex(pair.vector[0][j], pair.vector[1][j]);
+            const Complex term = lambda * data.damping(i, j) * state[j];
             damped += term;
             damped_size += std::abs(term);
           }
@@ -248,13 +255,13 @@ namespace sprag
         return std::sqrt(residual / size);
       }
 
-      double static_error(const Complex lambda, const Eigenpair &pair, const std::vector<Complex> &f) const
+      double static_error(const Complex lambda, const std::vector<Complex> &state, const std::vector<Complex> &f) const
       {
         double residual = 0.;
         double size     = 0.;
         for (unsigned int a = 0; a < n_static; ++a)
         {
-          const Complex u(pair.vector[0][2 * n + a], pair.vector[1][2 * n + a]);
+          const Complex u = state[2 * n + a];
           Complex elastic;
           double elastic_size = 0.;
           for (unsigned int b = 0; b < n_static; ++b)
