@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/body/solid_stiffness.h"
 #include "fe/contact/face_contact.h"
+#include "fe/statics/solid_body.h"
 #include "fe/statics/static_interface.h"
 #include "model/interface/newton.h"
 #include "verification/block.h"

@@ -153,45 +153,46 @@ namespace sprag
           result[i] += std::min(1., lacking / whole) * deficit(i);
       return result;
     }
-  } // namespace
 
-  DofLoads indentation_shares(const FrictionFace<3> &face, const std::vector<std::vector<unsigned int>> &lines,
-                              const double thickness, const Row &row)
-  {
-    if (thickness == 0. || !(row[Column::normal_resultant] > 0.) || lines.empty())
-      return {};
-    const auto distance  = [&](const auto &some) { return std::abs(face.nodes[some.front()].position[2] - row.across[4]); };
-    const auto is_closer = [&](const auto &a, const auto &b) { return distance(a) < distance(b); };
-    const auto &line     = *std::min_element(lines.begin(), lines.end(), is_closer);
-    const auto xi_at     = [&](const std::size_t i) { return face.nodes[line[i]].position[0]; };
-    const auto is_before = [&](const unsigned int node, const double xi) { return face.nodes[node].position[0] < xi; };
-    std::map<unsigned int, double> shares;
-    // Between nodes the displacement follows a parabola through three of them.
-    const auto add = [&](const double xi, const double factor)
+    /// See ContactFace; `lines`: see lines_along().
+    DofLoads find_indentation_shares(const FrictionFace<3> &face, const std::vector<std::vector<unsigned int>> &lines,
+                                     const double thickness, const Row &row)
     {
-      const auto after = std::lower_bound(line.begin(), line.end(), xi, is_before) - line.begin();
-      const auto first = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - 1, 0, line.size() - 3));
-      for (std::size_t i = first; i < first + 3; ++i)
+      if (thickness == 0. || !(row[Column::normal_resultant] > 0.) || lines.empty())
+        return {};
+      const auto distance  = [&](const auto &some) { return std::abs(face.nodes[some.front()].position[2] - row.across[4]); };
+      const auto is_closer = [&](const auto &a, const auto &b) { return distance(a) < distance(b); };
+      const auto &line     = *std::min_element(lines.begin(), lines.end(), is_closer);
+      const auto xi_at     = [&](const std::size_t i) { return face.nodes[line[i]].position[0]; };
+      const auto is_before = [&](const unsigned int node, const double xi) { return face.nodes[node].position[0] < xi; };
+      std::map<unsigned int, double> shares;
+      // Between nodes the displacement follows a parabola through three of them.
+      const auto add = [&](const double xi, const double factor)
       {
-        double share = factor;
-        for (std::size_t j = first; j < first + 3; ++j)
-          if (j != i)
-            share *= (xi - xi_at(j)) / (xi_at(i) - xi_at(j));
-        shares[3 * line[i] + 1] += share;
+        const auto after = std::lower_bound(line.begin(), line.end(), xi, is_before) - line.begin();
+        const auto first = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - 1, 0, line.size() - 3));
+        for (std::size_t i = first; i < first + 3; ++i)
+        {
+          double share = factor;
+          for (std::size_t j = first; j < first + 3; ++j)
+            if (j != i)
+              share *= (xi - xi_at(j)) / (xi_at(i) - xi_at(j));
+          shares[3 * line[i] + 1] += share;
+        }
+      };
+      const double aside = distance_beside(thickness, row);
+      add(row[Column::s], 1.);
+      add(row[Column::s] - aside, -0.5);
+      add(row[Column::s] + aside, -0.5);
+      DofLoads result{ {}, dealii::Vector<double>(static_cast<unsigned int>(shares.size())) };
+      for (const auto &[dof, share] : shares)
+      {
+        result.values[static_cast<unsigned int>(result.dofs.size())] = share;
+        result.dofs.push_back(dof);
       }
-    };
-    const double aside = distance_beside(thickness, row);
-    add(row[Column::s], 1.);
-    add(row[Column::s] - aside, -0.5);
-    add(row[Column::s] + aside, -0.5);
-    DofLoads result{ {}, dealii::Vector<double>(static_cast<unsigned int>(shares.size())) };
-    for (const auto &[dof, share] : shares)
-    {
-      result.values[static_cast<unsigned int>(result.dofs.size())] = share;
-      result.dofs.push_back(dof);
+      return result;
     }
-    return result;
-  }
+  } // namespace
 
   template <int dim>
   ContactFace<dim>::ContactFace(const FrictionFace<dim> &face_, FaceProperties properties_)
@@ -208,7 +209,7 @@ namespace sprag
   DofLoads ContactFace<dim>::indentation_shares([[maybe_unused]] const Row &row, unsigned int) const
   {
     if constexpr (looks_beside)
-      return sprag::indentation_shares(face, lines, properties.layer_thickness, row);
+      return find_indentation_shares(face, lines, properties.layer_thickness, row);
     else
       return {};
   }

@@ -65,12 +65,6 @@ namespace sprag
     return weights > 0. ? weighted / weights : 0.;
   }
 
-  /// Returns the shares of the displacements of a face's dofs, by increasing dof, whose sum is the indentation of its layer, from
-  /// columns of a row that are filled: the deflection at the centre of pressure over that aside of the contact, along one of
-  /// `lines`, see lines_along(), that lies closest to the largest pressure. None without a layer, lines or contact.
-  DofLoads indentation_shares(const FrictionFace<3> &face, const std::vector<std::vector<unsigned int>> &lines, double thickness,
-                              const Row &row);
-
   /// A friction face in contact, of a plane or in space: its elements, how far contact is sought on it, and its FaceParts, which
   /// results show.
   template <int dim>
@@ -112,7 +106,9 @@ namespace sprag
     /// Fills those of them that are sums over the points under pressure.
     void observe_resultants(const Evaluation &found, Row &row) const;
 
-    /// Returns the function of that name of this face.
+    /// Returns the shares of the displacements of the face's dofs in space, by increasing dof, whose sum is the indentation of
+    /// its layer, from columns of a row that are filled: the deflection at the centre of pressure over that aside of the contact,
+    /// along the line of nodes that lies closest to the largest pressure. None without a layer, lines or contact.
     DofLoads indentation_shares(const Row &row, unsigned int lever = 0) const;
 
     /// Returns the slopes of the cylinder's axis in space.

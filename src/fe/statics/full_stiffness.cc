@@ -181,14 +181,8 @@ namespace sprag
 
   std::vector<BodyDisplacements> FullStiffness::body_displacements(const std::vector<StaticState> &states) const
   {
-    return mapped(states,
-                  [&](const StaticState &state)
-                  {
-                    BodyDisplacements result;
-                    for (unsigned int lever = 0; lever < layout.levers; ++lever)
-                      result.push_back(body_displacement(lever, state.coordinates));
-                    return result;
-                  });
+    return find_displacements(states, layout.levers,
+                              [&](const unsigned int lever, const Vector<double> &at) { return body_displacement(lever, at); });
   }
 
   std::vector<double> FullStiffness::sensor_forces(const unsigned int lever, const Vector<double> &coordinates,

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "fe/algebra/first_rank.h"
+#include "fe/algebra/mumps.h"
 #include "fe/body/dimension.h"
 #include "fe/body/elastic_body.h"
-#include "fe/body/solid_stiffness.h"
 
 #include <deal.II/distributed/shared_tria.h>
 
@@ -28,6 +28,11 @@ namespace sprag
 
   /// Receives what the first rank makes.
   bool receive_solid_mesh(SolidMesh &mesh);
+
+  /// Returns this rank's entries of the stiffness of a part of a body without load, with unit entries for held degrees of
+  /// freedom. A part is given by a number for each degree of freedom, from 0, -1 where it is not of the part; no numbers stand
+  /// for the whole body. To be called by all ranks.
+  MatrixEntries assemble_stiffness(const ElasticBody<3> &body, const std::vector<int> &number_in_part);
 
   /// Properties of a body in three dimensions that all ranks know besides its mesh.
   struct SolidProperties

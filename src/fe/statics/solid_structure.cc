@@ -2,6 +2,7 @@
 #include "fe/statics/solid_structure.h"
 
 #include "base/ranges.h"
+#include "fe/body/end_face.h"
 #include "fe/contact/contact_face.h"
 
 #include <algorithm>
@@ -20,11 +21,7 @@ namespace sprag
   {
     for (const auto &cell : body.dofs().active_cell_iterators())
       if (cell->material_id() != material_id::hub)
-      {
-        std::vector<types::global_dof_index> dofs(cell_displacement.size());
-        cell->get_dof_indices(dofs);
-        cells.push_back({ cell, std::move(dofs), &stiffness(cell) });
-      }
+        cells.push_back({ cell, cell_dofs(cell), &stiffness(cell) });
   }
 
   void FiniteStrain::add(const DofLoads &on_face, std::vector<double> &loads) const
@@ -80,7 +77,6 @@ namespace sprag
       , body(body_)
       , surface(surface_dofs(body))
       , compliance(std::move(face))
-      , node_lines(lines_along(body.friction_face()))
       , sensors(body, make_response(body))
   {
     if (body.body_properties().material != MaterialModel::linear)
@@ -146,51 +142,26 @@ namespace sprag
     return finite ? body.sensor_forces(lever_displacement(coordinates, lever)) : sensors(on_surface(forces, lever));
   }
 
-  double SolidStructure::indentation(const unsigned int lever, const double thickness, const Vector<double> &coordinates,
-                                     const DofLoads &forces, const Row &row) const
+  double SolidStructure::displacement(const unsigned int lever, const DofLoads &shares, const Vector<double> &coordinates,
+                                      const DofLoads &forces) const
   {
     const auto acting = on_surface(forces, lever);
-    if (acting.dofs.empty())
+    if (acting.dofs.empty() || shares.dofs.empty())
       return 0.;
-    const auto displacements = [&](const DofSelection &some)
-    {
-      if (!finite)
-        return compliance->displacements(some, acting);
-      Vector<double> result(static_cast<unsigned int>(some.size()));
-      for (unsigned int i = 0; i < result.size(); ++i)
-        result[i] = coordinates[first_body_coordinate(lever) + surface[some[i]]];
-      return result;
-    };
-    const auto shares = indentation_shares(body.friction_face(), node_lines, thickness, row);
-    return shares.dofs.empty() ? 0. : shares.values * displacements(shares.dofs);
+    if (!finite)
+      return shares.values * compliance->displacements(shares.dofs, acting);
+    double sum = 0.;
+    for (unsigned int i = 0; i < shares.dofs.size(); ++i)
+      sum += shares.values[i] * coordinates[first_body_coordinate(lever) + surface[shares.dofs[i]]];
+    return sum;
   }
 
   std::vector<BodyDisplacements> SolidStructure::body_displacements(const std::vector<StaticState> &states) const
   {
     if (!finite)
-      return by_states(responses(on_levers(states)), body.n_dofs());
-    return mapped(states,
-                  [&](const StaticState &state)
-                  {
-                    BodyDisplacements result;
-                    for (unsigned int i = 0; i < layout.levers; ++i)
-                      result.push_back(lever_displacement(state.coordinates, i));
-                    return result;
-                  });
-  }
-
-  /// Displacements of all degrees of freedom of the whole body by forces on the face, one after another.
-  std::vector<double> SolidStructure::responses(const std::vector<DofLoads> &on_faces) const
-  {
-    SparseColumns loads;
-    for (const auto &acting : on_faces)
-    {
-      for (unsigned int i = 0; i < acting.dofs.size(); ++i)
-        if (const unsigned int dof = surface[acting.dofs[i]]; !body.is_held(dof))
-          loads.add(dof, acting.values[i]);
-      loads.end_column();
-    }
-    return body.respond(loads);
+      return by_states(body.respond(body_loads(body, on_levers(states))), body.n_dofs());
+    return find_displacements(states, layout.levers,
+                              [&](const unsigned int lever, const Vector<double> &at) { return lever_displacement(at, lever); });
   }
 
   std::vector<FaceSample> SolidStructure::samples(const Vector<double> &coordinates, const DofLoads &forces) const
@@ -209,7 +180,7 @@ namespace sprag
 
   SolidStructure::Exactness SolidStructure::exactness(const std::vector<FaceSample> &samples) const
   {
-    const auto whole_responses = responses(mapped(samples, &FaceSample::first));
+    const auto whole_responses = body.respond(body_loads(body, mapped(samples, &FaceSample::first)));
 
     Exactness result{};
     for (std::size_t k = 0; k < samples.size(); ++k)

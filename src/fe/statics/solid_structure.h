@@ -78,10 +78,9 @@ namespace sprag
     std::vector<double> sensor_forces(unsigned int lever, const dealii::Vector<double> &coordinates,
                                       const DofLoads &forces) const;
 
-    /// Returns the deflection of a lever's face where the pressure is largest over that aside of the contact [mm]; 0 without a
-    /// layer. The row holds place and width of the contact.
-    double indentation(unsigned int lever, double layer_thickness, const dealii::Vector<double> &coordinates,
-                       const DofLoads &forces, const Row &row) const;
+    /// Returns the sum of a lever's displacements by shares, in a state of it.
+    double displacement(unsigned int lever, const DofLoads &shares, const dealii::Vector<double> &coordinates,
+                        const DofLoads &forces) const;
 
     bool is_linear() const
     {
@@ -116,12 +115,10 @@ namespace sprag
     }
 
     dealii::Vector<double> lever_displacement(const dealii::Vector<double> &coordinates, unsigned int lever) const;
-    std::vector<double> responses(const std::vector<DofLoads> &on_faces) const;
 
     const SolidBody &body;
     const std::vector<unsigned int> surface;             ///< the body's degrees of freedom on a lever's faces
     const std::shared_ptr<LayeredCompliance> compliance; ///< of a face; keeps the columns found
-    std::vector<std::vector<unsigned int>> node_lines;   ///< nodes of the face with the same zeta, along xi; three and more
     const SensorForces sensors;
     mutable std::optional<FiniteStrain> finite; ///< of a body that is not linear
   };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/archive.h"
+#include "fe/algebra/mumps.h"
 #include "fe/body/elastic_body.h"
 #include "model/interface/block_product.h"
 #include "model/interface/interface_forces.h"
@@ -78,6 +79,34 @@ namespace sprag
 
   /// Displacement of all degrees of freedom of each lever's body in its axes [mm].
   using BodyDisplacements = std::vector<dealii::Vector<double>>;
+
+  /// Returns what `displacement`(lever, coordinates) finds in each of some states.
+  template <class Displacement>
+  std::vector<BodyDisplacements> find_displacements(const std::vector<StaticState> &states, const unsigned int levers,
+                                                    const Displacement &displacement)
+  {
+    std::vector<BodyDisplacements> result(states.size());
+    for (std::size_t i = 0; i < states.size(); ++i)
+      for (unsigned int lever = 0; lever < levers; ++lever)
+        result[i].push_back(displacement(lever, states[i].coordinates));
+    return result;
+  }
+
+  /// Returns forces on a lever's surface as columns of loads on its body.
+  template <int dim>
+  SparseColumns body_loads(const ElasticBody<dim> &body, const std::vector<DofLoads> &on_levers)
+  {
+    const auto surface = surface_dofs(body);
+    SparseColumns result;
+    for (const auto &acting : on_levers)
+    {
+      for (unsigned int i = 0; i < acting.dofs.size(); ++i)
+        if (const unsigned int dof = surface[acting.dofs[i]]; !body.is_held(dof))
+          result.add(dof, acting.values[i]);
+      result.end_column();
+    }
+    return result;
+  }
 
   /// Interface of linear levers on linear springs in statics, z = G f(z). The compliance G is dense on the faces of a lever and
   /// diagonal on hubs and support, which do not move a body in its own axes, and on the cylinder's slopes. It is known for

@@ -436,7 +436,7 @@ namespace sprag
       contact.observe_contact(found, row);
       observe_sensors(sensor_forces, own_body.is_half(), row);
       row[Column::indentation] = std::get<SolidStructure>(own_structure)
-                                     .indentation(lever, properties.layer_thickness, state.coordinates, state.forces, row);
+                                     .displacement(lever, contact.indentation_shares(row), state.coordinates, state.forces);
     }
     row[Column::centre_offset]        = row[Column::s] - properties.centre(state.drive.x - u, theta).xi;
     row[Column::Q]                    = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);

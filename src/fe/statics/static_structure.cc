@@ -97,7 +97,6 @@ namespace sprag
                         { std::make_shared<SurfaceCompliance>(factors_, face_dofs(body_.friction_face())),
                           std::make_shared<SurfaceCompliance>(factors_, face_dofs(body_.cylinder_face())) })
       , body(body_)
-      , surface(surface_dofs(body))
       , factors(factors_)
       , sensors(body, make_response(factors))
   {
@@ -105,14 +104,7 @@ namespace sprag
 
   std::vector<BodyDisplacements> StaticStructure::body_displacements(const std::vector<StaticState> &states) const
   {
-    SparseColumns loads;
-    for (const auto &acting : on_levers(states))
-    {
-      for (unsigned int i = 0; i < acting.dofs.size(); ++i)
-        loads.add(surface[acting.dofs[i]], acting.values[i]);
-      loads.end_column();
-    }
-    return by_states(factors->solve(std::move(loads)), body.n_dofs());
+    return by_states(factors->solve(body_loads(body, on_levers(states))), body.n_dofs());
   }
 
   std::vector<double> StaticStructure::sensor_forces(const unsigned int lever, const Vector<double> &,

@@ -64,7 +64,6 @@ namespace sprag
                     const JointSprings &springs);
 
     const ElasticBody<2> &body;
-    const std::vector<unsigned int> surface; ///< the body's degrees of freedom on a lever's faces
     const std::shared_ptr<const Mumps> factors;
     const SensorForces sensors;
   };
