@@ -434,12 +434,7 @@ namespace sprag
         GeometryInfo<dim>::alternating_form_at_vertices(corners, contents);
         for (const double content : contents)
           if (!(content > 0.))
-          {
-            std::string place = rounded_text(cell->center()[0]);
-            for (unsigned int d = 1; d < dim; ++d)
-              place += ", " + rounded_text(cell->center()[d]);
-            throw InputError(file + ": the cell at (" + place + ") mm is degenerate or turned inside out");
-          }
+            throw InputError(file + ": the cell at " + place_text<dim>(cell->center()) + " is degenerate or turned inside out");
       }
     }
 

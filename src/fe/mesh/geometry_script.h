@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "base/text.h"
+
 #include <deal.II/grid/tria.h>
 
 #include <functional>
@@ -30,6 +32,16 @@ namespace sprag
 
   /// Writes names as "'a', 'b'", or "none".
   std::string quoted_list(const std::set<std::string> &names);
+
+  /// Writes a place as "(1, 2) mm".
+  template <int dim>
+  std::string place_text(const dealii::Point<dim> &place)
+  {
+    std::string result = "(" + rounded_text(place[0]);
+    for (unsigned int d = 1; d < dim; ++d)
+      result += ", " + rounded_text(place[d]);
+    return result + ") mm";
+  }
 
   /// Returns the path of one of our scripts in `meshes`, "lever.geo".
   std::string mesh_script(const std::string &name);

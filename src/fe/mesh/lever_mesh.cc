@@ -156,18 +156,16 @@ namespace sprag
     }
 
     /// Ends of the sides on the friction face, from the pivot on.
-    std::vector<std::array<Point<2>, 2>> friction_face_sides(const Triangulation<2> &triangulation)
+    std::vector<std::array<Point<2>, 2>> side_ends(const Triangulation<2> &triangulation)
     {
-      std::vector<std::array<Point<2>, 2>> sides;
-      for (const auto &cell : triangulation.active_cell_iterators())
-        for (const auto &face : cell->face_iterators())
-          if (face->at_boundary() && face->boundary_id() == boundary_id::friction_face)
-          {
-            const Point<2> &a = face->vertex(0), &b = face->vertex(1);
-            sides.push_back({ { a[0] < b[0] ? a : b, a[0] < b[0] ? b : a } });
-          }
-      std::sort(sides.begin(), sides.end(), [](const auto &one, const auto &other) { return one[0][0] < other[0][0]; });
-      return sides;
+      std::vector<std::array<Point<2>, 2>> result;
+      for (const auto &[side, cell] : friction_face_sides(triangulation))
+      {
+        const Point<2> &a = side->vertex(0), &b = side->vertex(1);
+        result.push_back({ { a[0] < b[0] ? a : b, a[0] < b[0] ? b : a } });
+      }
+      std::sort(result.begin(), result.end(), [](const auto &one, const auto &other) { return one[0][0] < other[0][0]; });
+      return result;
     }
 
     constexpr unsigned int most_halved = 100000; ///< elements of a halved mesh, which take about 2 GB with degree 2
@@ -187,7 +185,7 @@ namespace sprag
     /// The face must lie where the scene's geometry has it, or the cylinder would miss it.
     std::vector<std::string> face_mistakes(const Device &device, const Triangulation<2> &triangulation)
     {
-      const auto sides     = friction_face_sides(triangulation);
+      const auto sides     = side_ends(triangulation);
       const auto &geometry = device.geometry;
       const auto &file     = device.mesh.file;
       const double e       = geometry.interface_offset;

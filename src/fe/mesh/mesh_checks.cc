@@ -26,43 +26,12 @@ namespace sprag
     template <int dim>
     using Cell = typename Triangulation<dim>::active_cell_iterator;
 
-    template <int dim>
-    using Side = typename Triangulation<dim>::face_iterator;
-
-    template <int dim>
-    std::string to_text(const Point<dim> &place)
-    {
-      std::string result = "(" + rounded_text(place[0]);
-      for (unsigned int d = 1; d < dim; ++d)
-        result += ", " + rounded_text(place[d]);
-      return result + ") mm";
-    }
-
     std::string group_name(const MeshGroups &groups, const types::material_id id)
     {
       for (const auto &[name, material] : groups.parts)
         if (material == id)
           return "'" + name + "'";
       return "";
-    }
-
-    /// A side on the boundary and the cell it belongs to.
-    template <int dim>
-    struct BoundarySide
-    {
-      Side<dim> side;
-      Cell<dim> cell;
-    };
-
-    template <int dim>
-    std::vector<BoundarySide<dim>> find_boundary(const Triangulation<dim> &triangulation)
-    {
-      std::vector<BoundarySide<dim>> result;
-      for (const auto &cell : triangulation.active_cell_iterators())
-        for (const auto &side : cell->face_iterators())
-          if (side->at_boundary())
-            result.push_back({ side, cell });
-      return result;
     }
 
     /// A corner of the boundary, by its place along the lever.
@@ -94,12 +63,10 @@ namespace sprag
     }
 
     template <int dim>
-    bool has_corner(const Side<dim> &side, const unsigned int index)
+    bool has_corner(const typename Triangulation<dim>::face_iterator &side, const unsigned int index)
     {
-      for (const unsigned int v : side->vertex_indices())
-        if (side->vertex_index(v) == index)
-          return true;
-      return false;
+      const auto corners = side->vertex_indices();
+      return std::any_of(corners.begin(), corners.end(), [&](const unsigned int v) { return side->vertex_index(v) == index; });
     }
 
     /// Twins of a node and nodes between those of a neighbour: where they lie, nothing is joined.
@@ -123,7 +90,7 @@ namespace sprag
         for (; corner != corners.end() && corner->place[0] <= upper[0]; ++corner)
           if (box.point_inside(corner->place) && !has_corner<dim>(side, corner->index) &&
               GridTools::project_to_object(side, corner->place).distance(corner->place) < near)
-            loose.insert({ corner->index, to_text(corner->place) + ", where " + group_name(groups, corner->material) +
+            loose.insert({ corner->index, place_text(corner->place) + ", where " + group_name(groups, corner->material) +
                                               " touches " + group_name(groups, cell->material_id()) });
       }
       if (!loose.empty())
@@ -188,7 +155,7 @@ namespace sprag
         for (const auto id : part.materials)
           names.insert(group_name(groups, id));
         const std::string it =
-            "the part of " + boost::algorithm::join(names, ", ") + " with an element at " + to_text(part.first->center());
+            "the part of " + boost::algorithm::join(names, ", ") + " with an element at " + place_text(part.first->center());
         if (!part.is_held && !on_sensors)
           mistakes.push_back(it + " floats: no sides of elements join it to 'hub' or to what that holds");
         else if (!is_lever && !on_sensors)
@@ -199,10 +166,10 @@ namespace sprag
     template <int dim>
     void check_reversed_face(const Triangulation<dim> &triangulation, std::vector<std::string> &mistakes)
     {
-      for (const auto &[side, cell] : find_boundary(triangulation))
-        if (side->boundary_id() == boundary_id::friction_face && !(cell->center()[1] > side->center()[1]))
+      for (const auto &[side, cell] : friction_face_sides(triangulation))
+        if (!(cell->center()[1] > side->center()[1]))
         {
-          mistakes.push_back("at " + to_text(side->center()) +
+          mistakes.push_back("at " + place_text(side->center()) +
                              " the body lies on the cylinder's side of 'friction face', which comes from below; y runs from the "
                              "face into the lever");
           return;
@@ -224,10 +191,9 @@ namespace sprag
   double longest_face_side(const Triangulation<dim> &triangulation, const double first, const double last)
   {
     double longest = 0.;
-    for (const auto &[side, cell] : find_boundary(triangulation))
-      if (side->boundary_id() == boundary_id::friction_face)
-        if (const auto [lower, upper] = side->bounding_box().get_boundary_points(); upper[0] > first && lower[0] < last)
-          longest = std::max(longest, upper[0] - lower[0]);
+    for (const auto &[side, cell] : friction_face_sides(triangulation))
+      if (const auto [lower, upper] = side->bounding_box().get_boundary_points(); upper[0] > first && lower[0] < last)
+        longest = std::max(longest, upper[0] - lower[0]);
     return longest;
   }
 

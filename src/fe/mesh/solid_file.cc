@@ -2,6 +2,7 @@
 #include "fe/mesh/solid_file.h"
 
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "base/text.h"
 #include "fe/body/body_properties.h"
 #include "fe/mesh/geometry_script.h"
@@ -20,17 +21,7 @@ namespace sprag
   namespace
   {
     using Messages  = std::vector<std::string>;
-    using SolidSide = Triangulation<3>::active_face_iterator;
-
-    std::vector<SolidSide> face_sides(const Triangulation<3> &triangulation)
-    {
-      std::vector<SolidSide> result;
-      for (const auto &cell : triangulation.active_cell_iterators())
-        for (const auto &side : cell->face_iterators())
-          if (side->at_boundary() && side->boundary_id() == boundary_id::friction_face)
-            result.push_back(side);
-      return result;
-    }
+    using SolidSide = Triangulation<3>::face_iterator;
 
     /// Positions of the corners of the sides along an axis, in steps of a nanometre.
     std::set<long> places_along(const unsigned int axis, const std::vector<SolidSide> &sides)
@@ -91,9 +82,7 @@ namespace sprag
 
     void check_cylinder(const Device &device, const std::vector<SolidSide> &sides, Messages &mistakes)
     {
-      std::vector<double> planes;
-      for (const long place : places_along(2, sides))
-        planes.push_back(1e-6 * static_cast<double>(place));
+      const auto planes = mapped(places_along(2, sides), [](const long place) { return 1e-6 * static_cast<double>(place); });
       if (const auto too_short = cylinder_too_short(device, planes); !too_short.empty())
         mistakes.push_back("Cylinder/Length = " + rounded_text(device.cylinder.length) + " " + too_short);
     }
@@ -121,7 +110,7 @@ namespace sprag
 
     void check_face(const Device &device, const Triangulation<3> &triangulation, Messages mistakes)
     {
-      const auto sides = face_sides(triangulation);
+      const auto sides = mapped(friction_face_sides(triangulation), &BoundarySide<3>::side);
       if (sides.empty())
         mistakes.push_back("no side of 'lever', 'plate' or 'layer' lies on the surface 'friction face'");
       else
