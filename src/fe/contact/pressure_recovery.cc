@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -62,10 +63,7 @@ namespace sprag
 
     double dot(const PressureFit::Coefficients &x, const PressureFit::Coefficients &y, const unsigned int n)
     {
-      double sum = 0.;
-      for (unsigned int k = 0; k < n; ++k)
-        sum += x[k] * y[k];
-      return sum;
+      return std::inner_product(x.begin(), x.begin() + n, y.begin(), 0.);
     }
   } // namespace
 

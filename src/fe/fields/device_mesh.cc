@@ -51,36 +51,24 @@ namespace sprag
     }
   } // namespace
 
-  /// A rigid cylinder in a plane: kites between its middle and its rim. Positions are from its middle, along the axes of the
-  /// world.
-  DeviceBlock rigid_disc(const Device &device)
+  /// A rigid cylinder: in a plane kites between its middle and its rim, in space hexahedra over kites, with tilt, skew, barrel
+  /// and rounded ends. One whose length is not given is drawn half as long again as the lever is wide. Positions are from its
+  /// middle, along the axes of the world.
+  DeviceBlock rigid_cylinder(const Device &device, const bool in_space)
   {
     DeviceBlock result{ DevicePart::rigid_cylinder, 0 };
-    const double radius = device.geometry.cylinder_radius;
-    result.positions.emplace_back();
-    for (unsigned int i = 0; i < rim_nodes; ++i)
-      result.positions.emplace_back(radius * std::cos(rim_angle(i)), radius * std::sin(rim_angle(i)), 0.);
-    for (unsigned int i = 0; i < rim_nodes; i += 2)
-      append_kite(0, i, result.cells);
-    return result;
-  }
-
-  /// A rigid cylinder in space, with tilt, skew, barrel and rounded ends: hexahedra over kites. One whose length is not given is
-  /// drawn half as long again as the lever is wide.
-  DeviceBlock rigid_tube(const Device &device)
-  {
-    DeviceBlock result{ DevicePart::rigid_cylinder, 0 };
-    const RigidCylinder cylinder(device.geometry, device.cylinder);
-    const auto sections = cylinder_sections(device);
+    const RigidCylinder cylinder(device.geometry, in_space ? device.cylinder : Cylinder());
+    const auto sections = in_space ? cylinder_sections(device) : std::vector<double>{ 0. };
     for (const double along : sections)
     {
       result.positions.push_back(cylinder.on_axis(along));
       for (unsigned int i = 0; i < rim_nodes; ++i)
         result.positions.push_back(cylinder.on_surface(along, rim_angle(i)));
     }
-    for (unsigned int section = 0; section + 1 < sections.size(); ++section)
+    const unsigned int sides = in_space ? 2 : 1; // of a cell
+    for (unsigned int section = 0; section + sides <= sections.size(); ++section)
       for (unsigned int i = 0; i < rim_nodes; i += 2)
-        for (const unsigned int end : { section, section + 1 })
+        for (unsigned int end = section; end < section + sides; ++end)
           append_kite(end * section_size, i, result.cells);
     return result;
   }
@@ -185,7 +173,7 @@ namespace sprag
         result.push_back(make_block(device, *leaf, { DevicePart::leaf, lever }));
     }
     if (device.cylinder.type == CylinderType::rigid)
-      result.push_back(body.is_in_space ? rigid_tube(device) : rigid_disc(device));
+      result.push_back(rigid_cylinder(device, body.is_in_space));
     return result;
   }
 

@@ -2,6 +2,7 @@
 #include "fe/fields/field_files.h"
 
 #include "base/errors.h"
+#include "base/ranges.h"
 #include "base/system/disk_reserve.h"
 #include "base/text.h"
 #include "results/hdf5.h"
@@ -76,22 +77,16 @@ namespace sprag
 
     const std::string moving = "displacement"; ///< name of the field that says where the nodes are
 
-    bool has_displacement(const std::vector<Field> &fields)
-    {
-      return std::any_of(fields.begin(), fields.end(), [](const auto &field) { return field.name == moving; });
-    }
-
     /// Returns where the nodes are in a frame that has their displacement; none in another.
     std::optional<Field> position(const FieldMesh &mesh, const std::vector<Field> &fields)
     {
-      for (const auto &field : fields)
-        if (field.name == moving)
-        {
-          Field result{ "position", "mm", "of the nodes: nodes and displacement", 3, field.values };
-          for (std::size_t i = 0; i < result.values.size(); ++i)
-            result.values[i] = static_cast<float>(mesh.nodes[i] + field.values[i]);
-          return result;
-        }
+      if (const auto *const displacement = find_by(fields, &Field::name, moving))
+      {
+        Field result{ "position", "mm", "of the nodes: nodes and displacement", 3, displacement->values };
+        for (std::size_t i = 0; i < result.values.size(); ++i)
+          result.values[i] = static_cast<float>(mesh.nodes[i] + displacement->values[i]);
+        return result;
+      }
       return {};
     }
 
@@ -257,7 +252,7 @@ namespace sprag
   std::string FieldFiles::block(const FieldMesh &mesh, const bool rigid, const std::string &time, const std::string &place,
                                 const std::vector<Field> &fields, const std::vector<FrameFact> &facts) const
   {
-    const bool moves              = has_displacement(fields);
+    const bool moves              = find_by(fields, &Field::name, moving) != nullptr;
     const std::size_t n_cells     = (rigid ? mesh.rigid_cells : mesh.cells).size() / mesh.nodes_per_cell;
     const std::string mesh_path   = mesh_file() + ":/" + mesh.name;
     const std::string cells       = mesh_path + (rigid ? "/rigid_cells" : "/cells");
