@@ -16,7 +16,7 @@ namespace sprag
 {
   /// Completes the model of a lever or a pair. `structure(part)` and `displacement(part, motion)`: structure and elastic
   /// displacement of the lever, or of the symmetric (0) and the antisymmetric (1) motions of a pair, whose structures may be
-  /// `identical`. `lever_mass` moves with a sprung support [t]; the contact is along a `face` of the body. All must outlive it.
+  /// `identical`. The contact is along a `face` of the body; both must outlive the model. `result` has its masses and penalties.
   template <int dim, class Body, class Structure, class Displacement>
   void complete_dynamics(const Device &device, const Body &body, const FrictionFace<dim> &face, const bool identical,
                          const Structure &structure, const Displacement &displacement, MeshedDynamics &result)
